@@ -68,9 +68,10 @@ impl<'l> Mismatch<'l> {
         for id in graph.reachable(&roots) {
             let node = graph.node(id);
             let level = match node {
-                Node::Symbol(Symbol::Coordinate { index, order: 0 }) => {
-                    arguments.iter().position(|&w| w == index).map_or(0, |k| if k + 1 == arguments.len() { 2 } else { 1 })
-                }
+                Node::Symbol(Symbol::Coordinate { index, order: 0 }) => arguments
+                    .iter()
+                    .position(|&w| w == index)
+                    .map_or(0, |k| if k + 1 == arguments.len() { 2 } else { 1 }),
                 _ => node.children().as_slice().iter().map(|child| depends[child]).max().unwrap_or(0),
             };
             depends.insert(id, level);

@@ -2,8 +2,8 @@
 
 use super::entity::Entity;
 use super::formula::{Context, Dim, Value};
-use super::suggest::lost_rate;
 use super::formula_scope::{DrawnPoint, FormulaSite};
+use super::suggest::lost_rate;
 use super::{Checker, errors, point_kinds};
 use crate::model::Dimension;
 use mechc_expr::ExprId;
@@ -70,13 +70,13 @@ impl<'a> Checker<'a> {
         let of_part = self.bindings[part];
         let mut bound: Vec<BoundParam<'a>> = Vec::new();
         for binding in &of_part.bindings {
-            let known = self.parts[part].space.get(&binding.name.text);
+            let entity = self.parts[part].space.get(&binding.name.text);
             let before = of_part.bindings.iter().take_while(|other| other.span != binding.span);
             if let Some(first) = before.into_iter().find(|other| is_twice(other, binding)) {
                 self.report(errors::bound_twice(binding, first.span));
                 continue;
             }
-            match known {
+            match entity {
                 Some(Entity::Param(_)) => {
                     let is_point = self.parts[part].point_params.contains(binding.name.text.as_str());
                     if let Some(value) = self.param_bound(binding, is_point) {
@@ -85,18 +85,18 @@ impl<'a> Checker<'a> {
                 }
                 Some(Entity::Input(_)) if binding.coordinate.is_none() => {}
                 Some(Entity::Broken) => {}
-                other => self.nothing_to_bind(part, binding, other),
+                other => self.no_name_to_bind(part, binding, other),
             }
         }
         bound
     }
 
-    fn nothing_to_bind(&mut self, part: usize, binding: &Binding, found: Option<Entity>) {
+    fn no_name_to_bind(&mut self, part: usize, binding: &Binding, found: Option<Entity>) {
         let child = &self.parts[part];
-        let known: Vec<&str> = child.space.names(|e| matches!(e, Entity::Param(_) | Entity::Input(_))).collect();
-        let meant = nearest(&binding.name.text, known.iter().copied());
+        let candidates: Vec<&str> = child.space.names(|e| matches!(e, Entity::Param(_) | Entity::Input(_))).collect();
+        let suggestion = nearest(&binding.name.text, candidates.iter().copied());
         let mechanism = &child.tree.name.text;
-        let diagnostic = errors::nothing_to_bind(mechanism, binding, found.map(Entity::noun), &known, meant);
+        let diagnostic = errors::no_name_to_bind(mechanism, binding, found.map(Entity::noun), &candidates, suggestion);
         self.report(diagnostic);
     }
 
@@ -117,7 +117,9 @@ impl<'a> Checker<'a> {
                 self.report(errors::number_for_point(binding));
                 return None;
             }
-            return self.at_site(FormulaSite::Mechanism, None, |c| c.point_formula(value, &context)).map(BoundValue::Point);
+            return self
+                .at_site(FormulaSite::Mechanism, None, |c| c.point_formula(value, &context))
+                .map(BoundValue::Point);
         }
         let judged = self.is_dimensional(value);
         let number = self.formula(value, &Context { judged, ..context })?;
@@ -137,11 +139,11 @@ impl<'a> Checker<'a> {
             return None;
         };
         // A number without a unit is a pure number, as in an override.
-        let unlike = in_file.dim.other_than(value.dim).filter(|[wanted, _]| judged || !wanted.is(Dimension::PURE));
-        if let (Some([wanted, found]), Some(span)) = (unlike, span) {
+        let unlike = in_file.dim.other_than(value.dim).filter(|[expected, _]| judged || !expected.is(Dimension::PURE));
+        if let (Some([expected, found]), Some(span)) = (unlike, span) {
             let place = format!("the parameter `{}`", name.text);
             let part = lost_rate::Part { span, dimension: found };
-            self.report(errors::wrong_dimension(&place, wanted, part, self.sources.text(span)));
+            self.report(errors::wrong_dimension(&place, expected, part, self.sources.text(span)));
             return Some(None);
         }
         let dim = if in_file.dim == Dim::Any { value.dim } else { in_file.dim };

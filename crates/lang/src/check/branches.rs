@@ -17,7 +17,7 @@ pub(super) struct Branch {
 impl Checker<'_> {
     pub(super) fn choice(&mut self, arms: &[(Expr, Expr)], otherwise: &Expr, context: &Context<'_>) -> Option<Value> {
         let values = arms.iter().map(|(_, value)| value).chain(std::iter::once(otherwise));
-        self.warn_of_numbers_beside(values, context);
+        self.warn_of_numbers_as_radians(values, context);
         let outer = self.branch;
         let mut decided = false;
         let mut parts = Vec::new();
@@ -83,7 +83,7 @@ impl Checker<'_> {
                 Some(all)
             }
             ExprKind::Compare(a, comparison, b) => {
-                self.warn_of_numbers_beside([&**a, &**b].into_iter(), context);
+                self.warn_of_numbers_as_radians([&**a, &**b].into_iter(), context);
                 let (left, right) = (self.number(a, context), self.number(b, context));
                 let (left, right) = (left?, right?);
                 self.unify("this compares", (a.span, left), (b.span, right), context)?;

@@ -42,10 +42,10 @@ impl Checker<'_> {
             return self.number_of_points(e, name, arguments, context);
         }
         match function.group {
-            Group::Alike => self.warn_of_numbers_beside(arguments.iter(), context),
+            Group::Alike => self.warn_of_numbers_as_radians(arguments.iter(), context),
             Group::Motion => {
-                self.warn_of_numbers_beside([0, 1, 3].into_iter().filter_map(|k| arguments.get(k)), context);
-                self.warn_of_numbers_beside([2, 4].into_iter().filter_map(|k| arguments.get(k)), context);
+                self.warn_of_numbers_as_radians([0, 1, 3].into_iter().filter_map(|k| arguments.get(k)), context);
+                self.warn_of_numbers_as_radians([2, 4].into_iter().filter_map(|k| arguments.get(k)), context);
             }
             _ => {}
         }
@@ -59,8 +59,8 @@ impl Checker<'_> {
     }
 
     fn report_count_of(&mut self, e: &Expr, name: &Name, function: &Function, arguments: &[Expr]) {
-        let (wanted, found) = (function.takes(), arguments.len());
-        let diagnostic = errors::argument_count(&name.text, Some(&function.word), e.span, &wanted, found);
+        let (expected, found) = (function.takes(), arguments.len());
+        let diagnostic = errors::argument_count(&name.text, Some(&function.word), e.span, &expected, found);
         let reduces = self.reduction_word(name, found).is_some();
         let diagnostic = if reduces { diagnostic.help(errors::REDUCES) } else { diagnostic };
         self.report_argument_count(name, diagnostic, arguments, function.most);
@@ -71,7 +71,13 @@ impl Checker<'_> {
         match function.group {
             Group::Pure => {
                 let (span, value) = arguments[0];
-                self.require_dimension(&format!("the argument of `{name}`"), Dimension::PURE, span, value.dim, context)?;
+                self.require_dimension(
+                    &format!("the argument of `{name}`"),
+                    Dimension::PURE,
+                    span,
+                    value.dim,
+                    context,
+                )?;
                 let id = self.model.graph.unary(Unary::named(name)?, value.id);
                 if ["asin", "acos"].contains(&name) && self.is_no_sine(span, name, value) {
                     return None;
@@ -172,13 +178,13 @@ impl Checker<'_> {
             .iter()
             .enumerate()
             .map(|(power, &(span, c))| {
-                let whole = |own: Dimension| own.times(step.to_the(power as f64));
+                let whole = |dimension: Dimension| dimension.times(step.to_the(power as f64));
                 (span, if c.dim == Dim::Any { c } else { Value { dim: c.dim.map(whole), ..c } })
             })
             .collect();
         let dim = self.terms_alike("the terms of `poly` are", &terms, context)?;
-        let way = self.model.graph.sub(u.1.id, u0.1.id);
+        let offset = self.model.graph.sub(u.1.id, u0.1.id);
         let ids: Vec<ExprId> = coefficients.iter().map(|(_, c)| c.id).collect();
-        Some(Value { id: self.model.graph.polynomial_of(way, &ids), dim: dim.of_term() })
+        Some(Value { id: self.model.graph.polynomial_of(offset, &ids), dim: dim.of_term() })
     }
 }

@@ -47,7 +47,7 @@ struct DeferredCall<'a> {
 #[derive(Default)]
 pub(super) struct Calls<'a> {
     /// The expansions.
-    pub known: FxHashMap<Call, Option<Value>>,
+    pub expansions: FxHashMap<Call, Option<Value>>,
     /// The conditions of expansions that have any.
     pub conditions: FxHashMap<Call, Vec<Condition>>,
     /// The call of the outermost formula that is being expanded.
@@ -125,9 +125,9 @@ impl<'a> Checker<'a> {
                     self.report(errors::unknown_function(name, &[], &[]).instead(fix));
                     return None;
                 }
-                let own = self.suggestions(|entity| matches!(entity, Entity::Function(_) | Entity::Table(_)));
+                let candidates = self.suggestions(|entity| matches!(entity, Entity::Function(_) | Entity::Table(_)));
                 let texts: Vec<&str> = arguments.iter().map(|e| self.sources.text(e.span)).collect();
-                let diagnostic = errors::unknown_function(name, &own, &texts);
+                let diagnostic = errors::unknown_function(name, &candidates, &texts);
                 self.report(diagnostic);
                 None
             }
@@ -191,12 +191,12 @@ impl<'a> Checker<'a> {
         span: Span,
         context: &Context<'_>,
     ) -> Option<Value> {
-        if let Some(&known) = self.calls.known.get(&call) {
+        if let Some(&cached) = self.calls.expansions.get(&call) {
             // The conditions of a formula apply where it is called.
             if let Some(conditions) = self.calls.conditions.get(&call) {
                 self.model.conditions.extend_from_slice(conditions);
             }
-            return known;
+            return cached;
         }
         let caller = self.calls.caller.or(Some(span));
         if self.calls.abandoned.contains(&call) {
@@ -230,7 +230,7 @@ impl<'a> Checker<'a> {
         } else {
             self.calls.complete = complete + (self.calls.visited - visited);
             self.keep_conditions(call, first);
-            self.calls.known.insert(call, value);
+            self.calls.expansions.insert(call, value);
         }
         self.calls.is_abandoned |= outer;
         value
@@ -239,8 +239,8 @@ impl<'a> Checker<'a> {
     /// Caches the conditions of an expansion from `first` on, without duplicates.
     fn keep_conditions(&mut self, call: Call, first: usize) {
         let mut conditions = self.model.conditions.split_off(first);
-        let mut seen = FxHashSet::default();
-        conditions.retain(|condition| seen.insert(condition.positive));
+        let mut unique = FxHashSet::default();
+        conditions.retain(|condition| unique.insert(condition.positive));
         self.model.conditions.extend_from_slice(&conditions);
         if !conditions.is_empty() {
             self.calls.conditions.insert(call, conditions);
@@ -305,7 +305,7 @@ impl<'a> Checker<'a> {
     fn expand_deferred(&mut self, before: usize, place: &str) {
         let outer = (self.branch, self.calls.caller);
         while let Some(DeferredCall { call, formula, context, caller }) = self.calls.deferred.pop() {
-            if self.calls.known.contains_key(&call) {
+            if self.calls.expansions.contains_key(&call) {
                 continue;
             }
             if self.calls.is_too_large {
@@ -326,9 +326,9 @@ impl<'a> Checker<'a> {
         if self.model.conditions.len() <= from + 1 {
             return;
         }
-        let mut known = FxHashSet::default();
-        let asked = self.model.conditions.split_off(from);
-        let new = asked.into_iter().filter(|condition| known.insert((condition.positive, condition.span)));
+        let mut unique = FxHashSet::default();
+        let conditions = self.model.conditions.split_off(from);
+        let new = conditions.into_iter().filter(|condition| unique.insert((condition.positive, condition.span)));
         self.model.conditions.extend(new);
     }
 }

@@ -12,16 +12,16 @@ use mechc_text::source::{Sources, Span};
 ///
 /// # Errors
 /// The diagnostics of the formula.
-pub fn constant(formula: &Expr, place: &str, wanted: Dimension, sources: &Sources) -> Result<f64, Diagnostics> {
-    evaluate(formula, sources, |checker| checker.constant(formula, place, wanted))
+pub fn constant(formula: &Expr, place: &str, expected: Dimension, sources: &Sources) -> Result<f64, Diagnostics> {
+    evaluate(formula, sources, |checker| checker.constant(formula, place, expected))
 }
 
 /// Returns the value (SI) of such a formula, which must have a unit unless it is zero or a pure number.
 ///
 /// # Errors
 /// The diagnostics of the formula.
-pub fn amount(formula: &Expr, place: &str, wanted: Dimension, sources: &Sources) -> Result<f64, Diagnostics> {
-    evaluate(formula, sources, |checker| checker.judged_constant(formula, place, wanted, (DecidedBy::Value, true)))
+pub fn amount(formula: &Expr, place: &str, expected: Dimension, sources: &Sources) -> Result<f64, Diagnostics> {
+    evaluate(formula, sources, |checker| checker.judged_constant(formula, place, expected, (DecidedBy::Value, true)))
 }
 
 fn evaluate(

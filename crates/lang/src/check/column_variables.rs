@@ -19,18 +19,18 @@ pub(super) struct PathBinding {
 impl Checker<'_> {
     /// Resolves the names of `--by` in their order. Repeated names count once.
     pub(super) fn resolve_column_variables(&mut self) {
-        for told in &self.options.by {
-            if let Some((path, params)) = self.part_named(told) {
+        for name in &self.options.by {
+            if let Some((path, params)) = self.part_named(name) {
                 self.report(errors::column_by_part(&path, &params));
                 continue;
             }
-            if let Some(bound) = self.binding_of(told) {
-                self.report(errors::column_by_bound(told, bound.span, &bound.made_of));
+            if let Some(bound) = self.binding_of(name) {
+                self.report(errors::column_by_bound(name, bound.span, &bound.made_of));
                 continue;
             }
-            let found = self.variables_named(told);
+            let found = self.variables_named(name);
             if found.is_empty() {
-                self.no_column_by(told);
+                self.no_column_by(name);
             }
             for variable in found {
                 if !self.model.by.contains(&variable) {
@@ -41,61 +41,62 @@ impl Checker<'_> {
     }
 
     /// Returns the variables of a name: one, the coordinates of a point, or all copies of a repeated input.
-    fn variables_named(&self, told: &str) -> Vec<u32> {
-        let known = |name: String| self.common.variables.known.get(&name).copied();
-        if let Some(one) = known(told.to_owned()) {
+    fn variables_named(&self, path: &str) -> Vec<u32> {
+        let number_of = |name: String| self.common.variables.numbers.get(&name).copied();
+        if let Some(one) = number_of(path.to_owned()) {
             return vec![one];
         }
-        let of_point: Vec<u32> = ["x", "y"].into_iter().filter_map(|axis| known(format!("{told}.{axis}"))).collect();
+        let of_point: Vec<u32> =
+            ["x", "y"].into_iter().filter_map(|axis| number_of(format!("{path}.{axis}"))).collect();
         if !of_point.is_empty() {
             return of_point;
         }
-        let is_told = |name: &str| {
+        let matches = |name: &str| {
             let whole = name.rsplit_once('.').map(|(point, _)| point);
-            override_matches(name, told) || whole.is_some_and(|whole| override_matches(whole, told))
+            override_matches(name, path) || whole.is_some_and(|whole| override_matches(whole, path))
         };
         let mut copies: Vec<u32> =
-            self.common.variables.known.iter().filter(|(name, _)| is_told(name)).map(|(_, number)| *number).collect();
+            self.common.variables.numbers.iter().filter(|(name, _)| matches(name)).map(|(_, number)| *number).collect();
         copies.sort_unstable();
         copies
     }
 
-    fn no_column_by(&mut self, told: &str) {
-        let known = self.settable_names(settable);
-        let is_known = |told: &str| known.iter().any(|(name, _)| override_matches(name, told));
-        let names = known.iter().map(|(name, _)| name.as_str());
+    fn no_column_by(&mut self, path: &str) {
+        let settable_names = self.settable_names(settable);
+        let is_settable = |path: &str| settable_names.iter().any(|(name, _)| override_matches(name, path));
+        let names = settable_names.iter().map(|(name, _)| name.as_str());
         let free: Vec<&str> =
             names.filter(|name| !self.deciding.contains(*name) && self.binding_of(name).is_none()).collect();
-        let whole = told.rsplit_once('.').map(|(point, _)| point).filter(|point| is_known(point));
+        let whole = path.rsplit_once('.').map(|(point, _)| point).filter(|point| is_settable(point));
         let mechanism = &self.tree.name.text;
-        let diagnostic = if is_known(told) {
-            if self.diagnostics.has_errors() && !self.deciding.contains(told) {
+        let diagnostic = if is_settable(path) {
+            if self.diagnostics.has_errors() && !self.deciding.contains(path) {
                 return;
             }
             // All other names have variables.
-            errors::column_by_deciding(told)
+            errors::column_by_deciding(path)
         } else if whole.is_some() {
-            errors::no_column_by(mechanism, told, None, whole, &free)
-        } else if let Some(entity) = self.space.get(told) {
-            errors::no_column_by(mechanism, told, Some(entity.noun()), None, &free)
+            errors::no_column_by(mechanism, path, None, whole, &free)
+        } else if let Some(entity) = self.space.get(path) {
+            errors::no_column_by(mechanism, path, Some(entity.noun()), None, &free)
         } else {
-            let meant = nearest(told, free.iter().copied());
-            errors::no_column_by(mechanism, told, None, meant, &free)
+            let meant = nearest(path, free.iter().copied());
+            errors::no_column_by(mechanism, path, None, meant, &free)
         };
         self.report(diagnostic);
     }
 
     /// Returns the part that a name refers to, alone or with all copies, and its params and inputs that have derivatives.
-    fn part_named(&self, told: &str) -> Option<(String, Vec<String>)> {
+    fn part_named(&self, query: &str) -> Option<(String, Vec<String>)> {
         for child in &self.parts {
             let path = child.address.path.strip_suffix('.')?;
-            if override_matches(path, told) {
-                let known = child.settable_names(settable).into_iter().map(|(name, _)| name);
-                let numbers = known.filter(|name| !child.deciding.contains(name));
+            if override_matches(path, query) {
+                let settable_names = child.settable_names(settable).into_iter().map(|(name, _)| name);
+                let numbers = settable_names.filter(|name| !child.deciding.contains(name));
                 let free = numbers.flat_map(|name| self.unbound_names(format!("{}{name}", child.address.path)));
                 return Some((path.to_owned(), free.collect()));
             }
-            if let Some(found) = child.part_named(told) {
+            if let Some(found) = child.part_named(query) {
                 return Some(found);
             }
         }
@@ -115,7 +116,7 @@ impl Checker<'_> {
     }
 
     /// Returns the binding of a path into a part.
-    pub(super) fn binding_of(&self, told: &str) -> Option<PathBinding> {
+    pub(super) fn binding_of(&self, path: &str) -> Option<PathBinding> {
         for (child, part) in self.parts.iter().zip(&self.bindings) {
             for binding in &part.bindings {
                 let name = format!("{}{}", child.address.path, binding.name.text);
@@ -124,12 +125,16 @@ impl Checker<'_> {
                     .filter(|axis| binding.coordinate.as_ref().is_none_or(|bound| bound.text == *axis));
                 let mut coordinates = axes.map(|axis| format!("{name}.{axis}"));
                 let is_point = child.is_point_name(&binding.name.text);
-                if override_matches(&name, told) || is_point && coordinates.any(|name| override_matches(&name, told)) {
+                if override_matches(&name, path) || is_point && coordinates.any(|name| override_matches(&name, path)) {
                     let made_of = self.free_names_in(&binding.value);
-                    return Some(PathBinding { span: binding.span, is_of_coordinate: binding.coordinate.is_some(), made_of });
+                    return Some(PathBinding {
+                        span: binding.span,
+                        is_of_coordinate: binding.coordinate.is_some(),
+                        made_of,
+                    });
                 }
             }
-            if let Some(found) = child.binding_of(told) {
+            if let Some(found) = child.binding_of(path) {
                 return Some(found);
             }
         }

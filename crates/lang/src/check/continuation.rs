@@ -25,7 +25,7 @@ pub(super) struct ConditionMarks {
     /// The number of conditions before the input's own formula.
     pub before: usize,
     /// The number of conditions after it.
-    pub after_own: usize,
+    pub after_nominal: usize,
 }
 
 impl Checker<'_> {
@@ -37,25 +37,31 @@ impl Checker<'_> {
     }
 
     /// Returns the value of an input: during a continuation its line, otherwise the given value.
-    pub(super) fn continued_input(&mut self, name: &Name, own: Value, told: Option<Value>, needs: &ConditionMarks) -> Option<Value> {
-        let Some(lead) = &self.options.lead else { return told };
+    pub(super) fn continued_input(
+        &mut self,
+        name: &Name,
+        nominal: Value,
+        given: Option<Value>,
+        needs: &ConditionMarks,
+    ) -> Option<Value> {
+        let Some(target) = &self.options.lead else { return given };
         // The conditions are checked at both ends and do not apply in between.
-        let of_told = self.model.conditions.split_off(needs.after_own);
-        let of_own = self.model.conditions.split_off(needs.before);
-        let told = told?;
+        let of_given = self.model.conditions.split_off(needs.after_nominal);
+        let of_nominal = self.model.conditions.split_off(needs.before);
+        let given = given?;
         let declared = self.declared(name);
-        let target = lead.inputs.iter().find(|(input, _)| *input == declared.name).map(|(_, value)| *value);
-        let is_told_nothing = told.id == own.id;
-        let holds = self.hold_at(&of_own, 0.0)
-            && (target.is_some() || self.hold_at(if is_told_nothing { &of_own } else { &of_told }, 1.0));
-        let line = [self.value_on_path(own.id, 0.0), target.unwrap_or_else(|| self.value_on_path(told.id, 1.0))];
+        let target = target.inputs.iter().find(|(input, _)| *input == declared.name).map(|(_, value)| *value);
+        let is_unchanged = given.id == nominal.id;
+        let holds = self.hold_at(&of_nominal, 0.0)
+            && (target.is_some() || self.hold_at(if is_unchanged { &of_nominal } else { &of_given }, 1.0));
+        let line = [self.value_on_path(nominal.id, 0.0), target.unwrap_or_else(|| self.value_on_path(given.id, 1.0))];
         if let Some(value) = line.into_iter().find(|value| !value.is_finite() || !holds) {
             self.report(errors::not_finite(name.span, value));
             return None;
         }
-        let dimension = told.dim.settled();
+        let dimension = given.dim.settled();
         self.model.led.push(Led { declared, param: None, line, dimension });
-        Some(Value { id: self.path_line(line), ..told })
+        Some(Value { id: self.path_line(line), ..given })
     }
 
     /// Returns whether a parameter, or a coordinate of one that is a point, may change after the check, so that it is independent.
@@ -67,10 +73,10 @@ impl Checker<'_> {
         self.options.open.iter().any(|path| override_matches(&full, path) || override_matches(&declared.name, path))
     }
 
-    /// Records the next parameter of the model as one that may change after the check; `own` is its value (SI).
-    pub(super) fn record_open_param(&mut self, declared: &Declared, own: f64, dimension: Dimension) {
+    /// Records the next parameter of the model as one that may change after the check; `nominal` is its value (SI).
+    pub(super) fn record_open_param(&mut self, declared: &Declared, nominal: f64, dimension: Dimension) {
         let param = Some(self.model.params.len() as u32);
-        self.model.led.push(Led { declared: declared.clone(), param, line: [own; 2], dimension });
+        self.model.led.push(Led { declared: declared.clone(), param, line: [nominal; 2], dimension });
     }
 
     /// Removes the outputs and forces from a model of a continuation.

@@ -3,11 +3,11 @@
 
 use super::entity::Entity;
 use super::formula::{Context, Dim};
+use super::formula_scope::DrawnPoint;
+use super::free_names::name_of;
 use super::instance::Instance;
 use super::instantiation::{definitions_of, instance_of};
-use super::free_names::name_of;
 use super::params::ParamState;
-use super::formula_scope::DrawnPoint;
 use super::{Checker, Surroundings};
 use crate::model::{CompoundUnit, Named};
 use mechc_expr::{ExprId, Printer, Symbol};
@@ -124,11 +124,11 @@ impl Counter<'_> {
     /// Returns the sum of a mechanism with its parts. Their depth is limited elsewhere.
     fn total(&mut self, instance: &Instance<'_>) -> Option<i64> {
         let key = std::ptr::from_ref(instance).cast();
-        if let Some(known) = self.totals.get(&key) {
-            return *known;
+        if let Some(cached) = self.totals.get(&key) {
+            return *cached;
         }
         let mut of_items = instance.tree().items.iter().map(|item| self.of_item(item, instance));
-        let total = of_items.try_fold(0_i64, |sum, own| Some(sum.saturating_add(own?)));
+        let total = of_items.try_fold(0_i64, |sum, freedom| Some(sum.saturating_add(freedom?)));
         self.totals.insert(key, total);
         total
     }
@@ -136,9 +136,9 @@ impl Counter<'_> {
     fn of_each(&mut self, instance: &Instance<'_>) -> FxHashMap<Span, Copies> {
         let mut all: FxHashMap<Span, Copies> = FxHashMap::default();
         for item in &instance.tree().items {
-            let own = self.of_item(item, instance);
+            let freedom = self.of_item(item, instance);
             let (sum, copies) = all.entry(item.span).or_insert((Some(0), 0));
-            *sum = sum.zip(own).map(|(sum, own)| sum.saturating_add(own));
+            *sum = sum.zip(freedom).map(|(sum, freedom)| sum.saturating_add(freedom));
             *copies += 1;
         }
         all
@@ -156,14 +156,14 @@ impl Counter<'_> {
                 let part = Rc::clone(instance.part(&part.name.text)?);
                 self.total(&part)
             }
-            ItemKind::Broken { .. } => brings_nothing(item, instance.mechanism, self.sources).then_some(0),
+            ItemKind::Broken { .. } => has_no_freedom(item, instance.mechanism, self.sources).then_some(0),
             _ => Some(0),
         }
     }
 }
 
 /// Returns whether a declaration that cannot be parsed or repeated contributes neither coordinates nor equations.
-fn brings_nothing(item: &Item, text: &Mechanism, sources: &Sources) -> bool {
+fn has_no_freedom(item: &Item, text: &Mechanism, sources: &Sources) -> bool {
     let written = text.items.iter().find(|other| other.span == item.span);
     match written.map(|written| &written.kind) {
         None | Some(ItemKind::Broken { .. }) => {
@@ -268,7 +268,7 @@ fn is_degrees(formula: &Expr) -> bool {
 }
 
 /// Returns the first unit of a dimension in a formula.
-fn unit_in(formula: &Expr, wanted: Dimension, is_declared: impl Fn(&str) -> bool) -> Option<CompoundUnit> {
+fn unit_in(formula: &Expr, expected: Dimension, is_declared: impl Fn(&str) -> bool) -> Option<CompoundUnit> {
     let mut open = vec![formula];
     while let Some(e) = open.pop() {
         let (name, power) = match &e.kind {
@@ -279,7 +279,7 @@ fn unit_in(formula: &Expr, wanted: Dimension, is_declared: impl Fn(&str) -> bool
                 continue;
             }
         };
-        let fits = |unit: &&Unit| unit.dimension.to_the(f64::from(power)).is(wanted);
+        let fits = |unit: &&Unit| unit.dimension.to_the(f64::from(power)).is(expected);
         if let Some(unit) = Unit::named(&name.text).filter(fits) {
             return Some(CompoundUnit::new(vec![(unit, power)]));
         }

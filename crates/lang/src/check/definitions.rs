@@ -3,14 +3,14 @@
 use super::Checker;
 use super::elements::MeasureState;
 use super::entity::Entity;
+use super::free_names::visit_free_names;
 use super::functions::Function;
 use super::inputs::InputState;
-use super::free_names::visit_free_names;
 use super::names::DefinitionOrder;
+use super::overrides::override_matches;
 use super::params::ParamState;
 use super::results::ResultState;
 use super::tables::TableState;
-use super::overrides::override_matches;
 use mechc_syntax::ast::{Expr, Item, ItemKind, Name, TableRows};
 use mechc_text::source::Span;
 use rustc_hash::FxHashMap;
@@ -66,9 +66,10 @@ impl<'a> Checker<'a> {
             }
             ItemKind::Input { name, value } => {
                 let given = self.options.given.formulas.iter();
-                let own = format!("{}{}", self.address.path, name.text);
-                let told = given.filter(|(told, _)| override_matches(&own, told)).map(|(_, told)| told);
-                let formulas = std::iter::once(value).chain(told).collect();
+                let path = format!("{}{}", self.address.path, name.text);
+                let override_formula =
+                    given.filter(|(full, _)| override_matches(&path, full)).map(|(_, formula)| formula);
+                let formulas = std::iter::once(value).chain(override_formula).collect();
                 self.inputs.push(InputState { name, formula: value, value: None });
                 (Entity::Input(self.inputs.len() - 1), name, formulas)
             }
@@ -140,8 +141,8 @@ impl<'a> Checker<'a> {
                                 return;
                             }
                             let hidden = arguments.get(&k) == Some(&used.text.as_str());
-                            let is_own = !hidden && !self.is_declared_though_taken(used);
-                            let entity = self.entity(used).filter(|_| is_own);
+                            let is_user_name = !hidden && !self.is_declared_though_taken(used);
+                            let entity = self.entity(used).filter(|_| is_user_name);
                             // A name in a part depends on the part, unless no number of it is used here.
                             let part = used.text.split_once('.').and_then(|(part, _)| self.space.get(part));
                             let entity = match entity {
@@ -149,8 +150,9 @@ impl<'a> Checker<'a> {
                                 entity => part.or(entity),
                             };
                             // An input in an option's formula is reported with that option.
-                            let is_told = self.sources.get(used.span.file).is_option;
-                            let entity = entity.filter(|entity| !(is_told && matches!(entity, Entity::Input(_))));
+                            let is_from_option = self.sources.get(used.span.file).is_option;
+                            let entity =
+                                entity.filter(|entity| !(is_from_option && matches!(entity, Entity::Input(_))));
                             if let Some(&at) = entity.and_then(|e| position.get(&e)) {
                                 uses.push((at, used.span));
                             }

@@ -14,25 +14,25 @@ use mechc_text::vocabulary::Unit;
 impl Checker<'_> {
     /// Returns whether a formula holds a unit of length, time or rate, directly or through names.
     pub(super) fn is_dimensional(&self, formula: &Expr) -> bool {
-        self.is_dimensional_over(None, formula)
+        self.is_dimensional_with(None, formula)
     }
 
     /// Returns the same for the formula of a function or curve with an argument.
-    pub(super) fn is_dimensional_over(&self, argument: Option<&str>, formula: &Expr) -> bool {
+    pub(super) fn is_dimensional_with(&self, argument: Option<&str>, formula: &Expr) -> bool {
         self.holds_dimension(argument, formula, Expected::Number)
     }
 
     /// Returns the same for a formula of numbers or of points.
-    pub(super) fn holds_dimension(&self, argument: Option<&str>, formula: &Expr, wanted: Expected) -> bool {
-        let mut open = vec![(formula, wanted, wanted != Expected::Number)];
-        while let Some((e, wanted, with_points)) = open.pop() {
+    pub(super) fn holds_dimension(&self, argument: Option<&str>, formula: &Expr, expected: Expected) -> bool {
+        let mut open = vec![(formula, expected, expected != Expected::Number)];
+        while let Some((e, expected, with_points)) = open.pop() {
             let holds = match &e.kind {
                 ExprKind::Literal { unit: Some((name, _)), .. } => {
                     Unit::named(&name.text).is_some_and(|unit| !unit.dimension.is(Dimension::PURE))
                 }
                 ExprKind::Name(name) if argument == Some(name.text.as_str()) => false,
-                ExprKind::Name(name) if self.body_point(name, wanted).is_some() => {
-                    self.is_dimensional_point(name, wanted)
+                ExprKind::Name(name) if self.body_point(name, expected).is_some() => {
+                    self.is_dimensional_point(name, expected)
                 }
                 ExprKind::Name(name) => self.is_dimensional_name(name),
                 ExprKind::Member { owner, feature } if coordinate(feature).is_some() => {
@@ -60,8 +60,8 @@ impl Checker<'_> {
                 },
                 _ => with_points,
             };
-            let inside = point_kinds::inside(e, wanted, |name| self.hidden.contains(name));
-            open.extend(inside.into_iter().map(|(e, wanted)| (e, wanted, with_points)));
+            let inside = point_kinds::inside(e, expected, |name| self.hidden.contains(name));
+            open.extend(inside.into_iter().map(|(e, expected)| (e, expected, with_points)));
         }
         false
     }
@@ -77,9 +77,9 @@ impl Checker<'_> {
             }
             Some(Entity::Function(k)) => self.functions[k].dimensional,
             Some(Entity::Table(k)) => self.tables[k].dimensional,
-            Some(Entity::Input(k)) => self.input_known(k).is_some_and(Value::has_a_dimension),
-            Some(Entity::Measure(k)) => self.measure_known(k).is_some_and(|measure| measure.dimensional),
-            Some(Entity::Result(k)) => self.result_known(k).is_some_and(|result| result.dimensional),
+            Some(Entity::Input(k)) => self.value_of_input(k).is_some_and(Value::has_a_dimension),
+            Some(Entity::Measure(k)) => self.measure_state(k).is_some_and(|measure| measure.dimensional),
+            Some(Entity::Result(k)) => self.result_state(k).is_some_and(|result| result.dimensional),
             _ => false,
         }
     }
@@ -117,7 +117,9 @@ impl Checker<'_> {
             [Dim::Any, other] | [other, Dim::Any] => return Some(other),
             [Dim::Of(x), Dim::Of(y)] => (x, y),
             // A number has the dimension of the other term.
-            [Dim::Of(own), Dim::Plain { .. }] | [Dim::Plain { .. }, Dim::Of(own)] => return Some(Dim::Of(own)),
+            [Dim::Of(dimension), Dim::Plain { .. }] | [Dim::Plain { .. }, Dim::Of(dimension)] => {
+                return Some(Dim::Of(dimension));
+            }
             [one @ Dim::Plain { read, .. }, other @ Dim::Plain { .. }] => {
                 let fits = one.fits() && other.fits() && read.is(other.settled());
                 return Some(Dim::Plain { read, fits });
@@ -164,15 +166,15 @@ impl Checker<'_> {
     pub(super) fn require_dimension(
         &mut self,
         place: &str,
-        wanted: Dimension,
+        expected: Dimension,
         span: Span,
         found: Dim,
         context: &Context<'_>,
     ) -> Option<()> {
         match found.where_judged(context.judged) {
-            Dim::Of(dimension) if context.judged && !dimension.is(wanted) => {
+            Dim::Of(dimension) if context.judged && !dimension.is(expected) => {
                 let text = self.sources.text(span);
-                self.report(errors::wrong_dimension(place, wanted, Part { span, dimension }, text));
+                self.report(errors::wrong_dimension(place, expected, Part { span, dimension }, text));
                 None
             }
             _ => Some(()),

@@ -15,14 +15,14 @@ impl Checker<'_> {
     pub(super) fn compound(
         &mut self,
         written: &WrittenUnit,
-        told: impl Fn(&Name) -> Diagnostic,
+        not_a_unit: impl Fn(&Name) -> Diagnostic,
     ) -> Option<CompoundUnit> {
         let mut factors = Vec::new();
         for of in &written.factors {
             let power = if of.factor == Factor::Over { -of.power } else { of.power };
             match Unit::named(&of.name.text) {
                 Some(unit) => factors.push((unit, power)),
-                None => self.report(told(&of.name)),
+                None => self.report(not_a_unit(&of.name)),
             }
         }
         (factors.len() == written.factors.len()).then(|| CompoundUnit::new(factors))
@@ -40,10 +40,10 @@ impl Checker<'_> {
             return Some(Units::si(dimension.unwrap_or(Dimension::PURE), angle == 1));
         };
         let unit = self.compound(written, errors::not_a_unit_to_print_in)?;
-        let own = unit.dimension();
-        if let Some(dimension) = dimension.filter(|dimension| !dimension.is(own)) {
+        let unit_dimension = unit.dimension();
+        if let Some(dimension) = dimension.filter(|dimension| !dimension.is(unit_dimension)) {
             let text = self.sources.text(written.span);
-            self.report(errors::not_printed_in(text, [written.span, formula.span], [own, dimension]));
+            self.report(errors::not_printed_in(text, [written.span, formula.span], [unit_dimension, dimension]));
             return None;
         }
         let hertz = unit.factors().zip(&written.factors).find(|((unit, _), _)| unit.word.name == "Hz");
@@ -52,7 +52,7 @@ impl Checker<'_> {
             return None;
         }
         let joule = unit.factors().zip(&written.factors).find(|((unit, _), _)| unit.word.name == "J");
-        if let Some((_, written)) = joule.filter(|_| own.is(Dimension::ENERGY) && self.is_torque(formula)) {
+        if let Some((_, written)) = joule.filter(|_| unit_dimension.is(Dimension::ENERGY) && self.is_torque(formula)) {
             self.report(errors::torque_in_joules(written.name.span, formula.span));
             return None;
         }
@@ -82,8 +82,8 @@ impl Checker<'_> {
                 rest.iter().map(|(_, term)| self.angle_power(term)).fold(self.angle_power(first), i32::max)
             }
             ExprKind::Product(first, rest) => rest.iter().fold(self.angle_power(first), |power, (factor, term)| {
-                let own = self.angle_power(term);
-                if *factor == Factor::Over { power.saturating_sub(own) } else { power.saturating_add(own) }
+                let exponent = self.angle_power(term);
+                if *factor == Factor::Over { power.saturating_sub(exponent) } else { power.saturating_add(exponent) }
             }),
             ExprKind::Power(base, exponent) => match exponent.bare_number() {
                 // A fractional exponent does not give an angle.
@@ -114,8 +114,8 @@ impl Checker<'_> {
     fn angle_power_of_name(&self, name: &Name) -> i32 {
         match self.entity(name) {
             Some(Entity::Param(k)) => self.params.get(k).map_or(0, |param| param.angle),
-            Some(Entity::Measure(k)) => self.measure_known(k).map_or(0, |measure| measure.angle),
-            Some(Entity::Result(k)) => self.result_known(k).map_or(0, |result| result.angle),
+            Some(Entity::Measure(k)) => self.measure_state(k).map_or(0, |measure| measure.angle),
+            Some(Entity::Result(k)) => self.result_state(k).map_or(0, |result| result.angle),
             Some(_) => 0,
             None => match Constant::named(&name.text) {
                 Some(Constant { stands_for: StandsFor::Number(_), .. }) => 1,
@@ -127,7 +127,7 @@ impl Checker<'_> {
 }
 
 /// Returns the dimension of a formula; `None` if it fits any, as a number without a unit does.
-pub(super) fn known_dimension(value: Value) -> Option<Dimension> {
+pub(super) fn determined_dimension(value: Value) -> Option<Dimension> {
     match value.dim {
         Dim::Of(dimension) => Some(dimension),
         Dim::Plain { read, fits: true } if !read.is(Dimension::PURE) => Some(read),

@@ -1,7 +1,7 @@
 //! Measures, constraints, drivers and the analysis.
 
+use super::display_units::determined_dimension;
 use super::formula::{Context, Dim, Value};
-use super::display_units::known_dimension;
 use super::{Checker, errors};
 use crate::model::{
     Analysis, Condition, ConditionKind, DecidedBy, Declared, Dimension, Equation, EquationForm, Measure, Named,
@@ -41,7 +41,7 @@ impl Checker<'_> {
             let formula = self.measures[k].value;
             let value = self.formula(formula, &measure_context(self.measures[k].dimensional));
             let owner = self.declared(self.measures[k].name).name;
-            let conditions = self.conditions_over_time(conditions, &owner);
+            let conditions = self.conditions_in_time(conditions, &owner);
             self.measures[k].made = value.map(|value| (value, conditions));
             self.measures[k].sound = value.is_some();
             self.measures[k].angle = self.angle_power(formula);
@@ -76,7 +76,7 @@ impl Checker<'_> {
     fn units_of_measure(&mut self, k: usize, value: Value) -> Option<Units> {
         let (formula, unit) = (self.measures[k].value, self.measures[k].unit);
         let dimension = match unit {
-            Some(_) => known_dimension(value),
+            Some(_) => determined_dimension(value),
             None => Some(value.dim.settled()),
         };
         self.units(formula, dimension, self.measures[k].angle, unit)
@@ -101,14 +101,14 @@ impl Checker<'_> {
             }
             !is_of_forces
         });
-        let asked = self.conditions_over_time(conditions, &name.text);
+        let conditions_of_both = self.conditions_in_time(conditions, &name.text);
         let units = self.units(point, Some(Dimension::LENGTH), 0, unit);
         if let (Some(coordinates), Some(units)) = (coordinates, units) {
             let (declared, measure) = (self.declared(name), self.model.measures.len());
             self.model.traces.push(Trace { declared, part: self.address.part, point: fixed, measure });
             for (part, value) in ["x", "y"].into_iter().zip(coordinates) {
                 let declared = Declared { name: format!("{}{}.{part}", self.address.path, name.text), span: name.span };
-                let (conditions, units) = (asked.clone(), units.clone());
+                let (conditions, units) = (conditions_of_both.clone(), units.clone());
                 self.model.measures.push(Measure { declared, value, conditions, units });
             }
         }
@@ -133,24 +133,24 @@ impl Checker<'_> {
 
     /// Returns the conditions from index `from` on, which belong to a measure or trace. Those of parameters alone hold always or never, and
     /// are checked at once.
-    pub(super) fn conditions_over_time(&mut self, from: usize, owner: &str) -> Vec<Condition> {
-        let mut own = self.model.conditions.split_off(from);
-        for condition in &mut own {
+    pub(super) fn conditions_in_time(&mut self, from: usize, owner: &str) -> Vec<Condition> {
+        let mut conditions = self.model.conditions.split_off(from);
+        for condition in &mut conditions {
             owner.clone_into(&mut condition.owner);
         }
         let graph = &self.model.graph;
-        let (always, at_times) = own.into_iter().partition(|c| graph.dependence(c.positive).is_constant());
+        let (always, at_times) = conditions.into_iter().partition(|c| graph.dependence(c.positive).is_constant());
         self.model.conditions.append(&mut { always });
         at_times
     }
 
     pub(super) fn equations(&mut self) {
-        let (mut parts, mut own) = (0..self.parts.len(), 0..);
+        let (mut parts, mut numbers) = (0..self.parts.len(), 0..);
         self.equations.resize(self.count.equations, None);
         for item in self.items() {
             match &item.kind {
                 ItemKind::Equation { driver, name, left, right } => {
-                    let k = own.next().unwrap_or_default();
+                    let k = numbers.next().unwrap_or_default();
                     if let Some((form, dim)) = self.equation(*driver, name, [left, right]) {
                         let (declared, written) = (self.declared(name), left.span.to(right.span));
                         let driver = *driver && self.drives(form);
@@ -213,12 +213,12 @@ impl Checker<'_> {
         let (a, b) = match (a, b) {
             (Some(a), Some(b)) => (a, b),
             // The dimension of a broken side is that of the other side.
-            (Some(known), None) => {
-                self.unlike_a_quantity((left.span, known.dim), right, &context);
+            (Some(side), None) => {
+                self.unlike_a_quantity((left.span, side.dim), right, &context);
                 return None;
             }
-            (None, Some(known)) => {
-                self.unlike_a_quantity((right.span, known.dim), left, &context);
+            (None, Some(side)) => {
+                self.unlike_a_quantity((right.span, side.dim), left, &context);
                 return None;
             }
             (None, None) => return None,
@@ -276,20 +276,20 @@ impl Checker<'_> {
     fn plain_dimension(&self, sides: [(&Expr, Value); 2]) -> Dim {
         let telling = sides.into_iter().filter(|(side, _)| self.holds_quantity(side)).map(|(_, value)| value);
         let telling: Vec<Value> = telling.collect();
-        let known = telling.iter().find_map(|&value| known_dimension(value));
+        let determined = telling.iter().find_map(|&value| determined_dimension(value));
         // If numbers hide it on both sides, the first dimension that is not a pure number.
         let read = || telling.iter().map(|value| value.dim).find(|dim| !dim.settled().is(Dimension::PURE));
-        known.map(Dim::Of).or_else(read).unwrap_or(Dim::PURE)
+        determined.map(Dim::Of).or_else(read).unwrap_or(Dim::PURE)
     }
 
     /// Reports a side of an equation that cannot agree with the other one, as it is a single quantity of another dimension.
-    fn unlike_a_quantity(&mut self, known: (Span, Dim), other: &Expr, context: &Context<'_>) {
+    fn unlike_a_quantity(&mut self, side: (Span, Dim), other: &Expr, context: &Context<'_>) {
         if let ExprKind::Call { name, .. } = &other.bare().kind
             && let Some(quantity) = QuantityWord::named(&name.text).filter(|quantity| !quantity.gives_way)
         {
             let dimension = if is_an_angle(other) { Dimension::PURE } else { Dimension::LENGTH };
             let place = format!("what equals this `{}`", quantity.word.name);
-            let _ = self.require_dimension(&place, dimension, known.0, known.1, context);
+            let _ = self.require_dimension(&place, dimension, side.0, side.1, context);
         }
     }
 

@@ -33,19 +33,19 @@ use mechc_text::diag::{Code, Diagnostic, Fix, nearest};
 use mechc_text::source::Span;
 use mechc_text::vocabulary::Word;
 
-fn nearest_name(wanted: &Name, names: &[&str]) -> Option<Fix> {
-    nearest(&wanted.text, names.iter().copied()).map(|name| Fix::meant(wanted.span, name))
+fn nearest_name(expected: &Name, names: &[&str]) -> Option<Fix> {
+    nearest(&expected.text, names.iter().copied()).map(|name| Fix::meant(expected.span, name))
 }
 
 /// `word` is given for words of the language.
-pub fn argument_count(what: &str, word: Option<&Word>, span: Span, wanted: &str, found: usize) -> Diagnostic {
-    Diagnostic::new(Code::E0301, format!("`{what}` takes {wanted}, found {found}"))
+pub fn argument_count(what: &str, word: Option<&Word>, span: Span, expected: &str, found: usize) -> Diagnostic {
+    Diagnostic::new(Code::E0301, format!("`{what}` takes {expected}, found {found}"))
         .at(span, format!("found {found}"))
         .help_if(word.map(|word| format!("it is written {}", word.written())))
 }
 
-pub fn wrong_kind(span: Span, wanted: &str, found: &str) -> Diagnostic {
-    Diagnostic::new(Code::E0302, format!("expected {wanted}, found {found}")).at(span, format!("this is {found}"))
+pub fn wrong_kind(span: Span, expected: &str, found: &str) -> Diagnostic {
+    Diagnostic::new(Code::E0302, format!("expected {expected}, found {found}")).at(span, format!("this is {found}"))
 }
 
 pub fn empty(name: &Name) -> Diagnostic {

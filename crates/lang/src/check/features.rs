@@ -2,9 +2,9 @@
 
 use super::entity::Entity;
 use super::formula::{Context, Value};
-use super::point_kinds::{self, Expected, coordinate};
-use super::names::Space;
 use super::formula_scope::{DrawnPoint, FormulaSite};
+use super::names::Space;
+use super::point_kinds::{self, Expected, coordinate};
 use super::{Checker, errors};
 use crate::model::{Axis, AxisId, Body, CircleId, CurveId, DecidedBy, Dimension, Frame, Point, PointId};
 use mechc_expr::ExprId;
@@ -184,9 +184,9 @@ impl<'a> Checker<'a> {
             let mut uses = Vec::new();
             if let Some(formula) = formula {
                 let hidden = |name: &str| self.hidden.contains(name);
-                point_kinds::names_in(formula, Expected::Point, hidden, |used, wanted| {
-                    let is_own = used.text != name.text && self.body_point(used, wanted).is_some();
-                    uses.extend(positions.get(used.text.as_str()).filter(|_| is_own).map(|&k| (k, used.span)));
+                point_kinds::names_in(formula, Expected::Point, hidden, |used, expected| {
+                    let is_local = used.text != name.text && self.body_point(used, expected).is_some();
+                    uses.extend(positions.get(used.text.as_str()).filter(|_| is_local).map(|&k| (k, used.span)));
                 });
             }
             (name, uses)
@@ -199,11 +199,13 @@ impl<'a> Checker<'a> {
     fn axes_of(&mut self, frame: Frame, features: &'a [ast::Feature]) {
         for feature in features {
             let ends = match &feature.kind {
-                FeatureKind::AxisAlong { origin, direction } => self.at_site(FormulaSite::Inside(frame), None, |checker| {
-                    let origin = checker.place(frame, origin);
-                    let direction = checker.direction_of(direction);
-                    origin.zip(direction)
-                }),
+                FeatureKind::AxisAlong { origin, direction } => {
+                    self.at_site(FormulaSite::Inside(frame), None, |checker| {
+                        let origin = checker.place(frame, origin);
+                        let direction = checker.direction_of(direction);
+                        origin.zip(direction)
+                    })
+                }
                 FeatureKind::AxisTo { origin, target } => self.at_site(FormulaSite::Inside(frame), None, |checker| {
                     let (from, to) = (checker.place(frame, origin), checker.place(frame, target));
                     let (from, to) = (from?, to?);
@@ -278,7 +280,7 @@ impl<'a> Checker<'a> {
         place: &'static str,
         argument: Option<&str>,
     ) -> Context<'static> {
-        let judged = parts.iter().any(|part| self.is_dimensional_over(argument, part));
+        let judged = parts.iter().any(|part| self.is_dimensional_with(argument, part));
         Context { judged, ..Context::constant(place) }
     }
 
@@ -324,8 +326,8 @@ impl<'a> Checker<'a> {
                 self.record_body_point(name);
                 self.point_named(frame, name)
             }
-            ExprKind::Member { owner, feature } if self.is_own_feature(frame, owner, feature) => {
-                self.report(errors::own_point_with_owner(e.span, &owner.text, &feature.text));
+            ExprKind::Member { owner, feature } if self.is_feature_of_frame(frame, owner, feature) => {
+                self.report(errors::redundant_owner(e.span, &owner.text, &feature.text));
                 None
             }
             _ => self.unnamed_point(frame, e),
@@ -333,7 +335,7 @@ impl<'a> Checker<'a> {
     }
 
     /// Returns whether `arm.tip` stands within the braces of `arm`.
-    fn is_own_feature(&self, frame: Frame, owner: &Name, feature: &Name) -> bool {
+    fn is_feature_of_frame(&self, frame: Frame, owner: &Name, feature: &Name) -> bool {
         let is_there = || self.common.features.get(&frame).is_some_and(|space| space.get(&feature.text).is_some());
         self.frame_name(frame) == owner.text && is_there()
     }
@@ -415,11 +417,11 @@ impl<'a> Checker<'a> {
             self.trace_in_a_formula(name.span, "a point", name);
             return;
         }
-        let wanted = if what == "axis" { "an axis".to_owned() } else { format!("a {what}") };
-        let beside = self.owners_in_arguments(name.span);
+        let expected = if what == "axis" { "an axis".to_owned() } else { format!("a {what}") };
+        let other_owners = self.owners_in_arguments(name.span);
         let owners: Vec<String> = std::iter::once(self.address.ground)
             .chain(self.bodies.iter().copied())
-            .filter(|&frame| !beside.contains(&self.frame_name(frame)))
+            .filter(|&frame| !other_owners.contains(&self.frame_name(frame)))
             .filter(|frame| self.common.features.get(frame).is_some_and(|space| space.get(&name.text).is_some()))
             .map(|frame| format!("`{}.{}`", self.frame_name(frame), name.text))
             .collect();
@@ -429,13 +431,13 @@ impl<'a> Checker<'a> {
                 [] => format!("name one of its features: `{}.…`", name.text),
                 names => format!("name one of its features: {}", names.join(", ")),
             },
-            _ => format!("outside a body {wanted} is written `body.{}`", name.text),
+            _ => format!("outside a body {expected} is written `body.{}`", name.text),
         };
         let found = match self.describe_name(name) {
             "a name" => format!("the name `{}`", name.text),
             noun => noun.to_owned(),
         };
-        self.report(errors::wrong_kind(name.span, &wanted, &found).help(help));
+        self.report(errors::wrong_kind(name.span, &expected, &found).help(help));
     }
 
     pub(super) fn feature(
@@ -443,17 +445,17 @@ impl<'a> Checker<'a> {
         frame: Frame,
         name: &Name,
         what: &str,
-        wanted: impl Fn(Feature) -> bool,
+        expected: impl Fn(Feature) -> bool,
     ) -> Option<Feature> {
         let space = self.common.features.get(&frame)?;
         match space.get(&name.text) {
             Some(Feature::Broken) => return None,
             None if space.is_incomplete() => return None,
             None => {}
-            known => return known,
+            feature => return feature,
         }
-        let known = self.suggestions_in(space, wanted);
-        let diagnostic = errors::unknown_feature(what, self.frame_name(frame), name, &known);
+        let candidates = self.suggestions_in(space, expected);
+        let diagnostic = errors::unknown_feature(what, self.frame_name(frame), name, &candidates);
         self.report(diagnostic);
         None
     }

@@ -5,8 +5,8 @@ use super::entity::Entity;
 use super::errors::{self, LoadTargetError};
 use super::features::Feature;
 use super::formula::{Context, Dim, Value};
-use super::suggest::lost_rate::Part;
 use super::formula_scope::FormulaSite;
+use super::suggest::lost_rate::Part;
 use crate::model::{
     BodyId, DecidedBy, Declared, Dimension, EquationId, Force, Frame, JointId, Load, Mass, Named, Point, PointId,
     Quantity,
@@ -50,13 +50,14 @@ impl<'a> Checker<'a> {
     }
 
     /// Returns a constant after a keyword, which must not be negative; zero without a formula.
-    fn not_negative(&mut self, frame: Frame, e: Option<&Expr>, keyword: &str, wanted: Dimension) -> Option<ExprId> {
+    fn not_negative(&mut self, frame: Frame, e: Option<&Expr>, keyword: &str, expected: Dimension) -> Option<ExprId> {
         let Some(e) = e else { return Some(self.model.graph.constant(0.0)) };
         let place = format!("what stands behind `{keyword}`");
-        let (id, value) =
-            self.at_site(FormulaSite::Inside(frame), None, |checker| checker.constant_by(e, &place, wanted, DecidedBy::Sign))?;
+        let (id, value) = self.at_site(FormulaSite::Inside(frame), None, |checker| {
+            checker.constant_by(e, &place, expected, DecidedBy::Sign)
+        })?;
         if value < 0.0 {
-            self.report(errors::negative_mass(e.span, value, wanted));
+            self.report(errors::negative_mass(e.span, value, expected));
             return None;
         }
         Some(id)
@@ -105,10 +106,10 @@ impl<'a> Checker<'a> {
 
     /// Warns that the gravity of a part does not count, once for each mechanism.
     fn warn_of_gravity_in_parts(&mut self) {
-        let mut told = Vec::new();
+        let mut reported = Vec::new();
         for (part, written) in self.parts.iter().zip(&self.bindings) {
-            if let Some((mechanism, gravity)) = part.gravity_inside().filter(|(_, span)| !told.contains(span)) {
-                told.push(gravity);
+            if let Some((mechanism, gravity)) = part.gravity_inside().filter(|(_, span)| !reported.contains(span)) {
+                reported.push(gravity);
                 let warning = errors::gravity_of_a_part(&written.name, mechanism, gravity);
                 self.diagnostics.push(warning);
             }
@@ -117,8 +118,8 @@ impl<'a> Checker<'a> {
 
     /// Returns the mechanism that declares gravity, this one or one of its parts, and where.
     fn gravity_inside(&self) -> Option<(&'a str, Span)> {
-        let own = self.declared_gravity().map(|own| (self.tree.name.text.as_str(), own.span));
-        own.or_else(|| self.parts.iter().find_map(Checker::gravity_inside))
+        let declared = self.declared_gravity().map(|gravity| (self.tree.name.text.as_str(), gravity.span));
+        declared.or_else(|| self.parts.iter().find_map(Checker::gravity_inside))
     }
 }
 
@@ -154,7 +155,7 @@ impl Checker<'_> {
         let conditions = self.model.conditions.len();
         let value = self.formula(force, &context);
         let declared = self.declared(name);
-        let conditions = self.conditions_over_time(conditions, &declared.name);
+        let conditions = self.conditions_in_time(conditions, &declared.name);
         let quantity = self.quantity_of_load(name, on);
         let (value, quantity) = (value?, quantity?);
         let dimension = Dimension::ENERGY.over(quantity.dimension());
@@ -232,17 +233,17 @@ impl Checker<'_> {
         quantity: Quantity,
         judged: bool,
     ) -> Option<()> {
-        let (works_on, wanted) = (quantity.dimension(), Dimension::ENERGY.over(quantity.dimension()));
+        let (works_on, expected) = (quantity.dimension(), Dimension::ENERGY.over(quantity.dimension()));
         let text = self.sources.text(force.span);
         match value.dim {
-            Dim::Of(dimension) if self.counts(value, &driven("a load", judged)) && !dimension.is(wanted) => {
+            Dim::Of(dimension) if self.counts(value, &driven("a load", judged)) && !dimension.is(expected) => {
                 let parts = [Part { span: force.span, dimension }, Part { span: on.span, dimension: works_on }];
-                self.report(errors::load_of_no_energy(name, parts, wanted, text));
+                self.report(errors::load_of_no_energy(name, parts, expected, text));
                 None
             }
             Dim::Of(_) | Dim::Plain { .. } if !judged && !works_on.is(Dimension::PURE) && !self.is_zero(force) => {
                 let on = Part { span: on.span, dimension: works_on };
-                self.report(errors::plain_load(name, force.span, text, on, wanted));
+                self.report(errors::plain_load(name, force.span, text, on, expected));
                 None
             }
             _ => Some(()),
@@ -298,8 +299,8 @@ impl Checker<'_> {
                 None
             }
             None => {
-                let known = self.suggestions(|entity| matches!(entity, Entity::Equation(_)));
-                let diagnostic = errors::unknown("driver or constraint", name, &known);
+                let candidates = self.suggestions(|entity| matches!(entity, Entity::Equation(_)));
+                let diagnostic = errors::unknown("driver or constraint", name, &candidates);
                 self.report(diagnostic);
                 None
             }
@@ -313,9 +314,9 @@ impl Checker<'_> {
         if kind.has_torque() {
             return Some(joint);
         }
-        let Declared { name: own, span } = self.model[joint].declared.clone();
+        let Declared { name: joint_name, span } = self.model[joint].declared.clone();
         let driver = self.driver_of(&name.text);
-        self.report(errors::no_torque(&own, kind.word(), name.span, span, driver.as_deref()));
+        self.report(errors::no_torque(&joint_name, kind.word(), name.span, span, driver.as_deref()));
         None
     }
 
@@ -337,13 +338,13 @@ impl Checker<'_> {
     }
 
     /// Returns whether a formula holds a named symbol of some kind, also within derivatives and held inputs.
-    pub(super) fn holds_named(&self, id: ExprId, is_wanted: impl Fn(&Named) -> bool) -> bool {
+    pub(super) fn holds_named(&self, id: ExprId, accepts: impl Fn(&Named) -> bool) -> bool {
         let mut open = vec![id];
         while let Some(id) = open.pop() {
             for symbol in self.model.graph.symbols(id) {
                 let Symbol::Named(k) = symbol else { continue };
                 match self.model.named.get(k as usize) {
-                    Some(named) if is_wanted(named) => return true,
+                    Some(named) if accepts(named) => return true,
                     Some(Named::Derivative(inner) | Named::By(inner, ..) | Named::Held(_, inner)) => open.push(*inner),
                     _ => {}
                 }
@@ -356,13 +357,13 @@ impl Checker<'_> {
     pub(super) fn uses_efforts(&self) -> bool {
         let is_effort = |e: &Expr| matches!(&e.kind, ExprKind::Call { name, .. } if name.text == "effort");
         let asks = |e: &Expr| e.parts().any(is_effort);
-        let own = self.items().iter().any(|item| match &item.kind {
+        let in_text = self.items().iter().any(|item| match &item.kind {
             ItemKind::Measure { value, .. } | ItemKind::Result { value, .. } | ItemKind::Trace { point: value, .. } => {
                 asks(value)
             }
             _ => false,
         });
-        own || self.parts.iter().any(Checker::uses_efforts)
+        in_text || self.parts.iter().any(Checker::uses_efforts)
     }
 
     /// Returns whether a formula is a torque, as far as it shows; joules are not a unit of torque.

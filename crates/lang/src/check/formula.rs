@@ -5,10 +5,10 @@
 //! dimensions, so that terms without a number as factor must agree too.
 
 use super::Checker;
+use super::bare_names::{BareName, resolve_bare_name};
 use super::entity::Entity;
 use super::errors;
 use super::point_kinds::Expected;
-use super::bare_names::{BareName, resolve_bare_name};
 use super::suggest::lost_rate::Part;
 use crate::model::{DecidedBy, Dimension, Named};
 use mechc_expr::{Dependence, ExprId, Symbol};
@@ -319,7 +319,7 @@ impl Checker<'_> {
                 None
             }
             Some(Entity::Param(k)) => self.params[k].value,
-            Some(Entity::Input(k)) if context.inputs => self.input_known(k),
+            Some(Entity::Input(k)) if context.inputs => self.value_of_input(k),
             Some(Entity::Input(_)) if context.results => {
                 self.report(errors::outside_reduction(&format!("the input `{}`", name.text), name.span, &name.text));
                 None
@@ -333,7 +333,7 @@ impl Checker<'_> {
                 self.report(errors::outside_reduction(&format!("the measure `{}`", name.text), name.span, &name.text));
                 None
             }
-            Some(Entity::Result(k)) if context.results => self.result_known(k)?.value,
+            Some(Entity::Result(k)) if context.results => self.result_state(k)?.value,
             Some(Entity::Result(_)) => {
                 self.report(errors::result_in(context.place, name));
                 None
@@ -390,19 +390,21 @@ impl Checker<'_> {
             (Some(entity), _) => errors::path_from_outside(span, &owner, entity.noun(), owner == text),
             (None, Some(first)) => errors::unknown_owner(&first.name, self.tree),
             (None, None) => {
-                let is_known = segments.first().is_some_and(|first| self.entity(&first.name).is_some());
-                errors::path_of_nothing(span, segments, is_known)
+                let is_declared = segments.first().is_some_and(|first| self.entity(&first.name).is_some());
+                errors::invalid_path(span, segments, is_declared)
             }
         });
     }
 
     /// Reports a trace where a number or point is expected.
-    pub(super) fn trace_in_a_formula(&mut self, span: Span, wanted: &str, name: &Name) {
+    pub(super) fn trace_in_a_formula(&mut self, span: Span, expected: &str, name: &Name) {
         let point = self.items().iter().find_map(|item| match &item.kind {
-            ItemKind::Trace { name: own, point, .. } if own.text == name.text => Some(self.sources.text(point.span)),
+            ItemKind::Trace { name: trace, point, .. } if trace.text == name.text => {
+                Some(self.sources.text(point.span))
+            }
             _ => None,
         });
-        let diagnostic = errors::trace_in_a_formula(span, wanted, name, point);
+        let diagnostic = errors::trace_in_a_formula(span, expected, name, point);
         self.report(diagnostic);
     }
 
@@ -425,19 +427,19 @@ impl Checker<'_> {
             self.report(errors::wrong_kind(name.span, "a number", "a function").help(help));
             return;
         }
-        let mut known = self.suggestions(|entity| match entity {
+        let mut candidates = self.suggestions(|entity| match entity {
             Entity::Param(_) => true,
             Entity::Input(_) => context.inputs,
             Entity::Measure(_) => context.measures,
             Entity::Result(_) => context.results,
             _ => false,
         });
-        known.extend(context.argument.map(|(argument, _)| argument));
+        candidates.extend(context.argument.map(|(argument, _)| argument));
         for constant in Constant::in_formulas() {
-            known.push(constant);
+            candidates.push(constant);
         }
         let what = if context.measures { "parameter or measure" } else { "parameter" };
-        let diagnostic = errors::unknown_number(what, name, &known);
+        let diagnostic = errors::unknown_number(what, name, &candidates);
         let is_bound = matches!(name.text.as_str(), "from" | "to") && context.results && diagnostic.help.is_empty();
         let diagnostic = diagnostic.help_if(is_bound.then(|| errors::signed_bound(&name.text)));
         let argument = context.argument.filter(|_| diagnostic.help.is_empty());
@@ -449,7 +451,7 @@ impl Checker<'_> {
     }
 
     fn sum(&mut self, first: &Expr, rest: &[(Sign, Expr)], context: &Context<'_>) -> Option<Value> {
-        self.warn_of_numbers_beside(std::iter::once(first).chain(rest.iter().map(|(_, term)| term)), context);
+        self.warn_of_numbers_as_radians(std::iter::once(first).chain(rest.iter().map(|(_, term)| term)), context);
         let mut sum = self.number(first, context);
         let mut span = first.span;
         for (sign, term) in rest {
@@ -584,8 +586,8 @@ impl Checker<'_> {
     }
 
     /// Evaluates a constant of a given dimension. Returns its expression and value.
-    pub(super) fn constant(&mut self, e: &Expr, place: &str, wanted: Dimension) -> Option<(ExprId, f64)> {
-        self.constant_by(e, place, wanted, DecidedBy::Value)
+    pub(super) fn constant(&mut self, e: &Expr, place: &str, expected: Dimension) -> Option<(ExprId, f64)> {
+        self.constant_by(e, place, expected, DecidedBy::Value)
     }
 
     /// Evaluates a constant of which one property decides.
@@ -593,11 +595,11 @@ impl Checker<'_> {
         &mut self,
         e: &Expr,
         place: &str,
-        wanted: Dimension,
+        expected: Dimension,
         by: DecidedBy,
     ) -> Option<(ExprId, f64)> {
         let judged = self.is_dimensional(e);
-        self.judged_constant(e, place, wanted, (by, judged))
+        self.judged_constant(e, place, expected, (by, judged))
     }
 
     /// Evaluates a constant that may require a unit.
@@ -605,16 +607,16 @@ impl Checker<'_> {
         &mut self,
         e: &Expr,
         place: &str,
-        wanted: Dimension,
+        expected: Dimension,
         (by, judged): (DecidedBy, bool),
     ) -> Option<(ExprId, f64)> {
         let context = Context { judged, ..Context::constant(place) };
         let value = self.formula(e, &context)?;
-        if !judged && wanted.is(Dimension::LENGTH) && self.reject_angle(place, e) {
+        if !judged && expected.is(Dimension::LENGTH) && self.reject_angle(place, e) {
             return None;
         }
-        self.require_dimension(place, wanted, e.span, value.dim, &context)?;
-        if wanted.is(Dimension::LENGTH) {
+        self.require_dimension(place, expected, e.span, value.dim, &context)?;
+        if expected.is(Dimension::LENGTH) {
             self.record_length_term(e, value.id, judged);
         }
         let number = self.decided(value.id, by)?;

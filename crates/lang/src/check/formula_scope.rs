@@ -45,6 +45,6 @@ pub(super) struct FormulaScope<'a> {
     /// The argument of the curve that the formula defines.
     pub argument: Option<&'a str>,
     /// The locations of a point of the body and of a point of the mechanism, if the formula names one.
-    pub own: Option<Span>,
+    pub of_body: Option<Span>,
     pub of_mechanism: Option<Span>,
 }

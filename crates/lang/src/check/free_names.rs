@@ -88,7 +88,11 @@ pub fn name_of(item: &Item) -> Option<&Name> {
 
 /// Calls `each` for every free name of a formula, with whether it is called. A name before `.x` or `.y` counts; a call of the language's
 /// own function or quantity does not, unless `hidden` says that the file's function or table, or a quantity's name, takes precedence.
-pub(super) fn visit_free_names<'e>(formula: &'e Expr, hidden: impl Fn(&str) -> bool, mut each: impl FnMut(&'e Name, bool)) {
+pub(super) fn visit_free_names<'e>(
+    formula: &'e Expr,
+    hidden: impl Fn(&str) -> bool,
+    mut each: impl FnMut(&'e Name, bool),
+) {
     let mut open = vec![formula];
     while let Some(e) = open.pop() {
         match &e.kind {

@@ -24,7 +24,7 @@ impl Checker<'_> {
     /// Checks a function's formula on its own, so that its errors are found even without calls.
     pub(super) fn function(&mut self, at: usize) {
         let (argument, value) = (self.functions[at].argument, self.functions[at].value);
-        self.functions[at].dimensional = self.is_dimensional_over(Some(&argument.text), value);
+        self.functions[at].dimensional = self.is_dimensional_with(Some(&argument.text), value);
         self.functions[at].time = self.time_in(value, argument);
         self.functions[at].sound = true;
         let named = self.name_symbol(Named::Argument, 0);
@@ -35,10 +35,10 @@ impl Checker<'_> {
             argument: Some((&argument.text, Value { id: named, dim: Dim::UNFIT })),
             ..Context::constant("a function")
         };
-        let known = self.model.conditions.len();
+        let before = self.model.conditions.len();
         let sound = self.formula(value, &context).is_some();
         // Conditions apply where the function is called.
-        self.model.conditions.truncate(known);
+        self.model.conditions.truncate(before);
         self.functions[at].sound = sound;
     }
 

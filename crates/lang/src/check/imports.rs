@@ -32,8 +32,8 @@ impl<'a> Checker<'a> {
 
     /// Returns the entity of a path such as `leg[0].foot`, and declares its name here.
     pub(super) fn entity_inside(&mut self, path: &str) -> Option<Entity> {
-        if let Some(known) = self.space.get(path) {
-            return Some(known);
+        if let Some(entity) = self.space.get(path) {
+            return Some(entity);
         }
         let (part, rest) = path.split_once('.')?;
         let Some(Entity::Part(k)) = self.space.get(part) else { return None };
@@ -124,7 +124,7 @@ impl<'a> Checker<'a> {
     }
 
     /// Returns the state of a measure of this text or of a part.
-    pub(super) fn measure_known(&self, k: usize) -> Option<&MeasureState<'a>> {
+    pub(super) fn measure_state(&self, k: usize) -> Option<&MeasureState<'a>> {
         match self.home_of(Entity::Measure(k)) {
             (home, Entity::Measure(k)) => home.measures.get(k),
             _ => None,
@@ -132,7 +132,7 @@ impl<'a> Checker<'a> {
     }
 
     /// Returns the state of a result of this text or of a part.
-    pub(super) fn result_known(&self, k: usize) -> Option<&ResultState<'a>> {
+    pub(super) fn result_state(&self, k: usize) -> Option<&ResultState<'a>> {
         match self.home_of(Entity::Result(k)) {
             (home, Entity::Result(k)) => home.results.get(k),
             _ => None,
@@ -140,7 +140,7 @@ impl<'a> Checker<'a> {
     }
 
     /// Returns the value of an input of this text or of a part.
-    pub(super) fn input_known(&self, k: usize) -> Option<Value> {
+    pub(super) fn value_of_input(&self, k: usize) -> Option<Value> {
         match self.home_of(Entity::Input(k)) {
             (home, Entity::Input(k)) => home.inputs.get(k)?.value,
             _ => None,

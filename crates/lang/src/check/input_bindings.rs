@@ -75,7 +75,7 @@ impl<'a> Checker<'a> {
 
     /// Returns the full names of the inputs that a formula uses, also through functions.
     fn inputs_in(&self, formula: &Expr) -> Vec<(String, Span)> {
-        let (mut open, mut seen, mut found) = (vec![(formula, None)], FxHashSet::default(), Vec::new());
+        let (mut open, mut visited, mut found) = (vec![(formula, None)], FxHashSet::default(), Vec::new());
         while let Some((formula, argument)) = open.pop() {
             visit_free_names(
                 formula,
@@ -83,7 +83,7 @@ impl<'a> Checker<'a> {
                 |name, _| match self.entity(name) {
                     _ if argument == Some(name.text.as_str()) => {}
                     Some(Entity::Input(_)) => found.push((format!("{}{}", self.address.path, name.text), name.span)),
-                    Some(Entity::Function(k)) if seen.insert(k) => {
+                    Some(Entity::Function(k)) if visited.insert(k) => {
                         let function = self.functions.get(k).filter(|function| function.time.is_some());
                         open.extend(function.map(|function| (function.value, Some(function.argument.text.as_str()))));
                     }
@@ -129,8 +129,8 @@ impl<'a> Checker<'a> {
     fn record_inputs(&mut self, part: usize) {
         let Some(id) = self.parts[part].address.part else { return };
         let child = &self.parts[part];
-        let own = child.inputs.iter().filter_map(|input| Some((input.name.text.clone(), input.value?.id)));
-        let mut inputs: Vec<_> = own.collect();
+        let local = child.inputs.iter().filter_map(|input| Some((input.name.text.clone(), input.value?.id)));
+        let mut inputs: Vec<_> = local.collect();
         let deeper = self.model.inputs.iter().filter_map(|input| {
             let name = input.declared.name.strip_prefix(child.address.path.as_str())?;
             name.contains('.').then(|| (name.to_owned(), input.value))
@@ -140,7 +140,7 @@ impl<'a> Checker<'a> {
     }
 
     fn input_bound(&mut self, part: usize, k: usize, binding: &Binding) -> Option<Value> {
-        let wanted = self.parts[part].inputs.get(k)?.value?.dim;
+        let expected = self.parts[part].inputs.get(k)?.value?.dim;
         let judged = self.is_dimensional(&binding.value);
         let context = Context {
             judged,
@@ -155,16 +155,16 @@ impl<'a> Checker<'a> {
         for condition in &mut self.model.conditions[conditions..] {
             condition.owner.clone_from(&owner);
         }
-        let unlike = match wanted {
-            Dim::Of(_) => wanted.other_than(value.dim).filter(|_| self.counts(value, &context)),
-            _ => wanted.other_than(value.dim).filter(|_| judged),
+        let unlike = match expected {
+            Dim::Of(_) => expected.other_than(value.dim).filter(|_| self.counts(value, &context)),
+            _ => expected.other_than(value.dim).filter(|_| judged),
         };
-        if let Some([wanted, found]) = unlike {
+        if let Some([expected, found]) = unlike {
             let place = format!("the input `{}` of `{}`", binding.name.text, self.bindings[part].name.text);
             let wrong = lost_rate::Part { span: binding.value.span, dimension: found };
-            self.report(errors::wrong_dimension(&place, wanted, wrong, self.sources.text(binding.value.span)));
+            self.report(errors::wrong_dimension(&place, expected, wrong, self.sources.text(binding.value.span)));
             return None;
         }
-        Some(Value { dim: wanted, ..value })
+        Some(Value { dim: expected, ..value })
     }
 }

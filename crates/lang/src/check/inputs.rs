@@ -1,10 +1,10 @@
 //! Inputs: their formulas in the text, and their overrides.
 
-use super::formula::{Context, Dim, Value};
 use super::continuation::ConditionMarks;
-use super::suggest::lost_rate::Part;
-use super::samples::{self, Column, ColumnHeader, Samples};
+use super::formula::{Context, Dim, Value};
 use super::overrides::override_matches;
+use super::samples::{self, Column, ColumnHeader, Samples};
+use super::suggest::lost_rate::Part;
 use super::{Checker, errors};
 use crate::model::{Condition, ConditionKind, Input};
 use mechc_expr::{ExprId, Symbol};
@@ -50,7 +50,9 @@ impl Checker<'_> {
         for setting in &self.options.settings {
             let (path, span) = (&setting.path, setting.value.span);
             let owner = path.rsplit_once('.').filter(|(_, axis)| ["x", "y"].contains(&axis.trim()));
-            let is_it = |full: &str| override_matches(full, path) || owner.is_some_and(|(owner, _)| override_matches(full, owner));
+            let is_it = |full: &str| {
+                override_matches(full, path) || owner.is_some_and(|(owner, _)| override_matches(full, owner))
+            };
             self.check_override_name(Settable::Param, path, span, &params, is_it);
         }
     }
@@ -62,16 +64,16 @@ impl Checker<'_> {
             return;
         }
         let inputs = self.all_inputs();
-        for (told, formula) in &given.formulas {
-            self.check_override_name(Settable::Input, told, formula.span, &inputs, |full| override_matches(full, told));
+        for (path, formula) in &given.formulas {
+            self.check_override_name(Settable::Input, path, formula.span, &inputs, |full| override_matches(full, path));
         }
         let twice = inputs.iter().find_map(|(input, _)| {
-            let mut formulas = given.formulas.iter().filter(|(told, _)| override_matches(input, told));
+            let mut formulas = given.formulas.iter().filter(|(path, _)| override_matches(input, path));
             let (first, second) = (formulas.next()?, formulas.next()?);
             Some((input, [second.1.span, first.1.span]))
         });
         if let Some((input, places)) = twice {
-            self.report(errors::input_told_twice(input, places));
+            self.report(errors::duplicate_override(input, places));
         }
     }
 
@@ -86,17 +88,17 @@ impl Checker<'_> {
     fn check_override_name(
         &mut self,
         what: Settable,
-        told: &str,
+        path: &str,
         span: Span,
-        known: &[(String, Option<Span>)],
+        settable: &[(String, Option<Span>)],
         is_it: impl Fn(&str) -> bool,
     ) -> bool {
-        let mut found = known.iter().filter(|(full, _)| is_it(full)).peekable();
+        let mut found = settable.iter().filter(|(full, _)| is_it(full)).peekable();
         if found.peek().is_none() {
-            let names: Vec<&str> = known.iter().map(|(full, _)| full.as_str()).collect();
-            let meant = nearest(told, names.iter().copied());
-            let diagnostic = errors::no_such_name(what.noun(), &self.tree.name.text, told, &names, meant);
-            self.report(diagnostic.at(span, format!("for `{told}`")));
+            let names: Vec<&str> = settable.iter().map(|(full, _)| full.as_str()).collect();
+            let suggestion = nearest(path, names.iter().copied());
+            let diagnostic = errors::no_such_name(what.noun(), &self.tree.name.text, path, &names, suggestion);
+            self.report(diagnostic.at(span, format!("for `{path}`")));
             return false;
         }
         let bound = found.find_map(|(full, binding)| Some((full, (*binding)?)));
@@ -128,17 +130,17 @@ impl Checker<'_> {
     /// Returns whether a column names an input that can be overridden.
     fn has_an_input(&mut self, head: &ColumnHeader<'_>, inputs: &[(String, Option<Span>)]) -> bool {
         let path = head.path();
-        if let Some(meant) = head.meant().filter(|_| !inputs.iter().any(|(full, _)| *full == path)) {
+        if let Some(suggestion) = head.suggestion().filter(|_| !inputs.iter().any(|(full, _)| *full == path)) {
             let written = self.sources.text(head.span).trim_matches('"');
-            self.report(errors::column_of_no_input(&self.tree.name.text, written, head.span, &meant));
+            self.report(errors::column_of_no_input(&self.tree.name.text, written, head.span, &suggestion));
             return false;
         }
         if !self.check_override_name(Settable::Column, &path, head.span, inputs, |full| full == path) {
             return false;
         }
-        let twice = self.options.given.formulas.iter().find(|(told, _)| override_matches(&path, told));
+        let twice = self.options.given.formulas.iter().find(|(full, _)| override_matches(&path, full));
         if let Some((_, formula)) = twice {
-            self.report(errors::input_told_twice(&path, [head.span, formula.span]));
+            self.report(errors::duplicate_override(&path, [head.span, formula.span]));
         }
         twice.is_none()
     }
@@ -148,7 +150,7 @@ impl Checker<'_> {
         let (name, formula) = (self.inputs[k].name, self.inputs[k].formula);
         let before = self.model.conditions.len();
         let Some(in_file) = self.input_value(name, formula) else { return };
-        let needs = ConditionMarks { before, after_own: self.model.conditions.len() };
+        let needs = ConditionMarks { before, after_nominal: self.model.conditions.len() };
         if self.bound.inputs.contains(&name.text.as_str()) {
             self.inputs[k].value = Some(in_file);
             // Its own formula does not affect the motion.
@@ -159,8 +161,8 @@ impl Checker<'_> {
         let samples = self.samples.clone();
         let column = samples.as_ref().and_then(|samples| samples.columns.iter().find(|column| column.name == full));
         let formulas = &self.options.given.formulas;
-        let told = formulas.iter().rev().find(|(told, _)| override_matches(&full, told)).map(|(_, formula)| formula);
-        let value = match (&samples, column, told) {
+        let given = formulas.iter().rev().find(|(path, _)| override_matches(&full, path)).map(|(_, formula)| formula);
+        let value = match (&samples, column, given) {
             (Some(samples), Some(column), _) => self.sampled(&samples.times, column, in_file.dim),
             (_, _, Some(formula)) => self.override_value(name, formula, in_file.dim),
             _ => Some(in_file),
@@ -201,24 +203,24 @@ impl Checker<'_> {
     }
 
     /// Returns the value of an override's formula. A plain one is in the unit of the expected dimension.
-    fn override_value(&mut self, name: &Name, formula: &Expr, wanted: Dim) -> Option<Value> {
+    fn override_value(&mut self, name: &Name, formula: &Expr, expected: Dim) -> Option<Value> {
         let given = self.input_value(name, formula)?;
-        if let Some([wanted, found]) = wanted.other_than(given.dim).filter(|_| self.is_dimensional(formula)) {
+        if let Some([expected, found]) = expected.other_than(given.dim).filter(|_| self.is_dimensional(formula)) {
             let part = Part { span: formula.span, dimension: found };
             let place = format!("the input `{}{}`", self.address.path, name.text);
-            self.report(errors::wrong_dimension(&place, wanted, part, self.sources.text(formula.span)));
+            self.report(errors::wrong_dimension(&place, expected, part, self.sources.text(formula.span)));
             return None;
         }
-        Some(Value { dim: wanted, ..given })
+        Some(Value { dim: expected, ..given })
     }
 
     /// Returns the natural cubic spline through samples, at time `t`.
-    fn sampled(&mut self, times: &[f64], column: &Column, wanted: Dim) -> Option<Value> {
-        let unlike = column.dimension.and_then(|found| wanted.other_than(Dim::Of(found)));
-        if let Some([wanted, found]) = unlike {
+    fn sampled(&mut self, times: &[f64], column: &Column, expected: Dim) -> Option<Value> {
+        let unlike = column.dimension.and_then(|found| expected.other_than(Dim::Of(found)));
+        if let Some([expected, found]) = unlike {
             let part = Part { span: column.span, dimension: found };
             let place = format!("the input `{}`", column.name);
-            self.report(errors::wrong_dimension(&place, wanted, part, self.sources.text(column.span)));
+            self.report(errors::wrong_dimension(&place, expected, part, self.sources.text(column.span)));
             return None;
         }
         let graph = &mut self.model.graph;
@@ -231,13 +233,13 @@ impl Checker<'_> {
         let (first, last) = (graph.constant(times[0]), graph.constant(times[times.len() - 1]));
         // Both ends are inside in spite of rounding.
         let slack = graph.constant(1e-12 * (times[times.len() - 1] - times[0]));
-        for way in [graph.sub(t, first), graph.sub(last, t)] {
-            let positive = self.model.graph.add(way, slack);
+        for distance in [graph.sub(t, first), graph.sub(last, t)] {
+            let positive = self.model.graph.add(distance, slack);
             let owner = column.name.clone();
             let kind = ConditionKind::Samples(table);
             self.model.conditions.push(Condition { positive, kind, span: column.span, owner });
         }
-        Some(Value { id, dim: wanted })
+        Some(Value { id, dim: expected })
     }
 
     /// Reports an input where inputs are not allowed.

@@ -60,7 +60,7 @@ impl<'t> Instance<'t> {
 
     /// Returns whether the text declares a name, repeated or not.
     pub fn declares(&self, name: &str) -> bool {
-        name == "ground" || self.names().any(|known| known == name)
+        name == "ground" || self.names().any(|declared| declared == name)
     }
 
     /// Returns whether the text declares a part of a name.

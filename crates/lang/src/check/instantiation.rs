@@ -3,10 +3,10 @@
 
 use super::bindings::BoundParam;
 use super::errors;
+use super::free_names::{indices, name_of, visit_free_names};
 use super::instance::Instance;
 use super::library::{Library, NotKnown};
-use super::free_names::{indices, visit_free_names, name_of};
-use super::repetition::{MOST, Numbers, Expander, broken, named, needs_expansion};
+use super::repetition::{Expander, MOST, Numbers, broken, named, needs_expansion};
 use super::{Checker, Surroundings};
 use mechc_syntax::ast::{self, Expr, Item, ItemKind, Mechanism, MechanismName};
 use mechc_text::diag::Diagnostics;
@@ -29,14 +29,13 @@ pub(super) fn instance_of<'t>(
         options,
         sources,
         outlines: FxHashMap::default(),
-        known: FxHashMap::default(),
+        instances: FxHashMap::default(),
         around: Vec::new(),
         diagnostics: Diagnostics::default(),
         is_too_large: false,
     };
     let deciding = builder.deciding(tree);
-    let bound: Vec<(String, f64)> =
-        options.bound.iter().filter(|(name, _)| deciding.contains(name)).cloned().collect();
+    let bound: Vec<(String, f64)> = options.bound.iter().filter(|(name, _)| deciding.contains(name)).cloned().collect();
     let instance = builder.instance(tree, "", &bound);
     (instance, builder.diagnostics)
 }
@@ -60,7 +59,7 @@ struct Builder<'t, 's> {
     /// The outlines, by the text of a mechanism.
     outlines: FxHashMap<*const Mechanism, RepetitionOutline>,
     /// The instances that have been made.
-    known: FxHashMap<Key, Rc<Instance<'t>>>,
+    instances: FxHashMap<Key, Rc<Instance<'t>>>,
     /// The mechanisms around the current one, the outermost first.
     around: Vec<&'t Mechanism>,
     diagnostics: Diagnostics,
@@ -77,14 +76,14 @@ impl<'t> Builder<'t, '_> {
         // Overrides may differ between paths.
         let key = (std::ptr::from_ref(tree), bound.iter().map(|(name, x)| (name.clone(), x.to_bits())).collect());
         let is_shared = self.options.settings.is_empty();
-        if is_shared && let Some(known) = self.known.get(&key) {
-            return Rc::clone(known);
+        if is_shared && let Some(instance) = self.instances.get(&key) {
+            return Rc::clone(instance);
         }
         self.around.push(tree);
         let instance = Rc::new(self.written_out(tree, path, bound));
         self.around.pop();
         if is_shared {
-            self.known.insert(key, Rc::clone(&instance));
+            self.instances.insert(key, Rc::clone(&instance));
         }
         instance
     }
@@ -127,8 +126,8 @@ impl<'t> Builder<'t, '_> {
                 by_name.insert(named(&part.name, numbers).text, instance);
             }
         }
-        let ((found, said), copies, paths) = writer.written(tree, &copies, by_name.clone());
-        self.diagnostics.extend(said);
+        let ((found, reported), copies, paths) = writer.written(tree, &copies, by_name.clone());
+        self.diagnostics.extend(reported);
         let (mut parts, mut part_named) = (Vec::new(), FxHashMap::default());
         for item in &found.items {
             let ItemKind::Part(part) = &item.kind else { continue };
@@ -181,9 +180,9 @@ impl<'t> Builder<'t, '_> {
             bound.push((binding.name.text.clone(), writer.number(&binding.value, numbers)?));
         }
         let name = named(&part.name, numbers).text;
-        let told = self.diagnostics.len();
+        let before = self.diagnostics.len();
         let instance = self.instance(mechanism, &format!("{path}{name}."), &bound);
-        self.diagnostics.in_part_from(told, &format!("{path}{name}"), part.name.span);
+        self.diagnostics.in_part_from(before, &format!("{path}{name}"), part.name.span);
         Some(instance)
     }
 
@@ -203,9 +202,9 @@ impl<'t> Builder<'t, '_> {
     /// Returns the outline of a mechanism. Iterative, as the depth of parts is only limited elsewhere.
     fn outline(&mut self, tree: &'t Mechanism) -> RepetitionOutline {
         let mut open = vec![(tree, false)];
-        while let Some((tree, are_parts_known)) = open.pop() {
+        while let Some((tree, are_parts_visited)) = open.pop() {
             let key = std::ptr::from_ref(tree);
-            if are_parts_known {
+            if are_parts_visited {
                 let outline = self.outline_with_parts(tree);
                 self.outlines.insert(key, outline);
             } else if let Entry::Vacant(unknown) = self.outlines.entry(key) {

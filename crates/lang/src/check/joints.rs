@@ -9,14 +9,14 @@ use mechc_text::vocabulary::JointWord;
 
 impl Checker<'_> {
     pub(super) fn joints(&mut self) {
-        let (mut parts, mut own) = (0..self.parts.len(), 0..);
+        let (mut parts, mut numbers) = (0..self.parts.len(), 0..);
         for item in self.items() {
             match &item.kind {
                 ItemKind::Joint { name, kind, arguments, call_span } => {
                     let joint = self.joint(name, kind, arguments, *call_span);
                     let (declared, part) = (self.declared(name), self.address.part);
                     let id = joint.map(|kind| self.model.add_joint(Joint { part, declared, kind }));
-                    self.set_joint(own.next().unwrap_or_default(), id);
+                    self.set_joint(numbers.next().unwrap_or_default(), id);
                 }
                 ItemKind::Part(_) => {
                     if let Some(part) = parts.next() {
@@ -269,7 +269,8 @@ impl Checker<'_> {
     fn drawn_through_parts(&mut self, frame: Frame, local: [ExprId; 2], is_point: bool) -> Option<[f64; 2]> {
         let placement = self.drawn_frame(frame);
         let graph = &mut self.model.graph;
-        let place = if is_point { placement.transform_point(graph, local) } else { placement.transform_vector(graph, local) };
+        let place =
+            if is_point { placement.transform_point(graph, local) } else { placement.transform_vector(graph, local) };
         let [x, y] = place.map(|id| self.constant_value(id));
         Some([x?, y?])
     }

@@ -87,12 +87,13 @@ impl Library {
     pub fn find(&self, prefix: Option<&Name>, name: &Name, sources: &Sources) -> Result<KnownMechanism, NotKnown> {
         let Some(at) = self.number_of(name.span.file) else { return Err(NotKnown::Said) };
         let file = &self.files[at];
-        let own = if prefix.is_none() { mechanism_of(file, &name.text) } else { None };
-        if let Some(number) = own {
+        let local = if prefix.is_none() { mechanism_of(file, &name.text) } else { None };
+        if let Some(number) = local {
             return Ok(KnownMechanism { file: at, number });
         }
-        let wanted = |used: &UsedFile| used.prefix.as_ref().map(|own| &own.text) == prefix.map(|wanted| &wanted.text);
-        let uses = || file.read.tree.uses.iter().zip(&file.uses).filter(|(used, _)| wanted(used));
+        let expected =
+            |used: &UsedFile| used.prefix.as_ref().map(|prefix| &prefix.text) == prefix.map(|expected| &expected.text);
+        let uses = || file.read.tree.uses.iter().zip(&file.uses).filter(|(used, _)| expected(used));
         for &number in uses().filter_map(|(_, number)| number.as_ref()) {
             if let Some(found) = mechanism_of(&self.files[number], &name.text) {
                 return Ok(KnownMechanism { file: number, number: found });
@@ -103,11 +104,11 @@ impl Library {
         if !is_whole(file) || !all_are_read {
             return Err(NotKnown::Said);
         }
-        let told = match prefix.filter(|_| uses().next().is_none()) {
+        let diagnostic = match prefix.filter(|_| uses().next().is_none()) {
             Some(prefix) => errors::no_prefix(prefix, &prefixes(file)),
             None => self.no_mechanism(at, prefix, name, sources),
         };
-        Err(NotKnown::Told(Box::new(told)))
+        Err(NotKnown::Told(Box::new(diagnostic)))
     }
 
     /// Returns the first file with a mechanism of a name.
@@ -129,7 +130,7 @@ impl Library {
     }
 
     fn number_of(&self, file: FileId) -> Option<usize> {
-        self.files.iter().position(|known| known.id == file)
+        self.files.iter().position(|other| other.id == file)
     }
 
     fn shown<'s>(&self, number: usize, sources: &'s Sources) -> &'s str {
@@ -137,23 +138,23 @@ impl Library {
     }
 
     fn no_mechanism(&self, at: usize, prefix: Option<&Name>, name: &Name, sources: &Sources) -> Diagnostic {
-        let (mut known, mut elsewhere) = (Vec::new(), Vec::new());
+        let (mut candidates, mut elsewhere) = (Vec::new(), Vec::new());
         if prefix.is_none() {
-            known.extend(names(&self.files[at]));
+            candidates.extend(names(&self.files[at]));
         }
         for (used, number) in self.uses_of(at) {
-            if used.prefix.as_ref().map(|own| &own.text) == prefix.map(|prefix| &prefix.text) {
-                known.extend(names(&self.files[number]));
+            if used.prefix.as_ref().map(|prefix| &prefix.text) == prefix.map(|prefix| &prefix.text) {
+                candidates.extend(names(&self.files[number]));
             } else if mechanism_of(&self.files[number], &name.text).is_some() {
                 let prefix = used.prefix.as_ref().map(|prefix| format!("{}.", prefix.text)).unwrap_or_default();
                 elsewhere.push(format!("{prefix}{}", name.text));
             }
         }
-        let meant = nearest(&name.text, known.iter().copied());
+        let suggestion = nearest(&name.text, candidates.iter().copied());
         let further = (0..self.files.len())
             .find(|&other| other != at && mechanism_of(&self.files[other], &name.text).is_some())
             .map(|other| (self.shown(other, sources), relative(&self.files[at].path, &self.files[other].path)));
-        errors::no_mechanism(prefix, name, &known, meant, elsewhere.first().map(String::as_str), further)
+        errors::no_mechanism(prefix, name, &candidates, suggestion, elsewhere.first().map(String::as_str), further)
     }
 
     /// Returns the files that a file uses, as far as they could be read.
@@ -164,17 +165,17 @@ impl Library {
 
     /// Reports mechanisms of two files with one name and no prefix.
     fn duplicate_names(&self, file: &KnownFile, sources: &Sources) -> Vec<Diagnostic> {
-        let own = self.number_of(file.id).unwrap_or_default();
+        let user = self.number_of(file.id).unwrap_or_default();
         let mut first: FxHashMap<&str, (usize, Span)> = FxHashMap::default();
         for mechanism in file.read.tree.mechanisms.iter().filter(|mechanism| !mechanism.name.text.is_empty()) {
-            first.entry(&mechanism.name.text).or_insert((own, mechanism.name.span));
+            first.entry(&mechanism.name.text).or_insert((user, mechanism.name.span));
         }
         let mut faults = Vec::new();
-        for (used, number) in self.uses_of(own).filter(|(used, _)| used.prefix.is_none() && !used.is_broken) {
+        for (used, number) in self.uses_of(user).filter(|(used, _)| used.prefix.is_none() && !used.is_broken) {
             let mut twice: Vec<(&str, usize, Span)> = Vec::new();
             for name in names(&self.files[number]) {
                 let &mut (from, span) = first.entry(name).or_insert((number, used.span));
-                if from != number && !twice.iter().any(|(told, ..)| *told == name) {
+                if from != number && !twice.iter().any(|(other, ..)| *other == name) {
                     twice.push((name, from, span));
                 }
             }
@@ -192,24 +193,24 @@ impl Library {
     fn circles(&self, sources: &Sources) -> Vec<Diagnostic> {
         let (mut is_done, mut faults) = (vec![false; self.files.len()], Vec::new());
         // A path from the text, which reaches all files, with the number of uses of each file on it that have been followed.
-        let mut way: Vec<(usize, usize)> = if self.files.is_empty() { Vec::new() } else { vec![(0, 0)] };
-        while let Some((at, next)) = way.last_mut() {
+        let mut path: Vec<(usize, usize)> = if self.files.is_empty() { Vec::new() } else { vec![(0, 0)] };
+        while let Some((at, next)) = path.last_mut() {
             let at = *at;
             let link = self.uses_of(at).nth(*next);
             *next += 1;
             let Some((_, other)) = link else {
                 is_done[at] = true;
-                way.pop();
+                path.pop();
                 continue;
             };
-            if let Some(begin) = way.iter().position(|(file, _)| *file == other) {
-                let links = way[begin..].iter().filter_map(|&(file, next)| {
+            if let Some(begin) = path.iter().position(|(file, _)| *file == other) {
+                let links = path[begin..].iter().filter_map(|&(file, next)| {
                     let (used, _) = self.uses_of(file).nth(next - 1)?;
                     Some((self.shown(file, sources), used.span))
                 });
                 faults.push(errors::circle_of_files(&links.collect::<Vec<_>>()));
             } else if !is_done[other] {
-                way.push((other, 0));
+                path.push((other, 0));
             }
         }
         faults
@@ -231,9 +232,9 @@ fn prefixes(file: &KnownFile) -> Vec<&Name> {
 
 fn prefixes_that_stand_twice(file: &KnownFile) -> Vec<Diagnostic> {
     let mut first: FxHashMap<&str, Span> = FxHashMap::default();
-    let again = |prefix: &Name, first: Span| (first != prefix.span).then(|| errors::second_prefix(prefix, first));
+    let duplicate = |prefix: &Name, first: Span| (first != prefix.span).then(|| errors::second_prefix(prefix, first));
     let all = prefixes(file);
-    all.into_iter().filter_map(|prefix| again(prefix, *first.entry(&prefix.text).or_insert(prefix.span))).collect()
+    all.into_iter().filter_map(|prefix| duplicate(prefix, *first.entry(&prefix.text).or_insert(prefix.span))).collect()
 }
 
 /// Returns a free prefix for the mechanisms of a file, made of its name.

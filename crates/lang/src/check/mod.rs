@@ -4,68 +4,68 @@
 //! none. Formulas, including those of functions, are expanded into one graph at each use. Expansions are cached, so that functions with
 //! common subformulas take linear time.
 
-mod cli_formulas;
+mod bare_names;
 mod bindings;
-mod input_bindings;
 mod branches;
 mod builtins;
 mod calls;
+mod cli_formulas;
 mod column_variables;
+mod constants;
+mod continuation;
+mod declaration_info;
 mod definitions;
 mod dimensions;
+mod display_units;
 mod elements;
 mod entity;
 mod errors;
 mod features;
 mod forces;
 mod formula;
+mod formula_scope;
+mod free_names;
 mod functions;
 mod imports;
+mod input_bindings;
 mod inputs;
 mod instance;
 mod instantiation;
 mod joints;
-mod point_kinds;
-mod declaration_info;
-mod continuation;
 mod library;
-mod bare_names;
-mod free_names;
-mod part_placement;
-mod point_names;
 mod names;
-mod constants;
+mod options;
+mod overrides;
 mod params;
+mod part_placement;
 mod parts;
+mod point_kinds;
+mod point_names;
 mod points;
 mod poses;
-mod display_units;
 mod profiles;
 mod quantities;
 mod repetition;
 mod results;
 mod samples;
 mod settable_inputs;
-mod formula_scope;
-mod options;
 mod suggest;
 mod symbols;
 mod table_file;
 mod tables;
-mod overrides;
 mod variables;
 
 pub use cli_formulas::{FormulaOfTime, amount, constant, formula_of_time};
-pub use inputs::Given;
-pub use declaration_info::{Amount, Count, Index, Known, Value as KnownValue, known, slopes};
 pub use continuation::Lead;
-pub use suggest::missing_unit::usual_unit_of_length;
-pub use library::{KnownFile, KnownMechanism, Library, NotKnown};
+pub use declaration_info::{Amount, Count, Index, Known, Value as KnownValue, known, slopes};
 pub use free_names::name_of;
+pub use inputs::Given;
+pub use library::{KnownFile, KnownMechanism, Library, NotKnown};
+pub use options::{Setting, Surroundings};
 pub use results::UNTIL;
 pub use samples::{Column, variants};
 pub use settable_inputs::SetInputs;
-pub use options::{Setting, Surroundings};
+pub use suggest::missing_unit::usual_unit_of_length;
 pub use symbols::{DeclaredName, Meaning, NameId, NameKind, Symbols, Use};
 pub use tables::TableFiles;
 
@@ -75,10 +75,10 @@ use branches::Branch;
 use calls::Calls;
 use elements::MeasureState;
 use entity::Entity;
+use formula_scope::FormulaScope;
 use functions::Function;
 use imports::Import;
 use inputs::InputState;
-use suggest::missing_unit::RecordedLengths;
 use mechc_syntax::ast::{self, Item, ItemKind};
 use mechc_text::diag::{Diagnostic, Diagnostics};
 use mechc_text::source::Sources;
@@ -88,8 +88,8 @@ use parts::{Address, SharedState};
 use results::ResultState;
 use rustc_hash::{FxHashMap, FxHashSet};
 use samples::Samples;
-use formula_scope::FormulaScope;
 use std::rc::Rc;
+use suggest::missing_unit::RecordedLengths;
 use tables::TableState;
 use variables::Variables;
 
@@ -112,19 +112,15 @@ pub fn check_file(file: &ast::File) -> Diagnostics {
 
 /// Checks a mechanism. Returns its model if it has no errors, and all diagnostics.
 #[must_use]
-pub fn check(
-    tree: &ast::Mechanism,
-    options: &Surroundings,
-    sources: &Sources,
-) -> (Option<Mechanism>, Diagnostics) {
-    let (instance, told) = instantiation::instance_of(tree, options, sources);
+pub fn check(tree: &ast::Mechanism, options: &Surroundings, sources: &Sources) -> (Option<Mechanism>, Diagnostics) {
+    let (instance, reported) = instantiation::instance_of(tree, options, sources);
     let mut checker = Checker::of_instance(&instance, options, sources, "", &[]);
     checker.bind_numbers(&options.bound);
     checker.common.variables = Variables::new(&options.by);
     checker.collect_variables();
     checker.run();
     let Checker { mut diagnostics, mut model, .. } = checker;
-    diagnostics.extend(told);
+    diagnostics.extend(reported);
     model.slopes = options.slopes.map(|go| {
         let of_text = |end: usize| model.analysis.map(|analysis| analysis.formulas[end]).filter(|_| go[end]);
         [of_text(0), of_text(1)]
@@ -294,16 +290,16 @@ impl<'a> Checker<'a> {
             None => diagnostic,
         };
         let parts = self.address.used_at.iter();
-        self.diagnostics.push(parts.fold(diagnostic, |said, (part, span)| said.in_part(part, *span)));
+        self.diagnostics.push(parts.fold(diagnostic, |diagnostic, (part, span)| diagnostic.in_part(part, *span)));
     }
 
     /// Returns the names to suggest from; none after many errors, when the search would take long.
-    fn suggestions(&self, wanted: impl Fn(Entity) -> bool) -> Vec<&str> {
-        self.suggestions_in(&self.space, wanted)
+    fn suggestions(&self, expected: impl Fn(Entity) -> bool) -> Vec<&str> {
+        self.suggestions_in(&self.space, expected)
     }
 
-    fn suggestions_in<'s, T: Copy>(&self, space: &'s Space<T>, wanted: impl Fn(T) -> bool) -> Vec<&'s str> {
-        if self.diagnostics.len() > MOST_SUGGESTIONS { Vec::new() } else { space.names(wanted).collect() }
+    fn suggestions_in<'s, T: Copy>(&self, space: &'s Space<T>, expected: impl Fn(T) -> bool) -> Vec<&'s str> {
+        if self.diagnostics.len() > MOST_SUGGESTIONS { Vec::new() } else { space.names(expected).collect() }
     }
 
     fn items(&self) -> &'a [Item] {

@@ -85,9 +85,9 @@ impl<T: Copy> Space<T> {
         self.entries.get(name).map(|&(_, span)| span)
     }
 
-    /// Returns the names of the entities that `wanted` accepts, in order of declaration.
-    pub fn names(&self, wanted: impl Fn(T) -> bool) -> impl Iterator<Item = &str> {
-        self.order.iter().filter(move |name| self.get(name).is_some_and(&wanted)).map(String::as_str)
+    /// Returns the names of the entities that `expected` accepts, in order of declaration.
+    pub fn names(&self, expected: impl Fn(T) -> bool) -> impl Iterator<Item = &str> {
+        self.order.iter().filter(move |name| self.get(name).is_some_and(&expected)).map(String::as_str)
     }
 }
 
@@ -191,7 +191,7 @@ impl Checker<'_> {
         match self.space.get(&name.text) {
             Some(Entity::Broken) => Err(BrokenName),
             None if self.space.is_incomplete() => Err(BrokenName),
-            known => Ok(known),
+            entity => Ok(entity),
         }
     }
 

@@ -32,18 +32,18 @@ impl Checker<'_> {
 }
 
 /// Returns whether the path of an override names `full`, or all copies of it if the path leaves the indices out. Spaces are ignored.
-pub(super) fn override_matches(full: &str, told: &str) -> bool {
-    let told: String = told.chars().filter(|c| !c.is_whitespace()).collect();
-    if told == full {
+pub(super) fn override_matches(full: &str, path: &str) -> bool {
+    let path: String = path.chars().filter(|c| !c.is_whitespace()).collect();
+    if path == full {
         return true;
     }
-    let told = normalized(&told);
-    let (mut own, mut others) = (full.split('.'), told.split('.'));
+    let path = normalized(&path);
+    let (mut segments, mut named) = (full.split('.'), path.split('.'));
     loop {
-        match (own.next(), others.next()) {
+        match (segments.next(), named.next()) {
             (None, None) => return true,
-            (Some(own), Some(other)) => {
-                let is_it = own == other || own.split_once('[').is_some_and(|(base, _)| base == other);
+            (Some(segment), Some(other)) => {
+                let is_it = segment == other || segment.split_once('[').is_some_and(|(base, _)| base == other);
                 if !is_it {
                     return false;
                 }

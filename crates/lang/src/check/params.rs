@@ -51,11 +51,11 @@ impl<'a> Checker<'a> {
             }
             Some((None, setting)) => {
                 let given = self.param_value(&setting.value, Context { names: false, ..context })?;
-                if let Some([wanted, found]) = in_file.dim.other_than(given.dim) {
+                if let Some([expected, found]) = in_file.dim.other_than(given.dim) {
                     let place = format!("the parameter `{}{}`", self.address.path, name.text);
                     let part = lost_rate::Part { span: setting.value.span, dimension: found };
                     let text = self.sources.text(setting.value.span);
-                    self.report(errors::wrong_dimension(&place, wanted, part, text));
+                    self.report(errors::wrong_dimension(&place, expected, part, text));
                     return None;
                 }
                 // A zero takes the dimension of the override. A number without a unit fits any dimension, as zero does.
@@ -146,7 +146,13 @@ impl<'a> Checker<'a> {
         let judged = judged || self.is_dimensional(&setting.value);
         let value = self.formula(&setting.value, &Context { judged, ..context })?;
         let place = format!("the coordinate `{}.{}`", name.text, ["x", "y"][k]);
-        self.require_dimension(&place, Dimension::LENGTH, setting.value.span, value.dim, &Context { judged, ..context })?;
+        self.require_dimension(
+            &place,
+            Dimension::LENGTH,
+            setting.value.span,
+            value.dim,
+            &Context { judged, ..context },
+        )?;
         let mut at = before.at;
         at[k] = value.id;
         Some(DrawnPoint { at, dimensional: judged })

@@ -1,6 +1,6 @@
 //! Placement of parts: the mount of each part, and the pose of its ground on the mount.
 
-use super::formula_scope::{Position, FormulaSite};
+use super::formula_scope::{FormulaSite, Position};
 use super::{Checker, errors};
 use crate::model::{Frame, Placement};
 use mechc_expr::{ExprId, Graph};
@@ -67,8 +67,8 @@ impl Checker<'_> {
     /// Returns the part of this text to which a frame belongs.
     pub(super) fn part_holding(&self, frame: Frame) -> Option<usize> {
         let outwards = std::iter::successors(self.model.part_of(frame), |part| self.model[*part].within);
-        let own = outwards.into_iter().find(|part| self.model[*part].within == self.address.part)?;
-        self.parts.iter().position(|child| child.address.part == Some(own))
+        let part = outwards.into_iter().find(|part| self.model[*part].within == self.address.part)?;
+        self.parts.iter().position(|child| child.address.part == Some(part))
     }
 
     /// Returns whether the pose of a part uses points of bodies.
@@ -115,8 +115,8 @@ impl Checker<'_> {
         }
         let seer = Placement { is_mirrored: false, ..self.drawn_frame(seer) };
         let graph = &mut self.model.graph;
-        let way = [0, 1].map(|axis| graph.sub(place[axis], seer.at[axis]));
-        Some(seer.inverse_transform_vector(graph, way))
+        let offset = [0, 1].map(|axis| graph.sub(place[axis], seer.at[axis]));
+        Some(seer.inverse_transform_vector(graph, offset))
     }
 
     /// Returns whether a frame has no drawn position, as its pose or that of a carrier is broken.

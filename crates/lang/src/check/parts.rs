@@ -27,7 +27,7 @@ pub(super) struct SharedState {
     /// Equations of unknown dimension: a number without a unit scales both sides.
     pub plain_equations: FxHashSet<EquationId>,
     /// The bare numbers next to angles in degrees that have been reported.
-    pub beside_degrees: FxHashSet<Span>,
+    pub reported_radians: FxHashSet<Span>,
     /// The variables of derivatives.
     pub variables: Variables,
 }

@@ -29,10 +29,10 @@ fn takes_points(function: &str) -> Option<bool> {
 }
 
 /// Returns the children of a formula with the expected kinds; `hidden` are the functions and tables of the file.
-pub(super) fn inside(e: &Expr, wanted: Expected, hidden: impl Fn(&str) -> bool) -> Vec<(&Expr, Expected)> {
+pub(super) fn inside(e: &Expr, expected: Expected, hidden: impl Fn(&str) -> bool) -> Vec<(&Expr, Expected)> {
     let inner = match &e.kind {
-        ExprKind::Paren(_) | ExprKind::Negate(_) | ExprKind::Sum(..) => wanted,
-        ExprKind::Product(..) if wanted != Expected::Number => Expected::Either,
+        ExprKind::Paren(_) | ExprKind::Negate(_) | ExprKind::Sum(..) => expected,
+        ExprKind::Product(..) if expected != Expected::Number => Expected::Either,
         ExprKind::Call { name, .. } if takes_points(&name.text) == Some(true) && !hidden(&name.text) => Expected::Point,
         _ => Expected::Number,
     };
@@ -42,20 +42,20 @@ pub(super) fn inside(e: &Expr, wanted: Expected, hidden: impl Fn(&str) -> bool) 
 /// Visits every name of a formula that stands alone, or before `.x` and `.y`, with its expected kind.
 pub(super) fn names_in<'e>(
     formula: &'e Expr,
-    wanted: Expected,
+    expected: Expected,
     hidden: impl Fn(&str) -> bool,
     mut each: impl FnMut(&'e Name, Expected),
 ) {
-    let mut open = vec![(formula, wanted)];
-    while let Some((e, wanted)) = open.pop() {
+    let mut open = vec![(formula, expected)];
+    while let Some((e, expected)) = open.pop() {
         match &e.kind {
-            ExprKind::Name(name) => each(name, wanted),
-            ExprKind::Member { owner, feature } if wanted != Expected::Point && coordinate(feature).is_some() => {
+            ExprKind::Name(name) => each(name, expected),
+            ExprKind::Member { owner, feature } if expected != Expected::Point && coordinate(feature).is_some() => {
                 each(owner, Expected::Point);
             }
             _ => {}
         }
-        open.extend(inside(e, wanted, &hidden).into_iter().rev());
+        open.extend(inside(e, expected, &hidden).into_iter().rev());
     }
 }
 
@@ -88,16 +88,16 @@ pub(super) fn is_point(formula: &Expr, hidden: impl Fn(&str) -> bool, is_one: im
 
 /// Returns the names of a mechanism's params that are points.
 pub(super) fn point_params(mechanism: &Mechanism) -> FxHashSet<&str> {
-    let own = hiding_functions(mechanism);
-    let hidden = |name: &str| own.contains(name);
+    let hiding = hiding_functions(mechanism);
+    let hidden = |name: &str| hiding.contains(name);
     let (mut points, mut users): (Vec<&str>, FxHashMap<&str, Vec<&str>>) = (Vec::new(), FxHashMap::default());
     for item in &mechanism.items {
         let ItemKind::Param { name, value } = &item.kind else { continue };
         if is_point(value, hidden, |_| false) {
             points.push(&name.text);
         }
-        names_in(value, Expected::Either, hidden, |used, wanted| {
-            if wanted == Expected::Either {
+        names_in(value, Expected::Either, hidden, |used, expected| {
+            if expected == Expected::Either {
                 users.entry(&used.text).or_default().push(&name.text);
             }
         });

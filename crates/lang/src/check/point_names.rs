@@ -2,9 +2,9 @@
 
 use super::entity::Entity;
 use super::features::Feature;
-use super::point_kinds::{self, Expected, coordinate};
-use super::names::{Space, BrokenName};
 use super::formula_scope::{DrawnPoint, FormulaScope, FormulaSite};
+use super::names::{BrokenName, Space};
+use super::point_kinds::{self, Expected, coordinate};
 use super::{Checker, errors};
 use crate::model::{Frame, PointId};
 use mechc_syntax::ast::{Expr, ExprKind, Name};
@@ -49,18 +49,21 @@ impl<'a> Checker<'a> {
         argument: &'a str,
         read: impl FnOnce(&mut Self) -> Option<T>,
     ) -> Option<T> {
-        self.in_scope(FormulaScope { site: FormulaSite::Inside(frame), argument: Some(argument), ..FormulaScope::default() }, read)
+        self.in_scope(
+            FormulaScope { site: FormulaSite::Inside(frame), argument: Some(argument), ..FormulaScope::default() },
+            read,
+        )
     }
 
     fn in_scope<T>(&mut self, scope: FormulaScope<'a>, read: impl FnOnce(&mut Self) -> Option<T>) -> Option<T> {
         let site = scope.site;
         let outer = std::mem::replace(&mut self.scope, scope);
         let value = read(self);
-        let FormulaScope { own, of_mechanism, .. } = std::mem::replace(&mut self.scope, outer);
-        match (site, own, of_mechanism) {
-            (FormulaSite::Inside(frame), Some(own), Some(other)) if self.is_placed(frame) => {
+        let FormulaScope { of_body, of_mechanism, .. } = std::mem::replace(&mut self.scope, outer);
+        match (site, of_body, of_mechanism) {
+            (FormulaSite::Inside(frame), Some(inner), Some(other)) if self.is_placed(frame) => {
                 let body = self.frame_name(frame).to_owned();
-                self.report(errors::two_frames(&body, own, other));
+                self.report(errors::two_frames(&body, inner, other));
                 None
             }
             _ => value,
@@ -85,11 +88,11 @@ impl<'a> Checker<'a> {
     }
 
     /// Returns the point of the body around a formula that a name stands for.
-    pub(super) fn body_point(&self, name: &Name, wanted: Expected) -> Option<BodyPoint> {
+    pub(super) fn body_point(&self, name: &Name, expected: Expected) -> Option<BodyPoint> {
         let FormulaSite::Inside(frame) = self.scope.site else { return None };
         if self.scope.defined == Some(name.text.as_str())
-            || wanted == Expected::Number
-            || wanted == Expected::Either && (self.scope.argument == Some(&name.text) || self.is_number_name(name))
+            || expected == Expected::Number
+            || expected == Expected::Either && (self.scope.argument == Some(&name.text) || self.is_number_name(name))
         {
             return None;
         }
@@ -143,7 +146,7 @@ impl<'a> Checker<'a> {
     /// Records that the current formula uses a point of its body.
     pub(super) fn record_body_point(&mut self, name: &Name) {
         if self.body_point(name, Expected::Point).is_some() {
-            self.scope.own.get_or_insert(name.span);
+            self.scope.of_body.get_or_insert(name.span);
         }
     }
 
@@ -162,8 +165,8 @@ impl<'a> Checker<'a> {
     // ---- dimensions
 
     /// Returns whether the name of a point makes a formula dimensional.
-    pub(super) fn is_dimensional_point(&self, name: &Name, wanted: Expected) -> bool {
-        match self.body_point(name, wanted) {
+    pub(super) fn is_dimensional_point(&self, name: &Name, expected: Expected) -> bool {
+        match self.body_point(name, expected) {
             Some(BodyPoint::Point(point)) => self.common.dimensional_points.contains(&point),
             Some(BodyPoint::Broken) => false,
             None => self.point_param(name).and_then(|k| self.params[k].drawn).is_some_and(|drawn| drawn.dimensional),
@@ -171,9 +174,9 @@ impl<'a> Checker<'a> {
     }
 
     /// Looks up a name where a point is expected.
-    pub(super) fn lookup_point(&mut self, name: &Name, wanted: Expected) -> PointLookup {
-        if let Some(point) = self.body_point(name, wanted) {
-            self.scope.own.get_or_insert(name.span);
+    pub(super) fn lookup_point(&mut self, name: &Name, expected: Expected) -> PointLookup {
+        if let Some(point) = self.body_point(name, expected) {
+            self.scope.of_body.get_or_insert(name.span);
             return match point {
                 BodyPoint::Broken => PointLookup::Broken,
                 BodyPoint::Point(point) => {
@@ -195,36 +198,37 @@ impl<'a> Checker<'a> {
     fn non_point_entity(&self, name: &Name) -> Result<Option<Entity>, BrokenName> {
         match self.resolve(name)? {
             Some(Entity::Param(k)) if self.params[k].value.is_none() => Err(BrokenName),
-            known => Ok(known),
+            entity => Ok(entity),
         }
     }
 
     /// Returns the names of points to suggest from.
-    fn known_point_params(&self) -> Vec<&str> {
-        let mut known = self.suggestions(|entity| matches!(entity, Entity::Param(_)));
-        known.retain(|name| self.is_point_name(name));
-        known
+    fn point_param_names(&self) -> Vec<&str> {
+        let mut candidates = self.suggestions(|entity| matches!(entity, Entity::Param(_)));
+        candidates.retain(|name| self.is_point_name(name));
+        candidates
     }
 
     /// Reports that the mechanism has no point for a lone `point A`.
     fn no_point_to_take(&mut self, name: &Name) {
         let Ok(entity) = self.non_point_entity(name) else { return };
-        let known = self.known_point_params();
-        let diagnostic = errors::no_point_to_take(name, entity.map(Entity::noun), &known);
+        let candidates = self.point_param_names();
+        let diagnostic = errors::no_point_to_take(name, entity.map(Entity::noun), &candidates);
         self.report(diagnostic);
     }
 
     /// Reports a name in a formula of points that is not a point.
     pub(super) fn no_point_named(&mut self, name: &Name) {
         let Ok(entity) = self.non_point_entity(name) else { return };
-        let own = match self.scope.site {
+        let space_of_body = match self.scope.site {
             FormulaSite::Inside(frame) => self.common.features.get(&frame),
             _ => None,
         };
-        if own.is_some_and(Space::is_incomplete) {
+        if space_of_body.is_some_and(Space::is_incomplete) {
             return;
         }
-        let feature = own.and_then(|space| space.get(&name.text)).filter(|_| self.scope.defined != Some(&name.text));
+        let feature =
+            space_of_body.and_then(|space| space.get(&name.text)).filter(|_| self.scope.defined != Some(&name.text));
         let found = match (feature, entity) {
             (Some(feature), _) => Some(feature.noun()),
             (None, Some(Entity::Param(_))) => Some("a number"),
@@ -233,13 +237,13 @@ impl<'a> Checker<'a> {
             (None, None) => None,
         };
         let Some(found) = found else {
-            let is_other = |known: &&str| self.scope.defined != Some(*known);
-            let mut known = own.map_or_else(Vec::new, |space| {
+            let is_other = |name: &&str| self.scope.defined != Some(*name);
+            let mut candidates = space_of_body.map_or_else(Vec::new, |space| {
                 self.suggestions_in(space, |feature| matches!(feature, Feature::Point(_)))
             });
-            known.retain(is_other);
-            known.extend(self.known_point_params());
-            let diagnostic = errors::unknown_point(name, &known);
+            candidates.retain(is_other);
+            candidates.extend(self.point_param_names());
+            let diagnostic = errors::unknown_point(name, &candidates);
             self.report(diagnostic);
             return;
         };

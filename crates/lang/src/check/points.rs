@@ -4,9 +4,9 @@
 //! allowed, at their drawn positions.
 
 use super::formula::{Context, Dim, Value};
+use super::formula_scope::{DrawnPoint, FormulaSite, Position};
 use super::point_kinds::{Expected, coordinate};
 use super::point_names::PointLookup;
-use super::formula_scope::{DrawnPoint, Position, FormulaSite};
 use super::{Checker, errors};
 use crate::check::suggest::edits;
 use crate::model::{DecidedBy, Dimension, Frame};
@@ -298,12 +298,12 @@ impl Checker<'_> {
         };
         let (p, q) = (self.point_at(first, &inner), self.point_at(second, &inner));
         let (p, q) = (p?, q?);
-        let way = [0, 1].map(|k| self.model.graph.sub(q[k], p[k]));
+        let offset = [0, 1].map(|k| self.model.graph.sub(q[k], p[k]));
         if name.text == "length" {
-            let id = self.model.graph.binary(Binary::Hypot, way[0], way[1]);
+            let id = self.model.graph.binary(Binary::Hypot, offset[0], offset[1]);
             return Some(Value { id, dim: Dim::LENGTH });
         }
-        let id = self.direction_of_way(way, "`direction`", e.span)?;
+        let id = self.direction_of_vector(offset, "`direction`", e.span)?;
         Some(Value { id, dim: Dim::PURE })
     }
 
@@ -317,16 +317,16 @@ impl Checker<'_> {
     }
 
     /// Returns the angle of the vector between two points, in (−π, π].
-    pub(super) fn direction_of_way(&mut self, way: Position, what: &str, span: Span) -> Option<ExprId> {
-        let [dx, dy] = way.map(|id| self.decided(id, DecidedBy::Sign));
+    pub(super) fn direction_of_vector(&mut self, offset: Position, what: &str, span: Span) -> Option<ExprId> {
+        let [dx, dy] = offset.map(|id| self.decided(id, DecidedBy::Sign));
         if dx == Some(0.0) && dy == Some(0.0) && !self.branch.is_untaken {
             self.report(errors::points_coincide(what, span));
             return None;
         }
         let graph = &mut self.model.graph;
-        let angle = graph.binary(Binary::Atan2, way[1], way[0]);
+        let angle = graph.binary(Binary::Atan2, offset[1], offset[0]);
         // `atan2` of a negative zero is −π.
-        if !may_be_negative_zero(graph, way[1]) {
+        if !may_be_negative_zero(graph, offset[1]) {
             return Some(angle);
         }
         let [lowest, turn] = [-std::f64::consts::PI, std::f64::consts::TAU].map(|value| graph.constant(value));
@@ -369,9 +369,9 @@ impl Checker<'_> {
 /// Returns whether a formula could be −0. Params are not, nor are differences and means of such.
 fn may_be_negative_zero(graph: &Graph, id: ExprId) -> bool {
     let mut open = vec![id];
-    let mut seen = FxHashSet::default();
+    let mut visited = FxHashSet::default();
     while let Some(id) = open.pop() {
-        if !seen.insert(id) {
+        if !visited.insert(id) {
             continue;
         }
         match graph.node(id) {

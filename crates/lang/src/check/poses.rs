@@ -1,8 +1,8 @@
 //! Drawn poses of bodies: the formulas after `at`, which may depend on the poses of other bodies.
 
 use super::formula::Context;
+use super::formula_scope::{FormulaSite, Position};
 use super::names::DefinitionOrder;
-use super::formula_scope::{Position, FormulaSite};
 use super::{Checker, errors};
 use crate::check::suggest::edits;
 use crate::model::Frame;
@@ -137,7 +137,7 @@ impl<'a> Checker<'a> {
                 let place = self.lengths_in([x, y], &context);
                 (place, self.angle(phi, "the angle of a pose"))
             }
-            [point, phi] if self.is_meant_as_point(point) => {
+            [point, phi] if self.is_intended_as_point(point) => {
                 let place = self.drawn_point_of(point);
                 (place, self.angle(phi, "the angle of a pose"))
             }
@@ -152,8 +152,8 @@ impl<'a> Checker<'a> {
     fn pose_toward(&mut self, from: &Expr, to: &Expr) -> (Option<Position>, Option<ExprId>) {
         let (p, q) = (self.drawn_point_of(from), self.drawn_point_of(to));
         let (Some(p), Some(q)) = (p, q) else { return (None, None) };
-        let way = [0, 1].map(|k| self.model.graph.sub(q[k], p[k]));
-        (Some(p), self.direction_of_way(way, "`toward`", from.span.to(to.span)))
+        let offset = [0, 1].map(|k| self.model.graph.sub(q[k], p[k]));
+        (Some(p), self.direction_of_vector(offset, "`toward`", from.span.to(to.span)))
     }
 
     fn drawn_point_of(&mut self, e: &Expr) -> Option<Position> {
@@ -167,7 +167,7 @@ impl<'a> Checker<'a> {
     }
 
     /// Returns whether a formula is a point, or an unknown name or feature.
-    fn is_meant_as_point(&self, e: &Expr) -> bool {
+    fn is_intended_as_point(&self, e: &Expr) -> bool {
         self.is_point(e)
             || match &e.kind {
                 ExprKind::Name(name) => !self.is_number_name(name),

@@ -44,12 +44,12 @@ impl<'a> Checker<'a> {
     ) -> Option<CurveId> {
         let id = self.name_symbol(Named::Argument, 0);
         let value = Value { id, dim: Dim::PURE };
-        let known = self.model.conditions.len();
+        let before = self.model.conditions.len();
         let pair = self.at_curve(frame, &argument.text, |checker| {
             checker.place_of(at, "curve", "a curve", Some((&argument.text, value)))
         });
         // Conditions of the argument only apply at a contact.
-        let mut conditions = self.model.conditions.split_off(known);
+        let mut conditions = self.model.conditions.split_off(before);
         for condition in &mut conditions {
             condition.owner.clone_from(&name.text);
         }
@@ -104,19 +104,19 @@ impl<'a> Checker<'a> {
     }
 
     /// Returns the feature of `body.feature`, with the location of its name.
-    fn feature_at(&mut self, e: &Expr, what: &str, wanted: impl Fn(Feature) -> bool) -> Option<(Feature, Span)> {
+    fn feature_at(&mut self, e: &Expr, what: &str, expected: impl Fn(Feature) -> bool) -> Option<(Feature, Span)> {
         match &e.kind {
             ExprKind::Member { owner, feature } => {
                 let frame = self.body(owner)?;
-                self.feature(frame, feature, what, wanted).map(|found| (found, feature.span))
+                self.feature(frame, feature, what, expected).map(|found| (found, feature.span))
             }
             ExprKind::Name(name) => {
                 self.bare_name(name, what);
                 None
             }
             _ => {
-                let wanted = format!("a {what}");
-                self.wrong_kind(e.span, &wanted, Self::describe(e));
+                let expected = format!("a {what}");
+                self.wrong_kind(e.span, &expected, Self::describe(e));
                 None
             }
         }

@@ -164,9 +164,9 @@ impl Checker<'_> {
         let frames = self.model[joint].kind.frames(&self.model);
         for (axis, e, frame) in [(u_id, u, frames[0]), (v_id, v, frames[1])] {
             if self.model[axis].frame != frame {
-                let wanted = self.frame_name(frame).to_owned();
+                let expected = self.frame_name(frame).to_owned();
                 let (joint, axis) = (self.model[joint].declared.name.clone(), self.model[axis].name.clone());
-                self.report(errors::axes_elsewhere(&joint, &axis, e.span, &wanted));
+                self.report(errors::axes_elsewhere(&joint, &axis, e.span, &expected));
                 return None;
             }
         }
@@ -180,13 +180,13 @@ impl Checker<'_> {
         if kind.has_quantity(quantity) {
             return Some(joint);
         }
-        let wanted = match quantity {
+        let expected = match quantity {
             "rotation" => "revolute",
             "displacement" => "translational",
             _ => "`point_follower`, `cam` and `flat_follower`",
         };
         let declared = self.model[joint].declared.clone();
-        self.report(errors::joint_without(quantity, wanted, &declared.name, kind, name.span, declared.span));
+        self.report(errors::joint_without(quantity, expected, &declared.name, kind, name.span, declared.span));
         None
     }
 
@@ -205,8 +205,8 @@ impl Checker<'_> {
                 return None;
             }
             None => {
-                let known = self.suggestions(|entity| matches!(entity, Entity::Joint(_)));
-                let diagnostic = errors::unknown("joint", name, &known);
+                let candidates = self.suggestions(|entity| matches!(entity, Entity::Joint(_)));
+                let diagnostic = errors::unknown("joint", name, &candidates);
                 self.report(diagnostic);
                 return None;
             }
@@ -274,8 +274,8 @@ impl Checker<'_> {
     }
 
     /// Reports a formula of the wrong kind.
-    pub(super) fn wrong_kind(&mut self, span: Span, wanted: &str, found: &str) {
-        self.report(errors::wrong_kind(span, wanted, found));
+    pub(super) fn wrong_kind(&mut self, span: Span, expected: &str, found: &str) {
+        self.report(errors::wrong_kind(span, expected, found));
     }
 }
 

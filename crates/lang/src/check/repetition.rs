@@ -1,11 +1,11 @@
 //! Repetition: repeated declarations are expanded into copies, and paths like `link[k - 1].pin` become the names of copies. All other
 //! modules of `check` only know plain declarations.
 
-mod paths;
 mod copies;
+mod paths;
 
-use super::instance::{Copies, Instance};
 use super::free_names::name_of;
+use super::instance::{Copies, Instance};
 use super::{Checker, errors};
 use crate::model::Dimension;
 use mechc_syntax::ast::{self, Expr, ExprKind, Factor, Item, ItemKind, Mechanism, Name, Sign};
@@ -50,7 +50,7 @@ pub(super) struct Expander<'t, 'c> {
     /// True if that has been reported.
     is_too_large: bool,
     /// The locations of reported errors. An error in every copy is reported once.
-    told: FxHashSet<Span>,
+    reported: FxHashSet<Span>,
 }
 
 /// A mechanism with all repetitions expanded, and the diagnostics.
@@ -73,7 +73,7 @@ impl<'t, 'c> Expander<'t, 'c> {
             paths: FxHashSet::default(),
             count: 0,
             is_too_large: false,
-            told: FxHashSet::default(),
+            reported: FxHashSet::default(),
         }
     }
 
@@ -110,10 +110,10 @@ impl<'t, 'c> Expander<'t, 'c> {
     /// could report it do not exist.
     pub fn number(&mut self, e: &Expr, numbers: &Numbers<'_>) -> Option<f64> {
         let formula = self.formula(e, numbers).ok()?;
-        let said = self.checker.diagnostics.len();
+        let before = self.checker.diagnostics.len();
         let value = self.checker.any_constant(&formula);
         if value.is_none() {
-            self.is_of_a_part(e, "a binding that decides a range", said);
+            self.is_of_a_part(e, "a binding that decides a range", before);
         }
         value
     }
@@ -141,7 +141,7 @@ impl<'t, 'c> Expander<'t, 'c> {
 
     fn tell(&mut self, diagnostic: Diagnostic) {
         let span = diagnostic.labels.first().map(|label| label.span);
-        if span.is_none_or(|span| self.told.insert(span)) {
+        if span.is_none_or(|span| self.reported.insert(span)) {
             self.checker.report(diagnostic);
         }
     }
@@ -204,8 +204,8 @@ impl<'t, 'c> Expander<'t, 'c> {
     fn is_unique_index(&mut self, range: &ast::IndexRange, all: &[ast::IndexRange]) -> bool {
         let name = &range.index;
         let before = all.iter().take_while(|other| other.index.span != name.span);
-        let is_again = before.into_iter().any(|other| other.index.text == name.text);
-        let is_unique_index = !is_taken(&name.text) && !self.names.contains(name.text.as_str()) && !is_again;
+        let is_duplicate = before.into_iter().any(|other| other.index.text == name.text);
+        let is_unique_index = !is_taken(&name.text) && !self.names.contains(name.text.as_str()) && !is_duplicate;
         if !is_unique_index {
             self.tell(errors::index_is_taken(name));
         }
@@ -224,10 +224,10 @@ impl<'t, 'c> Expander<'t, 'c> {
             value
         } else {
             let formula = self.formula(e, numbers)?;
-            let said = self.checker.diagnostics.len();
+            let before = self.checker.diagnostics.len();
             match self.checker.constant(&formula, place, Dimension::PURE) {
                 Some((_, value)) => value,
-                None => return Err(self.is_of_a_part(e, place, said)),
+                None => return Err(self.is_of_a_part(e, place, before)),
             }
         };
         let whole = value.round();
@@ -238,10 +238,10 @@ impl<'t, 'c> Expander<'t, 'c> {
         Ok(whole as i64)
     }
 
-    /// Reports that a number depends on a declaration in a part, in place of the diagnostics from `said` on, if it does.
-    pub fn is_of_a_part(&mut self, e: &Expr, place: &str, said: usize) -> NotExpandable {
+    /// Reports that a number depends on a declaration in a part, in place of the diagnostics from `before` on, if it does.
+    pub fn is_of_a_part(&mut self, e: &Expr, place: &str, before: usize) -> NotExpandable {
         if let Some(path) = path_into_part(self.tree, e) {
-            self.checker.diagnostics.truncate(said);
+            self.checker.diagnostics.truncate(before);
             let text = self.checker.sources.text(path);
             let diagnostic = errors::decided_by_a_part(place, text, e.span, path);
             self.tell(diagnostic);
@@ -273,9 +273,9 @@ fn indexed(name: &str, numbers: &[i64]) -> String {
 
 /// Returns the location of a path into a part in a formula, also through other definitions.
 fn path_into_part(tree: &Mechanism, formula: &Expr) -> Option<Span> {
-    let item = |name: &Name| tree.items.iter().find(|item| name_of(item).is_some_and(|own| own.text == name.text));
+    let item = |name: &Name| tree.items.iter().find(|item| name_of(item).is_some_and(|other| other.text == name.text));
     let is_part = |name: &Name| item(name).is_some_and(|item| matches!(item.kind, ItemKind::Part(_)));
-    let (mut open, mut seen) = (vec![formula], FxHashSet::default());
+    let (mut open, mut visited) = (vec![formula], FxHashSet::default());
     while let Some(e) = open.pop() {
         let (owner, is_path) = match &e.kind {
             ExprKind::Name(name) | ExprKind::Call { name, .. } => (Some(name), false),
@@ -287,7 +287,7 @@ fn path_into_part(tree: &Mechanism, formula: &Expr) -> Option<Span> {
             if is_path && is_part(name) {
                 return Some(e.span);
             }
-            if seen.insert(&name.text) {
+            if visited.insert(&name.text) {
                 open.extend(item(name).map(Item::formulas).unwrap_or_default());
             }
         }

@@ -1,9 +1,9 @@
 //! Results: formulas of reductions, each of which takes a formula as in a measure to one number for the whole analysis.
 
+use super::display_units::determined_dimension;
 use super::elements::measure_context;
 use super::entity::Entity;
 use super::formula::{Context, Dim, Value};
-use super::display_units::known_dimension;
 use super::{Checker, errors};
 use crate::model::{DecidedBy, Dimension, Named, Outcome, Reduction, ReductionKind, Units};
 use mechc_expr::{ExprId, Symbol};
@@ -63,11 +63,11 @@ impl Checker<'_> {
 
     /// Lists the results in the order of the text, those of a part where it is declared.
     fn list_results(&mut self) {
-        let (mut own, mut parts) = (0..self.results.len(), 0..self.parts.len());
+        let (mut numbers, mut parts) = (0..self.results.len(), 0..self.parts.len());
         for item in self.items() {
             match &item.kind {
                 ItemKind::Result { name, .. } => {
-                    let Some(k) = own.next() else { continue };
+                    let Some(k) = numbers.next() else { continue };
                     let Some(value) = self.results[k].value else { continue };
                     if let Some(units) = self.units_of_result(k, value) {
                         let declared = self.declared(name);
@@ -87,7 +87,7 @@ impl Checker<'_> {
     fn units_of_result(&mut self, k: usize, value: Value) -> Option<Units> {
         let (formula, unit) = (self.results[k].formula, self.results[k].unit);
         let dimension = match unit {
-            Some(_) => known_dimension(value),
+            Some(_) => determined_dimension(value),
             None => Some(value.dim.settled()),
         };
         self.units(formula, dimension, self.results[k].angle, unit)
@@ -140,7 +140,7 @@ impl Checker<'_> {
         let conditions = self.model.conditions.len();
         let inner = Context { place: "a reduction", results: true, ..measure_context(context.judged) };
         let of = self.number(&arguments[0], &inner);
-        let conditions = self.conditions_over_time(conditions, "");
+        let conditions = self.conditions_in_time(conditions, "");
         let at = match arguments.get(1) {
             Some(time) => Some(self.time_in_analysis(time, "the second argument of `at`")?),
             None => None,
@@ -156,9 +156,9 @@ impl Checker<'_> {
             ReductionKind::Integral => of.dim.map(|dimension| dimension.times(Dimension::TIME)),
             _ => of.dim.of_term(),
         };
-        let is_known = |known: &Reduction| known.kind == kind && known.of == of.id && known.window == window;
-        let known = self.model.reductions.iter().position(is_known);
-        let k = known.unwrap_or_else(|| {
+        let is_same = |other: &Reduction| other.kind == kind && other.of == of.id && other.window == window;
+        let existing = self.model.reductions.iter().position(is_same);
+        let k = existing.unwrap_or_else(|| {
             let order = self.derivative_order(of.id);
             self.model.reductions.push(Reduction { kind, span: e.span, of: of.id, window, order, conditions });
             self.model.reductions.len() - 1

@@ -137,11 +137,15 @@ pub fn variants(source: &Source, file: FileId) -> Result<Vec<Column>, Vec<Diagno
 }
 
 /// Returns the first line of a table, and the headers of its columns.
-fn heads(source: &Source, file: FileId, words: TableWording) -> Result<(Line<'_>, Vec<ColumnHeader<'_>>), Vec<Diagnostic>> {
+fn heads(
+    source: &Source,
+    file: FileId,
+    words: TableWording,
+) -> Result<(Line<'_>, Vec<ColumnHeader<'_>>), Vec<Diagnostic>> {
     let Some(line) = lines(source, file).next() else {
-        let nothing = Span { file, start: 0, end: 0 };
+        let start_of_file = Span { file, start: 0, end: 0 };
         let message = format!("the {} are empty", words.many);
-        return Err(vec![fault(Code::E0413, &message, nothing, words.least)]);
+        return Err(vec![fault(Code::E0413, &message, start_of_file, words.least)]);
     };
     let one = |fault: Box<Diagnostic>| vec![*fault];
     line.has_commas(words).map_err(one)?;
@@ -166,7 +170,12 @@ struct Rows {
 
 impl Rows {
     /// Reads the rows, without blank lines.
-    fn read(source: &Source, file: FileId, heads: &[ColumnHeader<'_>], words: TableWording) -> Result<Rows, Vec<Diagnostic>> {
+    fn read(
+        source: &Source,
+        file: FileId,
+        heads: &[ColumnHeader<'_>],
+        words: TableWording,
+    ) -> Result<Rows, Vec<Diagnostic>> {
         let mut rows = Rows { columns: vec![Vec::new(); heads.len()], places: Vec::new() };
         for line in lines(source, file).skip(1) {
             let cells = line.cells(words).map_err(|fault| vec![*fault])?;
@@ -214,7 +223,7 @@ impl ColumnHeader<'_> {
     }
 
     /// Returns a suggestion if the brackets are not written as those of a unit.
-    pub fn meant(&self) -> Option<String> {
+    pub fn suggestion(&self) -> Option<String> {
         let (name, rest) = self.name.rsplit_once('[')?;
         let text = rest.strip_suffix(']').unwrap_or(rest).trim();
         unit_named(text)?;
@@ -315,7 +324,7 @@ fn time_column(heads: &[ColumnHeader<'_>], line: Span) -> Result<usize, Vec<Diag
     let Some(at) = heads.iter().position(|head| head.name == "t") else {
         let help = "the first line names the columns: `t` or `t [ms]` for the times, and the inputs".to_owned();
         let is_time = |head: &&ColumnHeader<'_>| head.name.split('[').next().is_some_and(|name| name.trim() == "t");
-        let help = heads.iter().find(is_time).and_then(ColumnHeader::meant).unwrap_or(help);
+        let help = heads.iter().find(is_time).and_then(ColumnHeader::suggestion).unwrap_or(help);
         return Err(vec![fault(Code::E0416, "the samples have no column `t`", line, "the first line").help(help)]);
     };
     match heads[at].unit.as_ref().map(CompoundUnit::dimension) {
@@ -328,7 +337,12 @@ fn time_column(heads: &[ColumnHeader<'_>], line: Span) -> Result<usize, Vec<Diag
 }
 
 /// Returns the numbers of a line.
-fn row_of(line: &Line<'_>, cells: &[Cell<'_>], heads: &[ColumnHeader<'_>], words: TableWording) -> Result<Vec<f64>, Vec<Diagnostic>> {
+fn row_of(
+    line: &Line<'_>,
+    cells: &[Cell<'_>],
+    heads: &[ColumnHeader<'_>],
+    words: TableWording,
+) -> Result<Vec<f64>, Vec<Diagnostic>> {
     if cells.len() != heads.len() {
         if let Some(found) = line.other_separator().filter(|_| cells.len() == 1) {
             return Err(vec![line.separated_by(found, words)]);
@@ -390,7 +404,7 @@ mod tests {
     }
 
     #[test]
-    fn faults_are_told() {
+    fn faults_are_reported() {
         let fault = |text: &str| of(text).err().expect("a fault");
         assert_eq!(fault(""), "the samples are empty");
         assert_eq!(fault("turn\n1\n2\n"), "the samples have no column `t`");

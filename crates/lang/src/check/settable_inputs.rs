@@ -25,15 +25,15 @@ pub struct SetInputs {
 impl Checker<'_> {
     /// Returns the settable line of an input, or its value if it is not settable. The conditions of its own formula, after the first
     /// `before`, are dropped.
-    pub(super) fn set_input(&mut self, name: &Name, own: Value, before: usize) -> Option<Value> {
+    pub(super) fn set_input(&mut self, name: &Name, nominal: Value, before: usize) -> Option<Value> {
         let declared = self.declared(name);
         let Some(SetInputs { t, bend, .. }) =
             self.options.set_inputs.as_ref().filter(|set| set.names.contains(&declared.name))
         else {
-            return Some(own);
+            return Some(nominal);
         };
         let (t, bends, params) = (*t, *bend, &self.model.params);
-        let value = self.model.graph.value(own.id, |symbol| match symbol {
+        let value = self.model.graph.value(nominal.id, |symbol| match symbol {
             Symbol::Param(k) => params[k as usize].value,
             Symbol::Time => t,
             _ => f64::NAN,
@@ -43,17 +43,17 @@ impl Checker<'_> {
             return None;
         }
         self.model.conditions.truncate(before);
-        let dimension = own.dim.settled();
+        let dimension = nominal.dim.settled();
         let id = self.line(&declared, [value, t], (dimension, bends));
-        Some(Value { id, ..own })
+        Some(Value { id, ..nominal })
     }
 
     /// Returns the formula of a settable input, and adds its parameters, which start at a value and a time (s).
     fn line(&mut self, declared: &Declared, [value, t]: [f64; 2], (dimension, bends): (Dimension, bool)) -> ExprId {
         let first = self.model.params.len() as u32;
         let per = |order: i32| dimension.over(Dimension::TIME.to_the(f64::from(order)));
-        for (param, own, dimension) in [(first, value, dimension), (first + 1, t, Dimension::TIME)] {
-            self.model.led.push(Led { declared: declared.clone(), param: Some(param), line: [own; 2], dimension });
+        for (param, value, dimension) in [(first, value, dimension), (first + 1, t, Dimension::TIME)] {
+            self.model.led.push(Led { declared: declared.clone(), param: Some(param), line: [value; 2], dimension });
         }
         let params = [(value, dimension), (t, Dimension::TIME), (0.0, per(1)), (0.0, per(2))];
         for (value, dimension) in params.into_iter().take(if bends { 4 } else { 3 }) {

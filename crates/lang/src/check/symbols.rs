@@ -2,8 +2,8 @@
 //!
 //! It uses the tree alone, so that it is also available for texts with errors.
 
-use super::point_kinds::{self, Expected, coordinate};
 use super::bare_names::{BareName, resolve_bare_name};
+use super::point_kinds::{self, Expected, coordinate};
 use mechc_syntax::ast::{
     DrawnPose, Expr, ExprKind, Feature, FeatureKind, Item, ItemKind, Mechanism, Name, PathSegment, TableRows, UsedFile,
     WrittenUnit,
@@ -192,12 +192,12 @@ impl Symbols {
 
     /// Adds the keywords within declarations and formulas.
     fn add_keywords(&mut self, within: Span, text: &str) {
-        let known: FxHashSet<u32> = self.uses.iter().map(|used| used.span.start).collect();
+        let used: FxHashSet<u32> = self.uses.iter().map(|used| used.span.start).collect();
         let inside = &text[within.start as usize..within.end as usize];
         for (at, keyword) in keywords_in(inside) {
             let start = within.start + at as u32;
             let span = Span { file: within.file, start, end: start + keyword.word.name.len() as u32 };
-            if !known.contains(&start) {
+            if !used.contains(&start) {
                 self.uses.push(Use { span, meaning: Meaning::Word(&keyword.word), declares: false });
             }
         }
@@ -382,43 +382,43 @@ impl Walk<'_> {
     }
 
     fn uses_in_features(&mut self, features: &[Feature], body: Option<NameId>, plain: Scope<'_>) {
-        let own = Scope { body, ..plain };
+        let in_body = Scope { body, ..plain };
         for feature in features {
             match &feature.kind {
                 FeatureKind::Point { at } => {
                     let name = &feature.name;
                     match at {
-                        Some(at) => self.read(at, Scope { defined: Some(&name.text), ..own }, Expected::Point),
+                        Some(at) => self.read(at, Scope { defined: Some(&name.text), ..in_body }, Expected::Point),
                         None => self.point_taken(name),
                     }
                 }
                 FeatureKind::AxisAlong { origin, direction } => {
-                    self.read(origin, own, Expected::Point);
-                    self.formula(direction, own);
+                    self.read(origin, in_body, Expected::Point);
+                    self.formula(direction, in_body);
                 }
                 FeatureKind::AxisTo { origin, target } => {
-                    self.read(origin, own, Expected::Point);
-                    self.read(target, own, Expected::Point);
+                    self.read(origin, in_body, Expected::Point);
+                    self.read(target, in_body, Expected::Point);
                 }
                 FeatureKind::Circle { center, radius } => {
-                    self.read(center, own, Expected::Point);
-                    self.formula(radius, own);
+                    self.read(center, in_body, Expected::Point);
+                    self.formula(radius, in_body);
                 }
                 FeatureKind::Curve { argument, at, estimate } => {
                     let curve = body.and_then(|body| self.features.get(&(body, feature.name.text.clone())).copied());
                     let declared = self.declare(argument, NameKind::Argument, feature.span, curve);
-                    self.read(at, Scope { argument: Some((&argument.text, declared)), ..own }, Expected::Point);
+                    self.read(at, Scope { argument: Some((&argument.text, declared)), ..in_body }, Expected::Point);
                     if let Some(estimate) = estimate {
-                        self.formula(estimate, own);
+                        self.formula(estimate, in_body);
                     }
                 }
                 FeatureKind::Mass { mass, at, inertia } => {
-                    self.formula(mass, own);
+                    self.formula(mass, in_body);
                     if let Some(at) = at {
-                        self.read(at, own, Expected::Point);
+                        self.read(at, in_body, Expected::Point);
                     }
                     if let Some(inertia) = inertia {
-                        self.formula(inertia, own);
+                        self.formula(inertia, in_body);
                     }
                 }
                 FeatureKind::Broken => {}
@@ -431,18 +431,18 @@ impl Walk<'_> {
     }
 
     /// Adds the names in a formula of numbers or of points.
-    fn read(&mut self, formula: &Expr, scope: Scope<'_>, wanted: Expected) {
-        let mut open = vec![(formula, wanted)];
-        while let Some((e, wanted)) = open.pop() {
+    fn read(&mut self, formula: &Expr, scope: Scope<'_>, expected: Expected) {
+        let mut open = vec![(formula, expected)];
+        while let Some((e, expected)) = open.pop() {
             match &e.kind {
                 ExprKind::Literal { unit: Some((unit, _)), .. } => self.unit(unit),
-                ExprKind::Name(name) => self.name(name, scope, wanted),
-                ExprKind::Member { owner, feature } => self.member(owner, feature, scope, wanted),
-                ExprKind::Path(segments) => self.path(segments, scope, wanted),
+                ExprKind::Name(name) => self.name(name, scope, expected),
+                ExprKind::Member { owner, feature } => self.member(owner, feature, scope, expected),
+                ExprKind::Path(segments) => self.path(segments, scope, expected),
                 ExprKind::Call { name, arguments, .. } => self.called(name, arguments.len()),
                 _ => {}
             }
-            open.extend(point_kinds::inside(e, wanted, |name| self.hidden.contains(name)));
+            open.extend(point_kinds::inside(e, expected, |name| self.hidden.contains(name)));
         }
     }
 
@@ -456,8 +456,8 @@ impl Walk<'_> {
     }
 
     /// Looks a name up among the features of the body around a formula, by the rule of the formula reader.
-    fn own(&self, name: &Name, scope: Scope<'_>, wanted: Expected) -> Option<NameId> {
-        let body = scope.body.filter(|_| wanted != Expected::Number && scope.defined != Some(&name.text))?;
+    fn feature(&self, name: &Name, scope: Scope<'_>, expected: Expected) -> Option<NameId> {
+        let body = scope.body.filter(|_| expected != Expected::Number && scope.defined != Some(&name.text))?;
         let &id = self.features.get(&(body, name.text.clone()))?;
         let is_point = matches!(self.symbols.get(id).kind, NameKind::Point | NameKind::Broken);
         let declared = self.names.get(&name.text).map(|&id| self.symbols.get(id).kind);
@@ -467,13 +467,13 @@ impl Walk<'_> {
             None if scope.argument.is_some_and(|(argument, _)| argument == name.text) => true,
             None => Constant::named(&name.text).is_some() || Unit::named(&name.text).is_some(),
         };
-        let is_own = match wanted {
+        let is_feature = match expected {
             Expected::Number => false,
             // Where a point is expected, a feature that is not a point is reported by its name.
             Expected::Point => is_point || !is_point_param,
             Expected::Either => is_point && !is_number,
         };
-        is_own.then_some(id)
+        is_feature.then_some(id)
     }
 
     fn word(&mut self, name: &Name, word: &'static Word) {
@@ -495,8 +495,8 @@ impl Walk<'_> {
     }
 
     /// Adds a name in a formula. Where it may be a point, those of its own body take precedence.
-    fn name(&mut self, name: &Name, scope: Scope<'_>, wanted: Expected) {
-        if let Some(id) = self.own(name, scope, wanted) {
+    fn name(&mut self, name: &Name, scope: Scope<'_>, expected: Expected) {
+        if let Some(id) = self.feature(name, scope, expected) {
             self.declared(name, id);
             return;
         }
@@ -522,9 +522,9 @@ impl Walk<'_> {
     }
 
     /// Adds a path such as `link[2].pin` with the formulas of its indices.
-    fn path(&mut self, segments: &[PathSegment], scope: Scope<'_>, wanted: Expected) {
+    fn path(&mut self, segments: &[PathSegment], scope: Scope<'_>, expected: Expected) {
         match segments {
-            [owner, feature, ..] => self.member(&owner.name, &feature.name, scope, wanted),
+            [owner, feature, ..] => self.member(&owner.name, &feature.name, scope, expected),
             [resolve_bare_name] => {
                 if let Some(&id) = self.names.get(&resolve_bare_name.name.text) {
                     self.declared(&resolve_bare_name.name, id);
@@ -534,9 +534,9 @@ impl Walk<'_> {
         }
     }
 
-    fn member(&mut self, owner: &Name, feature: &Name, scope: Scope<'_>, wanted: Expected) {
-        let is_coordinate = wanted != Expected::Point && coordinate(feature).is_some();
-        if let Some(id) = self.own(owner, scope, Expected::Point).filter(|_| is_coordinate) {
+    fn member(&mut self, owner: &Name, feature: &Name, scope: Scope<'_>, expected: Expected) {
+        let is_coordinate = expected != Expected::Point && coordinate(feature).is_some();
+        if let Some(id) = self.feature(owner, scope, Expected::Point).filter(|_| is_coordinate) {
             self.declared(owner, id);
             return;
         }
@@ -599,7 +599,7 @@ mod tests {
     }
 
     #[test]
-    fn every_word_of_an_example_is_known() {
+    fn every_word_of_an_example_resolves() {
         let (sources, symbols) = symbols(TEXT);
         let starts: BTreeSet<u32> = symbols.uses().map(|used| used.span.start).collect();
         let file = symbols.get(super::NameId(0)).span.file;
@@ -616,7 +616,7 @@ mod tests {
     }
 
     #[test]
-    fn a_name_is_found_from_its_use_and_from_its_declaration() {
+    fn uses_and_declaration_find_the_name() {
         let text = "mechanism m {\n param r = 3 mm\n fn f(r2) = r2 * r\n ground { point O = (0, 0) }\n body b { point O = (r, 0)\n axis a = O along (1, 0) }\n joint j: revolute(ground.O, b.O)\n driver d: rotation(j) = f(t)\n measure m2 = x(b.O) + r\n}";
         let of = |from: &str, to: &str| {
             assert!(text.contains(from), "{from}");
@@ -680,7 +680,7 @@ mod tests {
     }
 
     #[test]
-    fn names_are_known_beside_a_fault() {
+    fn names_resolve_next_to_a_fault() {
         let text = "mechanism m {\n param ‸r = 3 mm\n body b { point P = (r, 0) }\n joint j revolute(b.P, ground.O)\n measure k = r\n}";
         assert_eq!(places(text).len(), 3);
     }

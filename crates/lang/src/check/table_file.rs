@@ -61,7 +61,7 @@ pub(super) fn read(source: &Source, file: FileId, picked: Picked) -> (Vec<([f64;
                     Picked::Both => not_two_numbers(line, span),
                     Picked::Two { cells, .. } => not_numbers_there(line, span, cells),
                 };
-                match faults.iter_mut().find(|(known, _)| known.help == fault.help) {
+                match faults.iter_mut().find(|(other, _)| other.help == fault.help) {
                     Some((_, more)) => *more += 1,
                     None => faults.push((fault, 0)),
                 }
@@ -69,12 +69,12 @@ pub(super) fn read(source: &Source, file: FileId, picked: Picked) -> (Vec<([f64;
         }
         may_be_header = false;
     }
-    let told = |(fault, more): (Diagnostic, usize)| match more {
+    let reported = |(fault, more): (Diagnostic, usize)| match more {
         0 => fault,
         1 => fault.note("1 more row like it"),
         more => fault.note(format!("{more} more rows like it")),
     };
-    (rows, faults.into_iter().map(told).collect())
+    (rows, faults.into_iter().map(reported).collect())
 }
 
 fn numbers(line: &str, picked: Picked) -> Option<[f64; 2]> {

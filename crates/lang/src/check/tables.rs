@@ -115,9 +115,9 @@ impl<'a> Checker<'a> {
                 continue;
             };
             match &mut all {
-                Some((span, known)) if known.dim != Dim::Any => {
-                    match self.unify(&format!("{what} are"), (*span, *known), (cell.span, value), &context) {
-                        Some(dim) => known.dim = dim,
+                Some((span, column_so_far)) if column_so_far.dim != Dim::Any => {
+                    match self.unify(&format!("{what} are"), (*span, *column_so_far), (cell.span, value), &context) {
+                        Some(dim) => column_so_far.dim = dim,
                         None => column = None,
                     }
                 }
@@ -228,8 +228,8 @@ impl<'a> Checker<'a> {
         for k in 1..rows.len() {
             let (before, here) = (values[k - 1][0], values[k][0]);
             if here.is_nan() || here <= before {
-                let told = [rows[k].written.unwrap_or(here), rows[k - 1].written.unwrap_or(before)];
-                self.report(named(errors::not_rising(name, told, [rows[k].span, rows[k - 1].span])));
+                let reported = [rows[k].written.unwrap_or(here), rows[k - 1].written.unwrap_or(before)];
+                self.report(named(errors::not_rising(name, reported, [rows[k].span, rows[k - 1].span])));
                 return false;
             }
         }
@@ -258,8 +258,14 @@ impl<'a> Checker<'a> {
         };
         let argument = self.number(written, context)?;
         let made = self.tables[k].made?;
-        let wanted = made.columns[0].settled();
-        self.require_dimension(&format!("the argument of `{}`", name.text), wanted, written.span, argument.dim, context)?;
+        let expected = made.columns[0].settled();
+        self.require_dimension(
+            &format!("the argument of `{}`", name.text),
+            expected,
+            written.span,
+            argument.dim,
+            context,
+        )?;
         if !made.periodic {
             self.within(name, made, argument.id, written.span, context)?;
         }
@@ -285,8 +291,8 @@ impl<'a> Checker<'a> {
         let slack = graph.constant(AT_THE_END);
         let slack = graph.mul(slack, length);
         let ways = [graph.sub(x, first), graph.sub(last, x)];
-        for way in ways {
-            let room = self.model.graph.add(way, slack);
+        for distance in ways {
+            let room = self.model.graph.add(distance, slack);
             let one = self.model.graph.constant(1.0);
             let positive = self.branch.guard.map_or(room, |guard| self.model.graph.select(guard, room, one));
             let owner = context.place.to_owned();

@@ -7,7 +7,7 @@ use super::entity::Entity;
 use super::formula::{Context, Dim, Value};
 use super::overrides::override_matches;
 use super::{Checker, errors};
-use crate::model::{PartDerivative, Declared, Dimension, Load, Named, Variable};
+use crate::model::{Declared, Dimension, Load, Named, PartDerivative, Variable};
 use mechc_expr::{ExprId, Symbol};
 use mechc_syntax::ast::{Expr, ExprKind, Item, Mechanism, Name};
 use mechc_text::source::Span;
@@ -23,7 +23,7 @@ pub(super) struct Variables {
     /// The requested names. Those of points and of repeated inputs stand for all their variables.
     requested: FxHashSet<String>,
     /// The numbers of the variables that have been created.
-    pub known: FxHashMap<String, u32>,
+    pub numbers: FxHashMap<String, u32>,
     /// The dimensions by number.
     dims: Vec<Dim>,
     /// For the named symbols of such derivatives: the numbers of variables and of time derivatives.
@@ -53,10 +53,9 @@ impl Variables {
         }
         let whole = name.rsplit_once('.').map(|(point, _)| point);
         self.requested.contains(name)
-            || self
-                .requested
-                .iter()
-                .any(|requested| override_matches(name, requested) || whole.is_some_and(|whole| override_matches(whole, requested)))
+            || self.requested.iter().any(|requested| {
+                override_matches(name, requested) || whole.is_some_and(|whole| override_matches(whole, requested))
+            })
     }
 }
 
@@ -102,8 +101,8 @@ impl Checker<'_> {
     }
 
     fn is_angle(&self, name: &str) -> bool {
-        let own = name.strip_prefix(self.address.path.as_str()).unwrap_or(name);
-        match self.space.get(own) {
+        let local = name.strip_prefix(self.address.path.as_str()).unwrap_or(name);
+        match self.space.get(local) {
             Some(Entity::Param(k)) => self.params.get(k).is_some_and(|param| param.angle == 1),
             Some(Entity::Input(k)) => self.inputs.get(k).is_some_and(|input| self.angle_power(input.formula) == 1),
             _ => false,
@@ -112,7 +111,7 @@ impl Checker<'_> {
 
     fn add_variable(&mut self, declared: Declared, symbol: Symbol, dim: Dim, is_angle: bool) {
         let number = self.model.variables.len() as u32;
-        self.common.variables.known.insert(declared.name.clone(), number);
+        self.common.variables.numbers.insert(declared.name.clone(), number);
         self.common.variables.dims.push(dim);
         self.model.variables.push(Variable { declared, symbol, dimension: dim.settled(), is_angle });
     }
@@ -150,7 +149,11 @@ impl Checker<'_> {
         if is_of_force {
             self.common.variables.of_forces.push(e.span);
         }
-        self.model.part_derivatives.extend(self.address.part.map(|part| PartDerivative { part, span: e.span, is_of_force }));
+        self.model.part_derivatives.extend(self.address.part.map(|part| PartDerivative {
+            part,
+            span: e.span,
+            is_of_force,
+        }));
         let id = self.name_symbol(Named::By(inner.id, variable, within), rates);
         self.common.variables.orders.insert(id, (times + 1, rates));
         Some(Value { id, dim })
@@ -210,17 +213,17 @@ impl Checker<'_> {
 
     /// Returns the number of a derivative's variable.
     fn variable(&mut self, by: &Expr) -> Option<u32> {
-        let own = named(by).map(|name| format!("{}{name}", self.address.path));
+        let full = named(by).map(|name| format!("{}{name}", self.address.path));
         let path = named(by).unwrap_or_default();
         if let Some(bound) = self.binding_of(&format!("{}{path}", self.address.path)) {
-            let own = |name: &String| name.strip_prefix(self.address.path.as_str()).unwrap_or(name).to_owned();
-            let made_of: Vec<String> = bound.made_of.iter().map(own).collect();
+            let local = |name: &String| name.strip_prefix(self.address.path.as_str()).unwrap_or(name).to_owned();
+            let made_of: Vec<String> = bound.made_of.iter().map(local).collect();
             self.report(errors::by_bound(by.span, &path, bound.span, &made_of));
             return None;
         }
-        let known = own.and_then(|name| self.common.variables.known.get(&name).copied());
-        if known.is_some() {
-            return known;
+        let number = full.and_then(|name| self.common.variables.numbers.get(&name).copied());
+        if number.is_some() {
+            return number;
         }
         let diagnostic = match &by.bare().kind {
             ExprKind::Name(name) => self.non_variable_diagnostic(name)?,
@@ -250,8 +253,8 @@ impl Checker<'_> {
             Some(entity) => Some(errors::not_a_variable(name.span, entity.noun())),
             None if name.text == "t" => Some(errors::by_time(name)),
             None => {
-                let known = self.suggestions(|entity| matches!(entity, Entity::Param(_) | Entity::Input(_)));
-                Some(errors::unknown("input or parameter", name, &known))
+                let candidates = self.suggestions(|entity| matches!(entity, Entity::Param(_) | Entity::Input(_)));
+                Some(errors::unknown("input or parameter", name, &candidates))
             }
         }
     }

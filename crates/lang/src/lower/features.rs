@@ -12,7 +12,9 @@ impl Lowering<'_> {
         let model = self.model;
         let axes = model.axes.iter().map(|axis| self.axis(axis)).collect();
         let circles = model.circles.iter().map(|circle| self.circle(circle)).collect();
-        let joints = model.joint_ids().filter_map(|joint| Some((super::joint_declaration(joint), self.attachment_point(joint)?)));
+        let joints = model
+            .joint_ids()
+            .filter_map(|joint| Some((super::joint_declaration(joint), self.attachment_point(joint)?)));
         let places: Vec<(DeclarationId, Vector)> = joints.collect();
         *system.graph_mut() = std::mem::take(&mut self.graph);
         system.add_features(axes, circles, places);
@@ -21,8 +23,11 @@ impl Lowering<'_> {
     fn axis(&mut self, axis: &model::Axis) -> Axis {
         let local = self.unit_direction(axis);
         let carried = self.in_carrier(axis.frame);
-        let direction =
-            if self.model.part_of(axis.frame).is_none() { local } else { carried.transform_vector(&mut self.graph, local) };
+        let direction = if self.model.part_of(axis.frame).is_none() {
+            local
+        } else {
+            carried.transform_vector(&mut self.graph, local)
+        };
         let name = format!("{}.{}", self.model.frame_name(axis.frame), axis.name);
         Axis { name, origin: super::ir_point(axis.origin), direction }
     }

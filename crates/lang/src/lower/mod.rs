@@ -2,24 +2,24 @@
 //!
 //! H stands for E. J. Haug, *Computer-Aided Kinematics and Dynamics of Mechanical Systems*, 1989.
 
+mod contact_forces;
 mod contacts;
-mod switching;
+mod continuation;
 mod features;
 mod forces;
 mod frames;
 mod gears;
 mod inputs;
 mod joints;
-mod right_limits;
-mod continuation;
 mod numbering;
+mod part_scopes;
 mod part_starts;
-mod contact_forces;
 mod quantities;
 mod results;
-mod part_scopes;
+mod right_limits;
 mod size;
 mod slopes;
+mod switching;
 mod used_features;
 mod variations;
 mod velocities;
@@ -475,7 +475,8 @@ impl Lowering<'_> {
                 self.declare(&equation.declared, kind, &[entry], &points);
                 if let Some(declaration) = self.declarations.last_mut() {
                     declaration.written = Some(equation.written);
-                    declaration.features = used_features::equation_points(model, number).into_iter().map(ir_point).collect();
+                    declaration.features =
+                        used_features::equation_points(model, number).into_iter().map(ir_point).collect();
                 }
             }
         }

@@ -37,7 +37,11 @@ pub(super) fn body_sizes(model: &Mechanism) -> Vec<f64> {
 ///
 /// A body without two features apart takes the size of the largest body to which a joint connects it, else that of the largest body of its
 /// part. The ground of a part has no size, like the ground.
-fn sizes_by_features(model: &Mechanism, value: &impl Fn(ExprId) -> f64, uses: Option<&UsedFeatures>) -> Option<Vec<f64>> {
+fn sizes_by_features(
+    model: &Mechanism,
+    value: &impl Fn(ExprId) -> f64,
+    uses: Option<&UsedFeatures>,
+) -> Option<Vec<f64>> {
     let points = feature_positions(model, value, uses);
     let mut sizes = vec![0.0; model.bodies.len()];
     for (frame, points) in &points {
@@ -97,7 +101,8 @@ pub(super) fn frame_offsets(model: &Mechanism) -> Vec<f64> {
     let mut distances = vec![0.0; model.bodies.len()];
     for (frame, points) in &points {
         if let Frame::Body(body) = frame {
-            let all = points.iter().map(|[x, y]| mechc_expr::math::hypot(*x, *y)).filter(|distance| distance.is_finite());
+            let all =
+                points.iter().map(|[x, y]| mechc_expr::math::hypot(*x, *y)).filter(|distance| distance.is_finite());
             let nearest = all.fold(f64::INFINITY, f64::min);
             distances[body.index()] = if nearest.is_finite() { nearest } else { 0.0 };
         }
@@ -106,7 +111,11 @@ pub(super) fn frame_offsets(model: &Mechanism) -> Vec<f64> {
 }
 
 /// Returns the positions of features in each frame (m).
-fn feature_positions(model: &Mechanism, value: &impl Fn(ExprId) -> f64, uses: Option<&UsedFeatures>) -> FxHashMap<Frame, Vec<[f64; 2]>> {
+fn feature_positions(
+    model: &Mechanism,
+    value: &impl Fn(ExprId) -> f64,
+    uses: Option<&UsedFeatures>,
+) -> FxHashMap<Frame, Vec<[f64; 2]>> {
     let counts = |list: fn(&UsedFeatures) -> &[bool], k: usize| uses.is_none_or(|uses| list(uses)[k]);
     let mut points: FxHashMap<Frame, Vec<[f64; 2]>> = FxHashMap::default();
     for (_, point) in model.points.iter().enumerate().filter(|(k, _)| counts(|uses| &uses.points, *k)) {

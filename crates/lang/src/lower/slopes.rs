@@ -55,7 +55,8 @@ impl Slopes<'_, '_> {
             Some(slope) => self.if_two_sided(outcome.value, slope),
             None => self.no_value(),
         };
-        let by = self.lowering.variations.as_ref().map(|variations| variations.variables[self.variable as usize].clone());
+        let by =
+            self.lowering.variations.as_ref().map(|variations| variations.variables[self.variable as usize].clone());
         let (by, unit) = by.map(|by| (by.name, by.unit)).unwrap_or_default();
         let Units { si, printed, scale } = &outcome.units;
         let units =
@@ -177,8 +178,11 @@ impl Slopes<'_, '_> {
         let time = self.request(ReductionKind::Extreme { largest, when: true }, of);
         let at = ReductionKind::At(time);
         let at_edge = if when { self.switch_time_slope(at, (value, holds)) } else { self.no_value() };
-        let inside =
-            if when { self.interior_time_slope((at, of), (value, holds), by, at_edge)? } else { self.reduce(at, by, holds) };
+        let inside = if when {
+            self.interior_time_slope((at, of), (value, holds), by, at_edge)?
+        } else {
+            self.reduce(at, by, holds)
+        };
         let rate_there = rate.map(|rate| self.reduce(at, rate, holds));
         let mut slope = inside;
         if when || bends {

@@ -114,7 +114,8 @@ impl Lowering<'_> {
             let frame = profile.frame(lowering.model);
             let u = lowering.contact_argument(joint);
             let local = lowering.profile_point(profile, u);
-            let (at, tangent) = (lowering.transform_point(frame, local.at), lowering.transform_vector(frame, local.tangent));
+            let (at, tangent) =
+                (lowering.transform_point(frame, local.at), lowering.transform_vector(frame, local.tangent));
             Contact { at, tangent }
         };
         match self.model[joint].kind {

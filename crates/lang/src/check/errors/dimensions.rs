@@ -29,8 +29,8 @@ pub fn unlike(
         let words = "a rate times a time is a pure number, as an angle is: `… * t`";
         other.dimension.is(Dimension::RATE).then(|| with_factors(other.span, other_text, ["", " * t"], words))
     });
-    let mended =
-        suggest_rate_unit(first.dimension, second, texts[1]).or_else(|| suggest_rate_unit(second.dimension, first, texts[0]));
+    let mended = suggest_rate_unit(first.dimension, second, texts[1])
+        .or_else(|| suggest_rate_unit(second.dimension, first, texts[0]));
     let upside_down =
         || unit_above(first.dimension, second, texts[1]).or_else(|| unit_above(second.dimension, first, texts[0]));
     let fix = mended.filter(|_| has_time).or_else(upside_down).or(fix);
@@ -104,7 +104,7 @@ pub fn format_value(value: f64, dimension: Dimension) -> String {
 }
 
 /// `text` is that of the term.
-pub fn wrong_dimension(place: &str, wanted: Dimension, found: Part, text: &str) -> Diagnostic {
+pub fn wrong_dimension(place: &str, expected: Dimension, found: Part, text: &str) -> Diagnostic {
     let units = |d: Dimension| {
         if d.is(Dimension::LENGTH) {
             Some("`mm`, `m`")
@@ -118,13 +118,13 @@ pub fn wrong_dimension(place: &str, wanted: Dimension, found: Part, text: &str) 
         place.contains("angle") || place.contains("`sin`") || place.contains("`cos`") || place.contains("`tan`");
     let factors = |factors: [&str; 2], words: &str| Some(with_factors(found.span, text, factors, words));
     let mut fix = None;
-    let help = if wanted.is(Dimension::PURE) && is_angle && found.dimension.is(Dimension::TIME) {
+    let help = if expected.is(Dimension::PURE) && is_angle && found.dimension.is(Dimension::TIME) {
         let words = "an angular speed makes an angle of a time: `1 rad/s * t`";
         fix = factors(["1 rad/s * ", ""], words);
         Some(words.to_owned())
-    } else if wanted.is(Dimension::PURE) && is_angle {
+    } else if expected.is(Dimension::PURE) && is_angle {
         Some("units of angle: `deg`, `rad`".to_owned())
-    } else if wanted.is(Dimension::PURE) {
+    } else if expected.is(Dimension::PURE) {
         let words = format!("divide it by {} to get a pure number", one(found.dimension));
         let unit = one(found.dimension).trim_matches('`').to_owned();
         let unit = if unit.contains('/') { format!("({unit})") } else { unit };
@@ -135,15 +135,18 @@ pub fn wrong_dimension(place: &str, wanted: Dimension, found: Part, text: &str) 
     } else if place.contains("phase") {
         Some("it is measured along the pitch circles: an angle times a radius, as `30 deg * 20 mm`".to_owned())
     } else {
-        if found.dimension.is(Dimension::PURE) && units(wanted).is_some() {
-            fix = with_unit(found.span, text, &usual_unit(wanted));
+        if found.dimension.is(Dimension::PURE) && units(expected).is_some() {
+            fix = with_unit(found.span, text, &usual_unit(expected));
         }
-        units(wanted).map(|units| format!("units of {}: {units}", wanted.in_words().trim_start_matches("a ")))
+        units(expected).map(|units| format!("units of {}: {units}", expected.in_words().trim_start_matches("a ")))
     };
-    Diagnostic::new(Code::E0402, format!("{place} must be {}, found {}", wanted.in_words(), found.dimension.in_words()))
-        .at(found.span, found.dimension.in_words())
-        .help_if(help)
-        .change(fix)
+    Diagnostic::new(
+        Code::E0402,
+        format!("{place} must be {}, found {}", expected.in_words(), found.dimension.in_words()),
+    )
+    .at(found.span, found.dimension.in_words())
+    .help_if(help)
+    .change(fix)
 }
 
 /// Returns a unit value such as `1 s`, `1 m` or `1 m/s`.

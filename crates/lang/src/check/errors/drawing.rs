@@ -54,7 +54,7 @@ pub fn ends_before_start(spans: [Span; 2], texts: [&str; 2], from: f64, to: f64)
     let edit = |k: usize, text: &str| Edit { span: spans[k], text: text.to_owned() };
     let message = format!("the other way round: `from {to} s to {from} s`");
     let edits = vec![edit(0, texts[1]), edit(1, texts[0])];
-    let other_way = Fix { message, edits, applies: Applies::Probably };
+    let reversed = Fix { message, edits, applies: Applies::Probably };
     let unit = if texts.iter().all(|text| is_bare_number(text)) { "" } else { " s" };
     let end = Fix::replace(
         spans[1],
@@ -65,7 +65,7 @@ pub fn ends_before_start(spans: [Span; 2], texts: [&str; 2], from: f64, to: f64)
     Diagnostic::new(Code::E0408, format!("the analysis ends at {to} s, before its start at {from} s"))
         .at(spans[1], "the end")
         .change(is_duration.then_some(end))
-        .change(Some(other_way))
+        .change(Some(reversed))
         .help(if is_duration {
             format!("`to` is a time, and no duration: `from {from} s to {after} s`; or the other way round: `from {to} s to {from} s`")
         } else {
@@ -115,7 +115,7 @@ pub fn no_direction(span: Span, found: &str, angle: Option<&str>) -> Diagnostic 
 }
 
 /// A bare number next to a measure printed in a unit of angle. Takes the term, the number to which the unit is appended, and their texts.
-pub fn number_beside_degrees(
+pub fn number_as_radians(
     [term, number]: [Span; 2],
     [text, number_text]: [&str; 2],
     measure: Span,
@@ -141,7 +141,7 @@ pub fn number_beside_degrees(
     .at(term, format!("in {radians}"))
     .also(measure, format!("printed in {unit}"));
     let declared = (number != term).then_some(number);
-    let diagnostic = declared.into_iter().fold(diagnostic, |said, number| said.also(number, "this number"));
+    let diagnostic = declared.into_iter().fold(diagnostic, |diagnostic, number| diagnostic.also(number, "this number"));
     diagnostic
         .help(format!("write {}, or {} if radians are meant", written(unit), written(radians)))
         .change(Some(fix(unit)))
@@ -164,8 +164,10 @@ pub struct PlainLength<'a> {
 pub fn no_unit_of_length(lengths: &[PlainLength<'_>], largest: f64, unit: &str) -> Diagnostic {
     let taken = |plain: &PlainLength<'_>| format!("taken as {}", format_value(plain.value, Dimension::LENGTH));
     let first = &lengths[0];
-    let (what, largest) =
-        (first.name.map_or("a length".to_owned(), |name| format!("`{name}`")), format_value(largest, Dimension::LENGTH));
+    let (what, largest) = (
+        first.name.map_or("a length".to_owned(), |name| format!("`{name}`")),
+        format_value(largest, Dimension::LENGTH),
+    );
     let message = format!("{what} has no unit and is {}; the largest length with a unit is {largest}", taken(first));
     let mut diagnostic = Diagnostic::new(Code::W0402, message).at(first.span, "no unit, so in metres");
     for plain in lengths.iter().skip(1).take(MOST_PLACES) {

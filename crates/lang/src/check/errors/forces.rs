@@ -56,12 +56,12 @@ pub fn load_of_a_pair(name: &Name, span: Span) -> Diagnostic {
 }
 
 pub fn load_on_no_quantity(name: &Name, span: Span, fault: &LoadTargetError<'_>) -> Diagnostic {
-    let meant: String;
+    let suggestion: String;
     let (label, help) = match fault {
         LoadTargetError::Suggested(quantities) => {
             let each: Vec<String> = quantities.iter().map(|quantity| format!("`… on {quantity}`")).collect();
-            meant = format!("say what of it moves: {}", each.join(" or "));
-            ("this is none", meant.as_str())
+            suggestion = format!("say what of it moves: {}", each.join(" or "));
+            ("this is none", suggestion.as_str())
         }
         LoadTargetError::Sum => ("a sum", "a force on a sum of quantities is a load on each of them"),
         LoadTargetError::Other => ("this is none", QUANTITIES),
@@ -85,10 +85,11 @@ pub fn load_on_no_body(name: &Name, span: Span) -> Diagnostic {
 }
 
 /// `text` is that of the force.
-pub fn load_of_no_energy(name: &Name, [force, on]: [Part; 2], wanted: Dimension, text: &str) -> Diagnostic {
-    let fix = force.dimension.is(Dimension::PURE).then(|| with_unit(force.span, text, unit_of_force(wanted))).flatten();
+pub fn load_of_no_energy(name: &Name, [force, on]: [Part; 2], expected: Dimension, text: &str) -> Diagnostic {
+    let fix =
+        force.dimension.is(Dimension::PURE).then(|| with_unit(force.span, text, unit_of_force(expected))).flatten();
     let headline =
-        format!("load `{}` on {} must be {}", name.text, words_of_place(on.dimension), words_of_force(wanted));
+        format!("load `{}` on {} must be {}", name.text, words_of_place(on.dimension), words_of_force(expected));
     Diagnostic::new(Code::E0419, headline)
         .at(force.span, force.dimension.in_words())
         .also(on.span, words_of_place(on.dimension))
@@ -97,14 +98,14 @@ pub fn load_of_no_energy(name: &Name, [force, on]: [Part; 2], wanted: Dimension,
 }
 
 /// `text` is that of the force.
-pub fn plain_load(name: &Name, span: Span, text: &str, on: Part, wanted: Dimension) -> Diagnostic {
+pub fn plain_load(name: &Name, span: Span, text: &str, on: Part, expected: Dimension) -> Diagnostic {
     let help =
         "a number without a unit is a torque where it works on an angle; a force says its unit: `20 N`, `1800 N/m`";
     Diagnostic::new(Code::E0419, format!("load `{}` on {} holds no unit", name.text, words_of_place(on.dimension)))
         .at(span, "no unit in it")
         .also(on.span, words_of_place(on.dimension))
         .help(help)
-        .change(with_unit(span, text, unit_of_force(wanted)))
+        .change(with_unit(span, text, unit_of_force(expected)))
 }
 
 /// Angles are pure numbers.
@@ -112,12 +113,12 @@ fn words_of_place(dimension: Dimension) -> &'static str {
     if dimension.is(Dimension::PURE) { "an angle" } else { "a length" }
 }
 
-fn unit_of_force(wanted: Dimension) -> &'static str {
-    if wanted.is(Dimension::FORCE) { "N" } else { "N*m" }
+fn unit_of_force(expected: Dimension) -> &'static str {
+    if expected.is(Dimension::FORCE) { "N" } else { "N*m" }
 }
 
-fn words_of_force(wanted: Dimension) -> &'static str {
-    if wanted.is(Dimension::FORCE) { "a force (N)" } else { "a torque (N*m)" }
+fn words_of_force(expected: Dimension) -> &'static str {
+    if expected.is(Dimension::FORCE) { "a force (N)" } else { "a torque (N*m)" }
 }
 
 pub fn force_in(place: &str, what: &str, span: Span) -> Diagnostic {

@@ -5,15 +5,15 @@ use mechc_text::diag::{Applies, Code, Diagnostic, Fix, nearest};
 use mechc_text::source::Span;
 
 /// The largest number of listed names.
-const TOLD: usize = 5;
+const MOST_LISTED: usize = 5;
 
 /// A name before a `.` that is not a prefix of a `use`.
-pub fn no_prefix(prefix: &Name, known: &[&Name]) -> Diagnostic {
-    let names: Vec<&str> = known.iter().map(|name| name.text.as_str()).collect();
-    let meant = nearest(&prefix.text, names.iter().copied()).map(|name| Fix::meant(prefix.span, name));
+pub fn no_prefix(prefix: &Name, candidates: &[&Name]) -> Diagnostic {
+    let names: Vec<&str> = candidates.iter().map(|name| name.text.as_str()).collect();
+    let suggestion = nearest(&prefix.text, names.iter().copied()).map(|name| Fix::meant(prefix.span, name));
     let diagnostic = Diagnostic::new(Code::E0201, format!("no file is used as `{}`", prefix.text))
         .at(prefix.span, "not the prefix of a `use`");
-    match (meant, names.is_empty()) {
+    match (suggestion, names.is_empty()) {
         (Some(fix), _) => diagnostic.fix(fix),
         (None, true) => {
             diagnostic.help(format!("say so at the top of the file: `use \"FILE.mech\" as {}`", prefix.text))
@@ -27,8 +27,8 @@ pub fn no_prefix(prefix: &Name, known: &[&Name]) -> Diagnostic {
 pub fn no_mechanism(
     prefix: Option<&Name>,
     name: &Name,
-    known: &[&str],
-    meant: Option<&str>,
+    candidates: &[&str],
+    suggestion: Option<&str>,
     elsewhere: Option<&str>,
     further: Option<(&str, String)>,
 ) -> Diagnostic {
@@ -43,22 +43,22 @@ pub fn no_mechanism(
     if let Some((file, path)) = further {
         return diagnostic.help(format!("`{file}` holds it: `use \"{path}\"` at the top of the file"));
     }
-    match (meant, known) {
-        (Some(meant), _) => diagnostic.fix(Fix::meant(name.span, meant)),
+    match (suggestion, candidates) {
+        (Some(suggestion), _) => diagnostic.fix(Fix::meant(name.span, suggestion)),
         (None, []) => diagnostic,
         (None, names) => diagnostic.help(format!("the mechanisms are {}", listed(names))),
     }
 }
 
 /// Mechanisms of one name in two files, with the locations of their `use`s, and a free prefix.
-pub fn names_twice(names: &[&str], files: [&str; 2], [first, again]: [Span; 2], prefix: &str) -> Diagnostic {
+pub fn names_twice(names: &[&str], files: [&str; 2], [first, second]: [Span; 2], prefix: &str) -> Diagnostic {
     let which = if names.len() == 1 { "a mechanism" } else { "mechanisms" };
     let quoted: Vec<String> = names.iter().map(|name| format!("`{name}`")).collect();
     let quoted: Vec<&str> = quoted.iter().map(String::as_str).collect();
     let message = format!("`{}` and `{}` both hold {which} {}", files[0], files[1], listed(&quoted));
     let help = format!("give it a prefix, ` as {prefix}`, and write `{prefix}.{}`", names.first().unwrap_or(&"NAME"));
-    Diagnostic::new(Code::E0205, message).at(again, "the second one").also(first, "the first one").fix(Fix::append(
-        again,
+    Diagnostic::new(Code::E0205, message).at(second, "the second one").also(first, "the first one").fix(Fix::append(
+        second,
         format!(" as {prefix}"),
         help,
         Applies::Probably,
@@ -78,8 +78,8 @@ pub fn circle_of_files(links: &[(&str, Span)]) -> Diagnostic {
     let message = match links {
         [(file, _)] => format!("`{file}` uses itself"),
         [(first, _), ..] => {
-            let way: Vec<String> = links.iter().map(|(file, _)| format!("`{file}`")).collect();
-            format!("files use each other in a circle: {} → `{first}`", way.join(" → "))
+            let path: Vec<String> = links.iter().map(|(file, _)| format!("`{file}`")).collect();
+            format!("files use each other in a circle: {} → `{first}`", path.join(" → "))
         }
         [] => String::new(),
     };
@@ -93,9 +93,9 @@ pub fn circle_of_files(links: &[(&str, Span)]) -> Diagnostic {
 }
 
 fn listed(names: &[&str]) -> String {
-    let told = names.iter().take(TOLD).copied().collect::<Vec<_>>().join(", ");
-    match names.len().saturating_sub(TOLD) {
-        0 => told,
-        more => format!("{told} and {more} more"),
+    let text = names.iter().take(MOST_LISTED).copied().collect::<Vec<_>>().join(", ");
+    match names.len().saturating_sub(MOST_LISTED) {
+        0 => text,
+        more => format!("{text} and {more} more"),
     }
 }

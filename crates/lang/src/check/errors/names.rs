@@ -7,15 +7,15 @@ use mechc_text::diag::{Applies, Code, Diagnostic, Fix};
 use mechc_text::source::Span;
 use mechc_text::vocabulary::{Constant, FUNCTIONS, JOINTS, JointWord, Place, QUANTITIES, QuantityWord, Synonym, Unit};
 
-pub fn unknown(what: &str, name: &Name, known: &[&str]) -> Diagnostic {
+pub fn unknown(what: &str, name: &Name, candidates: &[&str]) -> Diagnostic {
     Diagnostic::new(Code::E0201, format!("there is no {what} `{}`", name.text))
         .at(name.span, "not declared")
-        .fix_if(nearest_name(name, known))
+        .fix_if(nearest_name(name, candidates))
 }
 
 /// A name that is not a number. One letter is more likely an undeclared name than a unit.
-pub fn unknown_number(what: &str, name: &Name, known: &[&str]) -> Diagnostic {
-    let diagnostic = unknown(what, name, known);
+pub fn unknown_number(what: &str, name: &Name, candidates: &[&str]) -> Diagnostic {
+    let diagnostic = unknown(what, name, candidates);
     // The middle dot is a letter of names.
     if let [a, b] = name.text.split('·').collect::<Vec<_>>().as_slice()
         && !a.is_empty()
@@ -63,7 +63,8 @@ pub fn names_in_option(name: &Name) -> Diagnostic {
 
 /// A name in a formula of time that stands alone.
 pub fn names_in_formula(name: &Name) -> Diagnostic {
-    let nearest = nearest_name(name, &Constant::in_formulas().collect::<Vec<_>>()).filter(|_| name.text.chars().count() > 1);
+    let nearest =
+        nearest_name(name, &Constant::in_formulas().collect::<Vec<_>>()).filter(|_| name.text.chars().count() > 1);
     let diagnostic =
         Diagnostic::new(Code::E0706, format!("a formula from outside the file cannot name `{}`", name.text))
             .at(name.span, "not known here");
@@ -78,30 +79,30 @@ pub fn names_in_formula(name: &Name) -> Diagnostic {
     }
 }
 
-pub fn unknown_feature(what: &str, owner: &str, name: &Name, known: &[&str]) -> Diagnostic {
-    let listed = match known {
+pub fn unknown_feature(what: &str, owner: &str, name: &Name, candidates: &[&str]) -> Diagnostic {
+    let listed = match candidates {
         [] => format!("`{owner}` has none"),
-        _ => format!("`{owner}` has {}", list(known)),
+        _ => format!("`{owner}` has {}", list(candidates)),
     };
     let diagnostic = Diagnostic::new(Code::E0201, format!("`{owner}` has no {what} `{}`", name.text))
         .at(name.span, "not declared there");
-    match nearest_name(name, known) {
+    match nearest_name(name, candidates) {
         Some(fix) => diagnostic.fix(fix),
         None => diagnostic.help(listed),
     }
 }
 
 /// Takes the texts of the arguments.
-pub fn unknown_function(name: &Name, own: &[&str], arguments: &[&str]) -> Diagnostic {
+pub fn unknown_function(name: &Name, local_names: &[&str], arguments: &[&str]) -> Diagnostic {
     let diagnostic =
         Diagnostic::new(Code::E0201, format!("there is no function `{}`", name.text)).at(name.span, "not known");
-    if let Some(said) = suggest_other_form(&name.text, arguments) {
-        return diagnostic.help(said).fix_if(nearest_name(name, own));
+    if let Some(help) = suggest_other_form(&name.text, arguments) {
+        return diagnostic.help(help).fix_if(nearest_name(name, local_names));
     }
-    let mut known: Vec<&str> = own.to_vec();
-    known.extend(FUNCTIONS.iter().map(|function| function.word.name));
-    known.extend(QUANTITIES.iter().map(|quantity| quantity.word.name));
-    diagnostic.fix_if(nearest_name(name, &known))
+    let mut candidates: Vec<&str> = local_names.to_vec();
+    candidates.extend(FUNCTIONS.iter().map(|function| function.word.name));
+    candidates.extend(QUANTITIES.iter().map(|quantity| quantity.word.name));
+    diagnostic.fix_if(nearest_name(name, &candidates))
 }
 
 /// Suggests how to write an entity that is called like a function.
@@ -120,13 +121,13 @@ fn suggest_other_form(name: &str, arguments: &[&str]) -> Option<String> {
 }
 
 pub fn unknown_joint(kind: &Name, arguments: &[&str]) -> Diagnostic {
-    let known: Vec<&str> = JOINTS.iter().map(|joint| joint.word.name).collect();
+    let candidates: Vec<&str> = JOINTS.iter().map(|joint| joint.word.name).collect();
     let diagnostic = Diagnostic::new(Code::E0201, format!("there is no kind of joint `{}`", kind.text))
         .at(kind.span, "not declared");
-    match (Synonym::of(Place::Joint, &kind.text), nearest_name(kind, &known)) {
+    match (Synonym::of(Place::Joint, &kind.text), nearest_name(kind, &candidates)) {
         (Some(synonym), _) => diagnostic.help(synonym.say(arguments)),
         (None, Some(fix)) => diagnostic.fix(fix),
-        (None, None) => diagnostic.help(format!("the joints are {}", list(&known))),
+        (None, None) => diagnostic.help(format!("the joints are {}", list(&candidates))),
     }
 }
 
@@ -161,7 +162,7 @@ pub(super) fn suggest_unit(diagnostic: Diagnostic, name: &Name) -> Diagnostic {
     let units: Vec<&str> = Unit::names().collect();
     match (Synonym::of(Place::Unit, &name.text), Unit::of_multiple(&name.text), nearest_name(name, &units)) {
         (Some(synonym), ..) => diagnostic.help(synonym.say(&[])),
-        (None, Some(told), _) => diagnostic.help(format!("`1 {}` is written `{told}`", name.text)),
+        (None, Some(text), _) => diagnostic.help(format!("`1 {}` is written `{text}`", name.text)),
         (None, None, Some(fix)) => diagnostic.fix(fix),
         (None, None, None) => diagnostic.help(format!("the units are {}", units.join(" "))),
     }

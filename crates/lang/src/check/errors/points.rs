@@ -5,25 +5,25 @@ use mechc_syntax::ast::Name;
 use mechc_text::diag::{Applies, Code, Diagnostic, Fix};
 use mechc_text::source::Span;
 
-/// `known` are the points of its body and of the mechanism.
-pub fn unknown_point(name: &Name, known: &[&str]) -> Diagnostic {
-    let diagnostic = unknown("point", name, known);
+/// `candidates` are the points of its body and of the mechanism.
+pub fn unknown_point(name: &Name, candidates: &[&str]) -> Diagnostic {
+    let diagnostic = unknown("point", name, candidates);
     if !diagnostic.help.is_empty() {
         return diagnostic;
     }
     let written = format!("a point of the mechanism is a param: `param {} = (x, y)`", name.text);
-    match known {
+    match candidates {
         [] => diagnostic.help(written),
-        _ => diagnostic.help(format!("the points here are {}", list(known))).help(written),
+        _ => diagnostic.help(format!("the points here are {}", list(candidates))).help(written),
     }
 }
 
 /// A lone `point A` without a point `A` of the mechanism.
-pub fn no_point_to_take(name: &Name, other: Option<&str>, known: &[&str]) -> Diagnostic {
+pub fn no_point_to_take(name: &Name, other: Option<&str>, candidates: &[&str]) -> Diagnostic {
     let diagnostic = Diagnostic::new(Code::E0201, format!("the mechanism has no point `{}`", name.text));
     let diagnostic = match other {
         Some(noun) => diagnostic.at(name.span, format!("`{}` is {noun}", name.text)),
-        None => diagnostic.at(name.span, "not declared").fix_if(nearest_name(name, known)),
+        None => diagnostic.at(name.span, "not declared").fix_if(nearest_name(name, candidates)),
     };
     diagnostic.help(format!("say where it lies: `point {} = (x, y)`", name.text))
 }
@@ -49,7 +49,7 @@ pub fn point_as_number(name: &Name) -> Diagnostic {
 }
 
 /// `A.x` where a point is expected.
-pub fn own_point_with_owner(span: Span, owner: &str, feature: &str) -> Diagnostic {
+pub fn redundant_owner(span: Span, owner: &str, feature: &str) -> Diagnostic {
     let fix = Fix::replace(span, feature, format!("within `{owner}` it is `{feature}`"), Applies::Always);
     Diagnostic::new(Code::E0302, format!("a feature of `{owner}` is named alone in the braces of `{owner}`"))
         .at(span, "with its owner")
@@ -103,10 +103,10 @@ pub fn product_of_points(span: Span, is_divisor: bool) -> Diagnostic {
 }
 
 /// Points of different frames in one formula.
-pub fn two_frames(body: &str, own: Span, other: Span) -> Diagnostic {
+pub fn two_frames(body: &str, of_body: Span, other: Span) -> Diagnostic {
     Diagnostic::new(Code::E0318, format!("this formula takes a point of `{body}` and one of the mechanism"))
         .at(other, "a point of the mechanism, as it is drawn")
-        .also(own, format!("a point of `{body}`, in its own frame"))
+        .also(of_body, format!("a point of `{body}`, in its own frame"))
         .help(format!(
             "`{body}` is placed with `at`, so its frame is another one: give a length or angle of the mechanism's points a name with \
              `param`, or draw the body in place, without `at`"

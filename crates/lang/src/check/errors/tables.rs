@@ -21,10 +21,10 @@ pub fn not_a_unit_to_print_in(name: &Name) -> Diagnostic {
 }
 
 /// A unit after `in` of another dimension than the formula, with the locations and dimensions of both.
-pub fn not_printed_in(unit: &str, [at, formula]: [Span; 2], [own, found]: [Dimension; 2]) -> Diagnostic {
-    let wanted = if own.is(Dimension::PURE) { "an angle".to_owned() } else { own.in_words() };
-    Diagnostic::new(Code::E0402, format!("what is printed in `{unit}` must be {wanted}, found {}", found.in_words()))
-        .at(at, wanted)
+pub fn not_printed_in(unit: &str, [at, formula]: [Span; 2], [unit_dimension, found]: [Dimension; 2]) -> Diagnostic {
+    let expected = if unit_dimension.is(Dimension::PURE) { "an angle".to_owned() } else { unit_dimension.in_words() };
+    Diagnostic::new(Code::E0402, format!("what is printed in `{unit}` must be {expected}, found {}", found.in_words()))
+        .at(at, expected)
         .also(formula, found.in_words())
         .help(if found.is(Dimension::PURE) {
             "leave `in` out, or name a unit of angle: `in deg`".to_owned()
@@ -43,22 +43,22 @@ pub fn turning_in_hertz(at: Span, formula: Span) -> Diagnostic {
 
 /// A column that a file does not have.
 pub fn no_column(path: &Name, column: &ColumnName, header: &[&str]) -> Diagnostic {
-    let (message, wanted) = match &column.kind {
+    let (message, expected) = match &column.kind {
         ColumnWord::Number(number) => (format!("`{}` has no column {number}", path.text), None),
         ColumnWord::Named(name) => (format!("`{}` has no column `{name}`", path.text), Some(name)),
     };
     let diagnostic = Diagnostic::new(Code::E0201, message).at(column.span, "not in its first line");
-    let Some(name) = wanted else {
+    let Some(name) = expected else {
         return diagnostic.help(match header.len() {
             1 => "it has 1 column; columns are separated by commas".to_owned(),
             count => format!("it has {count} columns"),
         });
     };
     match nearest(name, header.iter().copied()) {
-        Some(meant) => diagnostic.fix(Fix::replace(
+        Some(suggestion) => diagnostic.fix(Fix::replace(
             column.span,
-            format!("\"{meant}\""),
-            format!("did you mean `{meant}`?"),
+            format!("\"{suggestion}\""),
+            format!("did you mean `{suggestion}`?"),
             Applies::Probably,
         )),
         None => diagnostic.help(format!("its first line has {}", list(header))),

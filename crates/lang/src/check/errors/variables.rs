@@ -55,22 +55,22 @@ pub fn column_by_deciding(name: &str) -> Diagnostic {
         .help("run it with another value: `--set`")
 }
 
-/// `--by` without a variable: `found` is the kind of the name, `meant` a suggestion, `known` the variables.
+/// `--by` without a variable: `found` is the kind of the name, `suggestion` a suggestion, `candidates` the variables.
 pub fn no_column_by(
     mechanism: &str,
     name: &str,
     found: Option<&str>,
-    meant: Option<&str>,
-    known: &[&str],
+    suggestion: Option<&str>,
+    candidates: &[&str],
 ) -> Diagnostic {
     let message = match found {
         None => format!("mechanism `{mechanism}` has no input or parameter `{name}`"),
         Some(found) => format!("`{name}` is {found} of mechanism `{mechanism}`, and no input or parameter"),
     };
-    let help = meant.map(|name| format!("was `{name}` meant?"));
-    let listed = || match known {
+    let help = suggestion.map(|name| format!("was `{name}` meant?"));
+    let listed = || match candidates {
         [] => "derivatives are taken by inputs and parameters, and there are none".to_owned(),
-        _ => format!("derivatives are taken by {}", super::some_of(known)),
+        _ => format!("derivatives are taken by {}", super::some_of(candidates)),
     };
     Diagnostic::new(Code::E0703, message).help(help.unwrap_or_else(listed))
 }

@@ -1,6 +1,6 @@
 //! Copies of declarations: all formulas with numbers in the place of indices.
 
-use super::{Numbers, NotExpandable, Expander, Expanded, broken, named};
+use super::{Expanded, Expander, NotExpandable, Numbers, broken, named};
 use mechc_syntax::ast::{
     self, DrawnPose, Expr, ExprKind, Feature, FeatureKind, Item, ItemKind, Name, TableRows, Window,
 };
@@ -15,13 +15,13 @@ impl Expander<'_, '_> {
     }
 
     fn kind(&mut self, kind: &ItemKind, numbers: &Numbers<'_>) -> Expanded<ItemKind> {
-        let own = |name: &Name| named(name, numbers);
+        let renamed = |name: &Name| named(name, numbers);
         Ok(match kind {
             ItemKind::Param { name, value } => {
                 ItemKind::Param { name: name.clone(), value: self.formula(value, numbers)? }
             }
             ItemKind::Function { name, argument, value } => {
-                let value = self.formula_over(argument, value)?;
+                let value = self.formula_with_argument(argument, value)?;
                 ItemKind::Function { name: name.clone(), argument: argument.clone(), value }
             }
             ItemKind::Table { name, periodic, rows: TableRows::Listed(rows) } => {
@@ -34,41 +34,43 @@ impl Expander<'_, '_> {
                 every: self.formula(every, numbers)?,
             },
             ItemKind::Input { name, value } => {
-                ItemKind::Input { name: own(name), value: self.formula(value, numbers)? }
+                ItemKind::Input { name: renamed(name), value: self.formula(value, numbers)? }
             }
             ItemKind::Measure { name, value, unit } => {
-                ItemKind::Measure { name: own(name), value: self.formula(value, numbers)?, unit: unit.clone() }
+                ItemKind::Measure { name: renamed(name), value: self.formula(value, numbers)?, unit: unit.clone() }
             }
             ItemKind::Trace { name, point, unit } => {
-                ItemKind::Trace { name: own(name), point: self.formula(point, numbers)?, unit: unit.clone() }
+                ItemKind::Trace { name: renamed(name), point: self.formula(point, numbers)?, unit: unit.clone() }
             }
             ItemKind::Result { name, value, unit } => {
-                ItemKind::Result { name: own(name), value: self.formula(value, numbers)?, unit: unit.clone() }
+                ItemKind::Result { name: renamed(name), value: self.formula(value, numbers)?, unit: unit.clone() }
             }
             ItemKind::Ground { features } => ItemKind::Ground { features: self.features(features, numbers)? },
             ItemKind::Body { name, pose, features } => ItemKind::Body {
-                name: own(name),
+                name: renamed(name),
                 pose: pose.as_ref().map(|pose| self.pose(pose, numbers)).transpose()?,
                 features: self.features(features, numbers)?,
             },
             ItemKind::Joint { name, kind, arguments, call_span } => ItemKind::Joint {
-                name: own(name),
+                name: renamed(name),
                 kind: kind.clone(),
                 arguments: self.formulas(arguments, numbers)?,
                 call_span: *call_span,
             },
             ItemKind::Equation { driver, name, left, right } => ItemKind::Equation {
                 driver: *driver,
-                name: own(name),
+                name: renamed(name),
                 left: self.formula(left, numbers)?,
                 right: self.formula(right, numbers)?,
             },
             ItemKind::Gravity { acceleration } => {
                 ItemKind::Gravity { acceleration: self.formula(acceleration, numbers)? }
             }
-            ItemKind::Load { name, force, on } => {
-                ItemKind::Load { name: own(name), force: self.formula(force, numbers)?, on: self.formula(on, numbers)? }
-            }
+            ItemKind::Load { name, force, on } => ItemKind::Load {
+                name: renamed(name),
+                force: self.formula(force, numbers)?,
+                on: self.formula(on, numbers)?,
+            },
             ItemKind::Part(part) => ItemKind::Part(Box::new(self.part(part, numbers)?)),
             other => other.clone(),
         })
@@ -127,7 +129,7 @@ impl Expander<'_, '_> {
     }
 
     /// Expands the formula of a function, whose argument hides a repeated declaration.
-    fn formula_over(&mut self, argument: &Name, formula: &Expr) -> Expanded<Expr> {
+    fn formula_with_argument(&mut self, argument: &Name, formula: &Expr) -> Expanded<Expr> {
         let hidden = self.copies.remove_entry(argument.text.as_str());
         let written = self.formula(formula, &Vec::new());
         self.copies.extend(hidden);

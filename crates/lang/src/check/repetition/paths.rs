@@ -1,9 +1,9 @@
 //! Paths such as `link[k - 1].pin` and `leg[0].foot.toe`, resolved to the names of copies.
 
-use super::{Numbers, NotExpandable, Expander, Expanded, indexed};
+use super::{Expanded, Expander, NotExpandable, Numbers, indexed};
 use crate::check::errors;
-use crate::check::instance::Instance;
 use crate::check::free_names::name_of;
+use crate::check::instance::Instance;
 use mechc_syntax::ast::{self, Expr, ExprKind, Item, ItemKind, Name};
 use mechc_text::source::Span;
 use rustc_hash::FxHashSet;
@@ -36,7 +36,7 @@ impl<'t> Expander<'t, '_> {
             [feature] if feature.indices.is_empty() => Ok(ExprKind::Member { owner, feature: feature.name.clone() }),
             _ => {
                 let diagnostic = if self.names.contains(first.name.text.as_str()) || first.name.text == "ground" {
-                    errors::path_of_nothing(span, segments, true)
+                    errors::invalid_path(span, segments, true)
                 } else {
                     errors::unknown_owner(&first.name, self.tree)
                 };
@@ -78,7 +78,7 @@ impl<'t> Expander<'t, '_> {
                 // A part that cannot be instantiated has been reported.
                 _ if part.is_a_part(&segment.name.text) => Err(NotExpandable),
                 _ => {
-                    self.tell(errors::path_goes_on(span));
+                    self.tell(errors::path_too_long(span));
                     Err(NotExpandable)
                 }
             };
@@ -98,8 +98,8 @@ impl<'t> Expander<'t, '_> {
         let copies = part.copies.get(name.text.as_str());
         let diagnostic = match (copies, indices.is_empty()) {
             _ if !part.declares(&name.text) => {
-                let known: Vec<&str> = part.names().collect();
-                errors::nothing_in_part(path, part.mechanism_name(), name, &known)
+                let candidates: Vec<&str> = part.names().collect();
+                errors::unknown_in_part(path, part.mechanism_name(), name, &candidates)
             }
             (None, true) => return Ok(name.text.clone()),
             (None, false) => errors::not_repeated(name),
@@ -140,14 +140,14 @@ impl<'t> Expander<'t, '_> {
     }
 
     fn is_repeated(&self, name: &Name) -> bool {
-        let is_it = |item: &Item| name_of(item).is_some_and(|own| own.text == name.text);
+        let is_it = |item: &Item| name_of(item).is_some_and(|other| other.text == name.text);
         self.tree.items.iter().any(|item| !item.ranges.is_empty() && is_it(item))
     }
 
     /// Returns whether a broken declaration may have this name, perhaps for several copies.
     fn is_unread(&self, name: &Name) -> bool {
         let gives_it = |item: &Item| match &item.kind {
-            ItemKind::Broken { names } => names.iter().any(|own| own.text == name.text),
+            ItemKind::Broken { names } => names.iter().any(|other| other.text == name.text),
             _ => false,
         };
         self.tree.items.iter().any(gives_it)

@@ -34,7 +34,7 @@ impl Checker<'_> {
 
     /// Warns of bare numbers among terms of equal dimension, if another term is printed in degrees or the like: the numbers are in radians.
     #[inline(never)] // its frame is not to stand on the stack of those who nest
-    pub(in crate::check) fn warn_of_numbers_beside<'e>(
+    pub(in crate::check) fn warn_of_numbers_as_radians<'e>(
         &mut self,
         terms: impl Iterator<Item = &'e Expr> + Clone,
         context: &Context<'_>,
@@ -57,11 +57,11 @@ impl Checker<'_> {
 
     fn warn_of_bare_numbers<'e>(&mut self, terms: impl Iterator<Item = &'e Expr>, printed: Span, unit: &str) {
         for term in terms {
-            if self.is_bare(term, LEVELS) && self.common.beside_degrees.insert(term.span) {
+            if self.is_bare(term, LEVELS) && self.common.reported_radians.insert(term.span) {
                 let root = self.plain_root(term).filter(|root| root.is_number);
                 let number = root.map_or(term.span, |root| root.span);
                 let texts = [term.span, number].map(|span| self.sources.text(span));
-                self.report(errors::number_beside_degrees([term.span, number], texts, printed, unit));
+                self.report(errors::number_as_radians([term.span, number], texts, printed, unit));
             }
         }
     }
@@ -136,8 +136,8 @@ impl Checker<'_> {
     /// Returns the unit of angle in which a measure or result is printed, unless it is the radian.
     fn unit_of(&self, name: &Name) -> Option<Span> {
         let written = match self.entity(name)? {
-            Entity::Measure(k) => self.measure_known(k)?.unit,
-            Entity::Result(k) => self.result_known(k)?.unit,
+            Entity::Measure(k) => self.measure_state(k)?.unit,
+            Entity::Result(k) => self.result_state(k)?.unit,
             _ => None,
         }?;
         is_of_degrees(written).then_some(written.span)

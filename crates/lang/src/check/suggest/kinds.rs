@@ -1,10 +1,10 @@
 //! Suggestions for arguments of the wrong kind, from the declarations of the mechanism.
 
+use super::edits::with_preferred_fix;
 use crate::check::Checker;
 use crate::check::entity::Entity;
 use crate::check::errors::list;
 use crate::check::features::Feature;
-use super::edits::with_preferred_fix;
 use crate::model::{Dimension, Frame, JointKind};
 use mechc_syntax::ast::{Expr, ExprKind, Factor, ItemKind, Name};
 use mechc_text::diag::{Applies, Code, Diagnostic, Edit, Fix};
@@ -142,8 +142,8 @@ impl Checker<'_> {
         }
     }
 
-    /// Suggests decimal points for `(50,5 mm, 0)` or `step5(t, 0,5, 0, 1,5, 2)`, if `wanted` parts are then left.
-    pub(in crate::check) fn suggest_decimal_point(&self, parts: &[Expr], wanted: usize) -> Option<Fix> {
+    /// Suggests decimal points for `(50,5 mm, 0)` or `step5(t, 0,5, 0, 1,5, 2)`, if `expected` parts are then left.
+    pub(in crate::check) fn suggest_decimal_point(&self, parts: &[Expr], expected: usize) -> Option<Fix> {
         let (mut edits, mut number, mut k) = (Vec::new(), None, 0);
         while k + 1 < parts.len() {
             let (whole, digits) = (self.sources.text(parts[k].span), self.sources.text(parts[k + 1].span));
@@ -157,7 +157,7 @@ impl Checker<'_> {
             }
             k += if is_split { 2 } else { 1 };
         }
-        let number = number.filter(|_| parts.len() == wanted + edits.len())?;
+        let number = number.filter(|_| parts.len() == expected + edits.len())?;
         let message = format!("decimals are written with a point: `{number}`");
         Some(Fix { message, edits, applies: Applies::Probably })
     }
@@ -210,7 +210,13 @@ impl Checker<'_> {
     }
 
     /// Reports a wrong number of arguments, with suggestions such as `atan2` for `atan(y, x)`.
-    pub(in crate::check) fn report_argument_count(&mut self, name: &Name, diagnostic: Diagnostic, arguments: &[Expr], most: usize) {
+    pub(in crate::check) fn report_argument_count(
+        &mut self,
+        name: &Name,
+        diagnostic: Diagnostic,
+        arguments: &[Expr],
+        most: usize,
+    ) {
         let is_atan2 = name.text == "atan" && arguments.len() == 2;
         let message = "the angle of two coordinates is `atan2(y, x)`";
         let fix = is_atan2.then(|| Fix::replace(name.span, "atan2", message, Applies::Probably));

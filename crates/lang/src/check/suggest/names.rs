@@ -50,8 +50,8 @@ impl Checker<'_> {
             return Some(self.replace_in_equation(e.span, &quantity));
         }
         let synonym = synonym?;
-        let said = synonym.say(&[]);
-        let order = (1..=3).rev().find(|&order| said.contains(&"der(".repeat(order))).unwrap_or(1);
+        let example = synonym.say(&[]);
+        let order = (1..=3).rev().find(|&order| example.contains(&"der(".repeat(order))).unwrap_or(1);
         let written = format!("{}{quantity}{}", "der(".repeat(order), ")".repeat(order));
         Some(Fix::replace(e.span, &written, format!("of a joint it is `{written}`"), Applies::Probably))
     }
@@ -95,26 +95,26 @@ impl Checker<'_> {
 
     /// Reports an unknown body. Other words for the ground are suggestions for it.
     pub(in crate::check) fn unknown_body(&mut self, name: &Name) {
-        let mut known = self.suggestions(|entity| matches!(entity, Entity::Body(_)));
-        known.push("ground");
-        let diagnostic = errors::unknown("body", name, &known);
+        let mut candidates = self.suggestions(|entity| matches!(entity, Entity::Body(_)));
+        candidates.push("ground");
+        let diagnostic = errors::unknown("body", name, &candidates);
         let is_ground = diagnostic.help.is_empty() && is_ground(&name.text);
         let ground = is_ground.then(|| Fix::meant(name.span, "ground"));
         self.report(diagnostic.fix_if(ground));
     }
 
-    /// Returns the features of a body that `wanted` accepts, as they are written outside the body.
-    pub(in crate::check) fn features_of(&self, body: &Name, wanted: impl Fn(Feature) -> bool) -> Vec<String> {
+    /// Returns the features of a body that `expected` accepts, as they are written outside the body.
+    pub(in crate::check) fn features_of(&self, body: &Name, expected: impl Fn(Feature) -> bool) -> Vec<String> {
         let Some(Entity::Body(k)) = self.entity(body) else { return Vec::new() };
         let space = self.bodies.get(k).and_then(|id| self.common.features.get(id));
-        let names = space.into_iter().flat_map(|space| self.suggestions_in(space, &wanted));
+        let names = space.into_iter().flat_map(|space| self.suggestions_in(space, &expected));
         names.take(MOST_PLACES).map(|name| format!("`{}.{name}`", body.text)).collect()
     }
 
     /// Suggests a circle or curve of the body instead of a feature of another kind.
-    pub(in crate::check) fn suggest_profile(&self, e: &Expr, wanted: impl Fn(Feature) -> bool) -> Option<Fix> {
+    pub(in crate::check) fn suggest_profile(&self, e: &Expr, expected: impl Fn(Feature) -> bool) -> Option<Fix> {
         let ExprKind::Member { owner, feature } = &e.kind else { return None };
-        let name = self.common.features.get(&self.frame_of(owner)?)?.names(wanted).next()?;
+        let name = self.common.features.get(&self.frame_of(owner)?)?.names(expected).next()?;
         Some(Fix::replace(feature.span, name, format!("was `{}.{name}` meant?", owner.text), Applies::Probably))
     }
 
@@ -137,11 +137,11 @@ const MOST_PLACES: usize = 4;
 
 /// Merges the diagnostics of one undeclared name into one with all locations.
 pub(in crate::check) fn merge_unknown_names(all: Diagnostics) -> Diagnostics {
-    let (mut merged, mut known) = (Vec::new(), FxHashMap::default());
+    let (mut merged, mut positions) = (Vec::new(), FxHashMap::default());
     for diagnostic in all {
         // Messages that depend on the arguments differ, and stay separate.
-        let told = (diagnostic.message.clone(), diagnostic.help.clone());
-        let first: Option<&mut Diagnostic> = match known.entry(told) {
+        let key = (diagnostic.message.clone(), diagnostic.help.clone());
+        let first: Option<&mut Diagnostic> = match positions.entry(key) {
             Entry::Occupied(at) => merged.get_mut(*at.get()),
             Entry::Vacant(place) => {
                 place.insert(merged.len());
@@ -158,8 +158,8 @@ pub(in crate::check) fn merge_unknown_names(all: Diagnostics) -> Diagnostics {
         }
         // One fix changes all locations.
         for fix in diagnostic.fixes {
-            if let Some(own) = first.fixes.iter_mut().find(|own| own.message == fix.message) {
-                own.edits.extend(fix.edits);
+            if let Some(same) = first.fixes.iter_mut().find(|other| other.message == fix.message) {
+                same.edits.extend(fix.edits);
             }
         }
     }

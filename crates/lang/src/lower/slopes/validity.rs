@@ -92,7 +92,12 @@ impl Slopes<'_, '_> {
     }
 
     /// Returns the switching functions of a formula with their derivatives through a time that depends on the variable.
-    pub(super) fn switches_at_moving_time(&mut self, value: ExprId, time_slope: ExprId, bends: bool) -> Vec<SwitchingFunction> {
+    pub(super) fn switches_at_moving_time(
+        &mut self,
+        value: ExprId,
+        time_slope: ExprId,
+        bends: bool,
+    ) -> Vec<SwitchingFunction> {
         if self.is_zero(time_slope) {
             return Vec::new();
         }
@@ -168,7 +173,12 @@ impl Slopes<'_, '_> {
 
     /// Keeps the derivative of the time of an extremum at an end of the analysis. If the extremum is stationary there, its time moves into
     /// the analysis to one side and stays at the end to the other.
-    pub(super) fn unless_stationary_at_end(&mut self, (of, rate): (ExprId, ExprId), within: ExprId, time_slope: ExprId) -> ExprId {
+    pub(super) fn unless_stationary_at_end(
+        &mut self,
+        (of, rate): (ExprId, ExprId),
+        within: ExprId,
+        time_slope: ExprId,
+    ) -> ExprId {
         let (range, span, size) = (self.range(of), self.span(), self.variable_scale());
         let undefined = self.no_value();
         let graph = &mut self.lowering.graph;
@@ -184,7 +194,12 @@ impl Slopes<'_, '_> {
     }
 
     /// Selects a derivative where the formula is stationary in time, and another one elsewhere.
-    pub(super) fn select_if_stationary(&mut self, (of, rate): (ExprId, ExprId), slope: ExprId, elsewhere: ExprId) -> ExprId {
+    pub(super) fn select_if_stationary(
+        &mut self,
+        (of, rate): (ExprId, ExprId),
+        slope: ExprId,
+        elsewhere: ExprId,
+    ) -> ExprId {
         let (range, span) = (self.range(of), self.span());
         let graph = &mut self.lowering.graph;
         let (steep, part) = (graph.unary(Unary::Abs, rate), graph.constant(FLAT));
@@ -195,7 +210,12 @@ impl Slopes<'_, '_> {
 
     /// Keeps a derivative where a formula without rate is stationary at its extremum. At half the distance in time a smooth formula is off
     /// the extremum by a quarter; at a kink by half, at a jump by all.
-    pub(super) fn if_smooth_at_extremum(&mut self, (of, largest): (ExprId, bool), time: ExprId, slope: ExprId) -> ExprId {
+    pub(super) fn if_smooth_at_extremum(
+        &mut self,
+        (of, largest): (ExprId, bool),
+        time: ExprId,
+        slope: ExprId,
+    ) -> ExprId {
         let extremum = self.request(ReductionKind::Extreme { largest, when: false }, of);
         let (range, span, [from, to]) = (self.range(of), self.span(), ENDS.map(|end| self.time(end)));
         let off = [BESIDE, 0.5 * BESIDE, -BESIDE, -0.5 * BESIDE].map(|part| {
@@ -316,7 +336,12 @@ impl Slopes<'_, '_> {
 
     /// Replaces a derivative by zero where the variable changes neither the formula nor its switching functions by more than rounding, even
     /// if it changed by its magnitude.
-    pub(super) fn zero_if_unaffected(&mut self, (usual, range): (ExprId, ExprId), switches: &[SwitchingFunction], slope: ExprId) -> ExprId {
+    pub(super) fn zero_if_unaffected(
+        &mut self,
+        (usual, range): (ExprId, ExprId),
+        switches: &[SwitchingFunction],
+        slope: ExprId,
+    ) -> ExprId {
         let size = self.variable_scale();
         let graph = &mut self.lowering.graph;
         let (part, zero) = (graph.constant(NOTHING), graph.constant(0.0));
