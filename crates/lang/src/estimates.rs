@@ -101,7 +101,7 @@ impl<'l> Mismatch<'l> {
     fn sum(&self) -> f64 {
         let value = |id: &ExprId| self.values[id.index()];
         let sum: f64 = self.rows.iter().map(|row| value(row) * value(row)).sum();
-        // Where the rows have no value, or the curves no point, there is no contact.
+        // There is no contact if the rows have no value or the curves no point.
         if sum.is_finite() && self.conditions.iter().all(|c| value(c) > 0.0) { sum } else { f64::INFINITY }
     }
 

@@ -24,7 +24,7 @@ impl Checker<'_> {
         for (condition, value) in arms {
             let condition = self.condition(condition, context);
             if condition.is_none() && self.is_deferred() {
-                // It is open which branches count.
+                // The branch that counts is not determined yet.
                 self.branch = outer;
                 return None;
             }

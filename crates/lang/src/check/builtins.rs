@@ -157,7 +157,7 @@ impl Checker<'_> {
                 return None;
             }
             (Some(_), Some(_)) => {}
-            // It is only known along the motion.
+            // The number is only known along the motion.
             _ => {
                 let length = self.model.graph.sub(u1.1.id, u0.1.id);
                 let one = self.model.graph.constant(1.0);

@@ -92,7 +92,7 @@ impl<'a> Checker<'a> {
         if matches!(self.space.get(&name.text), Some(Entity::Broken)) {
             return None;
         }
-        // Where quantities may not stand, a parameter of that name was rather intended.
+        // A parameter of that name is intended if quantities are not allowed.
         let is_quantity = context.rates || self.space.get(&name.text).is_none();
         if is_quantity && self.quantity_word(name).is_some() {
             return self.quantity(e, name, arguments, context);

@@ -74,11 +74,11 @@ impl<'a> Checker<'a> {
                 (Entity::Input(self.inputs.len() - 1), name, formulas)
             }
             ItemKind::Measure { name, value, unit } => {
-                self.measures.push(MeasureState::of(name, value, unit.as_ref()));
+                self.measures.push(MeasureState::new(name, value, unit.as_ref()));
                 (Entity::Measure(self.measures.len() - 1), name, vec![value])
             }
             ItemKind::Result { name, value, unit } => {
-                self.results.push(ResultState::of(value, unit.as_ref()));
+                self.results.push(ResultState::new(value, unit.as_ref()));
                 (Entity::Result(self.results.len() - 1), name, vec![value])
             }
             ItemKind::Table { name, periodic, rows } => {

@@ -1,4 +1,4 @@
-//! Which formulas are judged by their dimensions, and whether these agree.
+//! Decides which formulas are judged by their dimensions, and compares these.
 
 use super::entity::Entity;
 use super::formula::{Context, Dim, Value};
@@ -17,12 +17,12 @@ impl Checker<'_> {
         self.is_dimensional_with(None, formula)
     }
 
-    /// Returns the same for the formula of a function or curve with an argument.
+    /// Returns whether the formula of a function or curve holds such a unit.
     pub(super) fn is_dimensional_with(&self, argument: Option<&str>, formula: &Expr) -> bool {
         self.holds_dimension(argument, formula, Expected::Number)
     }
 
-    /// Returns the same for a formula of numbers or of points.
+    /// Returns whether a formula of numbers or of points holds such a unit.
     pub(super) fn holds_dimension(&self, argument: Option<&str>, formula: &Expr, expected: Expected) -> bool {
         let mut open = vec![(formula, expected, expected != Expected::Number)];
         while let Some((e, expected, with_points)) = open.pop() {

@@ -27,7 +27,7 @@ pub(super) struct MeasureState<'a> {
 }
 
 impl<'a> MeasureState<'a> {
-    pub fn of(name: &'a Name, value: &'a Expr, unit: Option<&'a WrittenUnit>) -> MeasureState<'a> {
+    pub fn new(name: &'a Name, value: &'a Expr, unit: Option<&'a WrittenUnit>) -> MeasureState<'a> {
         MeasureState { name, value, unit, dimensional: false, sound: false, angle: 0, made: None }
     }
 }

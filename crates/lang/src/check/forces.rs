@@ -80,7 +80,7 @@ impl<'a> Checker<'a> {
 
     fn acceleration_of_gravity(&mut self) -> Option<[ExprId; 2]> {
         self.in_parts(|part| {
-            // It counts when the part runs alone.
+            // The gravity of a part counts when the part runs alone.
             let _ = part.acceleration_of_gravity();
         });
         let acceleration = self.declared_gravity()?;
@@ -277,7 +277,7 @@ impl Checker<'_> {
             _ => Force::ReactionTorque(self.joint_with_torque(argument)?),
         };
         let dimension = self.model.dimension_of_force(force);
-        // It holds accelerations.
+        // A force holds accelerations.
         let id = self.name_symbol(Named::Force(self.address.part, force), 2);
         let is_plain = matches!(force, Force::Effort(equation) if self.common.plain_equations.contains(&equation));
         let dim = if is_plain { Dim::Plain { read: dimension, fits: true } } else { Dim::Of(dimension) };

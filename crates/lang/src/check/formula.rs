@@ -123,7 +123,7 @@ impl Value {
     }
 }
 
-/// What a formula may hold, and how it is read.
+/// The permissions of a formula, and the way in which it is read.
 #[derive(Clone, Copy)]
 #[allow(clippy::struct_excessive_bools)] // permissions that depend on nothing but the place
 pub(super) struct Context<'c> {
@@ -252,7 +252,7 @@ impl Checker<'_> {
         };
         let Some(unit) = Unit::named(&name.text) else {
             let is_argument = context.argument.is_some_and(|(argument, _)| argument == name.text);
-            // Where time is not allowed, `1 t` is not a time.
+            // `1 t` is not a time if time is not allowed.
             let is_time = name.text == "t" && !context.time;
             let is_number = matches!(
                 self.entity(name),

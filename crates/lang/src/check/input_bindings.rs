@@ -34,7 +34,7 @@ impl<'a> Checker<'a> {
             let BoundInput { around, part, input, binding, .. } = &bound[k];
             self.in_nested_part(around, |checker| checker.bind_input(*part, *input, binding));
         }
-        // Those on a cycle have no value, which is reported.
+        // Inputs on a cycle have no value, which is reported.
         for k in on_cycles {
             let BoundInput { around, part, input, .. } = &bound[k];
             self.in_nested_part(around, |checker| checker.in_part(*part, |child| child.inputs[*input].value = None));

@@ -63,7 +63,7 @@ struct Builder<'t, 's> {
     /// The mechanisms around the current one, the outermost first.
     around: Vec<&'t Mechanism>,
     diagnostics: Diagnostics,
-    /// True if that has been reported.
+    /// True if the excess of declarations has been reported.
     is_too_large: bool,
 }
 

@@ -269,8 +269,7 @@ impl Checker<'_> {
     fn drawn_through_parts(&mut self, frame: Frame, local: [ExprId; 2], is_point: bool) -> Option<[f64; 2]> {
         let placement = self.drawn_frame(frame);
         let graph = &mut self.model.graph;
-        let place =
-            if is_point { placement.transform_point(graph, local) } else { placement.transform_vector(graph, local) };
+        let place = if is_point { placement.placed(graph, local) } else { placement.turned(graph, local) };
         let [x, y] = place.map(|id| self.constant_value(id));
         Some([x?, y?])
     }

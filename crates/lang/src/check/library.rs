@@ -125,7 +125,7 @@ impl Library {
             faults.extend(prefixes_that_stand_twice(file));
             faults.extend(self.duplicate_names(file, sources));
         }
-        faults.extend(self.circles(sources));
+        faults.extend(self.cycles(sources));
         faults
     }
 
@@ -190,7 +190,7 @@ impl Library {
     }
 
     /// Reports cycles of files, each by one of its links.
-    fn circles(&self, sources: &Sources) -> Vec<Diagnostic> {
+    fn cycles(&self, sources: &Sources) -> Vec<Diagnostic> {
         let (mut is_done, mut faults) = (vec![false; self.files.len()], Vec::new());
         // A path from the text, which reaches all files, with the number of uses of each file on it that have been followed.
         let mut path: Vec<(usize, usize)> = if self.files.is_empty() { Vec::new() } else { vec![(0, 0)] };
@@ -208,7 +208,7 @@ impl Library {
                     let (used, _) = self.uses_of(file).nth(next - 1)?;
                     Some((self.shown(file, sources), used.span))
                 });
-                faults.push(errors::circle_of_files(&links.collect::<Vec<_>>()));
+                faults.push(errors::cycle_of_files(&links.collect::<Vec<_>>()));
             } else if !is_done[other] {
                 path.push((other, 0));
             }

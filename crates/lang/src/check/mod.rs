@@ -114,7 +114,7 @@ pub fn check_file(file: &ast::File) -> Diagnostics {
 #[must_use]
 pub fn check(tree: &ast::Mechanism, options: &Surroundings, sources: &Sources) -> (Option<Mechanism>, Diagnostics) {
     let (instance, reported) = instantiation::instance_of(tree, options, sources);
-    let mut checker = Checker::of_instance(&instance, options, sources, "", &[]);
+    let mut checker = Checker::from_instance(&instance, options, sources, "", &[]);
     checker.bind_numbers(&options.bound);
     checker.common.variables = Variables::new(&options.by);
     checker.collect_variables();

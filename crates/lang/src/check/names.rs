@@ -129,7 +129,7 @@ impl Checker<'_> {
                 };
                 self.report_reserved(name, kind, &uses);
             }
-            // It is declared all the same, so that its uses are not reported too.
+            // The name is declared all the same, so that its uses are not reported too.
             if let Err(first) = self.space.declare(name, entity)
                 && !is_reserved
             {

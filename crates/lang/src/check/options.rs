@@ -23,7 +23,7 @@ pub struct Surroundings {
     pub open: Vec<String>,
     /// The names by which all columns are differentiated.
     pub by: Vec<String>,
-    /// Whether results are differentiated by these names too. If so, whether the start and the end of the analysis are those of the text,
+    /// Present if results are differentiated by these names too: for the start and the end of the analysis, true if it is that of the text,
     /// which may depend on parameters.
     pub slopes: Option<[bool; 2]>,
     /// True if the reactions of all joints and the efforts of all drivers are tabulated.

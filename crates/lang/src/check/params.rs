@@ -73,7 +73,7 @@ impl<'a> Checker<'a> {
             return Some(self.with_shift(&declared, value));
         }
         let number = self.number_of(value.id)?;
-        // What determines the number of declarations cannot change afterwards.
+        // A param that determines the number of declarations cannot change afterwards.
         if self.deciding.contains(name) {
             self.constant_value(value.id);
             return Some(Value { id: self.model.graph.constant(number), dim: value.dim });

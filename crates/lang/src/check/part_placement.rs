@@ -42,8 +42,8 @@ impl Checker<'_> {
         let carriers: Vec<Option<usize>> = (0..self.parts.len())
             .map(|k| self.bindings[k].on.as_ref().and_then(|_| self.part_holding(self.mount_of(k)?)))
             .collect();
-        for circle in circles(&carriers) {
-            let parts: Vec<_> = circle
+        for cycle in cycles(&carriers) {
+            let parts: Vec<_> = cycle
                 .iter()
                 .map(|&k| {
                     let part = self.bindings[k];
@@ -52,7 +52,7 @@ impl Checker<'_> {
                 })
                 .collect();
             self.report(errors::carries_itself(&parts));
-            for k in circle {
+            for k in cycle {
                 let Some(id) = self.parts[k].address.part else { continue };
                 self.model.parts[id.index()].mount = self.address.ground;
                 self.common.broken_poses.insert(Frame::Part(id));
@@ -116,7 +116,7 @@ impl Checker<'_> {
         let seer = Placement { is_mirrored: false, ..self.drawn_frame(seer) };
         let graph = &mut self.model.graph;
         let offset = [0, 1].map(|axis| graph.sub(place[axis], seer.at[axis]));
-        Some(seer.inverse_transform_vector(graph, offset))
+        Some(seer.turned_back(graph, offset))
     }
 
     /// Returns whether a frame has no drawn position, as its pose or that of a carrier is broken.
@@ -151,7 +151,7 @@ impl Checker<'_> {
 }
 
 /// Returns the cycles of a graph in which each node has at most one successor.
-fn circles(next: &[Option<usize>]) -> Vec<Vec<usize>> {
+fn cycles(next: &[Option<usize>]) -> Vec<Vec<usize>> {
     let mut walks: Vec<Option<usize>> = vec![None; next.len()];
     let mut found = Vec::new();
     for start in 0..next.len() {

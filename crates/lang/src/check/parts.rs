@@ -53,7 +53,7 @@ impl Default for Address {
 
 impl<'a> Checker<'a> {
     /// Returns the checker of a mechanism with those of all its parts, each with its path and locations.
-    pub(super) fn of_instance(
+    pub(super) fn from_instance(
         instance: &'a Instance<'a>,
         options: &'a Surroundings,
         sources: &'a Sources,
@@ -72,7 +72,7 @@ impl<'a> Checker<'a> {
             let name = format!("{path}{}", part.name.text);
             let mut used_at = used_at.to_vec();
             used_at.insert(0, (name.clone(), part.name.span));
-            let mut child = Checker::of_instance(inner, options, sources, &format!("{name}."), &used_at);
+            let mut child = Checker::from_instance(inner, options, sources, &format!("{name}."), &used_at);
             child.bound.inputs = part.bindings.iter().map(|binding| binding.name.text.as_str()).collect();
             // The shared state is that of the outermost checker from here on.
             checker.diagnostics.extend(std::mem::take(&mut child.diagnostics));

@@ -1,5 +1,5 @@
-//! Which formulas are points, and which names in them can only be points. It uses the tree alone, for the formula reader and the symbol
-//! table.
+//! Decides which formulas are points, and which names in them can only be points. It uses the tree alone, for the formula reader and the
+//! symbol table.
 
 use mechc_syntax::ast::{Expr, ExprKind, ItemKind, Mechanism, Name};
 use mechc_text::vocabulary::{Function, Group, gives_way};

@@ -16,14 +16,14 @@ use mechc_text::vocabulary::{Constant, Unit};
 #[derive(Clone, Copy, Debug)]
 pub(super) enum BodyPoint {
     Point(PointId),
-    /// It is broken, which has been reported.
+    /// A broken declaration, which has been reported.
     Broken,
 }
 
 /// The entity of a name or `body.feature` where a point is expected.
 pub(super) enum PointLookup {
     Point(DrawnPoint),
-    /// It is broken, which has been reported.
+    /// A broken declaration, which has been reported.
     Broken,
     /// Not a point.
     NotAPoint,

@@ -132,7 +132,7 @@ impl Checker<'_> {
         }
         let Some(body) = self.local_body(frame) else {
             let placement = self.drawn_frame(frame);
-            return Some(placement.transform_point(&mut self.model.graph, [x, y]));
+            return Some(placement.placed(&mut self.model.graph, [x, y]));
         };
         let [origin_x, origin_y, phi] = self.model[body].pose;
         let graph = &mut self.model.graph;

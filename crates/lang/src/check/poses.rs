@@ -48,7 +48,7 @@ impl<'a> Checker<'a> {
                 self.common.broken_poses.insert(self.bodies[k]);
             }
         }
-        // Those on a cycle are broken.
+        // Poses on a cycle are broken.
         let broken = self.bodies.iter().zip(is_sound).filter(|(_, is_sound)| !is_sound);
         self.common.broken_poses.extend(broken.map(|(&body, _)| body));
     }

@@ -47,7 +47,7 @@ pub(super) struct Expander<'t, 'c> {
     paths: FxHashSet<String>,
     /// The number of declarations so far.
     count: usize,
-    /// True if that has been reported.
+    /// True if the excess of declarations has been reported.
     is_too_large: bool,
     /// The locations of reported errors. An error in every copy is reported once.
     reported: FxHashSet<Span>,

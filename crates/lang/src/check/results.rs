@@ -30,7 +30,7 @@ pub(super) struct NotAReduction;
 pub const UNTIL: &str = "--until";
 
 impl<'a> ResultState<'a> {
-    pub fn of(formula: &'a Expr, unit: Option<&'a WrittenUnit>) -> ResultState<'a> {
+    pub fn new(formula: &'a Expr, unit: Option<&'a WrittenUnit>) -> ResultState<'a> {
         ResultState { formula, unit, dimensional: false, value: None, angle: 0 }
     }
 }

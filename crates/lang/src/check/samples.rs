@@ -385,7 +385,7 @@ mod tests {
     use super::{Samples, header};
     use mechc_text::source::Sources;
 
-    fn of(text: &str) -> Result<Samples, String> {
+    fn read(text: &str) -> Result<Samples, String> {
         let mut sources = Sources::default();
         let file = sources.add("samples.csv", text);
         header(sources.get(file), file).and_then(|headed| headed.rows()).map_err(|faults| faults[0].message.clone())
@@ -393,7 +393,7 @@ mod tests {
 
     #[test]
     fn columns_come_in_any_order_with_units() {
-        let samples = of("turn [deg],t [ms], feed [mm/s] ,\"a\"\r\n90,0,1,0\n\n180,500,2,1e-3\n")
+        let samples = read("turn [deg],t [ms], feed [mm/s] ,\"a\"\r\n90,0,1,0\n\n180,500,2,1e-3\n")
             .unwrap_or_else(|fault| panic!("{fault}"));
         assert_eq!(samples.times, [0.0, 0.5]);
         let names: Vec<&str> = samples.columns.iter().map(|column| column.name.as_str()).collect();
@@ -405,7 +405,7 @@ mod tests {
 
     #[test]
     fn faults_are_reported() {
-        let fault = |text: &str| of(text).err().expect("a fault");
+        let fault = |text: &str| read(text).err().expect("a fault");
         assert_eq!(fault(""), "the samples are empty");
         assert_eq!(fault("turn\n1\n2\n"), "the samples have no column `t`");
         assert_eq!(fault("t,turn\n0,1\n"), "samples need two rows at least, found 1");

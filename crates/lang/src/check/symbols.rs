@@ -469,7 +469,7 @@ impl Walk<'_> {
         };
         let is_feature = match expected {
             Expected::Number => false,
-            // Where a point is expected, a feature that is not a point is reported by its name.
+            // A feature that is not a point is reported by its name if a point is expected.
             Expected::Point => is_point || !is_point_param,
             Expected::Either => is_point && !is_number,
         };

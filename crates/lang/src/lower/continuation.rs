@@ -53,8 +53,8 @@ impl PathLines {
             params.push(Param { name: format!("{name} on the way"), part: 0, value, dimension, span });
             params.len() as u32 - 1
         };
-        let led = model.led.iter().filter_map(|led| Some((led.param?, led)));
-        let ends = led.map(|(param, led)| (param, add(&led.declared.name, led.line[1], led.dimension))).collect();
+        let continued = model.led.iter().filter_map(|led| Some((led.param?, led)));
+        let ends = continued.map(|(param, led)| (param, add(&led.declared.name, led.line[1], led.dimension))).collect();
         let times = match clock {
             Clock::Still(_) => [0; 2],
             Clock::Goes => ["the first time", "the last time"].map(|name| add(name, 0.0, Dimension::TIME)),

@@ -23,11 +23,8 @@ impl Lowering<'_> {
     fn axis(&mut self, axis: &model::Axis) -> Axis {
         let local = self.unit_direction(axis);
         let carried = self.in_carrier(axis.frame);
-        let direction = if self.model.part_of(axis.frame).is_none() {
-            local
-        } else {
-            carried.transform_vector(&mut self.graph, local)
-        };
+        let direction =
+            if self.model.part_of(axis.frame).is_none() { local } else { carried.turned(&mut self.graph, local) };
         let name = format!("{}.{}", self.model.frame_name(axis.frame), axis.name);
         Axis { name, origin: super::ir_point(axis.origin), direction }
     }

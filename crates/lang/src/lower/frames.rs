@@ -59,7 +59,7 @@ impl Lowering<'_> {
         }
         let (inner, base) = (self.absolute(frame), self.absolute(Frame::Part(view)));
         let offset = self.difference(inner.at, base.at);
-        let at = base.inverse_transform_vector(&mut self.graph, offset);
+        let at = base.turned_back(&mut self.graph, offset);
         let turn = self.graph.sub(inner.phi, base.phi);
         let phi = base.angle(&mut self.graph, turn);
         Placement { at, phi, is_mirrored: inner.is_mirrored != base.is_mirrored }
@@ -130,7 +130,7 @@ impl Lowering<'_> {
     pub(super) fn transform_vector(&mut self, frame: Frame, [x, y]: Vector) -> Vector {
         if !self.is_plain(frame) {
             let placement = self.placement(frame);
-            return placement.transform_vector(&mut self.graph, [x, y]);
+            return placement.turned(&mut self.graph, [x, y]);
         }
         if frame == Frame::Ground {
             return [x, y];
@@ -162,7 +162,7 @@ impl Lowering<'_> {
     pub(super) fn vector_in_view(&mut self, vector: Vector) -> Vector {
         let Some(view) = self.view else { return vector };
         let base = self.absolute(Frame::Part(view));
-        base.inverse_transform_vector(&mut self.graph, vector)
+        base.turned_back(&mut self.graph, vector)
     }
 
     /// Returns a signed value of the ground's frame with the sign of a part's handedness.

@@ -68,8 +68,8 @@ fn needs_jerk(model: &Mechanism, written: &Written) -> bool {
     let is_of_forces = of_forces.any(is_third);
     // The slope of an extremum needs two more derivatives.
     let holds = if model.slopes.is_some() { HOLDS_JERK - 1 } else { HOLDS_JERK };
-    let is_asked_for = model.reductions.iter().any(|reduction| reduction.order >= holds);
-    (is_measured || is_of_forces || is_asked_for) && !model.has_signals
+    let is_requested = model.reductions.iter().any(|reduction| reduction.order >= holds);
+    (is_measured || is_of_forces || is_requested) && !model.has_signals
 }
 
 /// Returns the parameters, each with the length of the part's path in its name.
@@ -130,7 +130,7 @@ struct Lowering<'m> {
     /// For each named symbol, whether it holds forces; these symbols are resolved after all rows.
     holds_forces: Vec<bool>,
     has_rows: bool,
-    /// Whether loads hold third derivatives of the coordinates, once determined.
+    /// True if loads hold third derivatives of the coordinates; `None` until it is determined.
     loads_hold_jerks: Option<bool>,
     /// The sums of rates of all coordinates, once needed.
     rate_sums: Option<right_limits::RateSums>,
@@ -369,7 +369,7 @@ impl Lowering<'_> {
             return local;
         }
         let placement = self.in_carrier(point.frame);
-        placement.transform_point(&mut self.graph, local)
+        placement.placed(&mut self.graph, local)
     }
 
     /// Returns the drawn pose of a body in the ground's frame: x (m), y (m), phi (rad).

@@ -198,11 +198,11 @@ impl Lowering<'_> {
     fn declarations_of(&self, part: PartId) -> Vec<DeclarationId> {
         let model = self.model;
         let path = format!("{}.", model[part].declared.name);
-        let is_own = |k: &DeclarationId| match model.joints.get(k.index()) {
+        let is_of_part = |k: &DeclarationId| match model.joints.get(k.index()) {
             Some(joint) => belongs(model, joint.part, part),
             None => self.declarations[*k].name.starts_with(&path),
         };
-        self.declarations.ids().filter(is_own).collect()
+        self.declarations.ids().filter(is_of_part).collect()
     }
 }
 

@@ -51,13 +51,13 @@ impl RightLimits<'_> {
             Node::Compare(comparison @ (Comparison::Less | Comparison::LessEqual), a, b) => {
                 let difference = graph.sub(a, b);
                 let test = self.zero_test(graph, difference, difference)?;
-                let behind = graph.compare(comparison, test.sign, zero);
-                Some(graph.select(test.is_zero, behind, plain))
+                let limit = graph.compare(comparison, test.sign, zero);
+                Some(graph.select(test.is_zero, limit, plain))
             }
             Node::Unary(Unary::Sign, a) => {
                 let test = self.zero_test(graph, a, a)?;
-                let behind = graph.unary(Unary::Sign, test.sign);
-                Some(graph.select(test.is_zero, behind, plain))
+                let limit = graph.unary(Unary::Sign, test.sign);
+                Some(graph.select(test.is_zero, limit, plain))
             }
             Node::Unary(Unary::Floor, a) => {
                 let (whole, past) = split_at_nearest_integer(graph, a);
@@ -65,16 +65,16 @@ impl RightLimits<'_> {
                 let one = graph.constant(1.0);
                 let below = graph.sub(whole, one);
                 let falls = graph.compare(Comparison::Less, test.sign, zero);
-                let behind = graph.select(falls, below, whole);
-                Some(graph.select(test.is_zero, behind, plain))
+                let limit = graph.select(falls, below, whole);
+                Some(graph.select(test.is_zero, limit, plain))
             }
             Node::Binary(Binary::Mod, a, b) => {
                 let turns = graph.div(a, b);
                 let (_, past) = split_at_nearest_integer(graph, turns);
                 let test = self.zero_test(graph, past, turns)?;
                 let falls = graph.compare(Comparison::Less, test.sign, zero);
-                let behind = graph.select(falls, b, zero);
-                Some(graph.select(test.is_zero, behind, plain))
+                let limit = graph.select(falls, b, zero);
+                Some(graph.select(test.is_zero, limit, plain))
             }
             _ => None,
         }

@@ -31,6 +31,13 @@ pub(super) struct Reduced {
     pub holds: Option<ExprId>,
 }
 
+/// A formula, as it is reduced, with the kind of its extremum.
+#[derive(Clone, Copy)]
+pub(super) struct Extremum {
+    pub of: ExprId,
+    pub largest: bool,
+}
+
 /// Derivatives of results by one variable.
 pub(super) struct Slopes<'s, 'm> {
     pub lowering: &'s mut Lowering<'m>,
@@ -114,14 +121,14 @@ impl Slopes<'_, '_> {
         let switches = self.lowering.moving_kinks(value, self.variable);
         if self.is_zero(time_slope) {
             let slope = self.reduce(kind, by, holds);
-            return Some(self.unless_at_switch(kind, (&switches, holds), slope));
+            return Some(self.unless_at_switch(kind, &switches, holds, slope));
         }
         let rate = self.lowering.time_derivative(value)?;
         let [by, rate] = [by, rate].map(|formula| self.reduce(kind, formula, holds));
         let moved = self.lowering.graph.mul(rate, time_slope);
         let slope = self.lowering.graph.add(by, moved);
         let switches = [switches, self.switches_at_moving_time(value, time_slope, true)].concat();
-        Some(self.unless_at_switch(kind, (&switches, holds), slope))
+        Some(self.unless_at_switch(kind, &switches, holds, slope))
     }
 
     fn integral_slope(&mut self, k: u32) -> Option<ExprId> {
@@ -177,9 +184,9 @@ impl Slopes<'_, '_> {
         let of = self.reductions[k as usize].of;
         let time = self.request(ReductionKind::Extreme { largest, when: true }, of);
         let at = ReductionKind::At(time);
-        let at_edge = if when { self.switch_time_slope(at, (value, holds)) } else { self.no_value() };
+        let at_switch = if when { self.switch_time_slope(at, Reduced { value, holds }) } else { self.no_value() };
         let inside = if when {
-            self.interior_time_slope((at, of), (value, holds), by, at_edge)?
+            self.interior_time_slope(at, of, Reduced { value, holds }, by, at_switch)?
         } else {
             self.reduce(at, by, holds)
         };
@@ -187,20 +194,20 @@ impl Slopes<'_, '_> {
         let mut slope = inside;
         if when || bends {
             slope = match rate_there {
-                Some(rate) => self.select_if_stationary((of, rate), inside, at_edge),
+                Some(rate) => self.select_if_stationary(of, rate, inside, at_switch),
                 None if when => return None,
-                None => self.if_smooth_at_extremum((of, largest), time, inside),
+                None => self.if_smooth_at_extremum(Extremum { of, largest }, time, inside),
             };
         }
         for (kind, time_slope) in ends {
             let at_end = if when {
-                self.unless_stationary_at_end((of, rate_there?), inside, time_slope)
+                self.unless_stationary_at_end(of, rate_there?, inside, time_slope)
             } else {
                 let still = self.reduce(at, by, holds);
-                self.with_moving_time((at, still), (rate, holds), time_slope)?
+                self.with_moving_time(at, still, rate, holds, time_slope)?
             };
-            let edges = [switches.clone(), self.switches_at_moving_time(value, time_slope, true)].concat();
-            let at_end = self.unless_at_switch(at, (&edges, holds), at_end);
+            let all_switches = [switches.clone(), self.switches_at_moving_time(value, time_slope, true)].concat();
+            let at_end = self.unless_at_switch(at, &all_switches, holds, at_end);
             let end = self.time(kind);
             let graph = &mut self.lowering.graph;
             let between = if kind == ReductionKind::First { [time, end] } else { [end, time] };
@@ -209,17 +216,19 @@ impl Slopes<'_, '_> {
         }
         // A jump at an end of the analysis may move into it.
         let jumping = self.lowering.moving_jumps(value, self.variable);
-        let slope = ENDS.into_iter().fold(slope, |slope, end| self.unless_at_switch(end, (&jumping, holds), slope));
+        let slope = ENDS.into_iter().fold(slope, |slope, end| self.unless_at_switch(end, &jumping, holds, slope));
         let met = self.reduce(at, value, holds);
-        let slope = self.if_attained((of, largest), met, slope);
-        Some(self.if_unique((of, largest), (value, holds), (by, &switches), slope))
+        let slope = self.if_attained(Extremum { of, largest }, met, slope);
+        Some(self.if_unique(Extremum { of, largest }, Reduced { value, holds }, by, &switches, slope))
     }
 
     /// Returns a derivative at fixed time plus the part of a time that depends on the variable.
     fn with_moving_time(
         &mut self,
-        (at, still): (ReductionKind, ExprId),
-        (rate, holds): (Option<ExprId>, Option<ExprId>),
+        at: ReductionKind,
+        still: ExprId,
+        rate: Option<ExprId>,
+        holds: Option<ExprId>,
         time_slope: ExprId,
     ) -> Option<ExprId> {
         if self.is_zero(time_slope) {
@@ -231,13 +240,14 @@ impl Slopes<'_, '_> {
         Some(graph.add(still, more))
     }
 
-    /// Returns `−ė_p/ë`, and `at_edge` where `ë` is zero: a value that rests there does so from a switch on.
+    /// Returns `−ė_p/ë`, and `at_switch` where `ë` is zero: a value that rests there does so from a switch on.
     fn interior_time_slope(
         &mut self,
-        (at, of): (ReductionKind, ExprId),
-        (value, holds): (ExprId, Option<ExprId>),
+        at: ReductionKind,
+        of: ExprId,
+        Reduced { value, holds }: Reduced,
         by: ExprId,
-        at_edge: ExprId,
+        at_switch: ExprId,
     ) -> Option<ExprId> {
         let rate = self.lowering.time_derivative(value)?;
         let second = self.lowering.time_derivative(rate)?;
@@ -250,12 +260,12 @@ impl Slopes<'_, '_> {
         let (bend, part, square) = (graph.unary(Unary::Abs, second), graph.constant(SAME), graph.mul(span, span));
         let [bend, flat] = [graph.mul(bend, square), graph.mul(part, range)];
         let turns = graph.compare(Comparison::Less, flat, bend);
-        Some(graph.select(turns, slope, at_edge))
+        Some(graph.select(turns, slope, at_switch))
     }
 
     /// Returns `−g_p/ġ`, the derivative of the time of a zero of a switching function `g` of a formula. It has no value without such a
     /// zero, or if several zeros differ in their derivatives.
-    fn switch_time_slope(&mut self, at: ReductionKind, (value, holds): (ExprId, Option<ExprId>)) -> ExprId {
+    fn switch_time_slope(&mut self, at: ReductionKind, Reduced { value, holds }: Reduced) -> ExprId {
         let (span, size, undefined) = (self.span(), self.variable_scale(), self.no_value());
         let edges = self.lowering.switching_functions(value, true).into_iter();
         let edges = edges.filter_map(|of| {

@@ -17,9 +17,9 @@ enum Discontinuity {
 /// A switching function `g`.
 #[derive(Clone, Copy)]
 pub(super) struct SwitchingFunction {
-    pub of: ExprId,
-    /// Its derivative by a variable.
-    pub by: ExprId,
+    pub value: ExprId,
+    /// The derivative of `g` by a variable.
+    pub derivative: ExprId,
 }
 
 impl Lowering<'_> {
@@ -90,7 +90,7 @@ impl Lowering<'_> {
         operands.sort_unstable();
         operands.dedup();
         let (moves, symbol) = (self.affects_motion(variable), self.model.variables[variable as usize].symbol);
-        // What parameters alone decide does not change along the motion.
+        // A function of parameters alone does not change along the motion.
         operands.retain(|&of| !self.graph.dependence(of).is_constant());
         let switches = operands.into_iter().map(|of| {
             // The derivatives of reductions are not examined here, and a parameter that does not affect the motion stands in formulas
@@ -101,10 +101,10 @@ impl Lowering<'_> {
                 true => self.derivative_by(of, variable),
                 false => self.graph.constant(f64::from(u8::from(self.graph.symbols(of).contains(&symbol)))),
             };
-            SwitchingFunction { of, by }
+            SwitchingFunction { value: of, derivative: by }
         });
         let mut switches: Vec<SwitchingFunction> = switches.collect();
-        switches.retain(|switches| !self.graph.is_zero(switches.by));
+        switches.retain(|switch| !self.graph.is_zero(switch.derivative));
         switches
     }
 

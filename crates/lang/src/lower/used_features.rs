@@ -3,7 +3,7 @@
 use crate::model::{AxisId, EquationForm, Mechanism, Named, PointId, Quantity};
 use mechc_expr::{ExprId, Symbol};
 
-/// Whether each feature is used by joints or equations.
+/// Flags of the features that joints or equations use.
 pub(super) struct UsedFeatures {
     /// By point.
     pub points: Vec<bool>,

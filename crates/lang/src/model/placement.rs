@@ -24,7 +24,7 @@ impl Placement {
 
     /// Returns a vector of the inner frame in the outer frame.
     #[must_use]
-    pub fn transform_vector(&self, graph: &mut Graph, [x, y]: [ExprId; 2]) -> [ExprId; 2] {
+    pub fn turned(&self, graph: &mut Graph, [x, y]: [ExprId; 2]) -> [ExprId; 2] {
         let y = if self.is_mirrored { graph.neg(y) } else { y };
         let (cos, sin) = (graph.unary(Unary::Cos, self.phi), graph.unary(Unary::Sin, self.phi));
         let (xc, ys) = (graph.mul(x, cos), graph.mul(y, sin));
@@ -34,8 +34,8 @@ impl Placement {
 
     /// Returns a point of the inner frame in the outer frame.
     #[must_use]
-    pub fn transform_point(&self, graph: &mut Graph, local: [ExprId; 2]) -> [ExprId; 2] {
-        let [x, y] = self.transform_vector(graph, local);
+    pub fn placed(&self, graph: &mut Graph, local: [ExprId; 2]) -> [ExprId; 2] {
+        let [x, y] = self.turned(graph, local);
         [graph.add(self.at[0], x), graph.add(self.at[1], y)]
     }
 
@@ -48,7 +48,7 @@ impl Placement {
     /// Returns the placement relative to the outer frame of a frame that is placed in the inner frame.
     #[must_use]
     pub fn compose(&self, graph: &mut Graph, inner: &Placement) -> Placement {
-        let at = self.transform_point(graph, inner.at);
+        let at = self.placed(graph, inner.at);
         let turn = self.angle(graph, inner.phi);
         let phi = graph.add(self.phi, turn);
         Placement { at, phi, is_mirrored: self.is_mirrored != inner.is_mirrored }
@@ -56,7 +56,7 @@ impl Placement {
 
     /// Returns a vector of the outer frame in the inner frame.
     #[must_use]
-    pub fn inverse_transform_vector(&self, graph: &mut Graph, [x, y]: [ExprId; 2]) -> [ExprId; 2] {
+    pub fn turned_back(&self, graph: &mut Graph, [x, y]: [ExprId; 2]) -> [ExprId; 2] {
         let (cos, sin) = (graph.unary(Unary::Cos, self.phi), graph.unary(Unary::Sin, self.phi));
         let (xc, ys) = (graph.mul(x, cos), graph.mul(y, sin));
         let (xs, yc) = (graph.mul(x, sin), graph.mul(y, cos));

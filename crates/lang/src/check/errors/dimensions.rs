@@ -36,7 +36,7 @@ pub fn unlike(
     let fix = mended.filter(|_| has_time).or_else(upside_down).or(fix);
     let fix = fix.or_else(|| scaled(first.dimension, second, texts[1]).filter(|_| takes_factor));
     let polar = polar(first, second, texts).filter(|_| what.starts_with("the coordinates"));
-    // Where time is not allowed, it is only an explanation.
+    // The fix is only an explanation if time is not allowed.
     let is_factor = fix.as_ref().is_some_and(|fix| fix.message.ends_with("t`"));
     let (fix, help) = if is_factor && !has_time { (None, fix.map(|fix| fix.message)) } else { (fix, None) };
     Diagnostic::new(Code::E0401, format!("{what} {} and {}", first.dimension.in_words(), second.dimension.in_words()))

@@ -74,7 +74,7 @@ pub fn second_prefix(prefix: &Name, first: Span) -> Diagnostic {
 }
 
 /// Files with the locations at which each uses the next one; the last one uses the first.
-pub fn circle_of_files(links: &[(&str, Span)]) -> Diagnostic {
+pub fn cycle_of_files(links: &[(&str, Span)]) -> Diagnostic {
     let message = match links {
         [(file, _)] => format!("`{file}` uses itself"),
         [(first, _), ..] => {

@@ -143,7 +143,7 @@ impl Checker<'_> {
         is_of_degrees(written).then_some(written.span)
     }
 
-    /// Returns that unit for an argument that is such a name.
+    /// Returns the unit of angle of an argument that is such a name.
     pub(in crate::check) fn unit_of_argument(&self, e: &Expr, context: &Context<'_>) -> Option<Span> {
         let bare = match &e.bare().kind {
             ExprKind::Negate(inner) => inner.bare(),

@@ -1,7 +1,7 @@
 //! Validity of the derivatives of results, which do not exist at kinks and jumps that depend on the variable and where several extrema are
 //! equal. Each method takes a derivative and returns it where it is valid; elsewhere the result has no value.
 
-use super::{ENDS, Reduced, Slopes};
+use super::{ENDS, Extremum, Reduced, Slopes};
 use crate::lower::switching::SwitchingFunction;
 use mechc_expr::{Binary, Comparison, ExprId, Graph, Node, Symbol, Unary};
 use mechc_ir::ReductionKind;
@@ -23,7 +23,7 @@ impl Slopes<'_, '_> {
             let graph = &mut self.lowering.graph;
             let part = graph.constant(part);
             let step = graph.mul(part, size);
-            self.second_difference((formula, &moved), step)
+            self.second_difference(formula, &moved, step)
         });
         let graph = &mut self.lowering.graph;
         let [part, alone, digits] = [LEFT_OF_HALF, ALONE * MOVED, LAST_DIGITS].map(|part| graph.constant(part));
@@ -58,10 +58,10 @@ impl Slopes<'_, '_> {
     }
 
     /// Returns `|f(p + h) + f(p − h) − 2 f(p)|` of a formula of results, whose symbols are linear in `p` by their derivatives.
-    pub(super) fn second_difference(&mut self, of: (ExprId, &[(Symbol, ExprId)]), step: ExprId) -> ExprId {
-        let (formula, graph) = (of.0, &mut self.lowering.graph);
+    pub(super) fn second_difference(&mut self, formula: ExprId, moved: &[(Symbol, ExprId)], step: ExprId) -> ExprId {
+        let graph = &mut self.lowering.graph;
         let back = graph.neg(step);
-        let [there, here] = [step, back].map(|step| shifted(graph, of, step));
+        let [there, here] = [step, back].map(|step| shifted(graph, formula, moved, step));
         let (sum, twice) = (graph.add(there, here), graph.add(formula, formula));
         let off = graph.sub(sum, twice);
         graph.unary(Unary::Abs, off)
@@ -71,7 +71,8 @@ impl Slopes<'_, '_> {
     pub(super) fn unless_at_switch(
         &mut self,
         kind: ReductionKind,
-        (switches, holds): (&[SwitchingFunction], Option<ExprId>),
+        switches: &[SwitchingFunction],
+        holds: Option<ExprId>,
         slope: ExprId,
     ) -> ExprId {
         if switches.is_empty() {
@@ -79,7 +80,7 @@ impl Slopes<'_, '_> {
         }
         let size = self.variable_scale();
         let undefined = self.no_value();
-        switches.iter().fold(slope, |slope, &SwitchingFunction { of, by }| {
+        switches.iter().fold(slope, |slope, &SwitchingFunction { value: of, derivative: by }| {
             let [of, by] = [of, by].map(|formula| self.reduce(kind, formula, holds));
             let graph = &mut self.lowering.graph;
             let [off, change] = [of, by].map(|of| graph.unary(Unary::Abs, of));
@@ -101,15 +102,15 @@ impl Slopes<'_, '_> {
         if self.is_zero(time_slope) {
             return Vec::new();
         }
-        let edges = self.lowering.switching_functions(value, bends).into_iter();
-        let switches = edges.map(|of| {
+        let functions = self.lowering.switching_functions(value, bends).into_iter();
+        let switches = functions.map(|of| {
             let rate = self.lowering.time_derivative(of);
             let graph = &mut self.lowering.graph;
             let rate = rate.unwrap_or_else(|| graph.constant(1.0));
-            SwitchingFunction { of, by: graph.mul(rate, time_slope) }
+            SwitchingFunction { value: of, derivative: graph.mul(rate, time_slope) }
         });
         let mut switches: Vec<SwitchingFunction> = switches.collect();
-        switches.retain(|switches| !self.is_zero(switches.by));
+        switches.retain(|switch| !self.is_zero(switch.derivative));
         switches
     }
 
@@ -118,8 +119,8 @@ impl Slopes<'_, '_> {
         let Reduced { value, holds } = self.formulas[k as usize];
         let ends = self.end_slopes()?;
         Some(ends.into_iter().fold(slope, |slope, (kind, time_slope)| {
-            let edges = self.switches_at_moving_time(value, time_slope, false);
-            self.unless_at_switch(kind, (&edges, holds), slope)
+            let switches = self.switches_at_moving_time(value, time_slope, false);
+            self.unless_at_switch(kind, &switches, holds, slope)
         }))
     }
 
@@ -175,7 +176,8 @@ impl Slopes<'_, '_> {
     /// the analysis to one side and stays at the end to the other.
     pub(super) fn unless_stationary_at_end(
         &mut self,
-        (of, rate): (ExprId, ExprId),
+        of: ExprId,
+        rate: ExprId,
         within: ExprId,
         time_slope: ExprId,
     ) -> ExprId {
@@ -196,7 +198,8 @@ impl Slopes<'_, '_> {
     /// Selects a derivative where the formula is stationary in time, and another one elsewhere.
     pub(super) fn select_if_stationary(
         &mut self,
-        (of, rate): (ExprId, ExprId),
+        of: ExprId,
+        rate: ExprId,
         slope: ExprId,
         elsewhere: ExprId,
     ) -> ExprId {
@@ -212,7 +215,7 @@ impl Slopes<'_, '_> {
     /// the extremum by a quarter; at a kink by half, at a jump by all.
     pub(super) fn if_smooth_at_extremum(
         &mut self,
-        (of, largest): (ExprId, bool),
+        Extremum { of, largest }: Extremum,
         time: ExprId,
         slope: ExprId,
     ) -> ExprId {
@@ -243,7 +246,7 @@ impl Slopes<'_, '_> {
     }
 
     /// Keeps a derivative where the formula at the extremum's time has the extremum's value. At a jump it may have that of the other side.
-    pub(super) fn if_attained(&mut self, (of, largest): (ExprId, bool), met: ExprId, slope: ExprId) -> ExprId {
+    pub(super) fn if_attained(&mut self, Extremum { of, largest }: Extremum, met: ExprId, slope: ExprId) -> ExprId {
         let extremum = self.request(ReductionKind::Extreme { largest, when: false }, of);
         let off = self.lowering.graph.sub(met, extremum);
         self.if_negligible(of, off, slope)
@@ -269,9 +272,10 @@ impl Slopes<'_, '_> {
     /// `max(e + h e_p) + max(e − h e_p) > 2 max(e)` for a small `h`.
     pub(super) fn if_unique(
         &mut self,
-        (of, largest): (ExprId, bool),
-        (value, holds): (ExprId, Option<ExprId>),
-        (by, switches): (ExprId, &[SwitchingFunction]),
+        Extremum { of, largest }: Extremum,
+        Reduced { value, holds }: Reduced,
+        by: ExprId,
+        switches: &[SwitchingFunction],
         slope: ExprId,
     ) -> ExprId {
         if self.is_zero(by) {
@@ -312,7 +316,7 @@ impl Slopes<'_, '_> {
         let is_alone = graph.compare(Comparison::LessEqual, off, limit);
         let undefined = self.no_value();
         let (slope, range) = (self.lowering.graph.select(is_alone, slope, undefined), self.range(of));
-        self.zero_if_unaffected((usual, range), switches, slope)
+        self.zero_if_unaffected(usual, range, switches, slope)
     }
 
     /// Returns the range of a formula weighted by `square`, so that values which the variable does not change do not count.
@@ -338,7 +342,8 @@ impl Slopes<'_, '_> {
     /// if it changed by its magnitude.
     pub(super) fn zero_if_unaffected(
         &mut self,
-        (usual, range): (ExprId, ExprId),
+        usual: ExprId,
+        range: ExprId,
         switches: &[SwitchingFunction],
         slope: ExprId,
     ) -> ExprId {
@@ -360,7 +365,7 @@ impl Slopes<'_, '_> {
         let graph = &mut self.lowering.graph;
         let (part, yes) = (graph.constant(NOTHING * NOTHING), graph.constant(1.0));
         let size = graph.mul(size, size);
-        switches.iter().fold(yes, |all, &SwitchingFunction { of, by }| {
+        switches.iter().fold(yes, |all, &SwitchingFunction { value: of, derivative: by }| {
             let [of, by] = [of, by].map(|of| {
                 let square = self.lowering.graph.mul(of, of);
                 self.reduce(ReductionKind::Mean, square, None)
@@ -374,7 +379,7 @@ impl Slopes<'_, '_> {
 }
 
 /// Returns a formula after a step of the variable, with its symbols and their derivatives in `moved`.
-fn shifted(graph: &mut Graph, (formula, moved): (ExprId, &[(Symbol, ExprId)]), step: ExprId) -> ExprId {
+fn shifted(graph: &mut Graph, formula: ExprId, moved: &[(Symbol, ExprId)], step: ExprId) -> ExprId {
     let mut with = FxHashMap::default();
     for &(symbol, slope) in moved {
         let (from, change) = (graph.symbol(symbol), graph.mul(slope, step));
