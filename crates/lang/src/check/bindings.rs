@@ -51,7 +51,7 @@ impl<'a> Checker<'a> {
     }
 
     /// Evaluates the definitions of a part without bindings, as these form a cycle, which is reported.
-    pub(super) fn definitions_of_part_alone(&mut self, part: usize) {
+    pub(super) fn definitions_of_unbound_part(&mut self, part: usize) {
         let samples = self.samples.clone();
         self.in_part(part, |child| {
             child.samples = samples;
@@ -134,7 +134,7 @@ impl<'a> Checker<'a> {
 
     /// Returns the value of a param with its binding. The outer `None` stands for no binding, the inner one for a broken one.
     #[allow(clippy::option_option)] // not bound, or broken
-    pub(super) fn as_bound(&mut self, name: &Name, in_file: Value) -> Option<Option<Value>> {
+    pub(super) fn value_with_binding(&mut self, name: &Name, in_file: Value) -> Option<Option<Value>> {
         let BoundParam { bound: BoundValue::Number(value, judged), span, .. } = *self.bound_param(name)? else {
             return None;
         };
@@ -162,7 +162,7 @@ impl<'a> Checker<'a> {
     }
 
     /// Returns a point with the bindings of it or of its coordinates.
-    pub(super) fn point_as_bound(&mut self, name: &Name, mut point: DrawnPoint) -> Option<DrawnPoint> {
+    pub(super) fn point_with_binding(&mut self, name: &Name, mut point: DrawnPoint) -> Option<DrawnPoint> {
         for k in 0..self.bound.params.len() {
             let BoundParam { name: bound_name, bound, span } = self.bound.params[k];
             if bound_name != name.text {

@@ -79,7 +79,7 @@ impl Checker<'_> {
                     context,
                 )?;
                 let id = self.model.graph.unary(Unary::named(name)?, value.id);
-                if ["asin", "acos"].contains(&name) && self.is_no_sine(span, name, value) {
+                if ["asin", "acos"].contains(&name) && self.report_no_such_angle(span, name, value) {
                     return None;
                 }
                 let dim = if value.dim.is_pure() { self.pure_number_dim(arguments) } else { Dim::UNFIT };
@@ -92,8 +92,8 @@ impl Checker<'_> {
         }
     }
 
-    /// Reports a constant that is not the sine or cosine of an angle.
-    fn is_no_sine(&mut self, span: Span, function: &str, argument: Value) -> bool {
+    /// Reports a constant argument of `asin` or `acos` whose magnitude exceeds 1.
+    fn report_no_such_angle(&mut self, span: Span, function: &str, argument: Value) -> bool {
         let number = self.number_of(argument.id).filter(|number| number.is_finite() && number.abs() > 1.0);
         let Some(number) = number.filter(|_| !self.branch.is_untaken) else { return false };
         self.report(errors::no_such_angle(span, function, number));

@@ -84,7 +84,7 @@ impl<'a> Checker<'a> {
         }
         self.reject_window(name, window)?;
         if self.is_of_language(&name.text) {
-            if self.is_declared_though_taken(name) {
+            if self.is_reserved_but_declared(name) {
                 return None;
             }
             return self.builtin(e, name, arguments, context);
@@ -229,7 +229,7 @@ impl<'a> Checker<'a> {
             self.calls.abandoned.insert(call);
         } else {
             self.calls.complete = complete + (self.calls.visited - visited);
-            self.keep_conditions(call, first);
+            self.cache_conditions(call, first);
             self.calls.expansions.insert(call, value);
         }
         self.calls.is_abandoned |= outer;
@@ -237,7 +237,7 @@ impl<'a> Checker<'a> {
     }
 
     /// Caches the conditions of an expansion from `first` on, without duplicates.
-    fn keep_conditions(&mut self, call: Call, first: usize) {
+    fn cache_conditions(&mut self, call: Call, first: usize) {
         let mut conditions = self.model.conditions.split_off(first);
         let mut unique = FxHashSet::default();
         conditions.retain(|condition| unique.insert(condition.positive));
@@ -267,7 +267,7 @@ impl<'a> Checker<'a> {
             value = self.reading(before, &mut read);
         }
         if !self.calls.is_abandoned {
-            self.forget_repeated_conditions(conditions);
+            self.remove_repeated_conditions(conditions);
         }
         self.calls.deferred.clear();
         value
@@ -322,7 +322,7 @@ impl<'a> Checker<'a> {
     }
 
     /// Removes duplicate conditions, which repeated readings and calls add.
-    fn forget_repeated_conditions(&mut self, from: usize) {
+    fn remove_repeated_conditions(&mut self, from: usize) {
         if self.model.conditions.len() <= from + 1 {
             return;
         }

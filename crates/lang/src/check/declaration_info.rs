@@ -97,7 +97,7 @@ pub fn known(tree: &Mechanism, options: &Surroundings, sources: &Sources) -> Kno
     let (instance, _) = instance_of(tree, options, sources);
     let mut counter = Counter { sources, totals: FxHashMap::default() };
     let freedom = counter.total(&instance);
-    let copies = counter.of_each(&instance);
+    let copies = counter.count_each(&instance);
     let counts = tree.items.iter().filter_map(|item| count(item, copies.get(&item.span)?)).collect();
     let definitions = definitions_of(tree);
     let mut checker = Checker::new(&definitions, options, sources);
@@ -127,16 +127,16 @@ impl Counter<'_> {
         if let Some(cached) = self.totals.get(&key) {
             return *cached;
         }
-        let mut of_items = instance.tree().items.iter().map(|item| self.of_item(item, instance));
+        let mut of_items = instance.tree().items.iter().map(|item| self.count_item(item, instance));
         let total = of_items.try_fold(0_i64, |sum, freedom| Some(sum.saturating_add(freedom?)));
         self.totals.insert(key, total);
         total
     }
 
-    fn of_each(&mut self, instance: &Instance<'_>) -> FxHashMap<Span, Copies> {
+    fn count_each(&mut self, instance: &Instance<'_>) -> FxHashMap<Span, Copies> {
         let mut all: FxHashMap<Span, Copies> = FxHashMap::default();
         for item in &instance.tree().items {
-            let freedom = self.of_item(item, instance);
+            let freedom = self.count_item(item, instance);
             let (sum, copies) = all.entry(item.span).or_insert((Some(0), 0));
             *sum = sum.zip(freedom).map(|(sum, freedom)| sum.saturating_add(freedom));
             *copies += 1;
@@ -144,7 +144,7 @@ impl Counter<'_> {
         all
     }
 
-    fn of_item(&mut self, item: &Item, instance: &Instance<'_>) -> Option<i64> {
+    fn count_item(&mut self, item: &Item, instance: &Instance<'_>) -> Option<i64> {
         match &item.kind {
             ItemKind::Body { .. } => Some(3),
             ItemKind::Equation { .. } => Some(-1),

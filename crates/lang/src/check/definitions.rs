@@ -105,7 +105,7 @@ impl<'a> Checker<'a> {
             if let Entity::Part(k) = entity
                 && k < self.parts.len()
             {
-                self.definitions_of_part_alone(k);
+                self.definitions_of_unbound_part(k);
             }
         }
     }
@@ -141,7 +141,7 @@ impl<'a> Checker<'a> {
                                 return;
                             }
                             let hidden = arguments.get(&k) == Some(&used.text.as_str());
-                            let is_user_name = !hidden && !self.is_declared_though_taken(used);
+                            let is_user_name = !hidden && !self.is_reserved_but_declared(used);
                             let entity = self.entity(used).filter(|_| is_user_name);
                             // A name in a part depends on the part, unless no number of it is used here.
                             let part = used.text.split_once('.').and_then(|(part, _)| self.space.get(part));

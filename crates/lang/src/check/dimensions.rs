@@ -51,7 +51,7 @@ impl Checker<'_> {
             if holds {
                 return true;
             }
-            // The length between two points has their dimension.
+            // The dimension of points matters for `length`, and not for `direction`.
             let with_points = match &e.kind {
                 ExprKind::Call { name, .. } if self.is_of_language(&name.text) => match name.text.as_str() {
                     "length" => true,
@@ -112,7 +112,7 @@ impl Checker<'_> {
         b: (Span, Value),
         context: &Context<'_>,
     ) -> Option<Dim> {
-        let dims = [a, b].map(|(_, value)| value.dim.where_judged(context.judged));
+        let dims = [a, b].map(|(_, value)| value.dim.when_judged(context.judged));
         let (x, y) = match dims {
             [Dim::Any, other] | [other, Dim::Any] => return Some(other),
             [Dim::Of(x), Dim::Of(y)] => (x, y),
@@ -149,8 +149,8 @@ impl Checker<'_> {
         self.model.graph.dependence(id).on(Dependence::NAMED)
     }
 
-    /// Returns the dimension of a function whose value is a pure number. Plain arguments give a plain number, and arguments that are not
-    /// pure show that dimensions are missing.
+    /// Returns the dimension of a function whose value is a pure number: unfit if an argument is, plain if an argument depends on no
+    /// quantities, else pure.
     pub(super) fn pure_number_dim(&self, arguments: &[(Span, Value)]) -> Dim {
         let is_plain = |value: &Value| !self.is_of_quantities(value.id);
         if arguments.iter().any(|(_, value)| !value.dim.fits()) {
@@ -171,7 +171,7 @@ impl Checker<'_> {
         found: Dim,
         context: &Context<'_>,
     ) -> Option<()> {
-        match found.where_judged(context.judged) {
+        match found.when_judged(context.judged) {
             Dim::Of(dimension) if context.judged && !dimension.is(expected) => {
                 let text = self.sources.text(span);
                 self.report(errors::wrong_dimension(place, expected, Part { span, dimension }, text));

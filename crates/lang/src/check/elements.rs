@@ -234,8 +234,8 @@ impl Checker<'_> {
                 self.record_length_term(side, value.id, context.judged);
             }
         }
-        if !self.a_body_moves([a.id, b.id]) {
-            self.report(errors::nobody_moves(driver, name, left.span.to(right.span)));
+        if !self.has_moving_body([a.id, b.id]) {
+            self.report(errors::no_moving_body(driver, name, left.span.to(right.span)));
             return None;
         }
         // `distance` alone on the left, and no quantity on the right.
@@ -324,7 +324,7 @@ impl Checker<'_> {
             .collect()
     }
 
-    pub(super) fn a_body_moves(&self, ids: [ExprId; 2]) -> bool {
+    pub(super) fn has_moving_body(&self, ids: [ExprId; 2]) -> bool {
         self.quantities_in(ids)
             .into_iter()
             .any(|quantity| self.frames_of(quantity).iter().any(|&frame| self.moves(frame)))

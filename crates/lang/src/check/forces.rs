@@ -188,7 +188,7 @@ impl Checker<'_> {
         }
         self.reject_window(called, window.as_deref())?;
         let value = self.quantity(bare, called, arguments, &driven("a load", true))?;
-        if !self.a_body_moves([value.id; 2]) {
+        if !self.has_moving_body([value.id; 2]) {
             self.report(errors::load_on_no_body(name, on.span));
             return None;
         }

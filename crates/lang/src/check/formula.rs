@@ -57,7 +57,7 @@ impl Dim {
     }
 
     /// Returns the dimension in a judged formula, where numbers are pure.
-    pub fn where_judged(self, judged: bool) -> Dim {
+    pub fn when_judged(self, judged: bool) -> Dim {
         match self {
             Dim::Plain { read, .. } if judged => Dim::Of(read),
             _ => self,
@@ -226,7 +226,7 @@ impl Checker<'_> {
                 None
             }
         }?;
-        let value = Value { dim: value.dim.where_judged(context.judged), ..value };
+        let value = Value { dim: value.dim.when_judged(context.judged), ..value };
         self.finite(e.span, value)
     }
 
@@ -283,7 +283,7 @@ impl Checker<'_> {
                 StandsFor::Ground => {}
             },
             // `10 mm/s` in a text with `param s`.
-            BareName::Declared(_) if self.is_declared_though_taken(name) => return None,
+            BareName::Declared(_) if self.is_reserved_but_declared(name) => return None,
             BareName::Unit(unit) => {
                 let id = self.model.graph.constant(unit.to_si(1.0, 1));
                 return Some(Value { id, dim: Dim::Of(unit.dimension) });
@@ -301,7 +301,7 @@ impl Checker<'_> {
             return Some(Value { id, dim: Dim::Plain { read: Dimension::TIME, fits: true } });
         }
         // Otherwise a parameter was intended.
-        if !self.is_declared_though_taken(name) {
+        if !self.is_reserved_but_declared(name) {
             self.report(if context.results {
                 errors::outside_reduction("time `t`", name.span, "t")
             } else {

@@ -112,18 +112,18 @@ impl Checker<'_> {
     pub(super) fn read_samples(&mut self) -> Option<Samples> {
         let file = self.options.given.samples?;
         let sources = self.sources;
-        let headed = self.or_reported(samples::header(sources.get(file), file))?;
+        let headed = self.report_faults(samples::header(sources.get(file), file))?;
         let inputs = self.all_inputs();
         let faulty = headed.columns().filter(|head| !self.has_an_input(head, &inputs)).count();
         match headed.rows() {
             // A column of an unknown input may well hold no numbers.
             Err(_) if faulty > 0 => None,
-            rows => self.or_reported(rows),
+            rows => self.report_faults(rows),
         }
     }
 
     /// Returns a value, or reports the faults.
-    fn or_reported<T>(&mut self, found: Result<T, Vec<Diagnostic>>) -> Option<T> {
+    fn report_faults<T>(&mut self, found: Result<T, Vec<Diagnostic>>) -> Option<T> {
         found.map_err(|faults| faults.into_iter().for_each(|fault| self.report(fault))).ok()
     }
 

@@ -205,7 +205,7 @@ impl Checker<'_> {
                 let apart = c.zip(d).is_none_or(|(c, d)| (c[0] - d[0]).abs() + (c[1] - d[1]).abs() > 0.0);
                 if !apart {
                     self.report(errors::centers_coincide([arguments[0].span, arguments[1].span]));
-                    // One missing pose would be reported for all its gears.
+                    // A body without a pose is marked, so that it is reported once and not for each of its gears.
                     let frames = circles.map(|circle| self.model[self.model[circle].center].frame);
                     let without: Vec<Frame> = frames.into_iter().filter(|frame| self.has_no_pose(*frame)).collect();
                     self.common.broken_poses.extend(without);

@@ -162,7 +162,7 @@ impl Checker<'_> {
     }
 
     /// Returns whether a name of the language is declared, which has been reported. It may mean either.
-    pub(super) fn is_declared_though_taken(&self, name: &Name) -> bool {
+    pub(super) fn is_reserved_but_declared(&self, name: &Name) -> bool {
         let is_callable = |entity| matches!(entity, Entity::Function(_) | Entity::Table(_));
         let is_function = is_called(&name.text) && !gives_way(&name.text);
         self.space.get(&name.text).is_some_and(|entity| is_taken(&name.text) || is_function && is_callable(entity))

@@ -39,7 +39,7 @@ impl<'a> Checker<'a> {
     fn param(&mut self, name: &Name, docs: &[String], formula: &Expr) -> Option<Value> {
         let context = Context::constant("a parameter");
         let in_file = self.param_value(formula, context)?;
-        if let Some(bound) = self.as_bound(name, in_file) {
+        if let Some(bound) = self.value_with_binding(name, in_file) {
             return bound;
         }
         let setting = self.settings_of(name).pop();
@@ -92,7 +92,7 @@ impl<'a> Checker<'a> {
     fn point_of_param(&mut self, name: &Name, docs: &[String], formula: &Expr) -> Option<DrawnPoint> {
         let DrawnPoint { mut at, mut dimensional } = self.point_formula(formula, &Context::constant("a parameter"))?;
         if self.bound_param(name).is_some() {
-            DrawnPoint { at, dimensional } = self.point_as_bound(name, DrawnPoint { at, dimensional })?;
+            DrawnPoint { at, dimensional } = self.point_with_binding(name, DrawnPoint { at, dimensional })?;
         }
         for (coordinate, setting) in self.settings_of(name) {
             let given = self.point_given(name, coordinate, setting, DrawnPoint { at, dimensional })?;
@@ -163,7 +163,7 @@ impl<'a> Checker<'a> {
         let value = self.formula(formula, &Context { judged, ..context })?;
         let dim = match value.dim {
             _ if self.is_zero(formula) => Dim::Any,
-            Dim::Any => Dim::PLAIN.where_judged(judged),
+            Dim::Any => Dim::PLAIN.when_judged(judged),
             dim => dim,
         };
         Some(Value { dim, ..value })

@@ -21,8 +21,8 @@ pub(super) fn coordinate(feature: &Name) -> Option<usize> {
     ["x", "y"].iter().position(|name| feature.text == *name)
 }
 
-/// Returns whether a function of the language takes points, as `mid`, `length` and `direction` do; `None` if it has nothing to do with
-/// points.
+/// Returns whether a function for points takes points, as `mid`, `length` and `direction` do, and not numbers, as `polar` does; `None`
+/// for other functions.
 fn takes_points(function: &str) -> Option<bool> {
     let of_points = Function::named(function).is_some_and(|function| function.group == Group::Points);
     of_points.then(|| function != "polar")

@@ -113,7 +113,7 @@ impl<'t, 'c> Expander<'t, 'c> {
         let before = self.checker.diagnostics.len();
         let value = self.checker.any_constant(&formula);
         if value.is_none() {
-            self.is_of_a_part(e, "a binding that decides a range", before);
+            self.report_part_dependence(e, "a binding that decides a range", before);
         }
         value
     }
@@ -139,7 +139,7 @@ impl<'t, 'c> Expander<'t, 'c> {
         ((written, self.checker.diagnostics), self.copies, paths)
     }
 
-    fn tell(&mut self, diagnostic: Diagnostic) {
+    fn report_once(&mut self, diagnostic: Diagnostic) {
         let span = diagnostic.labels.first().map(|label| label.span);
         if span.is_none_or(|span| self.reported.insert(span)) {
             self.checker.report(diagnostic);
@@ -153,13 +153,13 @@ impl<'t, 'c> Expander<'t, 'c> {
             let Some(name) = name_of(item) else { return true };
             let is_repeated = !item.ranges.is_empty();
             if is_repeated && is_taken(&name.text) {
-                self.tell(errors::reserved(name, None, &[]));
+                self.report_once(errors::reserved(name, None, &[]));
                 return false;
             }
             let (span, other) = *first.entry(&name.text).or_insert((name.span, is_repeated));
             let is_twice = span != name.span && (is_repeated || other);
             if is_twice {
-                self.tell(errors::declared_twice(name, span));
+                self.report_once(errors::declared_twice(name, span));
             }
             !is_twice
         };
@@ -171,7 +171,7 @@ impl<'t, 'c> Expander<'t, 'c> {
     fn copies(&mut self, item: &'t Item) -> Option<Vec<Numbers<'t>>> {
         let mut copies: Vec<Numbers<'t>> = vec![Vec::new()];
         if let Some(range) = item.ranges.get(MOST_INDICES) {
-            self.tell(errors::too_many_indices(range.index.span, MOST_INDICES));
+            self.report_once(errors::too_many_indices(range.index.span, MOST_INDICES));
             return None;
         }
         for range in &item.ranges {
@@ -184,7 +184,7 @@ impl<'t, 'c> Expander<'t, 'c> {
                 let more = usize::try_from(to.saturating_sub(from)).unwrap_or(0);
                 let count = self.count.saturating_add(longer.len()).saturating_add(more);
                 if count > MOST {
-                    self.tell(errors::too_many_declarations(range.index.span, MOST, "too large a range"));
+                    self.report_once(errors::too_many_declarations(range.index.span, MOST, "too large a range"));
                     self.is_too_large = true;
                     return None;
                 }
@@ -207,7 +207,7 @@ impl<'t, 'c> Expander<'t, 'c> {
         let is_duplicate = before.into_iter().any(|other| other.index.text == name.text);
         let is_unique_index = !is_taken(&name.text) && !self.names.contains(name.text.as_str()) && !is_duplicate;
         if !is_unique_index {
-            self.tell(errors::index_is_taken(name));
+            self.report_once(errors::index_is_taken(name));
         }
         is_unique_index
     }
@@ -227,24 +227,24 @@ impl<'t, 'c> Expander<'t, 'c> {
             let before = self.checker.diagnostics.len();
             match self.checker.constant(&formula, place, Dimension::PURE) {
                 Some((_, value)) => value,
-                None => return Err(self.is_of_a_part(e, place, before)),
+                None => return Err(self.report_part_dependence(e, place, before)),
             }
         };
         let whole = value.round();
         if !value.is_finite() || (value - whole).abs() > WHOLE || whole.abs() > 1e15 {
-            self.tell(errors::not_whole(place, e.span, value, numbers));
+            self.report_once(errors::not_whole(place, e.span, value, numbers));
             return Err(NotExpandable);
         }
         Ok(whole as i64)
     }
 
     /// Reports that a number depends on a declaration in a part, in place of the diagnostics from `before` on, if it does.
-    pub fn is_of_a_part(&mut self, e: &Expr, place: &str, before: usize) -> NotExpandable {
+    pub fn report_part_dependence(&mut self, e: &Expr, place: &str, before: usize) -> NotExpandable {
         if let Some(path) = path_into_part(self.tree, e) {
             self.checker.diagnostics.truncate(before);
             let text = self.checker.sources.text(path);
             let diagnostic = errors::decided_by_a_part(place, text, e.span, path);
-            self.tell(diagnostic);
+            self.report_once(diagnostic);
         }
         NotExpandable
     }

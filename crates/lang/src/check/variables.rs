@@ -166,7 +166,7 @@ impl Checker<'_> {
     }
 
     /// Returns the formula to which an input is bound, held fixed in derivatives by the part's own equations.
-    pub(super) fn held(&mut self, value: Value) -> Value {
+    pub(super) fn held_input(&mut self, value: Value) -> Value {
         let Some(part) = self.address.part.filter(|_| self.is_coupled()) else { return value };
         let order = self.derivative_order(value.id);
         Value { id: self.name_symbol(Named::Held(part, value.id), order), ..value }

@@ -180,7 +180,7 @@ impl Lowering<'_> {
             Force::ReactionY(joint) => self.reaction_in(view, joint, 1),
             Force::ReactionTorque(joint) => {
                 let moment = self.reaction(joint).moment;
-                self.handed(view, moment)
+                self.with_handedness(view, moment)
             }
         }
     }

@@ -166,7 +166,7 @@ impl Lowering<'_> {
     }
 
     /// Returns a signed value of the ground's frame with the sign of a part's handedness.
-    pub(super) fn handed(&mut self, part: Option<PartId>, value: ExprId) -> ExprId {
+    pub(super) fn with_handedness(&mut self, part: Option<PartId>, value: ExprId) -> ExprId {
         if self.model.is_mirrored(part) { self.graph.neg(value) } else { value }
     }
 

@@ -26,7 +26,7 @@ impl Lowering<'_> {
                 let [phi_i, phi_j] = frames.map(|frame| self.frame_coordinate(frame, 2));
                 let angle = self.formula(angle);
                 let turn = self.graph.sub(phi_j, phi_i);
-                let turn = self.handed(joint.part, turn);
+                let turn = self.with_handedness(joint.part, turn);
                 let turn = self.graph.sub(turn, angle);
                 let (p, q) = (self.position(p), self.position(q));
                 let [x, y] = self.difference(p, q);
@@ -44,7 +44,7 @@ impl Lowering<'_> {
                 let v = self.direction(a);
                 let offset = self.formula(offset);
                 let left = self.left_of(v, d);
-                let left = self.handed(joint.part, left);
+                let left = self.with_handedness(joint.part, left);
                 entries(RowUnit::LENGTH, [self.graph.sub(left, offset)])
             }
             // Angles and phases of gears are relative to the part that declares them.

@@ -332,7 +332,7 @@ impl Lowering<'_> {
                 ConstraintSystem::time_derivatives(&mut self.graph, &[inner], 3)[0]
             }
             Named::By(inner, variable, part) => self.derivative_within(k, inner, variable, part),
-            Named::Held(part, bound) => self.held(part, bound),
+            Named::Held(part, bound) => self.held_input(part, bound),
             Named::Reduction(k) => self.reduction_number(k),
             // The formulas of a curve are imported for each contact. Elsewhere only unused formulas hold its argument.
             Named::Argument => self.graph.constant(0.0),

@@ -126,7 +126,7 @@ impl Lowering<'_> {
     }
 
     /// Returns an input of a part: its leaf while formulas are lowered with leaves, else the formula to which it is bound.
-    pub(super) fn held(&mut self, part: PartId, bound: ExprId) -> ExprId {
+    pub(super) fn held_input(&mut self, part: PartId, bound: ExprId) -> ExprId {
         let scope = self.leaf_context.scope(part).filter(|_| self.leaf_context.is_on);
         let id = self.formula(bound);
         let Some(scope) = scope else { return id };

@@ -50,7 +50,7 @@ impl Lowering<'_> {
             return self.graph.sub(end, start);
         }
         let turn = self.relative_to(None, |l| l.turn(from, to));
-        self.handed(view, turn)
+        self.with_handedness(view, turn)
     }
 
     fn angle(&mut self, direction: Direction) -> ExprId {

@@ -175,10 +175,10 @@ impl Slopes<'_, '_> {
         let by = self.partial(value)?;
         let rate = self.lowering.time_derivative(value);
         let switches = self.lowering.moving_kinks(value, self.variable);
-        let bends = !switches.is_empty();
+        let kinks = !switches.is_empty();
         let ends = self.end_slopes()?;
         let stays = ends.iter().all(|(_, time_slope)| self.is_zero(*time_slope));
-        if self.is_zero(by) && stays && !bends {
+        if self.is_zero(by) && stays && !kinks {
             return Some(by);
         }
         let of = self.reductions[k as usize].of;
@@ -192,7 +192,7 @@ impl Slopes<'_, '_> {
         };
         let rate_there = rate.map(|rate| self.reduce(at, rate, holds));
         let mut slope = inside;
-        if when || bends {
+        if when || kinks {
             slope = match rate_there {
                 Some(rate) => self.select_if_stationary(of, rate, inside, at_switch),
                 None if when => return None,

@@ -1,4 +1,4 @@
-//! Switching functions: formulas at whose zeros another formula jumps or bends along the motion, and their derivatives by a variable.
+//! Switching functions: formulas at whose zeros another formula jumps or has a kink along the motion, and their derivatives by a variable.
 //!
 //! A switch whose time does not depend on the variable, such as one of time alone, does not disturb a derivative at fixed time.
 
@@ -11,7 +11,7 @@ enum Discontinuity {
     /// The value jumps.
     Jump,
     /// The value or its rate jumps.
-    Bend,
+    Kink,
 }
 
 /// A switching function `g`.
@@ -32,14 +32,14 @@ impl Lowering<'_> {
 
     /// Returns the switching functions that depend on a variable and at whose zeros a formula or its rate may jump.
     pub(super) fn moving_kinks(&mut self, formula: ExprId, variable: u32) -> Vec<SwitchingFunction> {
-        let mut switches = self.moving_switches(&[formula], Discontinuity::Bend, variable);
-        switches.extend(self.moving_in_equations(formula, Discontinuity::Bend, variable));
+        let mut switches = self.moving_switches(&[formula], Discontinuity::Kink, variable);
+        switches.extend(self.moving_in_equations(formula, Discontinuity::Kink, variable));
         switches
     }
 
-    /// Returns the switching functions at whose zeros a formula may jump along the motion, or bend if `bends`, of any dependence.
-    pub(super) fn switching_functions(&mut self, formula: ExprId, bends: bool) -> Vec<ExprId> {
-        let kind = if bends { Discontinuity::Bend } else { Discontinuity::Jump };
+    /// Returns the switching functions at whose zeros a formula may jump along the motion, or bend if `kinks`.
+    pub(super) fn switching_functions(&mut self, formula: ExprId, kinks: bool) -> Vec<ExprId> {
+        let kind = if kinks { Discontinuity::Kink } else { Discontinuity::Jump };
         let mut operands = switching_operands(&mut self.graph, &[formula], kind);
         for (roots, kind) in self.equations_affecting(formula, kind) {
             operands.extend(switching_operands(&mut self.graph, &roots, kind));
@@ -50,9 +50,9 @@ impl Lowering<'_> {
         operands
     }
 
-    /// Returns whether a formula of results switches by the values of results.
+    /// Returns whether a formula of results has switching functions that depend on reductions.
     pub(super) fn switches_by_results(&mut self, formula: ExprId) -> bool {
-        switching_operands(&mut self.graph, &[formula], Discontinuity::Bend)
+        switching_operands(&mut self.graph, &[formula], Discontinuity::Kink)
             .into_iter()
             .any(|of| self.graph.dependence(of).on(Dependence::NAMED))
     }
@@ -81,7 +81,7 @@ impl Lowering<'_> {
             loads.extend(self.model.loads.iter().map(|load| load.force));
             loads = loads.into_iter().map(|force| self.formula(force)).collect();
         }
-        [(roots, Discontinuity::Bend), (loads, kind)]
+        [(roots, Discontinuity::Kink), (loads, kind)]
     }
 
     /// Returns the switching functions of formulas that depend on a variable.
@@ -129,12 +129,12 @@ fn zero_at_integers(graph: &mut Graph, of: ExprId) -> ExprId {
 
 /// Returns the switching functions of one node.
 fn node_switches(graph: &mut Graph, id: ExprId, kind: Discontinuity) -> Vec<ExprId> {
-    let bends = kind == Discontinuity::Bend;
+    let kinks = kind == Discontinuity::Kink;
     match graph.node(id) {
         Node::Compare(_, a, b) => vec![graph.sub(a, b)],
-        Node::Binary(Binary::Min | Binary::Max, a, b) if bends => vec![graph.sub(a, b)],
-        Node::Binary(Binary::Hypot, ..) if bends => vec![id],
-        Node::Binary(Binary::Pow, a, b) if bends => vec![a, b],
+        Node::Binary(Binary::Min | Binary::Max, a, b) if kinks => vec![graph.sub(a, b)],
+        Node::Binary(Binary::Hypot, ..) if kinks => vec![id],
+        Node::Binary(Binary::Pow, a, b) if kinks => vec![a, b],
         Node::Binary(Binary::Atan2, a, b) => {
             // Zero where `b` is negative and `a` is zero.
             let length = graph.binary(Binary::Hypot, a, b);
@@ -146,13 +146,13 @@ fn node_switches(graph: &mut Graph, id: ExprId, kind: Discontinuity) -> Vec<Expr
         }
         Node::Unary(Unary::Floor, a) => vec![zero_at_integers(graph, a)],
         Node::Unary(Unary::Sign, a) => vec![a],
-        Node::Unary(Unary::Abs | Unary::Sqrt, a) if bends => vec![a],
-        Node::Unary(Unary::Asin | Unary::Acos, a) if bends => {
+        Node::Unary(Unary::Abs | Unary::Sqrt, a) if kinks => vec![a],
+        Node::Unary(Unary::Asin | Unary::Acos, a) if kinks => {
             let (one, square) = (graph.constant(1.0), graph.power(a, 2));
             vec![graph.sub(one, square)]
         }
         // The third derivative of a spline jumps at its knots, which may depend on parameters.
-        Node::Table(table, order, a) if bends || order == 3 => {
+        Node::Table(table, order, a) if kinks || order == 3 => {
             let knots = graph.tables()[table.index()].knots.clone();
             let moving = knots.into_iter().filter(|&knot| graph.as_const(knot).is_none()).collect::<Vec<ExprId>>();
             let distances = moving.into_iter().map(|knot| graph.sub(a, knot)).collect::<Vec<ExprId>>();

@@ -56,24 +56,24 @@ impl Lowering<'_> {
         for &variable in &self.model.by {
             for order in 0..ENDINGS.len() {
                 for k in 0..self.coordinates.len() {
-                    self.append_of_coordinate(k, order, variable);
+                    self.append_coordinate_derivative(k, order, variable);
                 }
                 if order == 0 {
                     for of in reactions {
-                        self.append_of_reaction(of, variable);
+                        self.append_reaction_derivative(of, variable);
                     }
                 }
                 for (k, measure) in measures.iter().enumerate() {
                     let value = [Some(measure.value), measure.first, measure.second][order];
                     if let Some(value) = value {
-                        self.append_of_measure(k, measure, order, value, variable);
+                        self.append_measure_derivative(k, measure, order, value, variable);
                     }
                 }
             }
         }
     }
 
-    fn append_of_coordinate(&mut self, k: usize, order: usize, variable: u32) {
+    fn append_coordinate_derivative(&mut self, k: usize, order: usize, variable: u32) {
         let id = self.graph.symbol(mechc_expr::Symbol::Coordinate { index: k as u32, order: order as u8 });
         let value = self.derivative_by(id, variable);
         let Coordinate { name, kind, .. } = &self.coordinates[k];
@@ -82,7 +82,7 @@ impl Lowering<'_> {
     }
 
     /// Forces have no time derivatives.
-    fn append_of_reaction(&mut self, of: &Reaction, variable: u32) {
+    fn append_reaction_derivative(&mut self, of: &Reaction, variable: u32) {
         if !self.can_be_varied(of.value) {
             return;
         }
@@ -91,7 +91,7 @@ impl Lowering<'_> {
     }
 
     /// Measures that need too high derivatives have no column.
-    fn append_of_measure(&mut self, k: usize, measure: &Measure, order: usize, value: ExprId, variable: u32) {
+    fn append_measure_derivative(&mut self, k: usize, measure: &Measure, order: usize, value: ExprId, variable: u32) {
         if !self.can_be_varied(value) {
             return;
         }

@@ -57,7 +57,7 @@ impl Lowering<'_> {
     pub(super) fn corner_angle(&mut self, view: Option<PartId>, points: [PointId; 3]) -> ExprId {
         let [to_p, to_r] = self.arms(points);
         let (across, along) = (self.left_of(to_p, to_r), self.dot(to_p, to_r));
-        let across = self.handed(view, across);
+        let across = self.with_handedness(view, across);
         let angle = self.graph.binary(Binary::Atan2, across, along);
         // Opposite arms stand at π, whichever sign the zero has. The angle to the opposite of the arm has the same derivatives.
         let back = self.graph.neg(along);

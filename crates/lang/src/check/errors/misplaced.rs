@@ -124,7 +124,7 @@ pub fn no_quantity(driver: bool, name: &Name, span: Span) -> Diagnostic {
         .help("say what it is about: `rotation(joint) = …`, `x(body.point) = …`")
 }
 
-pub fn nobody_moves(driver: bool, name: &Name, span: Span) -> Diagnostic {
+pub fn no_moving_body(driver: bool, name: &Name, span: Span) -> Diagnostic {
     let what = if driver { "driver" } else { "constraint" };
     Diagnostic::new(Code::E0311, format!("no body takes part in {what} `{}`", name.text))
         .at(span, "nothing in it moves, or all that moves cancels")

@@ -13,7 +13,7 @@ impl<'t> Expander<'t, '_> {
     pub(super) fn must_not_be_repeated(&mut self, name: &Name) -> Expanded<()> {
         let Some(copies) = self.copies.get(name.text.as_str()) else { return Ok(()) };
         let first = copies.iter().min().map(|numbers| indexed(&name.text, numbers));
-        self.tell(errors::which_copy(name, first.as_deref()));
+        self.report_once(errors::which_copy(name, first.as_deref()));
         Err(NotExpandable)
     }
 
@@ -40,7 +40,7 @@ impl<'t> Expander<'t, '_> {
                 } else {
                     errors::unknown_owner(&first.name, self.tree)
                 };
-                self.tell(diagnostic);
+                self.report_once(diagnostic);
                 Err(NotExpandable)
             }
         }
@@ -78,7 +78,7 @@ impl<'t> Expander<'t, '_> {
                 // A part that cannot be instantiated has been reported.
                 _ if part.is_a_part(&segment.name.text) => Err(NotExpandable),
                 _ => {
-                    self.tell(errors::path_too_long(span));
+                    self.report_once(errors::path_too_long(span));
                     Err(NotExpandable)
                 }
             };
@@ -112,7 +112,7 @@ impl<'t> Expander<'t, '_> {
                 return self.one_of(&copies, segment, numbers);
             }
         };
-        self.tell(diagnostic);
+        self.report_once(diagnostic);
         Err(NotExpandable)
     }
 
@@ -131,7 +131,7 @@ impl<'t> Expander<'t, '_> {
             // A declaration that could not be repeated or parsed has been reported.
             None if self.is_repeated(name) || self.is_unread(name) => Err(NotExpandable),
             None if self.names.contains(name.text.as_str()) => {
-                self.tell(errors::not_repeated(name));
+                self.report_once(errors::not_repeated(name));
                 Err(NotExpandable)
             }
             // An unknown name is reported where it is resolved.
@@ -172,7 +172,7 @@ impl<'t> Expander<'t, '_> {
         }
         let ends = [copies.iter().min(), copies.iter().max()].map(|end| end.map(|end| indexed(&name.text, end)));
         let span = indices.iter().fold(name.span, |span, index| span.to(index.span));
-        self.tell(errors::no_such_copy(&copy, span, ends, numbers));
+        self.report_once(errors::no_such_copy(&copy, span, ends, numbers));
         Err(NotExpandable)
     }
 }

@@ -97,12 +97,12 @@ impl Slopes<'_, '_> {
         &mut self,
         value: ExprId,
         time_slope: ExprId,
-        bends: bool,
+        kinks: bool,
     ) -> Vec<SwitchingFunction> {
         if self.is_zero(time_slope) {
             return Vec::new();
         }
-        let functions = self.lowering.switching_functions(value, bends).into_iter();
+        let functions = self.lowering.switching_functions(value, kinks).into_iter();
         let switches = functions.map(|of| {
             let rate = self.lowering.time_derivative(of);
             let graph = &mut self.lowering.graph;
