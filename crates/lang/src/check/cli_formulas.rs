@@ -21,7 +21,7 @@ pub fn constant(formula: &Expr, place: &str, expected: Dimension, sources: &Sour
 /// # Errors
 /// The diagnostics of the formula.
 pub fn amount(formula: &Expr, place: &str, expected: Dimension, sources: &Sources) -> Result<f64, Diagnostics> {
-    evaluate(formula, sources, |checker| checker.judged_constant(formula, place, expected, (DecidedBy::Value, true)))
+    evaluate(formula, sources, |checker| checker.judged_constant(formula, place, expected, DecidedBy::Value, true))
 }
 
 fn evaluate(

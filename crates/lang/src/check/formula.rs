@@ -599,7 +599,7 @@ impl Checker<'_> {
         by: DecidedBy,
     ) -> Option<(ExprId, f64)> {
         let judged = self.is_dimensional(e);
-        self.judged_constant(e, place, expected, (by, judged))
+        self.judged_constant(e, place, expected, by, judged)
     }
 
     /// Evaluates a constant that may require a unit.
@@ -608,7 +608,8 @@ impl Checker<'_> {
         e: &Expr,
         place: &str,
         expected: Dimension,
-        (by, judged): (DecidedBy, bool),
+        by: DecidedBy,
+        judged: bool,
     ) -> Option<(ExprId, f64)> {
         let context = Context { judged, ..Context::constant(place) };
         let value = self.formula(e, &context)?;

@@ -44,12 +44,12 @@ impl Checker<'_> {
         }
         self.model.conditions.truncate(before);
         let dimension = nominal.dim.settled();
-        let id = self.line(&declared, [value, t], (dimension, bends));
+        let id = self.line(&declared, [value, t], dimension, bends);
         Some(Value { id, ..nominal })
     }
 
     /// Returns the formula of a settable input, and adds its parameters, which start at a value and a time (s).
-    fn line(&mut self, declared: &Declared, [value, t]: [f64; 2], (dimension, bends): (Dimension, bool)) -> ExprId {
+    fn line(&mut self, declared: &Declared, [value, t]: [f64; 2], dimension: Dimension, bends: bool) -> ExprId {
         let first = self.model.params.len() as u32;
         let per = |order: i32| dimension.over(Dimension::TIME.to_the(f64::from(order)));
         for (param, value, dimension) in [(first, value, dimension), (first + 1, t, Dimension::TIME)] {

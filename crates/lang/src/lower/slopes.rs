@@ -4,7 +4,7 @@
 //!
 //! - a value at a time has the derivative `e_p(T) + ė(T) T_p`;
 //! - an extremum at its time `T` too; within the analysis `ė(T) = 0` (the envelope theorem), or `T` is a switch that stays. Its time has
-//! the derivative `−ė_p/ë`;
+//!   the derivative `−ė_p/ë`;
 //! - an integral has `∫ e_p dt + e(to) to_p − e(from) from_p` (Leibniz), if `e` does not jump at a switch that moves with `p`;
 //! - in a window the bounds replace the ends of the analysis, and may depend on `p` as other results do;
 //! - a formula of such numbers is differentiated by the chain rule.

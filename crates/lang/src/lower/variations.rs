@@ -78,7 +78,7 @@ impl Lowering<'_> {
         let value = self.derivative_by(id, variable);
         let Coordinate { name, kind, .. } = &self.coordinates[k];
         let unit = per_second(kind.unit(), order);
-        self.append(&(name.clone() + ENDINGS[order]), value, variable, unit, [1.0; 3]);
+        self.append(&(name.clone() + ENDINGS[order]), value, variable, &unit, [1.0; 3]);
     }
 
     /// Forces have no time derivatives.
@@ -87,7 +87,7 @@ impl Lowering<'_> {
             return;
         }
         let value = self.derivative_by(of.value, variable);
-        self.append(&of.name, value, variable, of.unit.clone(), [1.0; 3]);
+        self.append(&of.name, value, variable, &of.unit, [1.0; 3]);
     }
 
     /// Measures that need too high derivatives have no column.
@@ -98,14 +98,14 @@ impl Lowering<'_> {
         let holds = self.all_hold(&self.model.measures[k].conditions);
         let value = self.derivative_by(value, variable);
         let value = self.only_where(holds, value);
-        let (unit, scale) = (measure.units.printed[order].clone(), measure.units.scale);
+        let (unit, scale) = (&measure.units.printed[order], measure.units.scale);
         self.append(&format!("{}{}", measure.name, ENDINGS[order]), value, variable, unit, scale);
     }
 
-    fn append(&mut self, of: &str, value: ExprId, variable: u32, unit: String, scale: [f64; 3]) {
+    fn append(&mut self, of: &str, value: ExprId, variable: u32, unit: &str, scale: [f64; 3]) {
         if let Some(variations) = &mut self.variations {
             let by = &variations.variables[variable as usize];
-            let (name, unit) = (format!("{of}.by.{}", by.name), quotient(&unit, &by.unit));
+            let (name, unit) = (format!("{of}.by.{}", by.name), quotient(unit, &by.unit));
             variations.appended.push(Appended { name, value, variable, unit, scale });
         }
     }
