@@ -1,13 +1,13 @@
-//! What a page is answered: JSON, and behind it the table as it is in memory.
+//! The binary format of a response to a page: JSON, followed by the table's columns.
 //!
-//! First come four bytes, the length of the JSON; then the JSON, filled up with blanks so that the numbers behind it begin at a multiple of
-//! eight bytes; then the columns, one after the other. All numbers are little-endian. `page/src/data/live.ts` reads it.
+//! The first four bytes are the length of the JSON. The JSON is padded with blanks so that the numbers after it begin at a multiple of
+//! eight bytes. The columns follow one after the other. All numbers are little-endian. `page/src/data/live.ts` reads this format.
 
 use serde_json::Value;
 
-/// The bytes of an answer.
+/// Encodes a response.
 #[must_use]
-pub(super) fn framed(json: &Value, columns: &[Vec<f64>]) -> Vec<u8> {
+pub(super) fn encode(json: &Value, columns: &[Vec<f64>]) -> Vec<u8> {
     let mut text = json.to_string().into_bytes();
     while !(4 + text.len()).is_multiple_of(8) {
         text.push(b' ');
@@ -24,14 +24,14 @@ pub(super) fn framed(json: &Value, columns: &[Vec<f64>]) -> Vec<u8> {
 
 #[cfg(test)]
 mod tests {
-    use super::framed;
+    use super::encode;
     use serde_json::json;
 
     #[test]
-    fn numbers_stand_at_multiples_of_eight_bytes() {
+    fn numbers_are_aligned_to_eight_bytes() {
         for text in ["", "a", "ab", "abcdefg"] {
             let json = json!({ "a": text });
-            let bytes = framed(&json, &[vec![1.5, -0.0], vec![f64::NAN, 2.0]]);
+            let bytes = encode(&json, &[vec![1.5, -0.0], vec![f64::NAN, 2.0]]);
             let length = u32::from_le_bytes([bytes[0], bytes[1], bytes[2], bytes[3]]) as usize;
             assert_eq!((4 + length) % 8, 0);
             assert_eq!(serde_json::from_slice::<serde_json::Value>(&bytes[4..4 + length]).ok(), Some(json));
