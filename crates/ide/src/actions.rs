@@ -1,9 +1,9 @@
 //! What can be done about a place: fixes of what is wrong there, and changes that keep what the text means.
 
 use super::completion::{free, free_name};
-use super::diagnostics::{DiagnosticStage, ProposedFix, Said, diagnostics};
-use super::edits::{applied, faults, first_new, text_of};
-use super::place::{Change, Place, Stretch};
+use super::diagnostics::{DiagnosticStage, ProposedFix, EditorDiagnostic, diagnostics};
+use super::trial_edits::{applied, faults, first_new, text_of};
+use super::location::{Change, FilePosition, FileRange};
 use super::snapshot::Snapshot;
 use mechc_syntax::ast::{Expr, ExprKind, Factor, Item, ItemKind, Mechanism};
 use mechc_text::cancel::Cancel;
@@ -23,7 +23,7 @@ pub struct Action {
     /// Whether it is what was meant, beyond doubt.
     pub is_preferred: bool,
     /// What it mends.
-    pub mends: Option<Said>,
+    pub mends: Option<EditorDiagnostic>,
     /// What it changes.
     pub changes: Vec<Change>,
 }
@@ -46,18 +46,18 @@ pub enum ActionKind {
 pub fn actions(snapshot: &Snapshot, path: &Arc<Path>, range: &Range<u32>) -> Option<Vec<Action>> {
     let words = diagnostics(snapshot, path, DiagnosticStage::Words, &Cancel::default)?;
     let proof = diagnostics(snapshot, path, DiagnosticStage::Proof, &Cancel::default)?;
-    let mut all: Vec<&Said> = words.iter().collect();
+    let mut all: Vec<&EditorDiagnostic> = words.iter().collect();
     all.extend(proof.iter().filter(|said| !words.contains(said)));
-    let touches = |said: &&Said| said.range.start <= range.end && range.start <= said.range.end;
+    let touches = |said: &&EditorDiagnostic| said.range.start <= range.end && range.start <= said.range.end;
     let mut found: Vec<Action> = all.iter().copied().filter(touches).flat_map(of_fault).collect();
     found.extend(fix_all(path, &all));
     found.extend(extract_param(snapshot, path, range));
-    let place = Place { path: Arc::clone(path), offset: range.start };
-    found.extend(drive_joint(snapshot, &place).unwrap_or_default());
+    let position = FilePosition { path: Arc::clone(path), offset: range.start };
+    found.extend(drive_joint(snapshot, &position).unwrap_or_default());
     Some(found)
 }
 
-fn of_fault(said: &Said) -> Vec<Action> {
+fn of_fault(said: &EditorDiagnostic) -> Vec<Action> {
     let action = |fix: &ProposedFix| Action {
         title: if fix.message.is_empty() { format!("mend: {}", said.message) } else { fix.message.clone() },
         kind: ActionKind::Fix,
@@ -69,16 +69,16 @@ fn of_fault(said: &Said) -> Vec<Action> {
 }
 
 /// All fixes of a file that always apply; of those that overlap the first one.
-fn fix_all(path: &Arc<Path>, all: &[&Said]) -> Option<Action> {
+fn fix_all(path: &Arc<Path>, all: &[&EditorDiagnostic]) -> Option<Action> {
     let mut changes: Vec<Change> = Vec::new();
     for fix in all.iter().flat_map(|said| &said.fixes).filter(|fix| fix.is_certain) {
-        let is_free = |new: &Change| changes.iter().all(|old| !overlap(&old.place, &new.place));
-        let is_here = |change: &Change| change.place.path == *path;
+        let is_free = |new: &Change| changes.iter().all(|old| !overlap(&old.location, &new.location));
+        let is_here = |change: &Change| change.location.path == *path;
         if fix.changes.iter().all(|change| is_here(change) && is_free(change)) {
             changes.extend(fix.changes.iter().cloned());
         }
     }
-    changes.sort_by_key(|change| change.place.start);
+    changes.sort_by_key(|change| change.location.start);
     let title = "make all fixes that always apply".to_owned();
     (!changes.is_empty()).then_some(Action {
         title,
@@ -90,7 +90,7 @@ fn fix_all(path: &Arc<Path>, all: &[&Said]) -> Option<Action> {
 }
 
 /// Whether two stretches share text, or a place where something would be put in.
-fn overlap(a: &Stretch, b: &Stretch) -> bool {
+fn overlap(a: &FileRange, b: &FileRange) -> bool {
     a.path == b.path && (a.start < b.end && b.start < a.end || a.start == b.start)
 }
 
@@ -109,10 +109,10 @@ fn extract_param(snapshot: &Snapshot, path: &Arc<Path>, range: &Range<u32>) -> O
     let text = text_of(snapshot, path)?;
     let value = text.get(span.start as usize..span.end as usize)?;
     let (at, before, behind) = place_for_param(mechanism, item, &text)?;
-    let stretch = |start: u32, end: u32| Stretch { path: Arc::clone(path), start, end };
+    let stretch = |start: u32, end: u32| FileRange { path: Arc::clone(path), start, end };
     let changes = vec![
-        Change { place: stretch(at, at), text: format!("{before}param {name} = {value}{behind}") },
-        Change { place: stretch(span.start, span.end), text: name.clone() },
+        Change { location: stretch(at, at), text: format!("{before}param {name} = {value}{behind}") },
+        Change { location: stretch(span.start, span.end), text: name.clone() },
     ];
     let after = applied(snapshot, &changes)?;
     let files = [Arc::clone(path)];
@@ -238,13 +238,13 @@ fn end_of_line(text: &str, declaration: Span) -> Option<u32> {
 }
 
 /// Drivers for the joint at a place, each for one of its copies, where the proof says that they would take what is left free.
-fn drive_joint(snapshot: &Snapshot, place: &Place) -> Option<Vec<Action>> {
-    let parsed = snapshot.parsed(&place.path)?;
-    let holds = |start: u32, end: u32| start <= place.offset && place.offset <= end;
+fn drive_joint(snapshot: &Snapshot, position: &FilePosition) -> Option<Vec<Action>> {
+    let parsed = snapshot.parsed(&position.path)?;
+    let holds = |start: u32, end: u32| start <= position.offset && position.offset <= end;
     let mechanism = parsed.tree().mechanisms.iter().find(|one| holds(one.span.start, one.span.end))?;
     let item = mechanism.items.iter().find(|item| holds(item.span.start, item.span.end))?;
     let ItemKind::Joint { name, .. } = &item.kind else { return None };
-    let text = text_of(snapshot, &place.path)?;
+    let text = text_of(snapshot, &position.path)?;
     let last = mechanism.items.iter().rfind(|item| matches!(item.kind, ItemKind::Joint { .. }))?;
     let end = if text.contains("\r\n") { "\r\n" } else { "\n" };
     let before = indent_of(&text, last.span).map_or(" ".to_owned(), |indent| format!("{end}{indent}"));
@@ -252,12 +252,12 @@ fn drive_joint(snapshot: &Snapshot, place: &Place) -> Option<Vec<Action>> {
     let at = end_of_line(&text, last.span)?;
     let action = |(driven, formula): (String, String)| {
         let copy = copy_of(&name.text, &driven)?;
-        let place = Stretch { path: Arc::clone(&place.path), start: at, end: at };
-        let changes = vec![Change { place, text: format!("{before}driver {driver}: {driven} = {formula}") }];
+        let position = FileRange { path: Arc::clone(&position.path), start: at, end: at };
+        let changes = vec![Change { location, text: format!("{before}driver {driver}: {driven} = {formula}") }];
         let title = format!("drive `{copy}`");
         Some(Action { title, kind: ActionKind::Drive, is_preferred: false, mends: None, changes })
     };
-    Some(free(snapshot, place)?.into_iter().filter_map(action).collect())
+    Some(free(snapshot, position)?.into_iter().filter_map(action).collect())
 }
 
 /// The joint that a quantity is about, if it is the one of a name, or a copy of it: `pin[1]` of `rotation(pin[1])`.
@@ -270,7 +270,7 @@ fn copy_of<'d>(name: &str, driven: &'d str) -> Option<&'d str> {
 #[cfg(test)]
 mod tests {
     use super::{Action, actions};
-    use crate::edits::{applied, text_of};
+    use crate::trial_edits::{applied, text_of};
     use crate::testing::{FOUR_BAR, at_cursor};
     use crate::{DiagnosticStage, Snapshot, diagnostics};
     use mechc_text::cancel::Cancel;
@@ -278,14 +278,14 @@ mod tests {
 
     /// All that is offered at a cursor, each with the lines that it writes.
     fn offered(text: &str) -> String {
-        let (snapshot, place) = at_cursor(text);
-        let range = place.offset..place.offset;
-        let found = actions(&snapshot, &place.path, &range).expect("a file");
-        let before = count(&snapshot, &place.path);
+        let (snapshot, position) = at_cursor(text);
+        let range = position.offset..position.offset;
+        let found = actions(&snapshot, &position.path, &range).expect("a file");
+        let before = count(&snapshot, &position.path);
         let told = |action: &Action| {
             let after = applied(&snapshot, &action.changes).expect("it can be made");
-            assert!(count(&after, &place.path) <= before, "{} brings faults", action.title);
-            let [old, new] = [&snapshot, &after].map(|one| text_of(one, &place.path).expect("a text"));
+            assert!(count(&after, &position.path) <= before, "{} brings faults", action.title);
+            let [old, new] = [&snapshot, &after].map(|one| text_of(one, &position.path).expect("a text"));
             let mark = if action.is_preferred { "!" } else { "" };
             let written = new.lines().filter(|line| !old.lines().any(|old| old == *line));
             format!("{:?}{mark} {}\n{}", action.kind, action.title, written.collect::<Vec<_>>().join("\n"))

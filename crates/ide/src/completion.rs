@@ -12,10 +12,10 @@ mod wanted;
 pub use item::{CompletionItem, CompletionItemKind, Template};
 pub(super) use proposals::{free, free_name};
 
-use super::place::Place;
-use super::snapshot::{Analysed, Snapshot};
+use super::location::FilePosition;
+use super::snapshot::{CheckedFile, Snapshot};
 use super::workspace::is_mech;
-use super::written::holds_letters;
+use super::lexical::holds_letters;
 use cursor::{Block, Call, Cursor};
 use mechc_pipeline::Checked;
 use mechc_syntax::ast::Mechanism;
@@ -23,10 +23,10 @@ use mechc_text::vocabulary::{
     FUNCTIONS, Group, JOINTS, KEYWORDS, Keyword, QUANTITIES, REDUCTIONS, ReductionWord, Role, Word, is_before_a_name,
 };
 use mechc_text::world::{World, beside};
-use proposals::Whole;
-use scope::{Scope, Sieve};
+use proposals::OtherDeclarations;
+use scope::{Scope, NameFilter};
 use std::path::Path;
-use wanted::{Wanted, wanted};
+use wanted::{Expected, wanted};
 
 /// More items than these nobody reads.
 const MOST: usize = 200;
@@ -42,15 +42,15 @@ pub struct Completions {
 
 /// What fits at a place. In a comment nothing does, nor where a new name stands.
 #[must_use]
-pub fn completions(snapshot: &Snapshot, place: &Place) -> Option<Completions> {
-    let parsed = snapshot.parsed(&place.path)?;
+pub fn completions(snapshot: &Snapshot, position: &FilePosition) -> Option<Completions> {
+    let parsed = snapshot.parsed(&position.path)?;
     let text = &parsed.sources().get(parsed.file()).text;
-    let Some(cursor) = Cursor::at(text, place.offset as usize) else { return Some(Completions::default()) };
-    let analysed = snapshot.checked(&place.path)?;
-    let checked = around(&analysed, place.offset);
-    let letters = text.get(cursor.word.start..place.offset as usize).unwrap_or_default();
-    let sieve = Sieve::of(checked.and_then(Checked::tree), letters);
-    let here = Here { snapshot, place, checked, cursor, sieve };
+    let Some(cursor) = Cursor::at(text, position.offset as usize) else { return Some(Completions::default()) };
+    let file = snapshot.checked(&position.path)?;
+    let checked = around(&file, position.offset);
+    let letters = text.get(cursor.word.start..position.offset as usize).unwrap_or_default();
+    let sieve = NameFilter::of(checked.and_then(Checked::tree), letters);
+    let here = CompletionContext { snapshot, position, checked, cursor, sieve };
     let mut items = here.items();
     items.sort_by_key(|item| item.rank);
     let is_incomplete = here.sieve.is_needed() || items.len() > MOST;
@@ -70,21 +70,21 @@ pub fn completions(snapshot: &Snapshot, place: &Place) -> Option<Completions> {
 }
 
 /// The mechanism that a place is in, be its end not written yet.
-fn around(analysed: &Analysed, offset: u32) -> Option<&Checked> {
+fn around(file: &CheckedFile, offset: u32) -> Option<&Checked> {
     let begins = |checked: &&Checked| checked.span().is_some_and(|span| span.start <= offset);
-    analysed.mechanisms.iter().rfind(begins)
+    file.mechanisms.iter().rfind(begins)
 }
 
 /// A place with what is known there.
-struct Here<'s> {
+struct CompletionContext<'s> {
     snapshot: &'s Snapshot,
-    place: &'s Place,
+    position: &'s FilePosition,
     checked: Option<&'s Checked>,
     cursor: Cursor<'s>,
-    sieve: Sieve<'s>,
+    sieve: NameFilter<'s>,
 }
 
-impl Here<'_> {
+impl CompletionContext<'_> {
     fn items(&self) -> Vec<CompletionItem> {
         let cursor = &self.cursor;
         if cursor.is_in_string {
@@ -103,7 +103,7 @@ impl Here<'_> {
             return items;
         }
         if cursor.is_behind_number() && !cursor.has("columns") {
-            let mut items = units::behind_number(self.snapshot, self.place, cursor);
+            let mut items = units::behind_number(self.snapshot, self.position, cursor);
             items.extend(if is_open { self.joining_in_window() } else { self.joining() });
             return items;
         }
@@ -171,7 +171,7 @@ impl Here<'_> {
             ("joint", _) if is_behind_colon => self.joints(),
             ("driver", _) if is_behind_colon => {
                 let mut items = self.whole().map(|whole| proposals::drivers(&whole)).unwrap_or_default();
-                items.extend(self.formula(&[Wanted::Number(None)]));
+                items.extend(self.formula(&[Expected::Number(None)]));
                 items
             }
             ("part", _) if is_behind_colon => self.mechanisms(None),
@@ -207,8 +207,8 @@ impl Here<'_> {
         self.checked?.tree()
     }
 
-    fn whole(&self) -> Option<Whole> {
-        Whole::of(self.snapshot, self.place, &self.cursor)
+    fn whole(&self) -> Option<OtherDeclarations> {
+        OtherDeclarations::of(self.snapshot, self.position, &self.cursor)
     }
 
     fn scope(&self) -> Option<Scope<'_>> {
@@ -266,21 +266,21 @@ impl Here<'_> {
         let wanted = wanted(cursor);
         let fitting = scope.inside(path, &wanted);
         // a number can begin with a point, as its x
-        if fitting.is_empty() || wanted.iter().any(|wanted| matches!(wanted, Wanted::Number(_))) {
+        if fitting.is_empty() || wanted.iter().any(|wanted| matches!(wanted, Expected::Number(_))) {
             return scope.inside(path, &[]);
         }
         fitting
     }
 
     /// What a formula can go on with.
-    fn formula(&self, wanted: &[Wanted]) -> Vec<CompletionItem> {
+    fn formula(&self, wanted: &[Expected]) -> Vec<CompletionItem> {
         let Some(scope) = self.scope() else { return Vec::new() };
         let cursor = &self.cursor;
         let mut items = Vec::new();
         let other = cursor.call().map(|call| cursor.arguments(call)).unwrap_or_default();
         for wanted in wanted {
             items.extend(scope.fitting(*wanted, cursor));
-            if *wanted == Wanted::Side {
+            if *wanted == Expected::Side {
                 items.extend(
                     ["left", "right"]
                         .iter()
@@ -297,9 +297,9 @@ impl Here<'_> {
             self.prefer_touching(other.first().copied().unwrap_or_default(), &mut items);
         }
         let is_number = wanted.iter().any(|wanted| match wanted {
-            Wanted::Number(_) => true,
+            Expected::Number(_) => true,
             // points of drawings are calculated with
-            Wanted::Point => is_drawn(cursor.head()),
+            Expected::Point => is_drawn(cursor.head()),
             _ => false,
         });
         if is_number && cursor.head() != "joint" {
@@ -328,15 +328,15 @@ impl Here<'_> {
     fn files(&self) -> Vec<CompletionItem> {
         let cursor = &self.cursor;
         let fits = |name: &str| match cursor.head() {
-            "use" => is_mech(name) && Path::new(name).file_name() != self.place.path.file_name(),
+            "use" => is_mech(name) && Path::new(name).file_name() != self.position.path.file_name(),
             _ => Path::new(name).extension().is_some_and(|ending| ending.eq_ignore_ascii_case("csv")),
         };
         if !matches!(cursor.head(), "use" | "table") {
             return Vec::new();
         }
-        let typed = &cursor.text[cursor.word.start..self.place.offset as usize];
+        let typed = &cursor.text[cursor.word.start..self.position.offset as usize];
         let within = typed.rfind('/').map_or("", |end| &typed[..=end]);
-        let folder = beside(&self.place.path.to_string_lossy(), within);
+        let folder = beside(&self.position.path.to_string_lossy(), within);
         let world = self.snapshot.buffers();
         let files = world.names_in(&folder).into_iter().filter(|name| fits(name));
         let mut items: Vec<CompletionItem> =

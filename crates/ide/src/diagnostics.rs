@@ -1,6 +1,6 @@
 //! What is to be said of a file, each stage for itself.
 
-use super::place::{Change, Stretch};
+use super::location::{Change, FileRange};
 use super::snapshot::Snapshot;
 use mechc_pipeline::Checked;
 use mechc_text::cancel::Cancel;
@@ -24,7 +24,7 @@ pub enum DiagnosticStage {
 
 /// A diagnostic of a file.
 #[derive(Clone, PartialEq, Debug)]
-pub struct Said {
+pub struct EditorDiagnostic {
     /// Where in the file.
     pub range: Range<u32>,
     /// How grave it is.
@@ -45,7 +45,7 @@ pub struct Said {
 #[derive(Clone, PartialEq, Debug)]
 pub struct Related {
     /// Where.
-    pub place: Stretch,
+    pub position: FileRange,
     /// What is there.
     pub text: String,
 }
@@ -68,9 +68,9 @@ pub fn diagnostics(
     path: &Path,
     stage: DiagnosticStage,
     begin: &dyn Fn() -> Cancel,
-) -> Option<Vec<Said>> {
+) -> Option<Vec<EditorDiagnostic>> {
     let checked = snapshot.checked(path)?;
-    let mut all: Vec<Said> = Vec::new();
+    let mut all: Vec<EditorDiagnostic> = Vec::new();
     let mut add = |checked: &Checked, sources: &Sources, diagnostics: &Diagnostics| {
         for said in diagnostics.iter().map(|diagnostic| said(diagnostic, checked, sources)) {
             // what is said of several mechanisms of the file is one thing
@@ -99,7 +99,7 @@ pub fn diagnostics(
 }
 
 /// A diagnostic as one of the file of a mechanism: at its own place, or else at the first of its places in that file.
-fn said(diagnostic: &Diagnostic, checked: &Checked, sources: &Sources) -> Said {
+fn said(diagnostic: &Diagnostic, checked: &Checked, sources: &Sources) -> EditorDiagnostic {
     let own = checked.file();
     let labels = &diagnostic.labels;
     let here = labels.iter().position(|label| label.span.file == own);
@@ -109,14 +109,14 @@ fn said(diagnostic: &Diagnostic, checked: &Checked, sources: &Sources) -> Said {
         match Some(k) == here {
             true if label.text.is_empty() => {}
             true => more.push(label.text.clone()),
-            false => related.push(Related { place: Stretch::of(label.span, sources), text: label.text.clone() }),
+            false => related.push(Related { location: FileRange::of(label.span, sources), text: label.text.clone() }),
         }
     }
     more.extend(diagnostic.notes.iter().map(|note| format!("note: {note}")));
     more.extend(diagnostic.help.iter().map(|help| format!("help: {help}")));
     let span =
         here.map_or_else(|| place_of_use(labels.first().map(|label| label.span.file), checked), |k| labels[k].span);
-    Said {
+    EditorDiagnostic {
         range: span.start..span.end,
         severity: diagnostic.severity(),
         code: diagnostic.code.as_str(),
@@ -128,7 +128,7 @@ fn said(diagnostic: &Diagnostic, checked: &Checked, sources: &Sources) -> Said {
 }
 
 fn proposed(fix: &Fix, sources: &Sources) -> ProposedFix {
-    let change = |edit: &Edit| Change { place: Stretch::of(edit.span, sources), text: edit.text.clone() };
+    let change = |edit: &Edit| Change { location: FileRange::of(edit.span, sources), text: edit.text.clone() };
     ProposedFix {
         message: fix.message.clone(),
         is_certain: fix.applies == Applies::Always,

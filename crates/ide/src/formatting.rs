@@ -1,6 +1,6 @@
 //! The style of a text: what to change for it.
 
-use super::place::{Change, Stretch};
+use super::location::{Change, FileRange};
 use super::snapshot::Snapshot;
 use mechc_text::source::Span;
 use std::ops::Range;
@@ -8,7 +8,7 @@ use std::path::Path;
 
 /// What of a file is formatted.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub enum Formatted {
+pub enum FormatScope {
     /// All of it.
     Whole,
     /// The lines that have a part in a stretch.
@@ -19,37 +19,37 @@ pub enum Formatted {
 
 /// What to change so that a file is formatted: the least that does it. What does not follow the grammar stays as it is.
 #[must_use]
-pub fn formatting(snapshot: &Snapshot, path: &Path, what: &Formatted) -> Option<Vec<Change>> {
+pub fn formatting(snapshot: &Snapshot, path: &Path, what: &FormatScope) -> Option<Vec<Change>> {
     let parsed = snapshot.parsed(path)?;
     let edits = match what {
-        Formatted::Whole => parsed.formatting(),
-        Formatted::In(range) => parsed.formatting_in(Span { file: parsed.file(), start: range.start, end: range.end }),
-        Formatted::AtBrace(end) => parsed.formatting_at_brace(*end),
+        FormatScope::Whole => parsed.formatting(),
+        FormatScope::In(range) => parsed.formatting_in(Span { file: parsed.file(), start: range.start, end: range.end }),
+        FormatScope::AtBrace(end) => parsed.formatting_at_brace(*end),
     };
     let change =
-        |edit: mechc_text::diag::Edit| Change { place: Stretch::of(edit.span, parsed.sources()), text: edit.text };
+        |edit: mechc_text::diag::Edit| Change { location: FileRange::of(edit.span, parsed.sources()), text: edit.text };
     Some(edits.into_iter().map(change).collect())
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{Formatted, formatting};
-    use crate::edits::{applied, text_of};
+    use super::{FormatScope, formatting};
+    use crate::trial_edits::{applied, text_of};
     use crate::testing::at_cursor;
 
     const TEXT: &str =
         "mechanism m {\nparam  a = 3 mm\n  param bcd=4 mm\n    body b {\npoint P=(a,0)\n}$0\n joint k revolute(\n}\n";
 
-    fn formatted(what: impl Fn(u32) -> Formatted) -> String {
-        let (snapshot, place) = at_cursor(TEXT);
-        let changes = formatting(&snapshot, &place.path, &what(place.offset)).expect("a file");
+    fn formatted(what: impl Fn(u32) -> FormatScope) -> String {
+        let (snapshot, position) = at_cursor(TEXT);
+        let changes = formatting(&snapshot, &position.path, &what(position.offset)).expect("a file");
         let after = applied(&snapshot, &changes).expect("it can be made");
-        text_of(&after, &place.path).expect("a text")
+        text_of(&after, &position.path).expect("a text")
     }
 
     #[test]
     fn what_is_whole_is_formatted() {
-        insta::assert_snapshot!(formatted(|_| Formatted::Whole), @r"
+        insta::assert_snapshot!(formatted(|_| FormatScope::Whole), @r"
         mechanism m {
             param a   = 3 mm
             param bcd = 4 mm
@@ -59,7 +59,7 @@ mod tests {
          joint k revolute(
         }
         ");
-        insta::assert_snapshot!(formatted(|_| Formatted::In(20..30)), @r"
+        insta::assert_snapshot!(formatted(|_| FormatScope::In(20..30)), @r"
         mechanism m {
             param a   = 3 mm
           param bcd=4 mm
@@ -69,7 +69,7 @@ mod tests {
          joint k revolute(
         }
         ");
-        insta::assert_snapshot!(formatted(Formatted::AtBrace), @r"
+        insta::assert_snapshot!(formatted(FormatScope::AtBrace), @r"
         mechanism m {
         param  a = 3 mm
           param bcd=4 mm

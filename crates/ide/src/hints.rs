@@ -110,9 +110,9 @@ mod tests {
 
     /// The lines that hints stand in, with these in brackets.
     fn shown(text: &str) -> String {
-        let (snapshot, place) = at_cursor(&format!("{text}$0"));
-        let found = hints(&snapshot, &place.path, &(0..u32::MAX)).expect("hints");
-        let parsed = snapshot.parsed(&place.path).expect("a file");
+        let (snapshot, position) = at_cursor(&format!("{text}$0"));
+        let found = hints(&snapshot, &position.path, &(0..u32::MAX)).expect("hints");
+        let parsed = snapshot.parsed(&position.path).expect("a file");
         let mut text = parsed.sources().get(parsed.file()).text.clone();
         for hint in found.iter().rev() {
             text.insert_str(hint.offset as usize, &format!("⟨{}⟩", hint.label));
@@ -239,9 +239,9 @@ mechanism walker {
 
     #[test]
     fn only_what_is_asked_for_is_shown() {
-        let (snapshot, place) = at_cursor(&format!("{FOUR_BAR}$0"));
+        let (snapshot, position) = at_cursor(&format!("{FOUR_BAR}$0"));
         let start = FOUR_BAR.find("joint pin").expect("a joint") as u32;
-        let found = hints(&snapshot, &place.path, &(start..start + 45)).expect("hints");
+        let found = hints(&snapshot, &position.path, &(start..start + 45)).expect("hints");
         assert_eq!(found.iter().map(|hint| hint.label.as_str()).collect::<Vec<_>>(), ["−2"]);
     }
 }

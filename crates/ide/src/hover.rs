@@ -1,10 +1,10 @@
 //! What a name or word is, where the pointer rests on it.
 
-use super::facts::{Subject, facts};
-use super::place::{Place, Stretch};
-use super::snapshot::{Analysed, Snapshot};
-use super::words::told;
-use super::written::{is_in_comment, path_at, word_at};
+use super::declaration_info::{Subject, facts};
+use super::location::{FilePosition, FileRange};
+use super::snapshot::{CheckedFile, Snapshot};
+use super::word_docs::told;
+use super::lexical::{is_in_comment, path_at, word_at};
 use mechc_lang::check::{DeclaredName, Meaning, NameKind};
 use mechc_pipeline::{Checked, Declaration, Interface};
 use mechc_text::diag::Code;
@@ -15,24 +15,24 @@ use std::ops::Range;
 #[derive(Clone, PartialEq, Debug)]
 pub struct Hover {
     /// What is spoken of.
-    pub place: Stretch,
+    pub position: FileRange,
     /// Markdown.
     pub text: String,
 }
 
 /// What stands at a place.
 #[must_use]
-pub fn hover(snapshot: &Snapshot, place: &Place) -> Option<Hover> {
-    let analysed = snapshot.checked(&place.path)?;
-    let parsed = snapshot.parsed(&place.path)?;
+pub fn hover(snapshot: &Snapshot, position: &FilePosition) -> Option<Hover> {
+    let file = snapshot.checked(&position.path)?;
+    let parsed = snapshot.parsed(&position.path)?;
     let text = &parsed.sources().get(parsed.file()).text;
-    let word = word_at(text, place.offset as usize)?;
+    let word = word_at(text, position.offset as usize)?;
     let told = of_code(&text[word.clone()]).or_else(|| {
-        let at = At { snapshot, place, text, word: &word };
-        if is_in_comment(text, word.start) { None } else { at.meant(&analysed) }
+        let at = At { snapshot, position, text, word: &word };
+        if is_in_comment(text, word.start) { None } else { at.meant(&file) }
     })?;
-    let place = Stretch { path: place.path.clone(), start: word.start as u32, end: word.end as u32 };
-    Some(Hover { place, text: told })
+    let position = FileRange { path: position.path.clone(), start: word.start as u32, end: word.end as u32 };
+    Some(Hover { location, text: told })
 }
 
 /// The page of a diagnostic's code, which may stand in a comment.
@@ -43,14 +43,14 @@ fn of_code(word: &str) -> Option<String> {
 /// A word of a text.
 struct At<'a> {
     snapshot: &'a Snapshot,
-    place: &'a Place,
+    position: &'a FilePosition,
     text: &'a str,
     word: &'a Range<usize>,
 }
 
 impl At<'_> {
-    fn meant(&self, analysed: &Analysed) -> Option<String> {
-        let checked = analysed.mechanism_at(self.place.offset).or(analysed.mechanisms.first())?;
+    fn meant(&self, file: &CheckedFile) -> Option<String> {
+        let checked = file.mechanism_at(self.position.offset).or(file.mechanisms.first())?;
         let symbols = checked.symbols();
         match symbols.at(checked.file(), self.word.start as u32).filter(|used| used.span.end as usize == self.word.end)
         {
@@ -79,7 +79,7 @@ impl At<'_> {
             declaration.filter(|docs| !docs.is_empty()).map(|docs| docs.join("\n")).into_iter().collect::<Vec<_>>();
         parts.push(code);
         parts.extend(owner.map(|owner| format!("of `{}`", owner.name)));
-        parts.extend(facts(self.snapshot, &self.place.path, &Subject { kind: name.kind, path: &path, checked }));
+        parts.extend(facts(self.snapshot, &self.position.path, &Subject { kind: name.kind, path: &path, checked }));
         parts.join("\n\n")
     }
 
@@ -91,7 +91,7 @@ impl At<'_> {
         let mut parts: Vec<String> = (!docs.is_empty()).then(|| docs.join("\n")).into_iter().collect();
         parts.push(head(checked.sources().text(span), kind));
         parts.push(format!("of `{}`", names[..names.len() - 1].join(".")));
-        parts.extend(facts(self.snapshot, &self.place.path, &Subject { kind, path: &self.written(), checked }));
+        parts.extend(facts(self.snapshot, &self.position.path, &Subject { kind, path: &self.written(), checked }));
         Some(parts.join("\n\n"))
     }
 
@@ -161,9 +161,9 @@ mod tests {
     use crate::testing::{FOUR_BAR, at_cursor, shown};
 
     fn told(text: &str) -> String {
-        let (snapshot, place) = at_cursor(text);
-        let hover = hover(&snapshot, &place);
-        hover.map_or("nothing".to_owned(), |hover| format!("{}\n\n{}", shown(&snapshot, &hover.place), hover.text))
+        let (snapshot, position) = at_cursor(text);
+        let hover = hover(&snapshot, &position);
+        hover.map_or("nothing".to_owned(), |hover| format!("{}\n\n{}", shown(&snapshot, &hover.location), hover.text))
     }
 
     fn of(from: &str, to: &str) -> String {

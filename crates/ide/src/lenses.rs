@@ -1,7 +1,7 @@
 //! What stands above declarations: what can be done with a mechanism, and what its results came to.
 
 use super::numbers::with_unit;
-use super::snapshot::{Followed, Snapshot};
+use super::snapshot::{MotionOutcome, Snapshot};
 use mechc_lang::check::NameKind;
 use mechc_pipeline::Checked;
 use std::ops::Range;
@@ -51,7 +51,7 @@ pub fn lenses(snapshot: &Snapshot, path: &Path) -> Option<Vec<Lens>> {
     Some(lenses)
 }
 
-fn of_results(checked: &Checked, moved: &Followed, is_of_before: bool) -> Vec<Lens> {
+fn of_results(checked: &Checked, moved: &MotionOutcome, is_of_before: bool) -> Vec<Lens> {
     let declared = checked.symbols().iter().filter(|(_, name)| name.kind == NameKind::Result);
     let lens = |name: &str, range: Range<u32>| {
         let copies =
@@ -89,14 +89,14 @@ mod tests {
         let results =
             "    result swing = max(angle(rocker)) - min(angle(rocker)) in deg\n    result none = 1 / (max(t) - 4 s)\n";
         let text = FOUR_BAR.replacen("    analysis", &format!("{results}    analysis"), 1);
-        let (snapshot, place) = at_cursor(&format!("{text}$0"));
-        let now = |snapshot: &crate::Snapshot| shown(&lenses(snapshot, &place.path).expect("lenses"));
+        let (snapshot, position) = at_cursor(&format!("{text}$0"));
+        let now = |snapshot: &crate::Snapshot| shown(&lenses(snapshot, &position.path).expect("lenses"));
         assert_eq!(now(&snapshot), ["view four_bar", "run four_bar", "check four_bar"]);
-        snapshot.moved(&place.path, &Cancel::default).expect("it moves");
+        snapshot.moved(&position.path, &Cancel::default).expect("it moves");
         assert_eq!(now(&snapshot), ["view four_bar", "run four_bar", "check four_bar", "60.4876 deg", "no value"]);
-        let edited = snapshot.with_text(&place.path, Some(text.replacen("swing", "swung", 1).into()));
+        let edited = snapshot.with_text(&position.path, Some(text.replacen("swing", "swung", 1).into()));
         assert_eq!(now(&edited), ["view four_bar", "run four_bar", "check four_bar", "no value …"]);
-        let edited = edited.with_text(&place.path, Some(text.replacen("60 deg +", "60 dg +", 1).into()));
+        let edited = edited.with_text(&position.path, Some(text.replacen("60 deg +", "60 dg +", 1).into()));
         assert_eq!(now(&edited), ["view four_bar", "run four_bar", "check four_bar", "60.4876 deg …", "no value …"]);
     }
 }

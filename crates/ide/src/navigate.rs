@@ -1,7 +1,7 @@
 //! From a name to its declaration, and to all places where it is used.
 
-use super::names::{Occurrence, Role, Target, files_with, name_at, occurrences};
-use super::place::{Place, Stretch};
+use super::occurrences::{Occurrence, Role, Target, files_with, name_at, occurrences};
+use super::location::{FilePosition, FileRange};
 use super::snapshot::Snapshot;
 use mechc_text::world::World;
 use std::ops::Range;
@@ -12,9 +12,9 @@ use std::sync::Arc;
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Link {
     /// The name that it begins at.
-    pub from: Stretch,
+    pub from: FileRange,
     /// The name that is declared, or the beginning of a file.
-    pub to: Stretch,
+    pub to: FileRange,
 }
 
 /// A place of a name in its file.
@@ -37,26 +37,26 @@ pub struct FileLink {
 
 /// Where the name at a place is declared. What declares and takes another name, `point A` alone, leads to that.
 #[must_use]
-pub fn definition(snapshot: &Snapshot, place: &Place) -> Option<Link> {
-    let all = occurrences(snapshot, &place.path)?;
-    let at = super::names::at(&all, place.offset)?;
+pub fn definition(snapshot: &Snapshot, position: &FilePosition) -> Option<Link> {
+    let all = occurrences(snapshot, &position.path)?;
+    let at = super::occurrences::at(&all, position.offset)?;
     let is_taken = |other: &&Occurrence| other.range == at.range && other.role == Role::Uses;
     let at = all.iter().find(is_taken).unwrap_or(at);
     let to = match &at.target {
         Target::Name(name) => name.clone(),
-        Target::File(path) => Stretch { path: Arc::clone(path), start: 0, end: 0 },
+        Target::File(path) => FileRange { path: Arc::clone(path), start: 0, end: 0 },
     };
     // a file that is not there leads nowhere
     snapshot.buffers().read(&to.path).ok()?;
-    Some(Link { from: at.stretch(&place.path), to })
+    Some(Link { from: at.stretch(&position.path), to })
 }
 
 /// All places of the name at a place, its declaration among them where that is asked for, in all files that are known.
 #[must_use]
-pub fn references(snapshot: &Snapshot, place: &Place, with_declaration: bool) -> Option<Vec<Stretch>> {
-    let at = name_at(snapshot, place)?;
+pub fn references(snapshot: &Snapshot, position: &FilePosition, with_declaration: bool) -> Option<Vec<FileRange>> {
+    let at = name_at(snapshot, position)?;
     let mut found = Vec::new();
-    for path in files_with(snapshot, &place.path, &[&word_of(snapshot, &at, place)?]) {
+    for path in files_with(snapshot, &position.path, &[&word_of(snapshot, &at, position)?]) {
         let wanted = |one: &Occurrence| one.target == at.target && (with_declaration || one.role == Role::Uses);
         let here = occurrences(snapshot, &path).unwrap_or_default();
         found.extend(here.iter().filter(|one| wanted(one)).map(|one| one.stretch(&path)));
@@ -66,9 +66,9 @@ pub fn references(snapshot: &Snapshot, place: &Place, with_declaration: bool) ->
 
 /// The places of the name at a place in its own file.
 #[must_use]
-pub fn highlights(snapshot: &Snapshot, place: &Place) -> Option<Vec<Highlight>> {
-    let all = occurrences(snapshot, &place.path)?;
-    let at = super::names::at(&all, place.offset)?;
+pub fn highlights(snapshot: &Snapshot, position: &FilePosition) -> Option<Vec<Highlight>> {
+    let all = occurrences(snapshot, &position.path)?;
+    let at = super::occurrences::at(&all, position.offset)?;
     let same = all.iter().filter(|one| one.target == at.target);
     Some(same.map(|one| Highlight { range: one.range.range(), declares: one.role == Role::Declares }).collect())
 }
@@ -86,10 +86,10 @@ pub fn file_links(snapshot: &Snapshot, path: &Path) -> Option<Vec<FileLink>> {
 }
 
 /// What a text must hold to name what is meant: the name, or that of the file.
-fn word_of(snapshot: &Snapshot, at: &Occurrence, place: &Place) -> Option<String> {
+fn word_of(snapshot: &Snapshot, at: &Occurrence, position: &FilePosition) -> Option<String> {
     match &at.target {
         Target::Name(_) => {
-            let parsed = snapshot.parsed(&place.path)?;
+            let parsed = snapshot.parsed(&position.path)?;
             let text = &parsed.sources().get(parsed.file()).text;
             text.get(at.range.start as usize..at.range.end as usize).map(str::to_owned)
         }
@@ -104,8 +104,8 @@ mod tests {
 
     fn defined(from: &str, to: &str, text: &str) -> String {
         assert!(text.contains(from), "{from}");
-        let (snapshot, place) = at_cursor(&text.replacen(from, to, 1));
-        definition(&snapshot, &place).map_or("nothing".to_owned(), |link| shown(&snapshot, &link.to))
+        let (snapshot, position) = at_cursor(&text.replacen(from, to, 1));
+        definition(&snapshot, &position).map_or("nothing".to_owned(), |link| shown(&snapshot, &link.to))
     }
 
     #[test]
@@ -168,9 +168,9 @@ mod tests {
     }
 
     fn used(from: &str, to: &str) -> String {
-        let (snapshot, place) = at_cursor(&TWO_FILES.replacen(from, to, 1));
-        let found = references(&snapshot, &place, true).unwrap_or_default();
-        found.iter().map(|place| shown(&snapshot, place)).collect::<Vec<_>>().join("\n")
+        let (snapshot, position) = at_cursor(&TWO_FILES.replacen(from, to, 1));
+        let found = references(&snapshot, &position, true).unwrap_or_default();
+        found.iter().map(|position| shown(&snapshot, position)).collect::<Vec<_>>().join("\n")
     }
 
     #[test]
@@ -215,8 +215,8 @@ mod tests {
 
     #[test]
     fn a_name_is_shown_in_its_file() {
-        let (snapshot, place) = at_cursor(&FOUR_BAR.replacen("rotation(main)", "rotation($0main)", 1));
-        let found = highlights(&snapshot, &place).expect("a name");
+        let (snapshot, position) = at_cursor(&FOUR_BAR.replacen("rotation(main)", "rotation($0main)", 1));
+        let found = highlights(&snapshot, &position).expect("a name");
         let text =
             |range: &std::ops::Range<u32>| FOUR_BAR.get(range.start as usize - 4..range.end as usize).expect("it");
         let found: Vec<_> = found.iter().map(|one| (text(&one.range), one.declares)).collect();
@@ -225,9 +225,9 @@ mod tests {
 
     #[test]
     fn files_that_are_there_are_linked() {
-        let (snapshot, place) =
+        let (snapshot, position) =
             at_cursor(&TWO_FILES.replacen("use \"lever.mech\"", "$0use \"none.mech\" as n\nuse \"lever.mech\"", 1));
-        let links = file_links(&snapshot, &place.path).expect("a file");
+        let links = file_links(&snapshot, &position.path).expect("a file");
         let files: Vec<_> = links.iter().map(|link| link.file.display().to_string()).collect();
         assert_eq!(files, ["lever.mech"]);
     }

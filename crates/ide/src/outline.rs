@@ -7,7 +7,7 @@ use std::path::Path;
 
 /// A declaration.
 #[derive(Clone, PartialEq, Debug)]
-pub struct Entry {
+pub struct OutlineEntry {
     /// Its name.
     pub name: String,
     /// What it is.
@@ -17,17 +17,17 @@ pub struct Entry {
     /// Its name's place.
     pub name_range: Range<u32>,
     /// What is declared in it.
-    pub inside: Vec<Entry>,
+    pub inside: Vec<OutlineEntry>,
 }
 
 /// The declarations of a file: its mechanisms, with what they declare.
 #[must_use]
-pub fn outline(snapshot: &Snapshot, path: &Path) -> Option<Vec<Entry>> {
+pub fn outline(snapshot: &Snapshot, path: &Path) -> Option<Vec<OutlineEntry>> {
     let checked = snapshot.checked(path)?;
     Some(checked.mechanisms.iter().filter_map(|checked| of_mechanism(checked.symbols())).collect())
 }
 
-fn of_mechanism(symbols: &Symbols) -> Option<Entry> {
+fn of_mechanism(symbols: &Symbols) -> Option<OutlineEntry> {
     let mut inside: Vec<(NameId, Option<NameId>)> = Vec::new();
     for (id, name) in symbols.iter() {
         if !matches!(name.kind, NameKind::Mechanism | NameKind::Argument | NameKind::Prefix) {
@@ -49,10 +49,10 @@ fn of_mechanism(symbols: &Symbols) -> Option<Entry> {
     Some(entry)
 }
 
-fn of_name(symbols: &Symbols, id: NameId) -> Entry {
+fn of_name(symbols: &Symbols, id: NameId) -> OutlineEntry {
     let name = symbols.get(id);
     let (all, own) = (name.declaration, name.span);
-    Entry {
+    OutlineEntry {
         name: name.name.clone(),
         kind: name.kind,
         range: all.start..all.end,
@@ -63,11 +63,11 @@ fn of_name(symbols: &Symbols, id: NameId) -> Entry {
 
 #[cfg(test)]
 mod tests {
-    use super::{Entry, outline};
+    use super::{OutlineEntry, outline};
     use crate::testing::{FOUR_BAR, at_cursor};
 
-    fn written(entries: &[Entry], depth: usize) -> String {
-        let line = |entry: &Entry| {
+    fn written(entries: &[OutlineEntry], depth: usize) -> String {
+        let line = |entry: &OutlineEntry| {
             format!("{}{:?} {}\n{}", "  ".repeat(depth), entry.kind, entry.name, written(&entry.inside, depth + 1))
         };
         entries.iter().map(line).collect()
@@ -75,8 +75,8 @@ mod tests {
 
     #[test]
     fn points_stand_below_their_bodies() {
-        let (snapshot, place) = at_cursor(&format!("{FOUR_BAR}$0"));
-        insta::assert_snapshot!(written(&outline(&snapshot, &place.path).expect("an outline"), 0), @r"
+        let (snapshot, position) = at_cursor(&format!("{FOUR_BAR}$0"));
+        insta::assert_snapshot!(written(&outline(&snapshot, &position.path).expect("an outline"), 0), @r"
         Mechanism four_bar
           Param crank_length
           Ground ground

@@ -3,9 +3,9 @@
 //! No rule of names is written here: the changes are made on a copy, the files are checked anew, and it is looked whether there are new
 //! faults and whether each name leads where it led.
 
-use super::edits::{applied, faults, first_new};
-use super::names::{Bytes, Occurrence, Role, Target, files_with, occurrences};
-use super::place::{Change, Place, Stretch};
+use super::trial_edits::{applied, faults, first_new};
+use super::occurrences::{Bytes, Occurrence, Role, Target, files_with, occurrences};
+use super::location::{Change, FilePosition, FileRange};
 use super::snapshot::Snapshot;
 use mechc_lang::check::Meaning;
 use mechc_syntax::is_name;
@@ -17,21 +17,21 @@ use std::sync::Arc;
 ///
 /// # Errors
 /// What to tell the user.
-pub fn prepare_rename(snapshot: &Snapshot, place: &Place) -> Result<Stretch, String> {
-    named(snapshot, place).map(|at| at.stretch(&place.path))
+pub fn prepare_rename(snapshot: &Snapshot, position: &FilePosition) -> Result<FileRange, String> {
+    named(snapshot, position).map(|at| at.stretch(&position.path))
 }
 
 /// The changes that give the name at a place another one; or why they cannot be made.
 ///
 /// # Errors
 /// What to tell the user.
-pub fn rename(snapshot: &Snapshot, place: &Place, new: &str) -> Result<Vec<Change>, String> {
-    let at = named(snapshot, place)?;
-    let old = text_at(snapshot, &at.stretch(&place.path));
+pub fn rename(snapshot: &Snapshot, position: &FilePosition, new: &str) -> Result<Vec<Change>, String> {
+    let at = named(snapshot, position)?;
+    let old = text_at(snapshot, &at.stretch(&position.path));
     if !is_name(new) {
         return Err(format!("`{new}` is not a name: letters, digits and `_`, no digit first, and no keyword"));
     }
-    let files = files_with(snapshot, &place.path, &words(&old, new, &at.target));
+    let files = files_with(snapshot, &position.path, &words(&old, new, &at.target));
     let renaming = Renaming::new(snapshot, &at.target, &old, new, &files);
     let changes = renaming.changes();
     let after = applied(snapshot, &changes).ok_or("a file cannot be read any more")?;
@@ -52,8 +52,8 @@ fn words<'w>(old: &'w str, new: &'w str, target: &'w Target) -> Vec<&'w str> {
 }
 
 /// The name at a place, if it is one that can change.
-fn named(snapshot: &Snapshot, place: &Place) -> Result<Occurrence, String> {
-    match super::names::name_at(snapshot, place) {
+fn named(snapshot: &Snapshot, position: &FilePosition) -> Result<Occurrence, String> {
+    match super::occurrences::name_at(snapshot, position) {
         Some(at) => match &at.target {
             Target::File(_) => Err("this is the name of a file".to_owned()),
             Target::Name(declared) if text_at(snapshot, declared) == "ground" => {
@@ -61,23 +61,23 @@ fn named(snapshot: &Snapshot, place: &Place) -> Result<Occurrence, String> {
             }
             Target::Name(_) => Ok(at),
         },
-        None => Err(word_at(snapshot, place)
+        None => Err(word_at(snapshot, position)
             .map_or("there is no name here".to_owned(), |word| format!("`{word}` is a word of the language"))),
     }
 }
 
-fn word_at(snapshot: &Snapshot, place: &Place) -> Option<&'static str> {
-    let analysed = snapshot.checked(&place.path)?;
-    let checked = analysed.mechanism_at(place.offset)?;
-    match checked.symbols().at(checked.file(), place.offset)?.meaning {
+fn word_at(snapshot: &Snapshot, position: &FilePosition) -> Option<&'static str> {
+    let file = snapshot.checked(&position.path)?;
+    let checked = file.mechanism_at(position.offset)?;
+    match checked.symbols().at(checked.file(), position.offset)?.meaning {
         Meaning::Word(word) => Some(word.name),
         Meaning::Declared(_) => None,
     }
 }
 
-fn text_at(snapshot: &Snapshot, place: &Stretch) -> String {
-    let text = super::edits::text_of(snapshot, &place.path).unwrap_or_default();
-    text.get(place.start as usize..place.end as usize).unwrap_or_default().to_owned()
+fn text_at(snapshot: &Snapshot, position: &FileRange) -> String {
+    let text = super::trial_edits::text_of(snapshot, &position.path).unwrap_or_default();
+    text.get(position.start as usize..position.end as usize).unwrap_or_default().to_owned()
 }
 
 /// All that a new name changes.
@@ -112,7 +112,7 @@ impl Renaming {
     fn changes(&self) -> Vec<Change> {
         let of = |(path, edits): (&Arc<Path>, &Vec<Edit>)| {
             let change = |edit: &Edit| Change {
-                place: Stretch { path: Arc::clone(path), start: edit.at.start, end: edit.at.end },
+                position: FileRange { path: Arc::clone(path), start: edit.at.start, end: edit.at.end },
                 text: edit.text.clone(),
             };
             edits.iter().map(change).collect::<Vec<_>>()
@@ -135,7 +135,7 @@ impl Renaming {
             Target::Name(declared) => {
                 let at = Bytes { start: declared.start, end: declared.end };
                 let Bytes { start, end } = self.bytes(at, Role::Declares, &declared.path);
-                Target::Name(Stretch { path: Arc::clone(&declared.path), start, end })
+                Target::Name(FileRange { path: Arc::clone(&declared.path), start, end })
             }
             file @ Target::File(_) => file.clone(),
         };
@@ -178,14 +178,14 @@ fn edit(one: &Occurrence, all: &[Occurrence], old: &str, new: &str) -> Edit {
 #[cfg(test)]
 mod tests {
     use super::{prepare_rename, rename};
-    use crate::edits::{applied, text_of};
+    use crate::trial_edits::{applied, text_of};
     use crate::testing::{FOUR_BAR, TWO_FILES, at_cursor};
 
     /// The lines that a new name changes, or why it does not.
     fn renamed(text: &str, from: &str, to: &str, new: &str) -> String {
         assert!(text.contains(from), "{from}");
-        let (snapshot, place) = at_cursor(&text.replacen(from, to, 1));
-        let changes = match rename(&snapshot, &place, new) {
+        let (snapshot, position) = at_cursor(&text.replacen(from, to, 1));
+        let changes = match rename(&snapshot, &position, new) {
             Ok(changes) => changes,
             Err(why) => return why,
         };
@@ -279,8 +279,8 @@ mod tests {
     #[test]
     fn what_is_no_name_of_the_text_stays() {
         let why = |from: &str, to: &str| {
-            let (snapshot, place) = at_cursor(&TWO_FILES.replacen(from, to, 1));
-            prepare_rename(&snapshot, &place).expect_err("it stays")
+            let (snapshot, position) = at_cursor(&TWO_FILES.replacen(from, to, 1));
+            prepare_rename(&snapshot, &position).expect_err("it stays")
         };
         insta::assert_snapshot!(why("part front", "pa$0rt front"), @"`part` is a word of the language");
         insta::assert_snapshot!(why("ground", "gro$0und"), @"`ground` is a word of the language");

@@ -1,8 +1,8 @@
 //! How what is being called is called, while it is typed.
 
-use super::place::Place;
+use super::location::FilePosition;
 use super::snapshot::Snapshot;
-use super::written::{OpenCall, call_at, is_in_comment};
+use super::lexical::{OpenCall, call_at, is_in_comment};
 use mechc_lang::check::NameKind;
 use mechc_pipeline::Checked;
 use mechc_text::vocabulary::{Category, Word, words};
@@ -32,16 +32,16 @@ pub struct Signature {
 
 /// The signatures of the innermost call around a place.
 #[must_use]
-pub fn signatures(snapshot: &Snapshot, place: &Place) -> Option<Signatures> {
-    let analysed = snapshot.checked(&place.path)?;
-    let parsed = snapshot.parsed(&place.path)?;
+pub fn signatures(snapshot: &Snapshot, position: &FilePosition) -> Option<Signatures> {
+    let file = snapshot.checked(&position.path)?;
+    let parsed = snapshot.parsed(&position.path)?;
     let text = &parsed.sources().get(parsed.file()).text;
-    let offset = place.offset as usize;
+    let offset = position.offset as usize;
     if !text.is_char_boundary(offset) || is_in_comment(text, offset) {
         return None;
     }
     let call = call_at(text, offset)?;
-    let checked = analysed.mechanism_at(place.offset).or(analysed.mechanisms.last())?;
+    let checked = file.mechanism_at(position.offset).or(file.mechanisms.last())?;
     of_part(&call, checked).or_else(|| of_own(&call, checked)).or_else(|| of_words(&call))
 }
 
@@ -118,10 +118,10 @@ mod tests {
 
     /// Each form, the active one with its argument in brackets.
     fn shown(inside: &str) -> String {
-        let (snapshot, place) = at_cursor(&format!(
+        let (snapshot, position) = at_cursor(&format!(
             "mechanism m {{\n{inside}\n}}\nmechanism lever {{ param reach = 80 mm\n input turn = t\n }}"
         ));
-        let Some(found) = signatures(&snapshot, &place) else { return "nothing".to_owned() };
+        let Some(found) = signatures(&snapshot, &position) else { return "nothing".to_owned() };
         let form = |(k, form): (usize, &super::Signature)| {
             let mut label = form.label.clone();
             if let Some(range) = found.argument.filter(|_| k == found.active).map(|argument| &form.arguments[argument])

@@ -1,7 +1,7 @@
 //! The texts at one moment, and the stages of each.
 
 use super::buffers::Buffers;
-use super::kept::Kept;
+use super::memo::Memo;
 use mechc_engine::analysis::Times;
 use mechc_pipeline::{Assembly, Checked, Compiled, Parsed, Redundant, RunOptions};
 use mechc_text::cancel::Cancel;
@@ -27,18 +27,18 @@ pub struct Snapshot {
 struct Stages {
     /// The tree of the text before the last edit, of which most is still so.
     before: Option<Arc<Parsed>>,
-    parsed: Kept<Parsed>,
-    checked: Kept<Analysed>,
-    proven: Kept<Vec<Proven>>,
+    parsed: Memo<Parsed>,
+    checked: Memo<CheckedFile>,
+    proven: Memo<Vec<Proof>>,
     /// What is proven of those that are parts of others, each by itself.
-    alone: Kept<Vec<Proven>>,
-    moved: Kept<Vec<Followed>>,
+    alone: Memo<Vec<Proof>>,
+    moved: Memo<Vec<MotionOutcome>>,
     /// What was known of the motion of a text before this one.
-    moved_before: Option<Arc<Vec<Followed>>>,
+    moved_before: Option<Arc<Vec<MotionOutcome>>>,
 }
 
 /// A file whose mechanisms were checked.
-pub struct Analysed {
+pub struct CheckedFile {
     /// Its mechanisms, in order; one alone without any where there is none.
     pub mechanisms: Vec<Checked>,
     /// What tells the files apart that it was made of, beside its own.
@@ -46,7 +46,7 @@ pub struct Analysed {
 }
 
 /// A mechanism as far as it is proven: determined, and assembled at its first time.
-pub struct Proven {
+pub struct Proof {
     /// The texts that its diagnostics speak of.
     pub sources: Sources,
     /// What is to be said of it.
@@ -56,11 +56,11 @@ pub struct Proven {
     /// Where it can be assembled.
     pub assembly: Option<Assembly>,
     /// The row of that, once it was asked for.
-    first_row: Kept<Vec<f64>>,
+    first_row: Memo<Vec<f64>>,
 }
 
 /// What came of following a mechanism over the times of its analysis.
-pub struct Followed {
+pub struct MotionOutcome {
     /// Its name.
     pub mechanism: String,
     /// What is to be said of its motion.
@@ -71,10 +71,10 @@ pub struct Followed {
     pub is_cut_short: bool,
 }
 
-impl Proven {
-    fn nothing(checked: &Checked) -> Proven {
+impl Proof {
+    fn nothing(checked: &Checked) -> Proof {
         let (sources, said) = (checked.sources().clone(), Diagnostics::default());
-        Proven { sources, said, compiled: None, assembly: None, first_row: Kept::default() }
+        Proof { sources, said, compiled: None, assembly: None, first_row: Memo::default() }
     }
 
     /// The row of the position in which it was assembled, in SI, by [`Compiled::columns`]; nothing where it has none.
@@ -88,7 +88,7 @@ impl Proven {
     }
 }
 
-impl Analysed {
+impl CheckedFile {
     /// The mechanism that holds a byte of the file, or ends there.
     #[must_use]
     pub fn mechanism_at(&self, offset: u32) -> Option<&Checked> {
@@ -184,27 +184,27 @@ impl Snapshot {
 
     /// A file's mechanisms, whatever is wrong with them.
     #[must_use]
-    pub fn checked(&self, path: &Path) -> Option<Arc<Analysed>> {
+    pub fn checked(&self, path: &Path) -> Option<Arc<CheckedFile>> {
         self.checked_of(&self.stages(path), path)
     }
 
     /// What is proven of a file's mechanisms, in order. Of one that is not sound, and of one that is a part of another one of the file,
     /// nothing is known by itself.
     #[must_use]
-    pub fn proven(&self, path: &Path) -> Option<Arc<Vec<Proven>>> {
+    pub fn proven(&self, path: &Path) -> Option<Arc<Vec<Proof>>> {
         self.proven_of(&self.stages(path), path)
     }
 
     /// The same of those mechanisms that are parts of others of the file, each by itself, for who asks what is in them; of the rest nothing.
     #[must_use]
-    pub fn proven_alone(&self, path: &Path) -> Option<Arc<Vec<Proven>>> {
+    pub fn proven_alone(&self, path: &Path) -> Option<Arc<Vec<Proof>>> {
         let stages = self.stages(path);
         let checked = self.checked_of(&stages, path)?;
         stages.alone.get_or(|| {
             self.unless_cancelled(())?;
             let is_part = Checked::is_part_of_another;
             let alone = |checked: &Checked| {
-                if is_part(checked) { proven_by_itself(checked, &self.cancel) } else { Proven::nothing(checked) }
+                if is_part(checked) { proven_by_itself(checked, &self.cancel) } else { Proof::nothing(checked) }
             };
             let proven = checked.mechanisms.iter().map(alone).collect();
             self.unless_cancelled(proven)
@@ -213,14 +213,14 @@ impl Snapshot {
 
     /// The motion of each of a file's mechanisms over the times of its analysis. Each is begun with a flag that ends it, it alone.
     #[must_use]
-    pub fn moved(&self, path: &Path, begin: &dyn Fn() -> Cancel) -> Option<Arc<Vec<Followed>>> {
+    pub fn moved(&self, path: &Path, begin: &dyn Fn() -> Cancel) -> Option<Arc<Vec<MotionOutcome>>> {
         let stages = self.stages(path);
         let proven = self.proven_of(&stages, path)?;
         let before = |name: &str| stages.moved_before.as_ref()?.iter().find(|before| before.mechanism == name);
         stages.moved.get_or(|| {
-            let followed = |proven: &Proven| {
+            let followed = |proven: &Proof| {
                 self.unless_cancelled(())?;
-                Some(moved(proven, &begin()).unwrap_or_else(|| Followed::cut_short(proven, before)))
+                Some(moved(proven, &begin()).unwrap_or_else(|| MotionOutcome::cut_short(proven, before)))
             };
             let all = proven.iter().map(followed).collect::<Option<_>>()?;
             self.unless_cancelled(all)
@@ -229,13 +229,13 @@ impl Snapshot {
 
     /// What is proven already.
     #[must_use]
-    pub fn proven_now(&self, path: &Path) -> Option<Arc<Vec<Proven>>> {
+    pub fn proven_now(&self, path: &Path) -> Option<Arc<Vec<Proof>>> {
         self.stages(path).proven.get()
     }
 
     /// What is known already of the motion, or what was known of that of a text before this one; and which of the two.
     #[must_use]
-    pub fn moved_last(&self, path: &Path) -> (Option<Arc<Vec<Followed>>>, bool) {
+    pub fn moved_last(&self, path: &Path) -> (Option<Arc<Vec<MotionOutcome>>>, bool) {
         let stages = self.stages(path);
         match stages.moved.get() {
             Some(moved) => (Some(moved), false),
@@ -267,18 +267,18 @@ impl Snapshot {
         Some(self.checked(path)?.mechanisms.iter().any(may_be))
     }
 
-    fn checked_of(&self, stages: &Stages, path: &Path) -> Option<Arc<Analysed>> {
+    fn checked_of(&self, stages: &Stages, path: &Path) -> Option<Arc<CheckedFile>> {
         let parsed = self.parsed_of(stages, path)?;
         stages.checked.get_or(|| {
             self.unless_cancelled(())?;
             let mechanisms = parsed.check_each(&*self.buffers);
             let named = mechanisms.first().map(Checked::named_files).unwrap_or_default();
             let named = named.iter().map(|path| self.buffers.identity(path)).collect();
-            self.unless_cancelled(Analysed { mechanisms, named })
+            self.unless_cancelled(CheckedFile { mechanisms, named })
         })
     }
 
-    fn proven_of(&self, stages: &Stages, path: &Path) -> Option<Arc<Vec<Proven>>> {
+    fn proven_of(&self, stages: &Stages, path: &Path) -> Option<Arc<Vec<Proof>>> {
         let checked = self.checked_of(stages, path)?;
         stages.proven.get_or(|| {
             self.unless_cancelled(())?;
@@ -315,7 +315,7 @@ impl Stages {
 }
 
 /// Makes the list of names of each mechanism of a file, which is kept.
-pub fn learn_names(snapshot: &Snapshot, path: &Path) {
+pub fn index_names(snapshot: &Snapshot, path: &Path) {
     let checked = snapshot.checked(path);
     for mechanism in checked.iter().flat_map(|checked| &checked.mechanisms).take_while(|_| !snapshot.is_cancelled()) {
         let _ = mechanism.symbols();
@@ -323,12 +323,12 @@ pub fn learn_names(snapshot: &Snapshot, path: &Path) {
 }
 
 /// Proves a mechanism that is no part of another one, and assembles it.
-fn proven(checked: &Checked, cancel: &Cancel) -> Proven {
-    if checked.is_part_of_another() { Proven::nothing(checked) } else { proven_by_itself(checked, cancel) }
+fn proven(checked: &Checked, cancel: &Cancel) -> Proof {
+    if checked.is_part_of_another() { Proof::nothing(checked) } else { proven_by_itself(checked, cancel) }
 }
 
-fn proven_by_itself(checked: &Checked, cancel: &Cancel) -> Proven {
-    let mut proven = Proven::nothing(checked);
+fn proven_by_itself(checked: &Checked, cancel: &Cancel) -> Proof {
+    let mut proven = Proof::nothing(checked);
     let (compiled, said) = checked.compile(Redundant::Refused, cancel);
     proven.said = said;
     let Some(compiled) = compiled else { return proven };
@@ -344,22 +344,22 @@ fn proven_by_itself(checked: &Checked, cancel: &Cancel) -> Proven {
     proven
 }
 
-impl Followed {
-    fn nothing() -> Followed {
-        Followed { mechanism: String::new(), said: Diagnostics::default(), results: Vec::new(), is_cut_short: false }
+impl MotionOutcome {
+    fn nothing() -> MotionOutcome {
+        MotionOutcome { mechanism: String::new(), said: Diagnostics::default(), results: Vec::new(), is_cut_short: false }
     }
 
     /// Of a motion that was ended on its way only what was known of it before.
-    fn cut_short<'b>(proven: &Proven, before: impl Fn(&str) -> Option<&'b Followed>) -> Followed {
+    fn cut_short<'b>(proven: &Proof, before: impl Fn(&str) -> Option<&'b MotionOutcome>) -> MotionOutcome {
         let mechanism = proven.compiled.as_ref().map(|compiled| compiled.name().to_owned()).unwrap_or_default();
         let results = before(&mechanism).map(|before| before.results.clone()).unwrap_or_default();
-        Followed { mechanism, results, is_cut_short: true, ..Followed::nothing() }
+        MotionOutcome { mechanism, results, is_cut_short: true, ..MotionOutcome::nothing() }
     }
 }
 
 /// Follows a motion to its end; nothing where it is cancelled on the way.
-fn moved(proven: &Proven, cancel: &Cancel) -> Option<Followed> {
-    let mut moved = Followed::nothing();
+fn moved(proven: &Proof, cancel: &Cancel) -> Option<MotionOutcome> {
+    let mut moved = MotionOutcome::nothing();
     let compiled = proven.compiled.as_ref().filter(|_| !proven.said.has_errors());
     let Some((compiled, times)) = compiled.and_then(|compiled| Some((compiled, compiled.times()?))) else {
         return Some(moved);

@@ -1,6 +1,6 @@
 //! The shape of a text: what can be folded away, and what lies around a place.
 
-use super::place::Place;
+use super::location::FilePosition;
 use super::snapshot::Snapshot;
 use mechc_pipeline::Parsed;
 use mechc_syntax::ast::{Expr, Feature, Item, ItemKind, Mechanism, TableRows};
@@ -91,13 +91,13 @@ fn comments(parsed: &Parsed) -> Vec<Fold> {
 /// What lies around a place, from the word on: formulas, arguments, the declaration, its body, the mechanism, the file. Each holds the
 /// one before it.
 #[must_use]
-pub fn around(snapshot: &Snapshot, place: &Place) -> Option<Vec<Range<u32>>> {
-    let parsed = snapshot.parsed(&place.path)?;
+pub fn around(snapshot: &Snapshot, position: &FilePosition) -> Option<Vec<Range<u32>>> {
+    let parsed = snapshot.parsed(&position.path)?;
     let text = &parsed.sources().get(parsed.file()).text;
     let whole = 0..text.len() as u32;
     let mut found: Vec<Range<u32>> = Vec::from([whole]);
     let mut add = |range: Range<u32>| {
-        if range.start <= place.offset && place.offset <= range.end && !range.is_empty() {
+        if range.start <= position.offset && position.offset <= range.end && !range.is_empty() {
             found.push(range);
         }
     };
@@ -108,7 +108,7 @@ pub fn around(snapshot: &Snapshot, place: &Place) -> Option<Vec<Range<u32>>> {
         add(fold.range);
     }
     for mechanism in &parsed.tree().mechanisms {
-        spans_of(mechanism, place.offset, &mut |span| add(span.start..span.end));
+        spans_of(mechanism, position.offset, &mut |span| add(span.start..span.end));
     }
     found.sort_by_key(|range| (range.end - range.start, range.start));
     found.dedup();
@@ -175,9 +175,9 @@ mod tests {
     #[test]
     fn blocks_comments_and_lists_are_folded() {
         let text = "use \"a.mech\"\nuse \"b.mech\" as b\n// one\n// two\n\nmechanism m { // no\n    ground {\n        point A = (0, 0)\n    }\n    table t1 = spline [\n        (0, 0), (1, 1)\n    ]\n    body x { point P = (0, 0) }\n    joint j: revolute(\n        x.P,\n}\n";
-        let (snapshot, place) = at_cursor(&format!("{text}$0"));
+        let (snapshot, position) = at_cursor(&format!("{text}$0"));
         let line = |at: u32| text[..at as usize].matches('\n').count() + 1;
-        let told = folds(&snapshot, &place.path).expect("a file").into_iter();
+        let told = folds(&snapshot, &position.path).expect("a file").into_iter();
         let told: Vec<_> =
             told.map(|fold| format!("{}–{} {:?}", line(fold.range.start), line(fold.range.end), fold.kind)).collect();
         insta::assert_snapshot!(told.join("\n"), @r"
@@ -192,7 +192,7 @@ mod tests {
     #[test]
     fn a_selection_grows_from_the_word_to_the_file() {
         let text = FOUR_BAR.replacen("point B = (crank_length, 0)", "point B = (crank_length + 2 * le$0n, 0)", 1);
-        let (snapshot, place) = at_cursor(&text);
+        let (snapshot, position) = at_cursor(&text);
         let text = text.replacen("$0", "", 1);
         let line = |range: &std::ops::Range<u32>| {
             let text = &text[range.start as usize..range.end as usize];
@@ -203,7 +203,7 @@ mod tests {
             }
         };
         let told: Vec<_> =
-            around(&snapshot, &place).expect("a file").iter().map(|range| line(range).replace('\n', " ")).collect();
+            around(&snapshot, &position).expect("a file").iter().map(|range| line(range).replace('\n', " ")).collect();
         insta::assert_snapshot!(told.join("\n"), @r"
         len
         2 * len

@@ -1,6 +1,6 @@
 //! For tests of features: a text with a cursor.
 
-use super::place::{Place, Stretch};
+use super::location::{FilePosition, FileRange};
 use super::snapshot::Snapshot;
 use mechc_text::world::Memory;
 use std::path::Path;
@@ -73,14 +73,14 @@ mechanism lever {
 
 /// A snapshot with files, each `//- NAME` a line of its own before its text (`main.mech` where there is no such line), all open; and the
 /// place of the cursor, `$0`.
-pub fn at_cursor(text: &str) -> (Snapshot, Place) {
+pub fn at_cursor(text: &str) -> (Snapshot, FilePosition) {
     let mut snapshot = Snapshot::new(Arc::new(Memory::default()));
     let mut cursor = None;
     for (name, text) in files(text) {
         let path: Arc<Path> = Path::new(&name).into();
         let (before, behind) = text.split_once("$0").unwrap_or((&text, ""));
         if before.len() < text.len() {
-            cursor = Some(Place { path: Arc::clone(&path), offset: before.len() as u32 });
+            cursor = Some(FilePosition { path: Arc::clone(&path), offset: before.len() as u32 });
         }
         snapshot = snapshot.with_text(&path, Some(format!("{before}{behind}").into()));
     }
@@ -96,14 +96,14 @@ fn files(text: &str) -> Vec<(String, String)> {
 }
 
 /// A stretch as a reader sees it: its line, with what is meant below it.
-pub fn shown(snapshot: &Snapshot, place: &Stretch) -> String {
-    let parsed = snapshot.parsed(&place.path).expect("a file");
+pub fn shown(snapshot: &Snapshot, position: &FileRange) -> String {
+    let parsed = snapshot.parsed(&position.path).expect("a file");
     let source = parsed.sources().get(parsed.file());
-    let line = source.line_index(place.start as usize);
+    let line = source.line_index(position.start as usize);
     let range = source.line_range(line).expect("a line");
     let text = source.text[range.clone()].trim_end();
     let (start, end) =
-        (place.start as usize - range.start, (place.end as usize).min(range.start + text.len()) - range.start);
+        (position.start as usize - range.start, (position.end as usize).min(range.start + text.len()) - range.start);
     let (before, inside) = (text[..start].chars().count(), text[start..end].chars().count());
-    format!("{}:{}\n{text}\n{}{}", place.path.display(), line + 1, " ".repeat(before), "^".repeat(inside.max(1)))
+    format!("{}:{}\n{text}\n{}{}", position.path.display(), line + 1, " ".repeat(before), "^".repeat(inside.max(1)))
 }

@@ -117,8 +117,8 @@ mod tests {
     use crate::testing::at_cursor;
 
     fn shown(text: &str) -> String {
-        let (snapshot, place) = at_cursor(&format!("{text}$0"));
-        let found = tokens(&snapshot, &place.path, &(0..u32::MAX)).expect("tokens");
+        let (snapshot, position) = at_cursor(&format!("{text}$0"));
+        let found = tokens(&snapshot, &position.path, &(0..u32::MAX)).expect("tokens");
         let line = |token: &SemanticToken| {
             let word = &text[token.range.start as usize..token.range.end as usize];
             let marks = [

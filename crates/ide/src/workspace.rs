@@ -1,9 +1,9 @@
 //! The files of a folder: which there are, and what they declare.
 
-use super::outline::{Entry, outline};
-use super::place::Stretch;
+use super::outline::{OutlineEntry, outline};
+use super::location::FileRange;
 use super::snapshot::Snapshot;
-use super::written::holds_letters;
+use super::lexical::holds_letters;
 use mechc_lang::check::NameKind;
 use mechc_text::cancel::Cancel;
 use mechc_text::world::{World, is_own};
@@ -27,13 +27,13 @@ const MOST_NAMES: usize = 500;
 
 /// A declaration of a file.
 #[derive(Clone, PartialEq, Debug)]
-pub struct Found {
+pub struct WorkspaceName {
     /// Its name.
     pub name: String,
     /// What it is.
     pub kind: NameKind,
     /// Where its name stands.
-    pub place: Stretch,
+    pub position: FileRange,
     /// In what it is declared.
     pub within: Option<String>,
 }
@@ -61,7 +61,7 @@ pub fn files_in(folders: &[PathBuf], world: &dyn World, cancel: &Cancel) -> Vec<
 
 /// The declarations of all known files whose names hold the letters of a query, in their order.
 #[must_use]
-pub fn workspace_names(snapshot: &Snapshot, query: &str) -> Vec<Found> {
+pub fn workspace_names(snapshot: &Snapshot, query: &str) -> Vec<WorkspaceName> {
     let query: String = query.chars().filter(|c| !c.is_whitespace()).collect();
     let mut found = Vec::new();
     let is_text = |path: &&Arc<Path>| snapshot.buffers().open(path).is_some() || is_mech(&path.to_string_lossy());
@@ -77,10 +77,10 @@ pub fn workspace_names(snapshot: &Snapshot, query: &str) -> Vec<Found> {
     found
 }
 
-fn take(entry: &Entry, within: Option<&str>, path: &Arc<Path>, query: &str, found: &mut Vec<Found>) {
+fn take(entry: &OutlineEntry, within: Option<&str>, path: &Arc<Path>, query: &str, found: &mut Vec<WorkspaceName>) {
     if holds_letters(&entry.name, query) && entry.kind != NameKind::Ground {
-        let place = Stretch { path: Arc::clone(path), start: entry.name_range.start, end: entry.name_range.end };
-        found.push(Found { name: entry.name.clone(), kind: entry.kind, place, within: within.map(str::to_owned) });
+        let position = FileRange { path: Arc::clone(path), start: entry.name_range.start, end: entry.name_range.end };
+        found.push(WorkspaceName { name: entry.name.clone(), kind: entry.kind, position, within: within.map(str::to_owned) });
     }
     let own = within.map_or(entry.name.clone(), |within| format!("{within}.{}", entry.name));
     entry.inside.iter().for_each(|inner| take(inner, Some(&own), path, query, found));
@@ -117,10 +117,10 @@ mod tests {
     fn declarations_are_found_by_some_of_their_letters() {
         let (snapshot, _) = at_cursor(&format!("{TWO_FILES}$0"));
         let of = |query: &str| {
-            let line = |found: &super::Found| {
+            let line = |found: &super::WorkspaceName| {
                 format!(
                     "{} {:?} {}",
-                    found.place.path.display(),
+                    found.location.path.display(),
                     found.kind,
                     found.within.clone().map_or(found.name.clone(), |within| format!("{within}.{}", found.name))
                 )

@@ -87,7 +87,7 @@ mod tests {
 
     fn head(method: &str, target: &str, headers: &[(&str, &str)]) -> Head {
         let headers = headers.iter().map(|(name, value)| ((*name).to_owned(), (*value).to_owned())).collect();
-        Head { method: method.to_owned(), target: target.to_owned(), headers, length: 0, keeps: true }
+        Head { method: method.to_owned(), target: target.to_owned(), headers, length: 0, keep_alive: true }
     }
 
     fn send(method: &str, target: &str, headers: &[(&str, &str)]) -> Result<Endpoint, u16> {

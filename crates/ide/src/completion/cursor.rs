@@ -1,6 +1,6 @@
 //! Where in a text the cursor stands, by the words and characters before it: the text is half-typed, and need not follow the grammar.
 
-use crate::written::{Within, is_of_word, within};
+use crate::lexical::{LexicalContext, is_of_word, within};
 use mechc_syntax::{Token, begins_declaration, tokens};
 use mechc_text::vocabulary::{Dimension, Keyword, Unit, is_feature};
 use std::ops::Range;
@@ -26,7 +26,7 @@ pub(super) struct Call<'t> {
 
 /// A compound unit of which some is written: `90 deg/`.
 #[derive(Clone, PartialEq, Debug)]
-pub(super) struct Begun {
+pub(super) struct PartialUnit {
     /// Of its units, from the last one on.
     pub dimensions: Vec<Dimension>,
 }
@@ -51,9 +51,9 @@ impl<'t> Cursor<'t> {
         let mut word = word_at(text, offset);
         let mut end = word.start;
         match within {
-            Within::Code => {}
-            Within::Comment => return None,
-            Within::String(quote) => {
+            LexicalContext::Code => {}
+            LexicalContext::Comment => return None,
+            LexicalContext::String(quote) => {
                 let rest = &text[offset..];
                 word = quote + 1..offset + rest.find(['"', '\n', '\r']).unwrap_or(rest.len());
                 end = quote;
@@ -61,7 +61,7 @@ impl<'t> Cursor<'t> {
         }
         let tokens = tokens(&text[..end]);
         let (first, block) = declaration(&text[..end], &tokens);
-        Some(Cursor { text, word, is_in_string: matches!(within, Within::String(_)), tokens, first, block })
+        Some(Cursor { text, word, is_in_string: matches!(within, LexicalContext::String(_)), tokens, first, block })
     }
 
     /// The tokens of the declaration.
@@ -166,7 +166,7 @@ impl<'t> Cursor<'t> {
 
     /// The unit that goes on at the cursor, behind a number or behind the `in` of what is printed. What a quotient of formulas is divided by
     /// has a space before it.
-    pub fn unit(&self) -> Option<Begun> {
+    pub fn unit(&self) -> Option<PartialUnit> {
         let tokens = self.declaration();
         let mut at = tokens.len().checked_sub(1)?;
         let is_apart = self.text[..self.word.start].ends_with(char::is_whitespace)
@@ -190,7 +190,7 @@ impl<'t> Cursor<'t> {
         let is_of_number = tokens[at].text.starts_with(|c: char| c.is_ascii_digit()) && self.last() == Some("/");
         let begins =
             !dimensions.is_empty() && (is_printed || is_of_number && !is_apart) || is_printed && at + 1 < tokens.len();
-        begins.then_some(Begun { dimensions })
+        begins.then_some(PartialUnit { dimensions })
     }
 
     /// The names before the dot at the cursor, numbers in brackets left out; nothing where there is no dot.

@@ -2,7 +2,7 @@
 
 use super::cursor::Cursor;
 use super::item::{CompletionItem, CompletionItemKind, Template};
-use crate::place::Place;
+use crate::location::FilePosition;
 use crate::snapshot::Snapshot;
 use mechc_lang::check::name_of;
 use mechc_pipeline::{Checked, Drawn};
@@ -23,15 +23,15 @@ const NEAR: f64 = 0.02;
 const MOST: usize = 8;
 
 /// A mechanism without the declaration at the cursor.
-pub(super) struct Whole {
+pub(super) struct OtherDeclarations {
     snapshot: Snapshot,
-    place: Place,
+    position: FilePosition,
     is_quickly_proven: bool,
 }
 
-impl Whole {
+impl OtherDeclarations {
     /// Nothing where the text is long.
-    pub fn of(snapshot: &Snapshot, place: &Place, cursor: &Cursor<'_>) -> Option<Whole> {
+    pub fn of(snapshot: &Snapshot, position: &FilePosition, cursor: &Cursor<'_>) -> Option<OtherDeclarations> {
         let text = cursor.text;
         if text.len() > LONGEST_CHECKED {
             return None;
@@ -41,14 +41,14 @@ impl Whole {
         // what closes a block stays
         let closes = text[cursor.word.end..end].contains('}') && cursor.start() == cursor.word.start;
         let whole = if closes { text.to_owned() } else { [&text[..cursor.start()], &gone, &text[end..]].concat() };
-        let place = Place { offset: cursor.start() as u32, ..place.clone() };
+        let position = FilePosition { offset: cursor.start() as u32, ..position.clone() };
         let is_quickly_proven = text.len() <= LONGEST_PROVEN;
-        Some(Whole { snapshot: snapshot.supposing(&place.path, whole.into()), place, is_quickly_proven })
+        Some(OtherDeclarations { snapshot: snapshot.supposing(&position.path, whole.into()), position, is_quickly_proven })
     }
 
     fn with<T>(&self, act: impl FnOnce(&Checked) -> Option<T>) -> Option<T> {
-        let analysed = self.snapshot.checked(&self.place.path)?;
-        act(analysed.mechanism_at(self.place.offset)?)
+        let file = self.snapshot.checked(&self.position.path)?;
+        act(file.mechanism_at(self.position.offset)?)
     }
 
     /// Pairs of points that lie on each other and that no joint holds together, `crank.B` and `coupler.B`.
@@ -58,7 +58,7 @@ impl Whole {
 
     /// What could be driven: the left side of an equation, with one that takes it from where it is.
     pub fn free(&self) -> Vec<(String, String)> {
-        if self.is_quickly_proven { free(&self.snapshot, &self.place).unwrap_or_default() } else { Vec::new() }
+        if self.is_quickly_proven { free(&self.snapshot, &self.position).unwrap_or_default() } else { Vec::new() }
     }
 }
 
@@ -89,17 +89,17 @@ fn touching(drawn: &Drawn, tree: &Mechanism) -> Vec<[String; 2]> {
 /// What a joint joins.
 fn joined(item: &mechc_syntax::ast::Item) -> Option<Vec<String>> {
     let Declared::Joint { arguments, .. } = &item.kind else { return None };
-    Some(arguments.iter().filter_map(crate::names::path_text).collect())
+    Some(arguments.iter().filter_map(crate::occurrences::path_text).collect())
 }
 
 /// What the proof says that could be driven in the mechanism at a place, with a formula that begins where it is drawn.
-pub(crate) fn free(snapshot: &Snapshot, place: &Place) -> Option<Vec<(String, String)>> {
-    let analysed = snapshot.checked(&place.path)?;
-    let at = analysed
+pub(crate) fn free(snapshot: &Snapshot, position: &FilePosition) -> Option<Vec<(String, String)>> {
+    let file = snapshot.checked(&position.path)?;
+    let at = file
         .mechanisms
         .iter()
-        .position(|one| one.span().is_some_and(|span| (span.start..=span.end).contains(&place.offset)))?;
-    let (checked, proven) = (analysed.mechanisms.get(at)?, snapshot.proven(&place.path)?);
+        .position(|one| one.span().is_some_and(|span| (span.start..=span.end).contains(&position.offset)))?;
+    let (checked, proven) = (file.mechanisms.get(at)?, snapshot.proven(&position.path)?);
     let drawn = checked.drawn()?;
     let driven = proven.get(at)?.said.iter().flat_map(|said| &said.drives);
     Some(driven.map(|driven| (driven.clone(), formula(&drawn, driven))).collect())
@@ -144,7 +144,7 @@ pub(crate) fn free_name(tree: &Mechanism, names: &[&str]) -> String {
 }
 
 /// Whole declarations of what is missing.
-pub(super) fn declarations(whole: &Whole, tree: &Mechanism) -> Vec<CompletionItem> {
+pub(super) fn declarations(whole: &OtherDeclarations, tree: &Mechanism) -> Vec<CompletionItem> {
     let joint = free_name(tree, &["pin", "hinge", "bearing"]);
     let driver = free_name(tree, &["motor", "drive", "feed"]);
     let joints = whole.touching().into_iter().map(|[a, b]| {
@@ -165,7 +165,7 @@ pub(super) fn declarations(whole: &Whole, tree: &Mechanism) -> Vec<CompletionIte
 }
 
 /// Kinds of joints with what they join: points that lie on each other.
-pub(super) fn joints(whole: &Whole) -> Vec<CompletionItem> {
+pub(super) fn joints(whole: &OtherDeclarations) -> Vec<CompletionItem> {
     let item = |[a, b]: [String; 2]| {
         CompletionItem::new(format!("revolute({a}, {b})"), CompletionItemKind::Declaration, 0)
             .detail("these points lie on each other")
@@ -174,7 +174,7 @@ pub(super) fn joints(whole: &Whole) -> Vec<CompletionItem> {
 }
 
 /// Equations that take what is left free.
-pub(super) fn drivers(whole: &Whole) -> Vec<CompletionItem> {
+pub(super) fn drivers(whole: &OtherDeclarations) -> Vec<CompletionItem> {
     let item = |(driven, formula): (String, String)| {
         let marked = format!("{driven} = «{formula}»");
         CompletionItem::new(format!("{driven} = {formula}"), CompletionItemKind::Declaration, 0)

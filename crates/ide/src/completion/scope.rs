@@ -3,9 +3,9 @@
 use super::MOST;
 use super::cursor::{Block, Cursor};
 use super::item::{CompletionItem, CompletionItemKind, Template};
-use super::wanted::Wanted;
-use crate::names::{item_named, known};
-use crate::written::holds_letters;
+use super::expected::Expected;
+use crate::occurrences::{item_named, known};
+use crate::lexical::holds_letters;
 use mechc_lang::check::{KnownMechanism, NameKind, name_of};
 use mechc_pipeline::Checked;
 use mechc_syntax::ast::{ExprKind, Feature, Item as Declaration, ItemKind as Declared, Mechanism, MechanismName, Name};
@@ -20,20 +20,20 @@ pub(super) struct Scope<'s> {
     /// Where the declaration around the cursor begins: it is not known in itself.
     pub declared_at: u32,
     /// What is left out where there are very many names.
-    pub sieve: &'s Sieve<'s>,
+    pub sieve: &'s NameFilter<'s>,
 }
 
 /// Keeps very many names from taking long: those are left out that do not go with the letters typed, and the first ones alone described.
-pub(super) struct Sieve<'s> {
+pub(super) struct NameFilter<'s> {
     letters: Option<&'s str>,
     described: Cell<usize>,
 }
 
-impl<'s> Sieve<'s> {
+impl<'s> NameFilter<'s> {
     /// For a mechanism, with the letters typed.
-    pub fn of(tree: Option<&Mechanism>, letters: &'s str) -> Sieve<'s> {
+    pub fn of(tree: Option<&Mechanism>, letters: &'s str) -> NameFilter<'s> {
         let has_many = tree.is_some_and(|tree| tree.items.len() > MOST);
-        Sieve { letters: has_many.then_some(letters), described: Cell::new(0) }
+        NameFilter { letters: has_many.then_some(letters), described: Cell::new(0) }
     }
 
     /// Whether anything may have been left out.
@@ -60,32 +60,32 @@ enum Inside<'s> {
 
 impl Scope<'_> {
     /// What fits of a mechanism's names.
-    pub fn fitting(&self, wanted: Wanted, cursor: &Cursor<'_>) -> Vec<CompletionItem> {
+    pub fn fitting(&self, wanted: Expected, cursor: &Cursor<'_>) -> Vec<CompletionItem> {
         let items = self.tree.items.iter().filter(|item| item.span.start != self.declared_at);
         match wanted {
             _ if wanted.is_feature() => {
                 let mut found = self.own_features(wanted, cursor);
                 found.extend(items.clone().flat_map(|item| self.features_of(item, wanted)));
-                if wanted == Wanted::Point {
+                if wanted == Expected::Point {
                     found.extend(items.filter(|item| is_point(item)).filter_map(|item| self.named(item, 2)));
                 }
                 found
             }
-            Wanted::Body => items.filter_map(|item| self.body(item)).collect(),
-            Wanted::Joint(quantity) => items.filter_map(|item| self.joint(item, quantity)).collect(),
-            Wanted::Equation => items.filter_map(|item| self.equation(item)).collect(),
-            Wanted::Variable => {
+            Expected::Body => items.filter_map(|item| self.body(item)).collect(),
+            Expected::Joint(quantity) => items.filter_map(|item| self.joint(item, quantity)).collect(),
+            Expected::Equation => items.filter_map(|item| self.equation(item)).collect(),
+            Expected::Variable => {
                 let is_variable =
                     |item: &&Declaration| matches!(item.kind, Declared::Param { .. } | Declared::Input { .. });
                 items.filter(is_variable).filter_map(|item| self.named(item, 1)).collect()
             }
-            Wanted::Number(_) => self.numbers(items, cursor),
+            Expected::Number(_) => self.numbers(items, cursor),
             _ => Vec::new(),
         }
     }
 
     /// The points of the body around the cursor, by their names alone.
-    fn own_features(&self, wanted: Wanted, cursor: &Cursor<'_>) -> Vec<CompletionItem> {
+    fn own_features(&self, wanted: Expected, cursor: &Cursor<'_>) -> Vec<CompletionItem> {
         if cursor.block != Block::Features {
             return Vec::new();
         }
@@ -151,7 +151,7 @@ impl Scope<'_> {
     }
 
     /// Those of a body or the ground, by their paths; of a part its name.
-    fn features_of(&self, item: &Declaration, wanted: Wanted) -> Vec<CompletionItem> {
+    fn features_of(&self, item: &Declaration, wanted: Expected) -> Vec<CompletionItem> {
         if let Declared::Part(part) = &item.kind {
             let marked = format!("{}.", with_indices(item, &part.name.text));
             return vec![
@@ -179,7 +179,7 @@ impl Scope<'_> {
             Declared::Ground { .. } => {
                 Some(CompletionItem::new("ground", CompletionItemKind::Body, 2).detail("the body that does not move"))
             }
-            Declared::Part(_) => self.features_of(item, Wanted::Point).pop(),
+            Declared::Part(_) => self.features_of(item, Expected::Point).pop(),
             _ => None,
         }
     }
@@ -187,7 +187,7 @@ impl Scope<'_> {
     fn joint(&self, item: &Declaration, quantity: &str) -> Option<CompletionItem> {
         match &item.kind {
             Declared::Joint { kind, .. } if has_quantity(kind, quantity) => self.named(item, 1),
-            Declared::Part(_) => self.features_of(item, Wanted::Point).pop(),
+            Declared::Part(_) => self.features_of(item, Expected::Point).pop(),
             _ => None,
         }
     }
@@ -195,7 +195,7 @@ impl Scope<'_> {
     fn equation(&self, item: &Declaration) -> Option<CompletionItem> {
         match &item.kind {
             Declared::Equation { .. } => self.named(item, 1),
-            Declared::Part(_) => self.features_of(item, Wanted::Point).pop(),
+            Declared::Part(_) => self.features_of(item, Expected::Point).pop(),
             _ => None,
         }
     }
@@ -225,7 +225,7 @@ impl Scope<'_> {
     }
 
     /// What stands behind a path with a dot; all of it where nothing is wanted.
-    pub fn inside(&self, path: &[&str], wanted: &[Wanted]) -> Vec<CompletionItem> {
+    pub fn inside(&self, path: &[&str], wanted: &[Expected]) -> Vec<CompletionItem> {
         match self.lead(path) {
             None => Vec::new(),
             Some(Inside::Coordinates) => ["x", "y"]
@@ -246,21 +246,21 @@ impl Scope<'_> {
     }
 
     /// A name of a part, as it is seen from outside.
-    fn of_part(&self, item: &Declaration, wanted: &[Wanted]) -> Option<CompletionItem> {
-        let leads_on = |wanted: &Wanted| match item.kind {
+    fn of_part(&self, item: &Declaration, wanted: &[Expected]) -> Option<CompletionItem> {
+        let leads_on = |wanted: &Expected| match item.kind {
             Declared::Part(_) => {
-                wanted.is_feature() || matches!(wanted, Wanted::Joint(_) | Wanted::Equation | Wanted::Body)
+                wanted.is_feature() || matches!(wanted, Expected::Joint(_) | Expected::Equation | Expected::Body)
             }
             Declared::Body { .. } | Declared::Ground { .. } => wanted.is_feature(),
             _ => false,
         };
-        let fits = |wanted: &Wanted| match (wanted, &item.kind) {
-            (Wanted::Joint(quantity), Declared::Joint { kind, .. }) => has_quantity(kind, quantity),
-            (Wanted::Body, Declared::Body { .. } | Declared::Ground { .. })
-            | (Wanted::Equation, Declared::Equation { .. })
-            | (Wanted::Number(_), Declared::Measure { .. } | Declared::Result { .. })
-            | (Wanted::Number(_) | Wanted::Variable, Declared::Param { .. } | Declared::Input { .. }) => true,
-            (Wanted::Point, Declared::Param { .. }) => is_point(item),
+        let fits = |wanted: &Expected| match (wanted, &item.kind) {
+            (Expected::Joint(quantity), Declared::Joint { kind, .. }) => has_quantity(kind, quantity),
+            (Expected::Body, Declared::Body { .. } | Declared::Ground { .. })
+            | (Expected::Equation, Declared::Equation { .. })
+            | (Expected::Number(_), Declared::Measure { .. } | Declared::Result { .. })
+            | (Expected::Number(_) | Expected::Variable, Declared::Param { .. } | Declared::Input { .. }) => true,
+            (Expected::Point, Declared::Param { .. }) => is_point(item),
             _ => false,
         };
         if !wanted.is_empty() && !wanted.iter().any(|wanted| fits(wanted) || leads_on(wanted)) {

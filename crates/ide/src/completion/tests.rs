@@ -7,8 +7,8 @@ use crate::testing::{FOUR_BAR, TWO_FILES, at_cursor};
 /// writes where that is something else.
 #[track_caller]
 fn proposed(text: &str, count: usize) -> String {
-    let (snapshot, place) = at_cursor(text);
-    let items = completions(&snapshot, &place).expect("a file").items;
+    let (snapshot, position) = at_cursor(text);
+    let items = completions(&snapshot, &position).expect("a file").items;
     let line = |item: &super::CompletionItem| {
         let mut written = item.insert.text.clone();
         for hole in item.insert.holes.iter().rev() {
@@ -296,8 +296,8 @@ fn words_join_the_parts_of_declarations() {
 fn a_window_is_proposed_behind_the_formula_of_a_reduction() {
     let of = |typed: &str| {
         let text = with("    analysis", &format!("    param late = 0.5 s\n    result r = {typed}$0\n    analysis"));
-        let (snapshot, place) = at_cursor(&text);
-        let labels = completions(&snapshot, &place).expect("a file").items.into_iter().map(|item| item.label);
+        let (snapshot, position) = at_cursor(&text);
+        let labels = completions(&snapshot, &position).expect("a file").items.into_iter().map(|item| item.label);
         labels.filter(|label| ["from", "to", "late"].contains(&label.as_str())).collect::<Vec<_>>().join(" ")
     };
     assert_eq!(of("max(x(crank.B),"), "late from to");
@@ -312,8 +312,8 @@ fn a_window_is_proposed_behind_the_formula_of_a_reduction() {
 #[test]
 fn a_unit_goes_on_with_units_alone() {
     let labels = |text: &str| {
-        let (snapshot, place) = at_cursor(text);
-        let items = completions(&snapshot, &place).expect("a file").items;
+        let (snapshot, position) = at_cursor(text);
+        let items = completions(&snapshot, &position).expect("a file").items;
         items.into_iter().map(|item| item.label).collect::<Vec<_>>().join(" ")
     };
     insta::assert_snapshot!(labels(&with("90 deg/s", "90 deg/$0")), @"s ms us µs mm m cm um µm km in ft");
@@ -372,8 +372,8 @@ fn parts_are_known_by_their_files() {
 #[test]
 fn letters_beyond_the_first_plane_are_parts_of_words() {
     let text = with(KNEE, "joint knee: revolute(𝛼𝛽$0γ, rocker.C)\n");
-    let (snapshot, place) = at_cursor(&text);
-    let items = completions(&snapshot, &place).expect("a file").items;
+    let (snapshot, position) = at_cursor(&text);
+    let items = completions(&snapshot, &position).expect("a file").items;
     let text = text.replacen("$0", "", 1);
     let range = items[0].replaces.clone();
     assert_eq!(&text[range.start as usize..range.end as usize], "𝛼𝛽γ");
@@ -383,8 +383,8 @@ fn letters_beyond_the_first_plane_are_parts_of_words() {
 fn every_place_of_every_prefix_has_an_answer() {
     for end in (0..FOUR_BAR.len()).step_by(7) {
         let text = format!("{}$0", &FOUR_BAR[..end]);
-        let (snapshot, place) = at_cursor(&text);
-        assert!(completions(&snapshot, &place).is_some(), "{text}");
+        let (snapshot, position) = at_cursor(&text);
+        assert!(completions(&snapshot, &position).is_some(), "{text}");
     }
 }
 
@@ -392,9 +392,9 @@ fn every_place_of_every_prefix_has_an_answer() {
 fn of_very_many_names_those_come_that_go_with_the_letters() {
     let params = (0..2_000).map(|k| format!("    param length_{k} = {k} mm\n")).collect::<Vec<_>>().concat();
     let of = |letters: &str| {
-        let (snapshot, place) =
+        let (snapshot, position) =
             at_cursor(&format!("mechanism many {{\n{params}    measure most = 2 * {letters}$0\n}}"));
-        completions(&snapshot, &place).expect("a file")
+        completions(&snapshot, &position).expect("a file")
     };
     let found = of("");
     assert_eq!((found.items.len(), found.is_incomplete), (200, true));

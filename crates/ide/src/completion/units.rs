@@ -1,10 +1,10 @@
 //! The units behind a number: of the dimension that fits there first.
 
-use super::cursor::{Begun, Cursor};
+use super::cursor::{PartialUnit, Cursor};
 use super::item::{CompletionItem, CompletionItemKind, Template};
-use super::wanted::{Wanted, wanted};
-use crate::edits::faults;
-use crate::place::Place;
+use super::expected::{Expected, wanted};
+use crate::trial_edits::faults;
+use crate::location::FilePosition;
 use crate::snapshot::Snapshot;
 use mechc_text::diag::Severity;
 use mechc_text::vocabulary::{Dimension, UNITS, Unit};
@@ -31,10 +31,10 @@ const RATES: &[(&str, Dimension, &str)] = &[
 ];
 
 /// All units, in a good order for the number before the cursor.
-pub(super) fn behind_number(snapshot: &Snapshot, place: &Place, cursor: &Cursor<'_>) -> Vec<CompletionItem> {
+pub(super) fn behind_number(snapshot: &Snapshot, position: &FilePosition, cursor: &Cursor<'_>) -> Vec<CompletionItem> {
     let like = in_sum(cursor);
     let known = like.map(|unit| unit.dimension).or_else(|| known(cursor));
-    let fitting = known.map_or_else(|| tried(snapshot, place, cursor), |dimension| vec![dimension]);
+    let fitting = known.map_or_else(|| tried(snapshot, position, cursor), |dimension| vec![dimension]);
     let is_right_behind = cursor.text[..cursor.word.start].ends_with(|c: char| c.is_ascii_digit());
     let space = if is_right_behind && cursor.word.is_empty() { " " } else { "" };
     let fits = |dimension: Dimension| fitting.iter().any(|fitting| fitting.is(dimension));
@@ -58,7 +58,7 @@ pub(super) fn behind_number(snapshot: &Snapshot, place: &Place, cursor: &Cursor<
 
 /// How a compound unit can go on, of which some is written: times first, since most are rates. What is a rate already, or of a dimension
 /// that the unit has, makes no sense there.
-pub(super) fn going_on(begun: &Begun) -> Vec<CompletionItem> {
+pub(super) fn going_on(begun: &PartialUnit) -> Vec<CompletionItem> {
     let rank = |dimension: Dimension| match dimension {
         it if begun.dimensions.iter().any(|known| known.is(it)) => None,
         it if it.is(Dimension::TIME) => Some(1),
@@ -97,22 +97,22 @@ fn known(cursor: &Cursor<'_>) -> Option<Dimension> {
         return None;
     }
     wanted(cursor).into_iter().find_map(|wanted| match wanted {
-        Wanted::Number(dimension) => dimension,
-        Wanted::Point => Some(Dimension::LENGTH),
+        Expected::Number(dimension) => dimension,
+        Expected::Point => Some(Dimension::LENGTH),
         _ => None,
     })
 }
 
 /// The dimensions with which the text has the fewest faults: what uses the number tells what it is.
-fn tried(snapshot: &Snapshot, place: &Place, cursor: &Cursor<'_>) -> Vec<Dimension> {
+fn tried(snapshot: &Snapshot, position: &FilePosition, cursor: &Cursor<'_>) -> Vec<Dimension> {
     if cursor.text.len() > LONGEST {
         return Vec::new();
     }
     let mut counts = Vec::new();
     for (unit, dimension) in TRIED {
         let text = [&cursor.text[..cursor.word.start], " ", unit, " ", &cursor.text[cursor.word.end..]].concat();
-        let tried = snapshot.supposing(&place.path, text.into());
-        let found = faults(&tried, &[Arc::clone(&place.path)]);
+        let tried = snapshot.supposing(&position.path, text.into());
+        let found = faults(&tried, &[Arc::clone(&position.path)]);
         counts.push((found.iter().filter(|said| said.severity != Severity::Note).count(), *dimension));
     }
     let least = counts.iter().map(|(count, _)| *count).min();

@@ -1,6 +1,6 @@
 //! What the client can do, and what the server does.
 
-use super::legend::{MODIFIERS, types};
+use super::handlers::tokens::{MODIFIERS, types};
 use mechc_text::source::Encoding;
 use serde_json::{Value, json};
 use std::path::PathBuf;

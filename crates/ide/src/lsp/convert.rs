@@ -2,7 +2,7 @@
 
 use super::capabilities::Client;
 use super::documents::{Document, Documents};
-use crate::{Change, Place, Said, Severity, Snapshot, Stretch};
+use crate::{Change, FilePosition, EditorDiagnostic, Severity, Snapshot, FileRange};
 use gen_lsp_types as lsp;
 use mechc_lang::check::NameKind;
 use mechc_text::source::Encoding;
@@ -14,7 +14,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 /// What it takes to turn places of one moment into the client's: its open texts, and how it counts.
 #[derive(Clone)]
-pub(super) struct Texts {
+pub(super) struct ProtocolContext {
     pub snapshot: Snapshot,
     pub documents: Documents,
     pub encoding: Encoding,
@@ -23,18 +23,18 @@ pub(super) struct Texts {
     pub closed: Arc<Mutex<BTreeMap<Arc<Path>, Arc<Document>>>>,
 }
 
-impl Texts {
+impl ProtocolContext {
     /// The file of a URI, by its identity.
     pub fn path(&self, uri: &lsp::Uri) -> Arc<Path> {
         file_of(&uri.0, &self.documents, &self.snapshot)
     }
 
     /// A place that the client gives.
-    pub fn place(&self, given: &lsp::TextDocumentPositionParams) -> Option<Place> {
+    pub fn position(&self, given: &lsp::TextDocumentPositionParams) -> Option<FilePosition> {
         let path = self.path(&given.text_document.uri);
         let document = self.text(&path)?;
         let offset = document.offset((given.position.line, given.position.character), self.encoding);
-        Some(Place { path, offset })
+        Some(FilePosition { path, offset })
     }
 
     /// A stretch that the client gives.
@@ -47,7 +47,7 @@ impl Texts {
 
     /// A change of a text in its file.
     pub fn text_edit(&self, change: &Change) -> Option<lsp::TextEdit> {
-        let range = self.location(&change.place)?.range;
+        let range = self.location(&change.location)?.range;
         Some(lsp::TextEdit { range, new_text: change.text.clone() })
     }
 
@@ -55,7 +55,7 @@ impl Texts {
     pub fn edit(&self, changes: &[Change]) -> Option<lsp::WorkspaceEdit> {
         let mut files: HashMap<lsp::Uri, Vec<lsp::TextEdit>> = HashMap::new();
         for change in changes {
-            let uri = self.location(&change.place)?.uri;
+            let uri = self.location(&change.location)?.uri;
             files.entry(uri).or_default().push(self.text_edit(change)?);
         }
         Some(lsp::WorkspaceEdit { changes: Some(files), ..lsp::WorkspaceEdit::default() })
@@ -74,17 +74,17 @@ impl Texts {
     }
 
     /// A stretch with its file, for the client.
-    pub fn location(&self, place: &Stretch) -> Option<lsp::Location> {
-        let path: Arc<Path> = self.snapshot.buffers().identity(&place.path).into();
-        let range = self.range(&path, &place.range())?;
+    pub fn location(&self, position: &FileRange) -> Option<lsp::Location> {
+        let path: Arc<Path> = self.snapshot.buffers().identity(&position.path).into();
+        let range = self.range(&path, &position.range())?;
         Some(lsp::Location { uri: lsp::Uri(self.documents.uri(&path)), range })
     }
 
     /// A diagnostic of a file.
-    pub fn diagnostic(&self, path: &Path, said: &Said) -> Option<lsp::Diagnostic> {
+    pub fn diagnostic(&self, path: &Path, said: &EditorDiagnostic) -> Option<lsp::Diagnostic> {
         let related = said.related.iter().filter_map(|related| {
             let message = if related.text.is_empty() { said.message.clone() } else { related.text.clone() };
-            Some(lsp::DiagnosticRelatedInformation { location: self.location(&related.place)?, message })
+            Some(lsp::DiagnosticRelatedInformation { location: self.location(&related.location)?, message })
         });
         let related: Vec<_> = related.collect();
         let lines: Vec<&str> = std::iter::once(&said.message).chain(&said.more).map(String::as_str).collect();

@@ -27,7 +27,7 @@ pub(super) struct Document {
 
 /// An edit of a text, in bytes: what goes, and how long what comes is.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub(super) struct Moved {
+pub(super) struct Splice {
     pub range: Range<u32>,
     pub length: u32,
 }
@@ -73,7 +73,7 @@ impl Document {
     }
 
     /// Another text in the place of a stretch, or of all.
-    pub fn edit(&mut self, range: Option<[Position; 2]>, new: &str, encoding: Encoding) -> Moved {
+    pub fn edit(&mut self, range: Option<[Position; 2]>, new: &str, encoding: Encoding) -> Splice {
         let Some(ends) = range else {
             let moved = difference(&self.text, new.strip_prefix(MARK).unwrap_or(new));
             self.replace_text(new);
@@ -89,20 +89,20 @@ impl Document {
         text += new;
         text += &self.text[range.end as usize..];
         self.replace_text(&text);
-        Moved { range, length: new.len() as u32 }
+        Splice { range, length: new.len() as u32 }
     }
 }
 
 /// The one stretch in which two texts differ.
-fn difference(old: &str, new: &str) -> Moved {
+fn difference(old: &str, new: &str) -> Splice {
     let same = |a: &mut dyn Iterator<Item = (u8, u8)>| a.take_while(|(a, b)| a == b).count();
     let before = same(&mut old.bytes().zip(new.bytes()));
     let shorter = old.len().min(new.len());
     let behind = same(&mut old.bytes().rev().zip(new.bytes().rev())).min(shorter - before);
-    Moved { range: before as u32..(old.len() - behind) as u32, length: (new.len() - before - behind) as u32 }
+    Splice { range: before as u32..(old.len() - behind) as u32, length: (new.len() - before - behind) as u32 }
 }
 
-impl Moved {
+impl Splice {
     /// Whether the edit changes a stretch, or stands right beside it.
     pub fn meets(&self, range: &Range<u32>) -> bool {
         self.range.start <= range.end && range.start <= self.range.end
@@ -172,7 +172,7 @@ impl Documents {
 
 #[cfg(test)]
 mod tests {
-    use super::{Document, Documents, Moved, difference};
+    use super::{Document, Documents, Splice, difference};
     use mechc_text::source::Encoding;
     use std::path::Path;
 
@@ -198,11 +198,11 @@ mod tests {
     fn edits_change_the_text_and_say_what_moved() {
         let mut text = document("a𝛼µ\nx\n");
         let moved = text.edit(Some([(0, 1), (0, 3)]), "bc", Encoding::Utf16);
-        assert_eq!((&**text.text(), moved), ("abcµ\nx\n", Moved { range: 1..5, length: 2 }));
+        assert_eq!((&**text.text(), moved), ("abcµ\nx\n", Splice { range: 1..5, length: 2 }));
         let moved = text.edit(Some([(9, 9), (9, 9)]), "end", Encoding::Utf16);
-        assert_eq!((&**text.text(), moved), ("abcµ\nx\nend", Moved { range: 8..8, length: 3 }));
+        assert_eq!((&**text.text(), moved), ("abcµ\nx\nend", Splice { range: 8..8, length: 3 }));
         let moved = text.edit(None, "abcµ\ny\nend", Encoding::Utf16);
-        assert_eq!((&**text.text(), moved), ("abcµ\ny\nend", Moved { range: 6..7, length: 1 }));
+        assert_eq!((&**text.text(), moved), ("abcµ\ny\nend", Splice { range: 6..7, length: 1 }));
     }
 
     #[test]
@@ -234,19 +234,19 @@ mod tests {
 
     #[test]
     fn the_difference_is_one_stretch() {
-        assert_eq!(difference("abab", "abxab"), Moved { range: 2..2, length: 1 });
-        assert_eq!(difference("aaa", "aa"), Moved { range: 2..3, length: 0 });
-        assert_eq!(difference("", ""), Moved { range: 0..0, length: 0 });
+        assert_eq!(difference("abab", "abxab"), Splice { range: 2..2, length: 1 });
+        assert_eq!(difference("aaa", "aa"), Splice { range: 2..3, length: 0 });
+        assert_eq!(difference("", ""), Splice { range: 0..0, length: 0 });
     }
 
     #[test]
     fn stretches_move_with_edits() {
-        let insert = Moved { range: 5..5, length: 3 };
+        let insert = Splice { range: 5..5, length: 3 };
         assert_eq!(insert.applied(&(6..8)), 9..11);
         assert_eq!(insert.applied(&(5..8)), 8..11);
         assert_eq!(insert.applied(&(2..5)), 2..5);
         assert_eq!(insert.applied(&(2..6)), 2..9);
-        let delete = Moved { range: 4..8, length: 0 };
+        let delete = Splice { range: 4..8, length: 0 };
         assert_eq!(delete.applied(&(2..6)), 2..4);
         assert_eq!(delete.applied(&(5..7)), 4..4);
         assert_eq!(delete.applied(&(6..10)), 4..6);

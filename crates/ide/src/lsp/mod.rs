@@ -9,21 +9,20 @@
 //!                       └─ documents, stages (what is said of each)
 //! ```
 
-mod answers;
+mod apply_edits;
 mod capabilities;
 mod convert;
 mod documents;
-mod edits;
-mod legend;
+mod handlers;
 mod lines;
+mod live_pages;
 mod log;
 mod parent;
 mod pool;
+mod published;
 mod server;
-mod stages;
 mod transport;
 mod uri;
-mod views;
 
 pub use log::Log;
 pub use server::{Ended, serve};
@@ -34,7 +33,7 @@ use std::sync::Arc;
 /// The names of all requests that are answered, once a session has begun.
 pub fn methods() -> impl Iterator<Item = &'static str> {
     let pull = std::iter::once(server::PULL);
-    answers::TABLE.iter().map(|method| method.name).chain(pull)
+    handlers::TABLE.iter().map(|method| method.name).chain(pull)
 }
 
 /// Serves the client at the other end of standard input and output, until that says that it is enough, or is gone.

@@ -10,13 +10,13 @@ const STACK: usize = 8 << 20;
 
 /// What work is for; each kind has threads of its own, so that none waits for one that takes longer.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(super) enum Kind {
+pub(super) enum TaskKind {
     /// What is said while somebody types.
     Words,
     /// What somebody asked for.
     Request,
     /// What somebody asked for that takes a proof, or checks of what would be.
-    Weighed,
+    Slow,
     /// Which files there are.
     Files,
     /// What is said right after; it is not cancelled at once.
@@ -26,13 +26,13 @@ pub(super) enum Kind {
 }
 
 /// Each kind with its number of threads.
-const THREADS: [(Kind, &str, usize); 6] = [
-    (Kind::Words, "words", 1),
-    (Kind::Request, "request", 2),
-    (Kind::Weighed, "weighed", 1),
-    (Kind::Files, "files", 1),
-    (Kind::Proof, "proof", 1),
-    (Kind::Motion, "motion", 1),
+const THREADS: [(TaskKind, &str, usize); 6] = [
+    (TaskKind::Words, "words", 1),
+    (TaskKind::Request, "request", 2),
+    (TaskKind::Slow, "weighed", 1),
+    (TaskKind::Files, "files", 1),
+    (TaskKind::Proof, "proof", 1),
+    (TaskKind::Motion, "motion", 1),
 ];
 
 type Work = Box<dyn FnOnce() + Send>;
@@ -49,7 +49,7 @@ impl Pool {
     }
 
     /// Does something as soon as a thread of its kind is free.
-    pub fn begin(&self, kind: Kind, work: impl FnOnce() + Send + 'static) {
+    pub fn begin(&self, kind: TaskKind, work: impl FnOnce() + Send + 'static) {
         // the threads are there as long as their channel
         let _ = self.queues[kind as usize].send(Box::new(work));
     }
@@ -78,7 +78,7 @@ fn words(panic: &(dyn Any + Send)) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{Kind, Pool, THREADS, caught};
+    use super::{TaskKind, Pool, THREADS, caught};
     use crossbeam_channel::unbounded;
 
     #[test]
@@ -86,7 +86,7 @@ mod tests {
         let (pool, (sender, receiver)) = (Pool::new(), unbounded());
         for k in 0..10 {
             let sender = sender.clone();
-            pool.begin(Kind::Request, move || {
+            pool.begin(TaskKind::Request, move || {
                 let told = caught(|| assert!(k % 2 == 0, "odd {k}")).err();
                 sender.send((k, told)).expect("it is open");
             });
@@ -109,8 +109,8 @@ mod tests {
         let (pool, (sender, receiver)) = (Pool::new(), unbounded());
         let (until, end) = unbounded::<()>();
         // it takes until the words are there
-        pool.begin(Kind::Proof, move || assert!(end.recv().is_err()));
-        pool.begin(Kind::Words, move || sender.send("words").expect("it is open"));
+        pool.begin(TaskKind::Proof, move || assert!(end.recv().is_err()));
+        pool.begin(TaskKind::Words, move || sender.send("words").expect("it is open"));
         assert_eq!(receiver.recv(), Ok("words"));
         drop(until);
     }

@@ -1,19 +1,19 @@
 //! The loop: messages and what the pool has done, one after the other. It alone owns what changes.
 
 mod notifications;
-mod said;
-mod work;
+mod publish_diagnostics;
+mod scheduling;
 
 use self::notifications::position;
-use super::answers::{Failure, Method, TABLE};
+use super::handlers::{Failure, Method, TABLE};
 use super::capabilities::{self, Client};
-use super::convert::{self, Texts};
+use super::convert::{self, ProtocolContext};
 use super::documents::{Document, Documents};
 use super::log::Log;
 use super::parent::Parent;
 use super::pool::{Pool, caught};
-use super::stages::{Found, Shown};
-use super::views::{Event, Meant, Views, Written};
+use super::published::{StageResult, PublishedDiagnostics};
+use super::live_pages::{Event, PageId, LivePages, WriteOutcome};
 use crate::{DiagnosticStage, Snapshot};
 use crossbeam_channel::{Receiver, Sender, select, unbounded};
 use lsp_server::{Connection, ErrorCode, Message, Notification, Request, RequestId, Response, ResponseError};
@@ -63,7 +63,7 @@ pub fn serve(connection: Connection, world: Arc<dyn World>, log: Log) -> Ended {
     let (done, tasks) = unbounded();
     let snapshot = Snapshot::new(world);
     let (tell, events) = unbounded();
-    let views = Views::new(snapshot.buffers().clone(), tell);
+    let views = LivePages::new(snapshot.buffers().clone(), tell);
     let mut server = Server {
         client: Client::of(&Value::Null),
         state: State::New,
@@ -107,11 +107,11 @@ enum Task {
     Files(Vec<Arc<Path>>),
     /// A motion of a revision is begun, with what ends it.
     Began(u64, Cancel),
-    Found {
+    StageResult {
         path: Arc<Path>,
         revision: u64,
         stage: DiagnosticStage,
-        found: Result<Option<Found>, String>,
+        found: Result<Option<StageResult>, String>,
         took: Duration,
     },
 }
@@ -140,7 +140,7 @@ pub(super) struct Server {
     log: Log,
     pub(super) documents: Documents,
     snapshot: Snapshot,
-    shown: BTreeMap<Arc<Path>, Shown>,
+    shown: BTreeMap<Arc<Path>, PublishedDiagnostics>,
     /// The text that was opened or edited last.
     edited: Option<Arc<Path>>,
     /// Counts the changes of the snapshot.
@@ -154,13 +154,13 @@ pub(super) struct Server {
     pending: HashMap<RequestId, Pending>,
     pulls: Vec<Pull>,
     /// The live pages.
-    views: Views,
+    views: LivePages,
     /// Of the server's own requests.
     next_id: i32,
     /// What the client has open.
     folders: Vec<PathBuf>,
     /// The edits that the client has not yet answered, and who waits for that.
-    pub(super) edits: HashMap<RequestId, Sender<Written>>,
+    pub(super) edits: HashMap<RequestId, Sender<WriteOutcome>>,
     /// The process of the client, where that is the one that began this one.
     parent: Option<Parent>,
 }
@@ -250,7 +250,7 @@ impl Server {
             return;
         };
         let mechanism = params.get("mechanism").and_then(Value::as_str).map(str::to_owned);
-        let meant = Meant { path: self.file_of(uri), uri: uri.to_owned(), mechanism };
+        let meant = PageId { path: self.file_of(uri), uri: uri.to_owned(), mechanism };
         let done = self.done.clone();
         let answer = {
             let id = id.clone();
@@ -304,9 +304,9 @@ impl Server {
             left = left.saturating_sub(c.len_utf16());
             is_before
         });
-        let place = self.range_end(document, letters.map(char::len_utf8).sum::<usize>() as u32);
+        let position = self.range_end(document, letters.map(char::len_utf8).sum::<usize>() as u32);
         let uri = document.uri.clone();
-        let selection = json!({ "start": place, "end": place });
+        let selection = json!({ "start": position, "end": position });
         self.ask_with("window/showDocument", json!({ "uri": uri, "takeFocus": false, "selection": selection }));
     }
 
@@ -319,18 +319,18 @@ impl Server {
     fn begin(&mut self, id: RequestId, method: &'static Method, params: Value) {
         let kept = if method.is_retried { params.clone() } else { Value::Null };
         self.pending.insert(id.clone(), Pending { method, params: kept });
-        let (texts, done) = (self.texts(), self.done.clone());
+        let (context, done) = (self.context(), self.done.clone());
         self.pool.begin(method.kind, move || {
-            let answer = caught(|| (method.answer)(&texts, params)).unwrap_or_else(|why| Err(Failure::Panicked(why)));
+            let answer = caught(|| (method.answer)(&context, params)).unwrap_or_else(|why| Err(Failure::Panicked(why)));
             // the server may have ended
             let _ = done.send(Task::Answered(id, answer));
         });
     }
 
-    fn texts(&self) -> Texts {
+    fn context(&self) -> ProtocolContext {
         let encoding = self.client.encoding;
         let (snapshot, documents) = (self.snapshot.clone(), self.documents.clone());
-        Texts { snapshot, documents, encoding, client: self.client.clone(), closed: Arc::default() }
+        ProtocolContext { snapshot, documents, encoding, client: self.client.clone(), closed: Arc::default() }
     }
 
     /// The file of a URI.
@@ -351,7 +351,7 @@ impl Server {
                 self.motions.push((motion, Instant::now() + MOTION_LIMIT));
             }
             Task::Began(_, motion) => motion.cancel(),
-            Task::Found { path, revision, stage, found, took } => {
+            Task::StageResult { path, revision, stage, found, took } => {
                 if revision == self.revision && self.state == State::Running {
                     self.log.did(|| format!("{stage:?} of {} took {:.3} ms", path.display(), took.as_secs_f64() * 1e3));
                     self.take(&path, stage, found);

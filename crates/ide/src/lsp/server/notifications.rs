@@ -5,8 +5,8 @@ use crate as ide;
 use crate::lsp::capabilities::Ability;
 use crate::lsp::documents::Document;
 use crate::lsp::lines::Position;
-use crate::lsp::pool::{Kind, caught};
-use crate::lsp::stages::Shown;
+use crate::lsp::pool::{TaskKind, caught};
+use crate::lsp::published::PublishedDiagnostics;
 use crate::lsp::uri;
 use lsp_server::{ErrorCode, Notification, RequestId};
 use serde_json::{Value, json};
@@ -56,7 +56,7 @@ impl Server {
         }
         self.documents.set(Arc::clone(&path), document);
         let opening = self.revision;
-        self.shown.entry(Arc::clone(&path)).or_insert_with(|| Shown::of_opening(opening));
+        self.shown.entry(Arc::clone(&path)).or_insert_with(|| PublishedDiagnostics::of_opening(opening));
         self.replace(&path);
         Some(())
     }
@@ -115,7 +115,7 @@ impl Server {
         let (folders, world, done) = (self.folders.clone(), Arc::clone(self.snapshot.buffers()), self.done.clone());
         std::mem::take(&mut self.search).cancel();
         let cancel = self.search.clone();
-        self.pool.begin(Kind::Files, move || {
+        self.pool.begin(TaskKind::Files, move || {
             let files = caught(|| ide::files_in(&folders, &*world, &cancel)).unwrap_or_default();
             if !cancel.is_cancelled() {
                 let _ = done.send(Task::Files(files));

@@ -1,7 +1,7 @@
 //! Changes of texts, made on a copy of what is known, to see what comes of them.
 
-use super::diagnostics::{DiagnosticStage, Said, diagnostics};
-use super::place::Change;
+use super::diagnostics::{DiagnosticStage, EditorDiagnostic, diagnostics};
+use super::location::Change;
 use super::snapshot::Snapshot;
 use mechc_text::cancel::Cancel;
 use mechc_text::world::World;
@@ -19,16 +19,16 @@ pub(super) fn text_of(snapshot: &Snapshot, path: &Path) -> Option<String> {
 pub(super) fn applied(snapshot: &Snapshot, changes: &[Change]) -> Option<Snapshot> {
     let mut of_files: BTreeMap<Arc<Path>, Vec<&Change>> = BTreeMap::new();
     for change in changes {
-        let path: Arc<Path> = snapshot.buffers().identity(&change.place.path).into();
+        let path: Arc<Path> = snapshot.buffers().identity(&change.location.path).into();
         of_files.entry(path).or_default().push(change);
     }
     let mut after = snapshot.clone();
     for (path, mut changes) in of_files {
-        changes.sort_by_key(|change| change.place.range().start);
+        changes.sort_by_key(|change| change.location.range().start);
         let text = text_of(snapshot, &path)?;
         let (mut changed, mut end) = (String::with_capacity(text.len()), 0);
         for change in changes {
-            let range = change.place.start as usize..change.place.end as usize;
+            let range = change.location.start as usize..change.location.end as usize;
             if range.start >= end {
                 changed += text.get(end..range.start)?;
                 changed += &change.text;
@@ -42,14 +42,14 @@ pub(super) fn applied(snapshot: &Snapshot, changes: &[Change]) -> Option<Snapsho
 }
 
 /// What is to be said of some files' words, in order.
-pub(super) fn faults(snapshot: &Snapshot, files: &[Arc<Path>]) -> Vec<Said> {
+pub(super) fn faults(snapshot: &Snapshot, files: &[Arc<Path>]) -> Vec<EditorDiagnostic> {
     let of =
         |path: &Arc<Path>| diagnostics(snapshot, path, DiagnosticStage::Words, &Cancel::default).unwrap_or_default();
     files.iter().flat_map(of).collect()
 }
 
 /// The first of some faults that was not there before, or is there once more.
-pub(super) fn first_new<'s>(before: &[Said], after: &'s [Said]) -> Option<&'s Said> {
+pub(super) fn first_new<'s>(before: &[EditorDiagnostic], after: &'s [EditorDiagnostic]) -> Option<&'s EditorDiagnostic> {
     let mut known: BTreeMap<&str, usize> = BTreeMap::new();
     for said in before {
         *known.entry(said.code).or_default() += 1;

@@ -1,13 +1,13 @@
 //! Changes of texts that a client can ask for: fixes, refactorings, formatting.
 
-use crate::lsp::convert::Texts;
-use crate::{self as ide, ActionKind, Formatted};
+use crate::lsp::convert::ProtocolContext;
+use crate::{self as ide, ActionKind, FormatScope};
 use gen_lsp_types as lsp;
 use serde_json::Value;
 
-pub(super) fn actions(texts: &Texts, params: &lsp::CodeActionParams) -> Option<Vec<lsp::CodeActionResponse>> {
-    let path = texts.path(&params.text_document.uri);
-    let range = texts.bytes(&params.text_document, &params.range)?;
+pub(super) fn actions(context: &ProtocolContext, params: &lsp::CodeActionParams) -> Option<Vec<lsp::CodeActionResponse>> {
+    let path = context.path(&params.text_document.uri);
+    let range = context.bytes(&params.text_document, &params.range)?;
     let of = |action: ide::Action| {
         let kind = match action.kind {
             ActionKind::Fix => lsp::CodeActionKind::QuickFix,
@@ -19,16 +19,16 @@ pub(super) fn actions(texts: &Texts, params: &lsp::CodeActionParams) -> Option<V
             return None;
         }
         let action = lsp::CodeAction {
-            diagnostics: action.mends.and_then(|said| texts.diagnostic(&path, &said)).map(|said| vec![said]),
+            diagnostics: action.mends.and_then(|said| context.diagnostic(&path, &said)).map(|said| vec![said]),
             is_preferred: action.is_preferred.then_some(true),
-            edit: Some(texts.edit(&action.changes)?),
+            edit: Some(context.edit(&action.changes)?),
             title: action.title,
             kind: Some(kind),
             ..lsp::CodeAction::default()
         };
         Some(action.into())
     };
-    Some(ide::actions(&texts.snapshot, &path, &range)?.into_iter().filter_map(of).collect())
+    Some(ide::actions(&context.snapshot, &path, &range)?.into_iter().filter_map(of).collect())
 }
 
 /// Whether a kind is one of those that are asked for, or is a part of one: `source` holds `source.fixAll`.
@@ -43,29 +43,29 @@ fn is_asked(only: Option<&[lsp::CodeActionKind]>, kind: &lsp::CodeActionKind) ->
     })
 }
 
-pub(super) fn formatting(texts: &Texts, params: &lsp::DocumentFormattingParams) -> Option<Vec<lsp::TextEdit>> {
-    formatted(texts, &params.text_document, &Formatted::Whole)
+pub(super) fn formatting(context: &ProtocolContext, params: &lsp::DocumentFormattingParams) -> Option<Vec<lsp::TextEdit>> {
+    formatted(context, &params.text_document, &FormatScope::Whole)
 }
 
 pub(super) fn range_formatting(
-    texts: &Texts,
+    context: &ProtocolContext,
     params: &lsp::DocumentRangeFormattingParams,
 ) -> Option<Vec<lsp::TextEdit>> {
-    let range = texts.bytes(&params.text_document, &params.range)?;
-    formatted(texts, &params.text_document, &Formatted::In(range))
+    let range = context.bytes(&params.text_document, &params.range)?;
+    formatted(context, &params.text_document, &FormatScope::In(range))
 }
 
 pub(super) fn brace_formatting(
-    texts: &Texts,
+    context: &ProtocolContext,
     params: &lsp::DocumentOnTypeFormattingParams,
 ) -> Option<Vec<lsp::TextEdit>> {
     let (text_document, position) = (params.text_document.clone(), params.position);
-    let place = texts.place(&lsp::TextDocumentPositionParams { text_document, position })?;
-    formatted(texts, &params.text_document, &Formatted::AtBrace(place.offset))
+    let position = context.position(&lsp::TextDocumentPositionParams { text_document, position })?;
+    formatted(context, &params.text_document, &FormatScope::AtBrace(position.offset))
 }
 
-fn formatted(texts: &Texts, document: &lsp::TextDocumentIdentifier, what: &Formatted) -> Option<Vec<lsp::TextEdit>> {
-    let path = texts.path(&document.uri);
-    let changes = ide::formatting(&texts.snapshot, &path, what)?;
-    Some(changes.iter().filter_map(|change| texts.text_edit(change)).collect())
+fn formatted(context: &ProtocolContext, document: &lsp::TextDocumentIdentifier, what: &FormatScope) -> Option<Vec<lsp::TextEdit>> {
+    let path = context.path(&document.uri);
+    let changes = ide::formatting(&context.snapshot, &path, what)?;
+    Some(changes.iter().filter_map(|change| context.text_edit(change)).collect())
 }

@@ -1,17 +1,17 @@
 //! The shape of a text.
 
 use crate::lsp::capabilities::Ability;
-use crate::lsp::convert::Texts;
+use crate::lsp::convert::ProtocolContext;
 use crate::{self as ide, FoldKind};
 use gen_lsp_types as lsp;
 use std::ops::Range;
 
-pub(super) fn folds(texts: &Texts, params: &lsp::FoldingRangeParams) -> Option<Vec<lsp::FoldingRange>> {
-    let path = texts.path(&params.text_document.uri);
+pub(super) fn folds(context: &ProtocolContext, params: &lsp::FoldingRangeParams) -> Option<Vec<lsp::FoldingRange>> {
+    let path = context.path(&params.text_document.uri);
     let of = |fold: &ide::Fold| {
-        let lsp::Range { start, end } = texts.range(&path, &fold.range)?;
+        let lsp::Range { start, end } = context.range(&path, &fold.range)?;
         // who folds whole lines still sees the brace that closes
-        let is_cut = texts.client.can(Ability::LineFolding) && fold.kind == FoldKind::Inside;
+        let is_cut = context.client.can(Ability::LineFolding) && fold.kind == FoldKind::Inside;
         let end_line = end.line - u32::from(is_cut);
         let kind = match fold.kind {
             FoldKind::Inside => None,
@@ -28,24 +28,24 @@ pub(super) fn folds(texts: &Texts, params: &lsp::FoldingRangeParams) -> Option<V
         };
         (start.line < end_line).then_some(fold)
     };
-    Some(ide::folds(&texts.snapshot, &path)?.iter().filter_map(of).collect())
+    Some(ide::folds(&context.snapshot, &path)?.iter().filter_map(of).collect())
 }
 
-pub(super) fn selections(texts: &Texts, params: &lsp::SelectionRangeParams) -> Option<Vec<lsp::SelectionRange>> {
+pub(super) fn selections(context: &ProtocolContext, params: &lsp::SelectionRangeParams) -> Option<Vec<lsp::SelectionRange>> {
     let of = |position: &lsp::Position| {
         let text_document = params.text_document.clone();
-        let place = texts.place(&lsp::TextDocumentPositionParams { text_document, position: *position })?;
-        nested(texts, &place.path, &ide::around(&texts.snapshot, &place)?)
+        let position = context.position(&lsp::TextDocumentPositionParams { text_document, position: *position })?;
+        nested(context, &position.path, &ide::around(&context.snapshot, &position)?)
     };
     params.positions.iter().map(of).collect()
 }
 
 /// Ranges, each in the next one.
-fn nested(texts: &Texts, path: &std::path::Path, ranges: &[Range<u32>]) -> Option<lsp::SelectionRange> {
+fn nested(context: &ProtocolContext, path: &std::path::Path, ranges: &[Range<u32>]) -> Option<lsp::SelectionRange> {
     let mut outer = None;
     for range in ranges.iter().rev() {
         let parent = outer.take().map(Box::new);
-        outer = Some(lsp::SelectionRange { range: texts.range(path, range)?, parent });
+        outer = Some(lsp::SelectionRange { range: context.range(path, range)?, parent });
     }
     outer
 }

@@ -3,7 +3,7 @@
 //! The names of one mechanism are known to `check`; here come those that lead out of it: what a path names within a part, the params
 //! that it binds, mechanisms and files.
 
-use super::place::{Place, Stretch};
+use super::location::{FilePosition, FileRange};
 use super::snapshot::Snapshot;
 use mechc_lang::check::{KnownMechanism, Library, Meaning, name_of};
 use mechc_pipeline::Checked;
@@ -19,7 +19,7 @@ use std::sync::Arc;
 #[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub(super) enum Target {
     /// A declaration, by the place of its name.
-    Name(Stretch),
+    Name(FileRange),
     /// A file.
     File(Arc<Path>),
 }
@@ -54,17 +54,17 @@ impl Bytes {
 
 impl Occurrence {
     /// Its place, in the file that it is in.
-    pub fn stretch(&self, path: &Arc<Path>) -> Stretch {
-        Stretch { path: Arc::clone(path), start: self.range.start, end: self.range.end }
+    pub fn stretch(&self, path: &Arc<Path>) -> FileRange {
+        FileRange { path: Arc::clone(path), start: self.range.start, end: self.range.end }
     }
 }
 
 /// Every name of a file that stands for a declaration or a file, by place; where one both declares and takes another one, the
 /// declaration comes behind it.
 pub(super) fn occurrences(snapshot: &Snapshot, path: &Path) -> Option<Vec<Occurrence>> {
-    let analysed = snapshot.checked(path)?;
+    let file = snapshot.checked(path)?;
     let mut found = BTreeSet::new();
-    for checked in &analysed.mechanisms {
+    for checked in &file.mechanisms {
         let mut walk = Walk { snapshot, checked, library: checked.library(), found: &mut found };
         walk.names();
         walk.files();
@@ -82,9 +82,9 @@ pub(super) fn at(occurrences: &[Occurrence], offset: u32) -> Option<&Occurrence>
 }
 
 /// The name at a place, among all of its file.
-pub(super) fn name_at(snapshot: &Snapshot, place: &Place) -> Option<Occurrence> {
-    let all = occurrences(snapshot, &place.path)?;
-    at(&all, place.offset).cloned()
+pub(super) fn name_at(snapshot: &Snapshot, position: &FilePosition) -> Option<Occurrence> {
+    let all = occurrences(snapshot, &position.path)?;
+    at(&all, position.offset).cloned()
 }
 
 /// The files that are open, were found, or are used by the file of a place, in which one of some words stands.
@@ -92,7 +92,7 @@ pub(super) fn files_with(snapshot: &Snapshot, near: &Path, words: &[&str]) -> Ve
     let buffers = snapshot.buffers();
     let mut files: BTreeSet<Arc<Path>> = snapshot.files().cloned().collect();
     files.insert(near.into());
-    if let Some(checked) = snapshot.checked(near).as_ref().and_then(|analysed| analysed.mechanisms.first()) {
+    if let Some(checked) = snapshot.checked(near).as_ref().and_then(|file| file.mechanisms.first()) {
         files.extend(checked.library().files().iter().map(|file| Arc::from(buffers.identity(&file.path))));
     }
     // a letter may be written in several ways
@@ -118,8 +118,8 @@ struct Walk<'s> {
 }
 
 impl Walk<'_> {
-    fn stretch(&self, span: Span) -> Stretch {
-        Stretch { path: self.path_of(span.file), start: span.start, end: span.end }
+    fn stretch(&self, span: Span) -> FileRange {
+        FileRange { path: self.path_of(span.file), start: span.start, end: span.end }
     }
 
     fn path_of(&self, file: FileId) -> Arc<Path> {

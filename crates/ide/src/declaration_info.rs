@@ -2,7 +2,7 @@
 //! already, or is quickly had.
 
 use super::numbers::{degrees, in_unit, short, si_unit, with_unit};
-use super::snapshot::{Followed, Proven, Snapshot};
+use super::snapshot::{MotionOutcome, Proof, Snapshot};
 use mechc_lang::check::{Amount, DeclaredName, NameKind};
 use mechc_pipeline::{Assembly, Checked, Compiled};
 use mechc_syntax::ast::{ExprKind, ItemKind};
@@ -28,7 +28,7 @@ pub(super) fn facts(snapshot: &Snapshot, path: &Path, subject: &Subject<'_>) -> 
     let start = proven.as_ref().and_then(Start::of);
     let found: Vec<Option<String>> = match subject.kind {
         NameKind::Body => vec![start.as_ref().and_then(|start| start.pose(subject.path))],
-        NameKind::Point => vec![start.as_ref().and_then(|start| start.place(subject.path))],
+        NameKind::Point => vec![start.as_ref().and_then(|start| start.position(subject.path))],
         NameKind::Joint | NameKind::Constraint | NameKind::Driver => {
             vec![equations(subject, start.as_ref()), start.as_ref().and_then(|start| start.places_of(subject.path))]
         }
@@ -47,10 +47,10 @@ pub(super) fn facts(snapshot: &Snapshot, path: &Path, subject: &Subject<'_>) -> 
 }
 
 /// What is proven of a mechanism, if that is known, or quickly had.
-fn proven_of(snapshot: &Snapshot, path: &Path, checked: &Checked) -> Option<(Arc<Vec<Proven>>, usize)> {
-    let analysed = snapshot.checked(path)?;
-    let number = analysed.mechanisms.iter().position(|other| other.span() == checked.span())?;
-    let names: usize = analysed.mechanisms.iter().map(|other| other.symbols().iter().count()).sum();
+fn proven_of(snapshot: &Snapshot, path: &Path, checked: &Checked) -> Option<(Arc<Vec<Proof>>, usize)> {
+    let file = snapshot.checked(path)?;
+    let number = file.mechanisms.iter().position(|other| other.span() == checked.span())?;
+    let names: usize = file.mechanisms.iter().map(|other| other.symbols().iter().count()).sum();
     let is_quick = names <= QUICK;
     // what is said of a part is said where it is used, but it has a position of its own too
     let proven = match checked.is_part_of_another() {
@@ -63,13 +63,13 @@ fn proven_of(snapshot: &Snapshot, path: &Path, checked: &Checked) -> Option<(Arc
 
 /// A mechanism in the position in which it was assembled.
 struct Start<'a> {
-    proven: &'a Proven,
+    proven: &'a Proof,
     compiled: &'a Compiled,
     assembly: &'a Assembly,
 }
 
 impl Start<'_> {
-    fn of((all, number): &(Arc<Vec<Proven>>, usize)) -> Option<Start<'_>> {
+    fn of((all, number): &(Arc<Vec<Proof>>, usize)) -> Option<Start<'_>> {
         let proven = all.get(*number)?;
         let (compiled, assembly) = (proven.compiled.as_ref()?, proven.assembly.as_ref()?);
         Some(Start { proven, compiled, assembly })
@@ -93,7 +93,7 @@ impl Start<'_> {
         Some(format!("{} x = {x}, y = {y}, phi = {phi}", self.when(body, &copy)))
     }
 
-    fn place(&self, point: &str) -> Option<String> {
+    fn position(&self, point: &str) -> Option<String> {
         let (owner, name) = point.rsplit_once('.')?;
         let copy = if owner.ends_with("ground") { owner.to_owned() } else { self.compiled.first_copy(owner)? };
         let copy = format!("{copy}.{name}");
@@ -109,11 +109,11 @@ impl Start<'_> {
     /// Where the points of a joint are.
     fn places_of(&self, joint: &str) -> Option<String> {
         let copy = self.compiled.first_copy(joint)?;
-        let place = |point: String| {
+        let position = |point: String| {
             let [x, y] = self.compiled.place_of(&point, self.assembly)?;
             Some(format!("`{point}` = ({}, {}) m", short(x), short(y)))
         };
-        let places: Vec<String> = self.compiled.points_of(&copy).into_iter().filter_map(place).collect();
+        let places: Vec<String> = self.compiled.points_of(&copy).into_iter().filter_map(position).collect();
         (!places.is_empty()).then(|| format!("{} {}", self.when(joint, &copy), places.join(", ")))
     }
 
@@ -202,7 +202,7 @@ fn bound_in_part(subject: &Subject<'_>) -> Option<String> {
 fn result(snapshot: &Snapshot, path: &Path, subject: &Subject<'_>) -> Option<String> {
     let (moved, is_of_before) = snapshot.moved_last(path);
     let moved = moved?;
-    let of = |moved: &Followed| moved.results.iter().position(|(name, ..)| name == subject.path);
+    let of = |moved: &MotionOutcome| moved.results.iter().position(|(name, ..)| name == subject.path);
     let (moved, number) = moved.iter().find_map(|moved| Some((moved, of(moved)?)))?;
     let (is_of_before, (_, value, unit)) = (is_of_before || moved.is_cut_short, &moved.results[number]);
     let value = value.map_or_else(|| "no value".to_owned(), |value| with_unit(value, unit));

@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 /// A byte of a file.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub struct Place {
+pub struct FilePosition {
     /// The file, by the path that [`super::Snapshot`] knows it by.
     pub path: Arc<Path>,
     /// The byte.
@@ -16,7 +16,7 @@ pub struct Place {
 
 /// A stretch of a file, in bytes.
 #[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Debug)]
-pub struct Stretch {
+pub struct FileRange {
     /// The file.
     pub path: Arc<Path>,
     /// The first byte.
@@ -25,12 +25,12 @@ pub struct Stretch {
     pub end: u32,
 }
 
-impl Stretch {
+impl FileRange {
     /// The place of a span.
     #[must_use]
-    pub fn of(span: Span, sources: &Sources) -> Stretch {
+    pub fn of(span: Span, sources: &Sources) -> FileRange {
         let path = PathBuf::from(&sources.get(span.file).name);
-        Stretch { path: path.into(), start: span.start, end: span.end }
+        FileRange { path: path.into(), start: span.start, end: span.end }
     }
 
     /// Its bytes.
@@ -44,7 +44,7 @@ impl Stretch {
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Change {
     /// What goes; nothing, where something is put in.
-    pub place: Stretch,
+    pub position: FileRange,
     /// What comes.
     pub text: String,
 }

@@ -6,7 +6,7 @@ use mechc_text::vocabulary::{Dimension, Function, Group, JointWord, QuantityWord
 
 /// What an argument or formula may be.
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub(super) enum Wanted {
+pub(super) enum Expected {
     /// A number, of a dimension where that is known.
     Number(Option<Dimension>),
     Point,
@@ -25,26 +25,26 @@ pub(super) enum Wanted {
     Side,
 }
 
-impl Wanted {
+impl Expected {
     /// Whether a feature is that.
     pub fn is(self, feature: &FeatureKind) -> bool {
         match feature {
-            FeatureKind::Point { .. } => self == Wanted::Point,
-            FeatureKind::AxisAlong { .. } | FeatureKind::AxisTo { .. } => self == Wanted::Axis,
-            FeatureKind::Circle { .. } => matches!(self, Wanted::Circle | Wanted::Profile),
-            FeatureKind::Curve { .. } => self == Wanted::Profile,
+            FeatureKind::Point { .. } => self == Expected::Point,
+            FeatureKind::AxisAlong { .. } | FeatureKind::AxisTo { .. } => self == Expected::Axis,
+            FeatureKind::Circle { .. } => matches!(self, Expected::Circle | Expected::Profile),
+            FeatureKind::Curve { .. } => self == Expected::Profile,
             FeatureKind::Mass { .. } | FeatureKind::Broken => false,
         }
     }
 
     /// Whether it is one of the features of a body.
     pub fn is_feature(self) -> bool {
-        matches!(self, Wanted::Point | Wanted::Axis | Wanted::Circle | Wanted::Profile)
+        matches!(self, Expected::Point | Expected::Axis | Expected::Circle | Expected::Profile)
     }
 }
 
 /// What may stand at the cursor, as far as the innermost call and the declaration tell.
-pub(super) fn wanted(cursor: &Cursor<'_>) -> Vec<Wanted> {
+pub(super) fn wanted(cursor: &Cursor<'_>) -> Vec<Expected> {
     match cursor.call().filter(|call| call.name != "[") {
         Some(call) if !call.name.is_empty() => of_call(cursor, call),
         Some(call) => vec![in_tuple(cursor, call)],
@@ -52,14 +52,14 @@ pub(super) fn wanted(cursor: &Cursor<'_>) -> Vec<Wanted> {
     }
 }
 
-fn of_call(cursor: &Cursor<'_>, call: Call<'_>) -> Vec<Wanted> {
+fn of_call(cursor: &Cursor<'_>, call: Call<'_>) -> Vec<Expected> {
     if cursor.head() == "joint" {
         return JointWord::named(call.name)
             .map(|joint| by_forms(&joint.word, call.argument, of_joint))
             .unwrap_or_default();
     }
     if cursor.window(call).is_some() {
-        return vec![Wanted::Number(Some(Dimension::TIME))];
+        return vec![Expected::Number(Some(Dimension::TIME))];
     }
     let function = Function::named(call.name);
     if let Some(quantity) = QuantityWord::named(call.name).filter(|_| function.is_none()) {
@@ -67,15 +67,15 @@ fn of_call(cursor: &Cursor<'_>, call: Call<'_>) -> Vec<Wanted> {
         return by_forms(&quantity.word, call.argument, |letter| of_quantity(letter, name));
     }
     match function {
-        Some(function) if function.word.name == "der" && call.argument == 1 => vec![Wanted::Variable],
+        Some(function) if function.word.name == "der" && call.argument == 1 => vec![Expected::Variable],
         Some(function) if function.group == Group::Points => by_forms(&function.word, call.argument, of_points),
-        Some(function) if function.group == Group::Pure => vec![Wanted::Number(Some(Dimension::PURE))],
-        _ => vec![Wanted::Number(ReductionWord::named(call.name).and(None))],
+        Some(function) if function.group == Group::Pure => vec![Expected::Number(Some(Dimension::PURE))],
+        _ => vec![Expected::Number(ReductionWord::named(call.name).and(None))],
     }
 }
 
 /// The letters of an argument in all forms that have it.
-fn by_forms(word: &Word, argument: usize, of: impl Fn(&str) -> Wanted) -> Vec<Wanted> {
+fn by_forms(word: &Word, argument: usize, of: impl Fn(&str) -> Expected) -> Vec<Expected> {
     let mut found = Vec::new();
     for form in word.forms {
         let arguments = form.split_once('(').map_or("", |(_, behind)| behind.trim_end_matches(')'));
@@ -89,38 +89,38 @@ fn by_forms(word: &Word, argument: usize, of: impl Fn(&str) -> Wanted) -> Vec<Wa
     found
 }
 
-fn of_joint(letters: &str) -> Wanted {
+fn of_joint(letters: &str) -> Expected {
     match letters {
-        "a" | "b" => Wanted::Axis,
-        "c" | "d" => Wanted::Circle,
-        "k" | "m" => Wanted::Profile,
-        "angle" => Wanted::Number(Some(Dimension::PURE)),
-        "left" | "right" => Wanted::Side,
-        _ if letters.starts_with(char::is_uppercase) => Wanted::Point,
-        _ => Wanted::Number(Some(Dimension::LENGTH)),
+        "a" | "b" => Expected::Axis,
+        "c" | "d" => Expected::Circle,
+        "k" | "m" => Expected::Profile,
+        "angle" => Expected::Number(Some(Dimension::PURE)),
+        "left" | "right" => Expected::Side,
+        _ if letters.starts_with(char::is_uppercase) => Expected::Point,
+        _ => Expected::Number(Some(Dimension::LENGTH)),
     }
 }
 
-fn of_quantity(letters: &str, quantity: &'static str) -> Wanted {
+fn of_quantity(letters: &str, quantity: &'static str) -> Expected {
     match letters {
-        "J" | "joint" => Wanted::Joint(quantity),
-        "D" => Wanted::Equation,
-        _ if letters.contains('.') => Wanted::Axis,
-        _ if letters.starts_with(char::is_uppercase) => Wanted::Point,
-        _ => Wanted::Body,
+        "J" | "joint" => Expected::Joint(quantity),
+        "D" => Expected::Equation,
+        _ if letters.contains('.') => Expected::Axis,
+        _ if letters.starts_with(char::is_uppercase) => Expected::Point,
+        _ => Expected::Body,
     }
 }
 
-fn of_points(letters: &str) -> Wanted {
+fn of_points(letters: &str) -> Expected {
     match letters {
-        "r" => Wanted::Number(Some(Dimension::LENGTH)),
-        "angle" => Wanted::Number(Some(Dimension::PURE)),
-        _ => Wanted::Point,
+        "r" => Expected::Number(Some(Dimension::LENGTH)),
+        "angle" => Expected::Number(Some(Dimension::PURE)),
+        _ => Expected::Point,
     }
 }
 
 /// Within parentheses that nothing is called with.
-fn in_tuple(cursor: &Cursor<'_>, call: Call<'_>) -> Wanted {
+fn in_tuple(cursor: &Cursor<'_>, call: Call<'_>) -> Expected {
     let behind = cursor.declaration().iter().rev().find(|token| matches!(token.text, "along" | "at" | "=" | "radius"));
     let dimension = match (cursor.head(), behind.map(|token| token.text), call.argument) {
         ("point" | "circle" | "curve", ..) | ("axis", Some("="), _) | ("body" | "part", Some("at"), 0 | 1) => {
@@ -132,22 +132,22 @@ fn in_tuple(cursor: &Cursor<'_>, call: Call<'_>) -> Wanted {
         ("mass", Some("at"), _) => Some(Dimension::LENGTH),
         _ => None,
     };
-    Wanted::Number(dimension)
+    Expected::Number(dimension)
 }
 
 /// Outside of all parentheses.
-fn at_top(cursor: &Cursor<'_>) -> Vec<Wanted> {
+fn at_top(cursor: &Cursor<'_>) -> Vec<Expected> {
     match cursor.head() {
-        "circle" if cursor.has("radius") => vec![Wanted::Number(Some(Dimension::LENGTH))],
-        "trace" | "point" | "axis" | "circle" | "curve" | "body" => vec![Wanted::Point],
-        "part" if cursor.has("on") && !cursor.has("at") => vec![Wanted::Body],
-        "analysis" => vec![Wanted::Number(Some(Dimension::TIME))],
-        "gravity" => vec![Wanted::Number(Some(Dimension::ACCELERATION))],
-        "mass" if cursor.has("inertia") => vec![Wanted::Number(Some(Dimension::INERTIA))],
-        "mass" if cursor.has("at") => vec![Wanted::Point],
-        "mass" => vec![Wanted::Number(Some(Dimension::MASS))],
-        "driver" | "constraint" => vec![Wanted::Number(driven(cursor))],
-        _ => vec![Wanted::Number(None)],
+        "circle" if cursor.has("radius") => vec![Expected::Number(Some(Dimension::LENGTH))],
+        "trace" | "point" | "axis" | "circle" | "curve" | "body" => vec![Expected::Point],
+        "part" if cursor.has("on") && !cursor.has("at") => vec![Expected::Body],
+        "analysis" => vec![Expected::Number(Some(Dimension::TIME))],
+        "gravity" => vec![Expected::Number(Some(Dimension::ACCELERATION))],
+        "mass" if cursor.has("inertia") => vec![Expected::Number(Some(Dimension::INERTIA))],
+        "mass" if cursor.has("at") => vec![Expected::Point],
+        "mass" => vec![Expected::Number(Some(Dimension::MASS))],
+        "driver" | "constraint" => vec![Expected::Number(driven(cursor))],
+        _ => vec![Expected::Number(None)],
     }
 }
 

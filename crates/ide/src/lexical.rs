@@ -46,7 +46,7 @@ fn numbers_before(text: &str) -> (String, &str) {
 
 /// In what a byte of a text stands.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(super) enum Within {
+pub(super) enum LexicalContext {
     Code,
     Comment,
     /// By the byte where it begins.
@@ -54,23 +54,23 @@ pub(super) enum Within {
 }
 
 /// In what a byte stands, by what is before it on its line.
-pub(super) fn within(text: &str, offset: usize) -> Within {
+pub(super) fn within(text: &str, offset: usize) -> LexicalContext {
     let line = text[..offset].rfind('\n').map_or(0, |end| end + 1);
     let mut string = None;
     for (at, c) in text[line..offset].char_indices() {
         match (c, string) {
             ('"', None) => string = Some(line + at),
             ('"', Some(_)) => string = None,
-            ('/', None) if text[line + at..offset].starts_with("//") => return Within::Comment,
+            ('/', None) if text[line + at..offset].starts_with("//") => return LexicalContext::Comment,
             _ => {}
         }
     }
-    string.map_or(Within::Code, Within::String)
+    string.map_or(LexicalContext::Code, LexicalContext::String)
 }
 
 /// Whether a byte stands in a comment.
 pub(super) fn is_in_comment(text: &str, offset: usize) -> bool {
-    within(text, offset) == Within::Comment
+    within(text, offset) == LexicalContext::Comment
 }
 
 /// A call whose parentheses are open.

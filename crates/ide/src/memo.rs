@@ -4,9 +4,9 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 /// A place for it. Who asks while another one is making it waits for that.
 #[derive(Debug)]
-pub(super) struct Kept<T>(Mutex<Option<Arc<T>>>);
+pub(super) struct Memo<T>(Mutex<Option<Arc<T>>>);
 
-impl<T> Kept<T> {
+impl<T> Memo<T> {
     /// What is here, or else what is made now; nothing where that gives nothing.
     pub fn get_or(&self, make: impl FnOnce() -> Option<T>) -> Option<Arc<T>> {
         // a maker that panicked has left nothing here
@@ -24,25 +24,25 @@ impl<T> Kept<T> {
     }
 }
 
-impl<T> Default for Kept<T> {
-    fn default() -> Kept<T> {
-        Kept(Mutex::new(None))
+impl<T> Default for Memo<T> {
+    fn default() -> Memo<T> {
+        Memo(Mutex::new(None))
     }
 }
 
-impl<T> From<Option<Arc<T>>> for Kept<T> {
-    fn from(value: Option<Arc<T>>) -> Kept<T> {
-        Kept(Mutex::new(value))
+impl<T> From<Option<Arc<T>>> for Memo<T> {
+    fn from(value: Option<Arc<T>>) -> Memo<T> {
+        Memo(Mutex::new(value))
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::Kept;
+    use super::Memo;
 
     #[test]
     fn what_was_cancelled_is_made_again_and_the_rest_once() {
-        let kept = Kept::default();
+        let kept = Memo::default();
         assert_eq!(kept.get_or(|| None), None);
         assert_eq!(kept.get(), None);
         assert_eq!(kept.get_or(|| Some(1)).as_deref(), Some(&1));

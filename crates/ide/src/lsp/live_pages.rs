@@ -5,7 +5,7 @@
 
 use crossbeam_channel::{Receiver, RecvTimeoutError, Sender, bounded};
 use mechc_engine::analysis::Times;
-use mechc_live::{Host, Question, Server, Serving, Workshop, Write};
+use mechc_live::{Host, MotionRequest, Server, RunningServer, LiveSession, WriteRequest};
 use mechc_pipeline::{Choice, Compiled, Redundant};
 use mechc_text::cancel::Cancel;
 use mechc_text::diag::{Code, Diagnostic, Diagnostics};
@@ -31,25 +31,25 @@ pub(super) enum Event {
     /// It is told something.
     Tell(&'static str, Value),
     /// A text is to stand in the place of that of a file.
-    Write(Writing),
+    WriteRequest(PendingWrite),
     /// A place of a file (UTF-16) is to be shown.
     Show(Arc<Path>, u32),
 }
 
 /// A text that is to stand in the place of another one.
-pub(super) struct Writing {
+pub(super) struct PendingWrite {
     pub path: Arc<Path>,
     /// The one that the page shows: another one is not edited.
     pub before: String,
     pub text: String,
-    pub done: Sender<Written>,
+    pub done: Sender<WriteOutcome>,
 }
 
 /// What came of it: whether that text was still the one, or why the client did not edit it.
-pub(super) type Written = Result<bool, String>;
+pub(super) type WriteOutcome = Result<bool, String>;
 
 /// The pages of a session.
-pub(super) struct Views {
+pub(super) struct LivePages {
     shared: Arc<Shared>,
     /// Says that some text is another one; made with the first page.
     wake: Option<Sender<()>>,
@@ -58,30 +58,30 @@ pub(super) struct Views {
 struct Shared {
     /// The editor's buffers as of now, with the files behind them.
     buffers: Mutex<Arc<dyn World>>,
-    open: Mutex<Vec<Arc<View>>>,
+    open: Mutex<Vec<Arc<LivePage>>>,
     tell: Sender<Event>,
 }
 
-struct View {
+struct LivePage {
     path: Arc<Path>,
     mechanism: Option<String>,
-    workshop: Arc<Workshop>,
-    serving: Mutex<Option<Serving>>,
+    session: Arc<LiveSession>,
+    serving: Mutex<Option<RunningServer>>,
     /// Whether a panel is told of what is new.
     has_panel: AtomicBool,
 }
 
 /// A text whose page is meant: the file, as the client calls it, and which mechanism of it.
-pub(super) struct Meant {
+pub(super) struct PageId {
     pub path: Arc<Path>,
     pub uri: String,
     pub mechanism: Option<String>,
 }
 
-impl Views {
-    pub fn new(buffers: Arc<dyn World>, tell: Sender<Event>) -> Views {
+impl LivePages {
+    pub fn new(buffers: Arc<dyn World>, tell: Sender<Event>) -> LivePages {
         let shared = Shared { buffers: Mutex::new(buffers), open: Mutex::default(), tell };
-        Views { shared: Arc::new(shared), wake: None }
+        LivePages { shared: Arc::new(shared), wake: None }
     }
 
     /// The buffers are others by now.
@@ -96,18 +96,18 @@ impl Views {
     }
 
     /// The address of a page in a browser.
-    pub fn address(&mut self, meant: Meant) -> Result<Value, String> {
+    pub fn address(&mut self, meant: PageId) -> Result<Value, String> {
         let view = self.view(meant);
         let mut serving = lock(&view.serving);
         if serving.is_none() {
-            let served = Server::bind(0).and_then(|server| server.serve(&view.workshop));
+            let served = Server::bind(0).and_then(|server| server.serve(&view.session));
             *serving = Some(served.map_err(|error| error.to_string())?);
         }
-        Ok(json!({ "url": serving.as_ref().map(Serving::url) }))
+        Ok(json!({ "url": serving.as_ref().map(RunningServer::url) }))
     }
 
     /// The page itself, for a panel of the editor, which asks in its name.
-    pub fn panel(&mut self, meant: Meant) -> Value {
+    pub fn panel(&mut self, meant: PageId) -> Value {
         let uri = meant.uri.clone();
         let view = self.view(meant);
         let page = json!({ "html": mechc_live::page::shell() });
@@ -115,11 +115,11 @@ impl Views {
             // one that is made anew asks by itself what there is
             return page;
         }
-        let (weak, told_of) = (Arc::downgrade(&view.workshop), self.shared.tell.clone());
+        let (weak, told_of) = (Arc::downgrade(&view.session), self.shared.tell.clone());
         let tell = move || {
             let mut told = None;
-            while let Some(workshop) = weak.upgrade() {
-                let news = workshop.news(told.as_ref(), PULSE);
+            while let Some(session) = weak.upgrade() {
+                let news = session.news(told.as_ref(), PULSE);
                 if let Some(news) = &news {
                     let mut params = news.told();
                     params["uri"] = json!(uri);
@@ -136,18 +136,18 @@ impl Views {
 
     /// A panel is closed; of its page there is nothing left, unless a browser has it too.
     pub fn leave(&self, path: &Path, mechanism: Option<&str>) {
-        let is_left = |view: &View| *view.path == *path && view.mechanism.as_deref() == mechanism;
+        let is_left = |view: &LivePage| *view.path == *path && view.mechanism.as_deref() == mechanism;
         lock(&self.shared.open).retain(|view| !is_left(view) || lock(&view.serving).is_some());
     }
 
     /// What a panel asks; it is answered when it is known.
-    pub fn ask(&mut self, meant: Meant, asked: &Value, answer: impl FnOnce(Result<Value, String>) + Send + 'static) {
+    pub fn ask(&mut self, meant: PageId, asked: &Value, answer: impl FnOnce(Result<Value, String>) + Send + 'static) {
         let view = self.view(meant);
         let body = asked.to_string();
         let work = move || {
-            answer(match Question::of(body.as_bytes()) {
+            answer(match MotionRequest::of(body.as_bytes()) {
                 Ok(asked) => {
-                    Ok(json!({ "data": mechc_live::page::base64(&view.workshop.answer(&asked, &Cancel::default())) }))
+                    Ok(json!({ "data": mechc_live::page::base64(&view.session.answer(&asked, &Cancel::default())) }))
                 }
                 Err(why) => Err(why.to_owned()),
             });
@@ -156,25 +156,25 @@ impl Views {
     }
 
     /// Values that a panel writes.
-    pub fn write(&mut self, meant: Meant, write: &Value, answer: impl FnOnce(Result<Value, String>) + Send + 'static) {
+    pub fn write(&mut self, meant: PageId, write: &Value, answer: impl FnOnce(Result<Value, String>) + Send + 'static) {
         let view = self.view(meant);
         let body = write.to_string();
         let work = move || {
-            answer(Write::of(body.as_bytes()).map(|write| view.workshop.write(&write)).map_err(str::to_owned));
+            answer(WriteRequest::of(body.as_bytes()).map(|write| view.session.write(&write)).map_err(str::to_owned));
         };
         let _ = thread::Builder::new().name("live write".to_owned()).stack_size(8 << 20).spawn(work);
     }
 
     /// The cursor is at a place of a file (UTF-16).
     pub fn point(&self, path: &Path, at: u32) {
-        let open: Vec<Arc<View>> = lock(&self.shared.open).clone();
+        let open: Vec<Arc<LivePage>> = lock(&self.shared.open).clone();
         for view in open {
-            view.workshop.point(path, at);
+            view.session.point(path, at);
         }
     }
 
-    fn view(&mut self, meant: Meant) -> Arc<View> {
-        let Meant { path, mechanism, .. } = meant;
+    fn view(&mut self, meant: PageId) -> Arc<LivePage> {
+        let PageId { path, mechanism, .. } = meant;
         if self.wake.is_none() {
             let (wake, woken) = bounded(1);
             let shared = Arc::downgrade(&self.shared);
@@ -189,15 +189,15 @@ impl Views {
         }
         let choice = Choice { mechanism: mechanism.clone(), pictures_forces: true, ..Choice::default() };
         let host = Editor { shared: Arc::clone(&self.shared), path: Arc::clone(&path) };
-        let workshop = Arc::new(Workshop::new(&path, choice, (Redundant::Refused, false), Box::new(host)));
-        let view = View { path, mechanism, workshop, serving: Mutex::default(), has_panel: AtomicBool::default() };
+        let session = Arc::new(LiveSession::new(&path, choice, (Redundant::Refused, false), Box::new(host)));
+        let view = LivePage { path, mechanism, session, serving: Mutex::default(), has_panel: AtomicBool::default() };
         let view = Arc::new(view);
         open.push(Arc::clone(&view));
         view
     }
 }
 
-impl Drop for Views {
+impl Drop for LivePages {
     fn drop(&mut self) {
         // their hosts hold what holds them
         lock(&self.shared.open).clear();
@@ -209,9 +209,9 @@ fn look(woken: &Receiver<()>, shared: &std::sync::Weak<Shared>) {
     while woken.recv().is_ok() {
         while woken.recv_timeout(DELAY).is_ok() {}
         let Some(shared) = shared.upgrade() else { return };
-        let open: Vec<Arc<View>> = lock(&shared.open).clone();
+        let open: Vec<Arc<LivePage>> = lock(&shared.open).clone();
         for view in open {
-            view.workshop.look();
+            view.session.look();
         }
     }
 }
@@ -243,9 +243,9 @@ impl Host for Editor {
             return Ok(false);
         }
         let (done, written) = bounded(1);
-        let writing = Writing { path: Arc::clone(&self.path), before, text: text.to_owned(), done };
+        let writing = PendingWrite { path: Arc::clone(&self.path), before, text: text.to_owned(), done };
         let gone = || "the editor is gone".to_owned();
-        self.shared.tell.send(Event::Write(writing)).map_err(|_| gone())?;
+        self.shared.tell.send(Event::WriteRequest(writing)).map_err(|_| gone())?;
         written.recv_timeout(EDITED).map_err(|why| match why {
             RecvTimeoutError::Timeout => "nothing was written: the editor does not say whether it did".to_owned(),
             RecvTimeoutError::Disconnected => gone(),

@@ -2,7 +2,7 @@
 
 use super::capabilities::Ability;
 use super::server::Server;
-use super::views::{Writing, difference};
+use super::live_pages::{PendingWrite, difference};
 use lsp_server::Response;
 use serde_json::json;
 
@@ -11,8 +11,8 @@ const MARK: char = '\u{feff}';
 
 impl Server {
     /// Has the client change what differs between a text and another one, unless it has another one by now.
-    pub(super) fn write(&mut self, writing: Writing) {
-        let Writing { path, before, text, done } = writing;
+    pub(super) fn write(&mut self, writing: PendingWrite) {
+        let PendingWrite { path, before, text, done } = writing;
         let [before, text] = [&before, &text].map(|text| text.strip_prefix(MARK).unwrap_or(text));
         let Some(document) = self.text_of(&path).filter(|document| **document.text() == *before) else {
             // who does not wait any more need not be told

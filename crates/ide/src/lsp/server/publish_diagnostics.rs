@@ -2,8 +2,8 @@
 
 use super::{Pull, Server};
 use crate::lsp::capabilities::Refreshes;
-use crate::lsp::pool::{Kind, caught};
-use crate::lsp::stages::{Found, Shown};
+use crate::lsp::pool::{TaskKind, caught};
+use crate::lsp::published::{StageResult, PublishedDiagnostics};
 use crate::{self as ide, DiagnosticStage};
 use lsp_server::{ErrorCode, Notification, RequestId};
 use serde_json::{Value, json};
@@ -12,13 +12,13 @@ use std::sync::Arc;
 
 impl Server {
     /// Takes in what a stage found of a text, shows it, and begins the next one.
-    pub(super) fn take(&mut self, path: &Arc<Path>, stage: DiagnosticStage, found: Result<Option<Found>, String>) {
+    pub(super) fn take(&mut self, path: &Arc<Path>, stage: DiagnosticStage, found: Result<Option<StageResult>, String>) {
         let found = found.unwrap_or_else(|why| {
             self.log.did(|| format!("{stage:?} of {} panicked: {why}", path.display()));
             None
         });
         // a motion that took too long, a file that cannot be read, a mistake of ours: of that nothing is said
-        let found = found.unwrap_or(Found { said: Vec::new(), goes_on: false });
+        let found = found.unwrap_or(StageResult { said: Vec::new(), goes_on: false });
         let Some(shown) = self.shown.get_mut(path) else { return };
         let is_new = shown.take(stage, found);
         self.refresh(path, stage);
@@ -34,16 +34,16 @@ impl Server {
         }
         self.look(path);
         if stage == DiagnosticStage::Words {
-            self.learn_names(path);
+            self.index_names(path);
         }
     }
 
     /// Makes the list of a text's names, which most requests ask for, before anybody does.
-    fn learn_names(&self, path: &Arc<Path>) {
+    fn index_names(&self, path: &Arc<Path>) {
         let (path, snapshot) = (Arc::clone(path), self.snapshot.clone());
-        self.pool.begin(Kind::Request, move || {
+        self.pool.begin(TaskKind::Request, move || {
             // a mistake of ours is met again, and told, by who asks
-            let _ = caught(|| ide::learn_names(&snapshot, &path));
+            let _ = caught(|| ide::index_names(&snapshot, &path));
         });
     }
 
@@ -72,7 +72,7 @@ impl Server {
         let path = self.file_of(uri);
         let known = params.get("previousResultId").and_then(Value::as_str).map(str::to_owned);
         let pull = Pull { id, path, known };
-        match self.shown.get(&pull.path).map(Shown::next) {
+        match self.shown.get(&pull.path).map(PublishedDiagnostics::next) {
             // until its words are known
             Some(Some(DiagnosticStage::Words)) => self.pulls.push(pull),
             _ => self.answer_pull(pull),
@@ -103,9 +103,9 @@ impl Server {
     }
 
     fn diagnostics(&self, path: &Path) -> Vec<Value> {
-        let texts = self.texts();
-        let said = self.shown.get(path).map(Shown::all).unwrap_or_default();
-        let said = said.iter().filter_map(|said| texts.diagnostic(path, said));
+        let context = self.context();
+        let said = self.shown.get(path).map(PublishedDiagnostics::all).unwrap_or_default();
+        let said = said.iter().filter_map(|said| context.diagnostic(path, said));
         said.filter_map(|said| serde_json::to_value(said).ok()).collect()
     }
 

@@ -1,13 +1,13 @@
 //! Signature help.
 
 use crate as ide;
-use crate::lsp::convert::{Texts, markdown};
+use crate::lsp::convert::{ProtocolContext, markdown};
 use gen_lsp_types as lsp;
 use mechc_text::source::Encoding;
 
-pub(super) fn signatures(texts: &Texts, params: &lsp::SignatureHelpParams) -> Option<lsp::SignatureHelp> {
-    let place = texts.place(&params.text_document_position_params)?;
-    let found = ide::signatures(&texts.snapshot, &place)?;
+pub(super) fn signatures(context: &ProtocolContext, params: &lsp::SignatureHelpParams) -> Option<lsp::SignatureHelp> {
+    let position = context.position(&params.text_document_position_params)?;
+    let found = ide::signatures(&context.snapshot, &position)?;
     let signatures = found.forms.into_iter().map(signature).collect();
     let argument = found.argument.map(|argument| (argument as u32).into());
     Some(lsp::SignatureHelp { signatures, active_signature: Some(found.active as u32), active_parameter: argument })

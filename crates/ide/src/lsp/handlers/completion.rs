@@ -1,16 +1,16 @@
 //! What could be written at a place.
 
 use crate::lsp::capabilities::Ability;
-use crate::lsp::convert::{Texts, markdown};
+use crate::lsp::convert::{ProtocolContext, markdown};
 use crate::{self as ide, CompletionItemKind, Template};
 use gen_lsp_types as lsp;
 
-pub(super) fn completion(texts: &Texts, params: &lsp::CompletionParams) -> Option<lsp::CompletionResponse> {
-    let place = texts.place(&params.text_document_position_params)?;
-    let ide::Completions { items, is_incomplete } = ide::completions(&texts.snapshot, &place)?;
+pub(super) fn completion(context: &ProtocolContext, params: &lsp::CompletionParams) -> Option<lsp::CompletionResponse> {
+    let position = context.position(&params.text_document_position_params)?;
+    let ide::Completions { items, is_incomplete } = ide::completions(&context.snapshot, &position)?;
     // all of them replace the same
-    let range = texts.range(&place.path, &items.first().map_or(0..0, |item| item.replaces.clone()))?;
-    let items = items.into_iter().enumerate().map(|(number, item)| item_of(texts, number, item, range));
+    let range = context.range(&position.path, &items.first().map_or(0..0, |item| item.replaces.clone()))?;
+    let items = items.into_iter().enumerate().map(|(number, item)| item_of(context, number, item, range));
     let items: Vec<lsp::CompletionItem> = items.collect();
     Some(if is_incomplete {
         // the client asks again for other letters
@@ -20,8 +20,8 @@ pub(super) fn completion(texts: &Texts, params: &lsp::CompletionParams) -> Optio
     })
 }
 
-fn item_of(texts: &Texts, number: usize, item: ide::CompletionItem, range: lsp::Range) -> lsp::CompletionItem {
-    let has_snippets = texts.client.can(Ability::Snippets);
+fn item_of(context: &ProtocolContext, number: usize, item: ide::CompletionItem, range: lsp::Range) -> lsp::CompletionItem {
+    let has_snippets = context.client.can(Ability::Snippets);
     let is_snippet = has_snippets && !item.insert.holes.is_empty();
     let new_text = match has_snippets {
         true if is_snippet => snippet(&item.insert),

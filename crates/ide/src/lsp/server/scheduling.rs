@@ -2,8 +2,8 @@
 
 use super::{IDLE, MOTION_DELAY, Server, TICK, Task};
 use crate::lsp::parent;
-use crate::lsp::pool::{Kind, caught};
-use crate::lsp::stages::{Found, Shown};
+use crate::lsp::pool::{TaskKind, caught};
+use crate::lsp::published::{StageResult, PublishedDiagnostics};
 use crate::{self as ide, DiagnosticStage, Snapshot};
 use mechc_text::cancel::Cancel;
 use std::path::Path;
@@ -40,7 +40,7 @@ impl Server {
 
     /// Begins the next stage of a text.
     pub(super) fn look(&mut self, path: &Arc<Path>) {
-        match self.shown.get(path).and_then(Shown::next) {
+        match self.shown.get(path).and_then(PublishedDiagnostics::next) {
             Some(DiagnosticStage::Motion) => self.due.push((Arc::clone(path), Instant::now() + MOTION_DELAY)),
             Some(stage) => self.begin_stage(path, stage),
             None => {}
@@ -58,12 +58,12 @@ impl Server {
                 cancel
             };
             let found = caught(|| found(&snapshot, &path, stage, &motion));
-            let _ = done.send(Task::Found { path, revision, stage, found, took: begin.elapsed() });
+            let _ = done.send(Task::StageResult { path, revision, stage, found, took: begin.elapsed() });
         };
         let kind = match stage {
-            DiagnosticStage::Words => Kind::Words,
-            DiagnosticStage::Proof => Kind::Proof,
-            DiagnosticStage::Motion => Kind::Motion,
+            DiagnosticStage::Words => TaskKind::Words,
+            DiagnosticStage::Proof => TaskKind::Proof,
+            DiagnosticStage::Motion => TaskKind::Motion,
         };
         self.pool.begin(kind, work);
     }
@@ -92,12 +92,12 @@ impl Server {
 }
 
 /// What a stage finds of a text; nothing where it was cancelled.
-fn found(snapshot: &Snapshot, path: &Path, stage: DiagnosticStage, motion: &dyn Fn() -> Cancel) -> Option<Found> {
+fn found(snapshot: &Snapshot, path: &Path, stage: DiagnosticStage, motion: &dyn Fn() -> Cancel) -> Option<StageResult> {
     let said = ide::diagnostics(snapshot, path, stage, motion)?;
     let goes_on = match stage {
         DiagnosticStage::Words => snapshot.may_be_proven(path)?,
         DiagnosticStage::Proof => snapshot.proven(path)?.iter().any(|proven| proven.assembly.is_some()),
         DiagnosticStage::Motion => false,
     };
-    Some(Found { said, goes_on })
+    Some(StageResult { said, goes_on })
 }
