@@ -1,8 +1,8 @@
-//! What is known of a declaration beyond its text: where it is at the start, what it comes to there, its equations. Only what is there
-//! already, or is quickly had.
+//! Computed information on a declaration: its position and value at the start, its equations. Only results that are cached or quick to
+//! compute are used.
 
 use super::numbers::{degrees, in_unit, short, si_unit, with_unit};
-use super::snapshot::{MotionOutcome, Proof, Snapshot};
+use super::snapshot::{MotionOutcome, Proof, ResultValue, Snapshot};
 use mechc_lang::check::{Amount, DeclaredName, NameKind};
 use mechc_pipeline::{Assembly, Checked, Compiled};
 use mechc_syntax::ast::{ExprKind, ItemKind};
@@ -10,27 +10,27 @@ use mechc_text::vocabulary::{Dimension, Unit};
 use std::path::Path;
 use std::sync::Arc;
 
-/// With more names than this a mechanism is proven in the background alone; of a smaller one that is quick enough to wait for.
-const QUICK: usize = 300;
+/// The maximum number of names for which a hover waits for a proof; larger mechanisms are proven in the background only.
+const MAX_NAMES_TO_WAIT_FOR: usize = 300;
 
-/// A declaration of a mechanism.
+/// A declaration to describe.
 pub(super) struct Subject<'a> {
-    /// What it declares.
+    /// The kind of the declaration.
     pub kind: NameKind,
-    /// How the whole mechanism names it, with its parts and the numbers of copies as far as they are written: `front.crank.A`.
+    /// Its path in the whole mechanism, with indices as far as they are written: `front.crank.A`.
     pub path: &'a str,
     pub checked: &'a Checked,
 }
 
-/// What is known of a declaration, in paragraphs of Markdown.
-pub(super) fn facts(snapshot: &Snapshot, path: &Path, subject: &Subject<'_>) -> Vec<String> {
-    let proven = proven_of(snapshot, path, subject.checked);
-    let start = proven.as_ref().and_then(Start::of);
+/// Describes a declaration in paragraphs of Markdown.
+pub(super) fn declaration_info(snapshot: &Snapshot, path: &Path, subject: &Subject<'_>) -> Vec<String> {
+    let proofs = proofs_of(snapshot, path, subject.checked);
+    let start = proofs.as_ref().and_then(Start::new);
     let found: Vec<Option<String>> = match subject.kind {
         NameKind::Body => vec![start.as_ref().and_then(|start| start.pose(subject.path))],
         NameKind::Point => vec![start.as_ref().and_then(|start| start.position(subject.path))],
         NameKind::Joint | NameKind::Constraint | NameKind::Driver => {
-            vec![equations(subject, start.as_ref()), start.as_ref().and_then(|start| start.places_of(subject.path))]
+            vec![equations(subject, start.as_ref()), start.as_ref().and_then(|start| start.positions_of(subject.path))]
         }
         NameKind::Param => vec![value_of_param(subject)],
         NameKind::Measure | NameKind::Input => vec![start.as_ref().and_then(|start| start.value(subject.path))],
@@ -46,36 +46,36 @@ pub(super) fn facts(snapshot: &Snapshot, path: &Path, subject: &Subject<'_>) -> 
     found.into_iter().flatten().collect()
 }
 
-/// What is proven of a mechanism, if that is known, or quickly had.
-fn proven_of(snapshot: &Snapshot, path: &Path, checked: &Checked) -> Option<(Arc<Vec<Proof>>, usize)> {
+/// Returns the proofs of a file with the index of a mechanism, if they are cached or quick to compute.
+fn proofs_of(snapshot: &Snapshot, path: &Path, checked: &Checked) -> Option<(Arc<Vec<Proof>>, usize)> {
     let file = snapshot.checked(path)?;
     let number = file.mechanisms.iter().position(|other| other.span() == checked.span())?;
     let names: usize = file.mechanisms.iter().map(|other| other.symbols().iter().count()).sum();
-    let is_quick = names <= QUICK;
-    // what is said of a part is said where it is used, but it has a position of its own too
-    let proven = match checked.is_part_of_another() {
-        true if is_quick => snapshot.proven_alone(path),
+    let is_quick = names <= MAX_NAMES_TO_WAIT_FOR;
+    // diagnostics of a part belong to its use, but its mechanism has a position by itself too
+    let proofs = match checked.is_part_of_another() {
+        true if is_quick => snapshot.standalone_proofs(path),
         true => None,
-        false => snapshot.proven_now(path).or_else(|| if is_quick { snapshot.proven(path) } else { None }),
+        false => snapshot.cached_proofs(path).or_else(|| if is_quick { snapshot.proofs(path) } else { None }),
     };
-    Some((proven?, number))
+    Some((proofs?, number))
 }
 
-/// A mechanism in the position in which it was assembled.
+/// A mechanism in its assembled position.
 struct Start<'a> {
-    proven: &'a Proof,
+    proof: &'a Proof,
     compiled: &'a Compiled,
     assembly: &'a Assembly,
 }
 
 impl Start<'_> {
-    fn of((all, number): &(Arc<Vec<Proof>>, usize)) -> Option<Start<'_>> {
-        let proven = all.get(*number)?;
-        let (compiled, assembly) = (proven.compiled.as_ref()?, proven.assembly.as_ref()?);
-        Some(Start { proven, compiled, assembly })
+    fn new((proofs, number): &(Arc<Vec<Proof>>, usize)) -> Option<Start<'_>> {
+        let proof = proofs.get(*number)?;
+        let (compiled, assembly) = (proof.compiled.as_ref()?, proof.assembly.as_ref()?);
+        Some(Start { proof, compiled, assembly })
     }
 
-    /// `At t = 0 s`, and of which copy.
+    /// Formats the time, and the copy if it is not the subject itself: `At t = 0 s:`.
     fn when(&self, subject: &str, copy: &str) -> String {
         let copy = if subject == copy { String::new() } else { format!(", `{copy}`") };
         format!("At t = {} s{copy}:", short(self.assembly.t))
@@ -85,7 +85,7 @@ impl Start<'_> {
         let copy = self.compiled.first_copy(body)?;
         let coordinate = |end: &str| {
             let name = format!("{copy}.{end}");
-            self.assembly.coordinates.iter().find(|(known, ..)| *known == name).map(|(_, value, _)| *value)
+            self.assembly.coordinates.iter().find(|(coordinate, ..)| *coordinate == name).map(|(_, value, _)| *value)
         };
         let [x, y, phi] = [coordinate("x")?, coordinate("y")?, coordinate("phi")?];
         let (x, y) = (with_unit(x, "m"), with_unit(y, "m"));
@@ -106,33 +106,33 @@ impl Start<'_> {
         ))
     }
 
-    /// Where the points of a joint are.
-    fn places_of(&self, joint: &str) -> Option<String> {
+    /// Formats the positions of a joint's points.
+    fn positions_of(&self, joint: &str) -> Option<String> {
         let copy = self.compiled.first_copy(joint)?;
         let position = |point: String| {
             let [x, y] = self.compiled.place_of(&point, self.assembly)?;
             Some(format!("`{point}` = ({}, {}) m", short(x), short(y)))
         };
-        let places: Vec<String> = self.compiled.points_of(&copy).into_iter().filter_map(position).collect();
-        (!places.is_empty()).then(|| format!("{} {}", self.when(joint, &copy), places.join(", ")))
+        let positions: Vec<String> = self.compiled.points_of(&copy).into_iter().filter_map(position).collect();
+        (!positions.is_empty()).then(|| format!("{} {}", self.when(joint, &copy), positions.join(", ")))
     }
 
-    /// Of a measure or input.
+    /// Formats the value of a measure, input or coordinate of a trace.
     fn value(&self, name: &str) -> Option<String> {
         if let Some((value, unit)) = self.compiled.input_at(name, self.assembly.t) {
-            return Some(self.valued(name, name, value, &unit));
+            return Some(self.format_value(name, name, value, &unit));
         }
         let trace = name
             .rsplit_once('.')
             .and_then(|(trace, axis)| Some(format!("{}.{axis}", self.compiled.first_copy(trace)?)));
         let copy = self.compiled.first_copy(name).or(trace)?;
         let column = self.compiled.columns().iter().position(|column| *column == copy)?;
-        let row = self.proven.first_row()?;
+        let row = self.proof.first_row()?;
         let unit = self.compiled.units().into_iter().nth(column)?;
-        Some(self.valued(name, &copy, unit.printed(*row.get(column)?), &unit.text))
+        Some(self.format_value(name, &copy, unit.printed(*row.get(column)?), &unit.text))
     }
 
-    fn valued(&self, name: &str, copy: &str, value: f64, unit: &str) -> String {
+    fn format_value(&self, name: &str, copy: &str, value: f64, unit: &str) -> String {
         let value = if value.is_finite() { with_unit(value, unit) } else { "no value".to_owned() };
         let dimension = dimension_of(unit).map_or(String::new(), |dimension| format!(", {}", dimension.in_words()));
         let axis = name.rsplit_once('.').map_or("", |(_, axis)| axis);
@@ -141,9 +141,9 @@ impl Start<'_> {
     }
 }
 
-/// The equations of a declaration, where they are there or quickly had.
+/// Formats the equations of a declaration, if they are cached or quick to compute.
 fn equations(subject: &Subject<'_>, start: Option<&Start<'_>>) -> Option<String> {
-    let is_small = subject.checked.symbols().iter().count() <= QUICK;
+    let is_small = subject.checked.symbols().iter().count() <= MAX_NAMES_TO_WAIT_FOR;
     let text = match start {
         Some(start) => start.compiled.equations_of(&start.compiled.first_copy(subject.path)?),
         None if is_small => subject.checked.equations_of(subject.path),
@@ -154,8 +154,8 @@ fn equations(subject: &Subject<'_>, start: Option<&Start<'_>>) -> Option<String>
 
 fn value_of_param(subject: &Subject<'_>) -> Option<String> {
     let symbols = subject.checked.symbols();
-    let own = symbols.iter().find(|(_, name)| name.kind == NameKind::Param && name.name == subject.path);
-    let Some((_, DeclaredName { span: name, .. })) = own else { return value_in_part(subject) };
+    let param = symbols.iter().find(|(_, name)| name.kind == NameKind::Param && name.name == subject.path);
+    let Some((_, DeclaredName { span: name, .. })) = param else { return value_in_part(subject) };
     let value = subject.checked.known().values.iter().find(|value| value.name == Some(*name))?;
     Some(match &value.amount {
         Amount::Point([x, y]) => format!("= ({}, {}) m, a point", short(*x), short(*y)),
@@ -169,7 +169,7 @@ fn value_of_param(subject: &Subject<'_>) -> Option<String> {
     })
 }
 
-/// Of a param of a part, with what is bound of it there.
+/// Formats the value of a param of a part: the bound one, if there is one.
 fn value_in_part(subject: &Subject<'_>) -> Option<String> {
     if let Some(bound) = bound_in_part(subject) {
         return Some(bound);
@@ -178,12 +178,12 @@ fn value_in_part(subject: &Subject<'_>) -> Option<String> {
     Some(format!("= {}, {}", with_unit(value, &si_unit(dimension, false)), dimension.in_words()))
 }
 
-/// What is bound of a param of a part: a number as such, a formula as it is written.
+/// Formats the binding of a param of a part: the value of a number, or the formula as it is written.
 fn bound_in_part(subject: &Subject<'_>) -> Option<String> {
     let (part, name) = subject.path.rsplit_once('.')?;
     let part = part.split('[').next()?;
     let bindings = subject.checked.tree()?.items.iter().find_map(|item| match &item.kind {
-        ItemKind::Part(known) if known.name.text == part => Some(&known.bindings),
+        ItemKind::Part(item) if item.name.text == part => Some(&item.bindings),
         _ => None,
     })?;
     let bound = bindings.iter().find(|binding| binding.name.text == name && binding.coordinate.is_none())?;
@@ -200,14 +200,14 @@ fn bound_in_part(subject: &Subject<'_>) -> Option<String> {
 }
 
 fn result(snapshot: &Snapshot, path: &Path, subject: &Subject<'_>) -> Option<String> {
-    let (moved, is_of_before) = snapshot.moved_last(path);
-    let moved = moved?;
-    let of = |moved: &MotionOutcome| moved.results.iter().position(|(name, ..)| name == subject.path);
-    let (moved, number) = moved.iter().find_map(|moved| Some((moved, of(moved)?)))?;
-    let (is_of_before, (_, value, unit)) = (is_of_before || moved.is_cut_short, &moved.results[number]);
+    let (motions, is_outdated) = snapshot.last_motions(path);
+    let motions = motions?;
+    let find = |motion: &MotionOutcome| motion.results.iter().position(|result| result.name == subject.path);
+    let (motion, number) = motions.iter().find_map(|motion| Some((motion, find(motion)?)))?;
+    let (is_outdated, ResultValue { value, unit, .. }) = (is_outdated || motion.is_cut_short, &motion.results[number]);
     let value = value.map_or_else(|| "no value".to_owned(), |value| with_unit(value, unit));
     let dimension = dimension_of(unit).map_or(String::new(), |dimension| format!(", {}", dimension.in_words()));
-    Some(format!("= {value}{dimension}{}", if is_of_before { " (before the last edits)" } else { "" }))
+    Some(format!("= {value}{dimension}{}", if is_outdated { " (before the last edits)" } else { "" }))
 }
 
 fn slopes(subject: &Subject<'_>) -> Option<String> {
@@ -216,7 +216,7 @@ fn slopes(subject: &Subject<'_>) -> Option<String> {
     Some(format!("With its derivatives:\n\n```text\n{name}' = {first}\n{name}'' = {second}\n```"))
 }
 
-/// The dimension of a unit as tables have it: `mm/s^2`, `m/(s*…)`.
+/// Parses the dimension of a unit in the form of tables: `mm/s^2`, `m/(s*…)`.
 fn dimension_of(unit: &str) -> Option<Dimension> {
     let (mut dimension, mut divides, mut rest) = (Dimension::PURE, false, unit);
     while !rest.is_empty() {

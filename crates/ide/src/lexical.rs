@@ -1,34 +1,34 @@
-//! What stands around a byte of a text, by its characters alone: so it is known in a text that is half typed too.
+//! The lexical context of a byte, from the characters around it. It needs no tree, so it works in an unfinished text.
 
 use mechc_text::vocabulary::Keyword;
 use std::ops::Range;
 
-/// Whether a character is one of a name.
-pub(super) fn is_of_word(c: char) -> bool {
+/// Returns whether a character may be part of a name.
+pub(super) fn is_word_char(c: char) -> bool {
     c.is_alphanumeric() || c == '_'
 }
 
-/// Whether letters stand in a name in their order, be they small or large.
-pub(super) fn holds_letters(name: &str, letters: &str) -> bool {
+/// Returns whether a name contains letters in their order, regardless of case.
+pub(super) fn matches_letters(name: &str, letters: &str) -> bool {
     let mut rest = name.chars().flat_map(char::to_lowercase);
-    letters.chars().flat_map(char::to_lowercase).all(|wanted| rest.any(|letter| letter == wanted))
+    letters.chars().flat_map(char::to_lowercase).all(|expected| rest.any(|letter| letter == expected))
 }
 
-/// The word that holds a byte, or ends there.
+/// Returns the word that contains an offset or ends there.
 pub(super) fn word_at(text: &str, offset: usize) -> Option<Range<usize>> {
     let (before, behind) = (text.get(..offset)?, text.get(offset..)?);
-    let start = before.len() - before.chars().rev().take_while(|c| is_of_word(*c)).map(char::len_utf8).sum::<usize>();
-    let end = offset + behind.chars().take_while(|c| is_of_word(*c)).map(char::len_utf8).sum::<usize>();
+    let start = before.len() - before.chars().rev().take_while(|c| is_word_char(*c)).map(char::len_utf8).sum::<usize>();
+    let end = offset + behind.chars().take_while(|c| is_word_char(*c)).map(char::len_utf8).sum::<usize>();
     (start < end).then_some(start..end)
 }
 
-/// The names of a path up to the one that holds a byte, each with the numbers behind it as they are written: `link[0].pin` is `link` with
-/// `[0]`, and `pin`. One at least; what is in the brackets is taken as it stands.
+/// Returns the names of a path up to a word, each with its indices as they are written: `link[0].pin` gives `link` with `[0]`, and `pin`.
+/// There is at least one name.
 pub(super) fn path_at(text: &str, word: &Range<usize>) -> Vec<(String, String)> {
     let mut path = vec![(text[word.clone()].to_owned(), String::new())];
     let mut rest = &text[..word.start];
     while let Some(before) = rest.trim_end().strip_suffix('.') {
-        let (numbers, before) = numbers_before(before);
+        let (numbers, before) = split_indices(before);
         let name = word_at(before, before.len()).map(|range| before[range.start..].to_owned());
         let Some(name) = name else { break };
         rest = &before[..before.len() - name.len()];
@@ -38,23 +38,23 @@ pub(super) fn path_at(text: &str, word: &Range<usize>) -> Vec<(String, String)> 
     path
 }
 
-/// What stands in brackets at the end of a text, with them, and what is before.
-fn numbers_before(text: &str) -> (String, &str) {
+/// Splits the indices off the end of a text; returns them with their brackets, and the rest.
+fn split_indices(text: &str) -> (String, &str) {
     let open = text.ends_with(']').then(|| text.rfind('[')).flatten();
     open.map_or((String::new(), text), |open| (text[open..].to_owned(), &text[..open]))
 }
 
-/// In what a byte of a text stands.
+/// The kind of text around a byte.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum LexicalContext {
     Code,
     Comment,
-    /// By the byte where it begins.
+    /// A string, with the byte of its opening quote.
     String(usize),
 }
 
-/// In what a byte stands, by what is before it on its line.
-pub(super) fn within(text: &str, offset: usize) -> LexicalContext {
+/// Returns the context of a byte from the part of its line before it.
+pub(super) fn lexical_context(text: &str, offset: usize) -> LexicalContext {
     let line = text[..offset].rfind('\n').map_or(0, |end| end + 1);
     let mut string = None;
     for (at, c) in text[line..offset].char_indices() {
@@ -68,25 +68,25 @@ pub(super) fn within(text: &str, offset: usize) -> LexicalContext {
     string.map_or(LexicalContext::Code, LexicalContext::String)
 }
 
-/// Whether a byte stands in a comment.
+/// Returns whether a byte is in a comment.
 pub(super) fn is_in_comment(text: &str, offset: usize) -> bool {
-    within(text, offset) == LexicalContext::Comment
+    lexical_context(text, offset) == LexicalContext::Comment
 }
 
-/// A call whose parentheses are open.
+/// A call whose parenthesis is open at the cursor.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub(super) struct OpenCall {
-    /// What is called, with a prefix before it: `lever`, `legs.lever`.
+    /// The name of the callee, with its prefix: `lever`, `legs.lever`.
     pub name: String,
-    /// Whether that stands behind the colon of a declaration: `joint a: revolute(`.
+    /// Whether the callee follows the colon of a declaration: `joint a: revolute(`.
     pub is_kind: bool,
-    /// What stands behind its parenthesis, up to the cursor.
+    /// The text between its parenthesis and the cursor.
     pub inside: String,
-    /// Commas so far: the number of the argument.
+    /// The index of the argument at the cursor.
     pub argument: usize,
 }
 
-/// The innermost call around a byte.
+/// Returns the innermost call around a byte.
 pub(super) fn call_at(text: &str, offset: usize) -> Option<OpenCall> {
     let start = declaration_before(text, offset);
     let text = text.get(start..offset)?;
@@ -125,18 +125,18 @@ pub(super) fn call_at(text: &str, offset: usize) -> Option<OpenCall> {
         }
         at = next;
     }
-    // a comment or string that goes on to the cursor is no argument
+    // a comment or string that extends to the cursor is not an argument
     let mut all = open.into_iter().zip(inside_from).rev();
     all.find_map(|(call, from)| Some(OpenCall { inside: text[from..].to_owned(), ..call? }))
 }
 
-/// Where the declaration around a byte begins: at a line whose first word begins one, or at the beginning of the text.
+/// Returns the start of the declaration around a byte: a line that begins with a declaration's keyword, or the start of the text.
 fn declaration_before(text: &str, offset: usize) -> usize {
     let mut end = offset.min(text.len());
     loop {
         let start = text[..end].rfind('\n').map_or(0, |end| end + 1);
         let line = &text[start..];
-        let first = line.trim_start().split(|c: char| !is_of_word(c)).next().unwrap_or_default();
+        let first = line.trim_start().split(|c: char| !is_word_char(c)).next().unwrap_or_default();
         let begins =
             Keyword::named(first).is_some_and(|keyword| keyword.begins_declaration() || keyword.role.is_opener());
         if begins || start == 0 {
@@ -146,18 +146,18 @@ fn declaration_before(text: &str, offset: usize) -> usize {
     }
 }
 
-/// What a parenthesis behind the text of a declaration calls; nothing where it groups.
+/// Returns the call that a parenthesis after the text of a declaration opens; `None` if it groups.
 fn callee(before: &str) -> Option<OpenCall> {
     let (declaration, before) = (before.trim_start(), before.trim_end());
     let word = word_at(before, before.len())?;
     let names: Vec<String> = path_at(before, &word).into_iter().map(|(name, _)| name).collect();
     let name = names.join(".");
     let ahead = before[..before.len() - name.len().min(before.len())].trim_end();
-    let first = declaration.split(|c: char| !is_of_word(c)).next().unwrap_or_default();
+    let first = declaration.split(|c: char| !is_word_char(c)).next().unwrap_or_default();
     let is_kind = ahead.ends_with(':') && ["joint", "part"].contains(&first);
     let is_keyword = Keyword::named(&name).is_some_and(Keyword::is_reserved)
         || Keyword::named(&name).is_some_and(Keyword::is_joining);
-    // `at (x, y, phi)` calls nothing, and `at(e, T)` does
+    // `at (x, y, phi)` is a pose, and `at(e, T)` a call
     let calls =
         !is_keyword || name == "at" && !ahead.is_empty() && ahead.ends_with(['=', '(', '+', '-', '*', '/', ',']);
     calls.then_some(OpenCall { name, is_kind, inside: String::new(), argument: 0 })

@@ -1,4 +1,4 @@
-//! Places of files, and changes there.
+//! Positions and ranges in files, and changes of texts.
 
 use mechc_text::source::{Sources, Span};
 use std::ops::Range;
@@ -10,11 +10,11 @@ use std::sync::Arc;
 pub struct FilePosition {
     /// The file, by the path that [`super::Snapshot`] knows it by.
     pub path: Arc<Path>,
-    /// The byte.
+    /// The offset in bytes.
     pub offset: u32,
 }
 
-/// A stretch of a file, in bytes.
+/// A range of a file, in bytes.
 #[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub struct FileRange {
     /// The file.
@@ -26,25 +26,25 @@ pub struct FileRange {
 }
 
 impl FileRange {
-    /// The place of a span.
+    /// Converts a span to the range of its file.
     #[must_use]
-    pub fn of(span: Span, sources: &Sources) -> FileRange {
+    pub fn from_span(span: Span, sources: &Sources) -> FileRange {
         let path = PathBuf::from(&sources.get(span.file).name);
         FileRange { path: path.into(), start: span.start, end: span.end }
     }
 
-    /// Its bytes.
+    /// Returns the range without its file.
     #[must_use]
     pub fn range(&self) -> Range<u32> {
         self.start..self.end
     }
 }
 
-/// What is to stand in the place of a stretch.
+/// A replacement of a range of a file.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Change {
-    /// What goes; nothing, where something is put in.
-    pub position: FileRange,
-    /// What comes.
+    /// The range to replace; empty for an insertion.
+    pub location: FileRange,
+    /// The new text.
     pub text: String,
 }

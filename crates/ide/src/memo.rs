@@ -1,25 +1,25 @@
-//! What is made once, when first asked for, and not kept where making it was cancelled.
+//! A value that is computed on first use. If the computation is cancelled, the next use computes it again.
 
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// A place for it. Who asks while another one is making it waits for that.
+/// A cell for a computed value. A thread that reads it while another thread computes it waits for that.
 #[derive(Debug)]
 pub(super) struct Memo<T>(Mutex<Option<Arc<T>>>);
 
 impl<T> Memo<T> {
-    /// What is here, or else what is made now; nothing where that gives nothing.
-    pub fn get_or(&self, make: impl FnOnce() -> Option<T>) -> Option<Arc<T>> {
-        // a maker that panicked has left nothing here
-        let mut kept = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        if kept.is_none() {
-            *kept = make().map(Arc::new);
+    /// Returns the value, computing it if necessary; `None` if the computation gives none.
+    pub fn get_or_compute(&self, compute: impl FnOnce() -> Option<T>) -> Option<Arc<T>> {
+        // a computation that panicked has stored nothing
+        let mut value = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        if value.is_none() {
+            *value = compute().map(Arc::new);
         }
-        kept.clone()
+        value.clone()
     }
 
-    /// What is here already.
+    /// Returns the value if it is computed already.
     pub fn get(&self) -> Option<Arc<T>> {
-        // who is making it has not made it
+        // a locked cell is being computed
         self.0.try_lock().ok()?.clone()
     }
 }
@@ -41,12 +41,12 @@ mod tests {
     use super::Memo;
 
     #[test]
-    fn what_was_cancelled_is_made_again_and_the_rest_once() {
-        let kept = Memo::default();
-        assert_eq!(kept.get_or(|| None), None);
-        assert_eq!(kept.get(), None);
-        assert_eq!(kept.get_or(|| Some(1)).as_deref(), Some(&1));
-        assert_eq!(kept.get_or(|| Some(2)).as_deref(), Some(&1));
-        assert_eq!(kept.get().as_deref(), Some(&1));
+    fn only_a_cancelled_value_is_computed_again() {
+        let value = Memo::default();
+        assert_eq!(value.get_or_compute(|| None), None);
+        assert_eq!(value.get(), None);
+        assert_eq!(value.get_or_compute(|| Some(1)).as_deref(), Some(&1));
+        assert_eq!(value.get_or_compute(|| Some(2)).as_deref(), Some(&1));
+        assert_eq!(value.get().as_deref(), Some(&1));
     }
 }

@@ -1,26 +1,26 @@
-//! From a name to its declaration, and to all places where it is used.
+//! Definitions, references and highlights of names, and links to files.
 
-use super::occurrences::{Occurrence, Role, Target, files_with, name_at, occurrences};
 use super::location::{FilePosition, FileRange};
+use super::occurrences::{Occurrence, Role, Target, files_containing, name_at, occurrence_at, occurrences};
 use super::snapshot::Snapshot;
 use mechc_text::world::World;
 use std::ops::Range;
 use std::path::Path;
 use std::sync::Arc;
 
-/// A way from a name to its declaration.
+/// A link from a name to its declaration.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Link {
-    /// The name that it begins at.
+    /// The range of the name.
     pub from: FileRange,
-    /// The name that is declared, or the beginning of a file.
+    /// The range of the declared name, or the beginning of a file.
     pub to: FileRange,
 }
 
-/// A place of a name in its file.
+/// An occurrence of a name in its file.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Highlight {
-    /// Where.
+    /// The range of the name.
     pub range: Range<u32>,
     /// Whether it is the declaration.
     pub declares: bool,
@@ -29,51 +29,51 @@ pub struct Highlight {
 /// A name of a file in a text.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct FileLink {
-    /// Where the text names it.
+    /// The range of the name in the text.
     pub range: Range<u32>,
     /// The file.
     pub file: Arc<Path>,
 }
 
-/// Where the name at a place is declared. What declares and takes another name, `point A` alone, leads to that.
+/// Returns the declaration of the name at a position. A name that both uses and declares, as in `point A`, leads to the used one.
 #[must_use]
 pub fn definition(snapshot: &Snapshot, position: &FilePosition) -> Option<Link> {
     let all = occurrences(snapshot, &position.path)?;
-    let at = super::occurrences::at(&all, position.offset)?;
-    let is_taken = |other: &&Occurrence| other.range == at.range && other.role == Role::Uses;
-    let at = all.iter().find(is_taken).unwrap_or(at);
+    let at = occurrence_at(&all, position.offset)?;
+    let is_use = |other: &&Occurrence| other.range == at.range && other.role == Role::Uses;
+    let at = all.iter().find(is_use).unwrap_or(at);
     let to = match &at.target {
         Target::Name(name) => name.clone(),
         Target::File(path) => FileRange { path: Arc::clone(path), start: 0, end: 0 },
     };
-    // a file that is not there leads nowhere
+    // a missing file has no location
     snapshot.buffers().read(&to.path).ok()?;
-    Some(Link { from: at.stretch(&position.path), to })
+    Some(Link { from: at.location(&position.path), to })
 }
 
-/// All places of the name at a place, its declaration among them where that is asked for, in all files that are known.
+/// Returns the uses of the name at a position in all files of the snapshot, and its declaration if requested.
 #[must_use]
 pub fn references(snapshot: &Snapshot, position: &FilePosition, with_declaration: bool) -> Option<Vec<FileRange>> {
     let at = name_at(snapshot, position)?;
-    let mut found = Vec::new();
-    for path in files_with(snapshot, &position.path, &[&word_of(snapshot, &at, position)?]) {
-        let wanted = |one: &Occurrence| one.target == at.target && (with_declaration || one.role == Role::Uses);
+    let mut references = Vec::new();
+    for path in files_containing(snapshot, &position.path, &[&search_word(snapshot, &at, position)?]) {
+        let matches = |one: &Occurrence| one.target == at.target && (with_declaration || one.role == Role::Uses);
         let here = occurrences(snapshot, &path).unwrap_or_default();
-        found.extend(here.iter().filter(|one| wanted(one)).map(|one| one.stretch(&path)));
+        references.extend(here.iter().filter(|one| matches(one)).map(|one| one.location(&path)));
     }
-    Some(found)
+    Some(references)
 }
 
-/// The places of the name at a place in its own file.
+/// Returns the occurrences of the name at a position in its file.
 #[must_use]
 pub fn highlights(snapshot: &Snapshot, position: &FilePosition) -> Option<Vec<Highlight>> {
     let all = occurrences(snapshot, &position.path)?;
-    let at = super::occurrences::at(&all, position.offset)?;
+    let at = occurrence_at(&all, position.offset)?;
     let same = all.iter().filter(|one| one.target == at.target);
     Some(same.map(|one| Highlight { range: one.range.range(), declares: one.role == Role::Declares }).collect())
 }
 
-/// The files that a text names and that are there.
+/// Returns the existing files that a text names.
 #[must_use]
 pub fn file_links(snapshot: &Snapshot, path: &Path) -> Option<Vec<FileLink>> {
     let link = |one: Occurrence| match one.target {
@@ -85,8 +85,8 @@ pub fn file_links(snapshot: &Snapshot, path: &Path) -> Option<Vec<FileLink>> {
     Some(occurrences(snapshot, path)?.into_iter().filter_map(link).collect())
 }
 
-/// What a text must hold to name what is meant: the name, or that of the file.
-fn word_of(snapshot: &Snapshot, at: &Occurrence, position: &FilePosition) -> Option<String> {
+/// Returns the text by which files with references are found: the name, or the file name.
+fn search_word(snapshot: &Snapshot, at: &Occurrence, position: &FilePosition) -> Option<String> {
     match &at.target {
         Target::Name(_) => {
             let parsed = snapshot.parsed(&position.path)?;
@@ -129,7 +129,7 @@ mod tests {
     }
 
     #[test]
-    fn they_lead_into_parts_and_other_files() {
+    fn names_lead_into_parts_and_other_files() {
         insta::assert_snapshot!(defined("front.arm.tip", "front.arm.$0tip", TWO_FILES), @r"
         lever.mech:7
                 point tip = (reach, 0)

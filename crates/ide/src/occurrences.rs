@@ -1,7 +1,7 @@
-//! Who declares a name and who uses it, across files and parts.
+//! Declarations and uses of names, across files and parts.
 //!
-//! The names of one mechanism are known to `check`; here come those that lead out of it: what a path names within a part, the params
-//! that it binds, mechanisms and files.
+//! The checker resolves the names within one mechanism. This module adds those that lead out of it: paths into parts, bound params,
+//! mechanisms and files.
 
 use super::location::{FilePosition, FileRange};
 use super::snapshot::Snapshot;
@@ -15,23 +15,23 @@ use std::ops::Range;
 use std::path::Path;
 use std::sync::Arc;
 
-/// What a name stands for.
+/// The declaration or file that a name refers to.
 #[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub(super) enum Target {
-    /// A declaration, by the place of its name.
+    /// A declaration, by the range of its name.
     Name(FileRange),
     /// A file.
     File(Arc<Path>),
 }
 
-/// What a name does at its place.
+/// The role of an occurrence.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub(super) enum Role {
     Uses,
     Declares,
 }
 
-/// A place where a name stands.
+/// An occurrence of a name.
 #[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub(super) struct Occurrence {
     pub range: Bytes,
@@ -39,7 +39,7 @@ pub(super) struct Occurrence {
     pub target: Target,
 }
 
-/// Bytes of a file, which can be put in order.
+/// A range of bytes that can be ordered.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub(super) struct Bytes {
     pub start: u32,
@@ -53,14 +53,13 @@ impl Bytes {
 }
 
 impl Occurrence {
-    /// Its place, in the file that it is in.
-    pub fn stretch(&self, path: &Arc<Path>) -> FileRange {
+    /// Returns its range in its file.
+    pub fn location(&self, path: &Arc<Path>) -> FileRange {
         FileRange { path: Arc::clone(path), start: self.range.start, end: self.range.end }
     }
 }
 
-/// Every name of a file that stands for a declaration or a file, by place; where one both declares and takes another one, the
-/// declaration comes behind it.
+/// Returns the occurrences of names in a file, in order. If a name both uses and declares (`point A`), the declaration comes last.
 pub(super) fn occurrences(snapshot: &Snapshot, path: &Path) -> Option<Vec<Occurrence>> {
     let file = snapshot.checked(path)?;
     let mut found = BTreeSet::new();
@@ -75,27 +74,27 @@ pub(super) fn occurrences(snapshot: &Snapshot, path: &Path) -> Option<Vec<Occurr
     Some(found.into_iter().collect())
 }
 
-/// What stands at a byte, or ends there.
-pub(super) fn at(occurrences: &[Occurrence], offset: u32) -> Option<&Occurrence> {
+/// Returns the occurrence that contains an offset or ends there.
+pub(super) fn occurrence_at(occurrences: &[Occurrence], offset: u32) -> Option<&Occurrence> {
     let touches = |one: &&Occurrence| one.range.start <= offset && offset <= one.range.end;
     occurrences.iter().filter(touches).max_by_key(|one| (one.range.start, one.role))
 }
 
-/// The name at a place, among all of its file.
+/// Finds the occurrence at a position.
 pub(super) fn name_at(snapshot: &Snapshot, position: &FilePosition) -> Option<Occurrence> {
     let all = occurrences(snapshot, &position.path)?;
-    at(&all, position.offset).cloned()
+    occurrence_at(&all, position.offset).cloned()
 }
 
-/// The files that are open, were found, or are used by the file of a place, in which one of some words stands.
-pub(super) fn files_with(snapshot: &Snapshot, near: &Path, words: &[&str]) -> Vec<Arc<Path>> {
+/// Returns the files that contain one of some words, among the open ones, those of the workspace and those that a file uses.
+pub(super) fn files_containing(snapshot: &Snapshot, near: &Path, words: &[&str]) -> Vec<Arc<Path>> {
     let buffers = snapshot.buffers();
     let mut files: BTreeSet<Arc<Path>> = snapshot.files().cloned().collect();
     files.insert(near.into());
     if let Some(checked) = snapshot.checked(near).as_ref().and_then(|file| file.mechanisms.first()) {
         files.extend(checked.library().files().iter().map(|file| Arc::from(buffers.identity(&file.path))));
     }
-    // a letter may be written in several ways
+    // names are compared in NFC, so bytes decide only for ASCII
     let is_plain = words.iter().all(|word| word.is_ascii());
     let holds = |path: &Arc<Path>| {
         let text = buffers.read(path).map(|contents| contents.bytes);
@@ -109,7 +108,7 @@ fn contains(text: &[u8], word: &[u8]) -> bool {
     !word.is_empty() && text.windows(word.len()).any(|window| window == word)
 }
 
-/// A walk over what a mechanism's text names outside of it.
+/// Collects the occurrences of a mechanism's text.
 struct Walk<'s> {
     snapshot: &'s Snapshot,
     checked: &'s Checked,
@@ -118,7 +117,7 @@ struct Walk<'s> {
 }
 
 impl Walk<'_> {
-    fn stretch(&self, span: Span) -> FileRange {
+    fn location(&self, span: Span) -> FileRange {
         FileRange { path: self.path_of(span.file), start: span.start, end: span.end }
     }
 
@@ -133,27 +132,27 @@ impl Walk<'_> {
     }
 
     fn uses(&mut self, name: &Name, declared: Span) {
-        let target = Target::Name(self.stretch(declared));
+        let target = Target::Name(self.location(declared));
         self.add(name.span, Role::Uses, target);
     }
 
-    /// What the mechanism knows itself.
+    /// Adds the names that the checker has resolved.
     fn names(&mut self) {
         let symbols = self.checked.symbols();
         for used in symbols.uses() {
             if let Meaning::Declared(id) = used.meaning {
                 let role = if used.declares { Role::Declares } else { Role::Uses };
-                self.add(used.span, role, Target::Name(self.stretch(symbols.get(id).span)));
+                self.add(used.span, role, Target::Name(self.location(symbols.get(id).span)));
             }
         }
     }
 
     fn files(&mut self) {
-        let Some(own) = self.library.files().first() else { return };
-        let uses = own.read.tree.uses.iter().filter_map(|used| used.path.as_ref());
-        let tables = own.read.tree.mechanisms.iter().flat_map(|mechanism| &mechanism.items).filter_map(table_file);
+        let Some(file) = self.library.files().first() else { return };
+        let uses = file.read.tree.uses.iter().filter_map(|used| used.path.as_ref());
+        let tables = file.read.tree.mechanisms.iter().flat_map(|mechanism| &mechanism.items).filter_map(table_file);
         for name in uses.chain(tables) {
-            let named = beside(&own.path.to_string_lossy(), &name.text);
+            let named = beside(&file.path.to_string_lossy(), &name.text);
             let target = Target::File(self.snapshot.buffers().identity(&named).into());
             self.add(name.span, Role::Uses, target);
         }
@@ -170,16 +169,16 @@ impl Walk<'_> {
         }
     }
 
-    /// The mechanism that a part is, and what is bound of it.
+    /// Adds the mechanism of a part and the params that it binds.
     fn part(&mut self, part: &Part) {
-        let uses = self.library.files().first().map(|own| Arc::clone(&own.read));
+        let uses = self.library.files().first().map(|file| Arc::clone(&file.read));
         let prefixes = uses.iter().flat_map(|read| &read.tree.uses).filter_map(|used| used.prefix.as_ref());
         if let Some(prefix) = &part.mechanism.prefix
             && let Some(declared) = prefixes.clone().find(|declared| declared.text == prefix.text)
         {
             self.uses(prefix, declared.span);
         }
-        let Some(inside) = known(self.library, &part.mechanism, self.checked).map(|known| self.library.tree(known))
+        let Some(inside) = find_mechanism(self.library, &part.mechanism, self.checked).map(|id| self.library.tree(id))
         else {
             return;
         };
@@ -194,7 +193,7 @@ impl Walk<'_> {
         }
     }
 
-    /// A path that leads into a part.
+    /// Adds the names of a path that leads into a part.
     fn path(&mut self, tree: &Mechanism, e: &Expr) {
         let names: Vec<&Name> = match &e.kind {
             ExprKind::Member { owner, feature } => vec![owner, feature],
@@ -206,14 +205,14 @@ impl Walk<'_> {
             ItemKind::Part(part) if part.name.text == first.text => Some(&**part),
             _ => None,
         });
-        let mut inside = part.and_then(|part| known(self.library, &part.mechanism, self.checked));
+        let mut inside = part.and_then(|part| find_mechanism(self.library, &part.mechanism, self.checked));
         let mut rest = rest.iter();
         while let (Some(known_mechanism), Some(name)) = (inside.take(), rest.next()) {
             let library = self.library.clone();
             let Some(item) = item_named(library.tree(known_mechanism), &name.text) else { return };
             self.uses(name, name_span(item));
             match &item.kind {
-                ItemKind::Part(part) => inside = known(&library, &part.mechanism, self.checked),
+                ItemKind::Part(part) => inside = find_mechanism(&library, &part.mechanism, self.checked),
                 ItemKind::Body { features, .. } | ItemKind::Ground { features } => {
                     let Some(name) = rest.next() else { return };
                     if let Some(feature) = features.iter().find(|feature| feature.name.text == name.text) {
@@ -226,12 +225,12 @@ impl Walk<'_> {
     }
 }
 
-/// The mechanism that a part names.
-pub(super) fn known(library: &Library, name: &MechanismName, checked: &Checked) -> Option<KnownMechanism> {
+/// Finds the mechanism that a part names.
+pub(super) fn find_mechanism(library: &Library, name: &MechanismName, checked: &Checked) -> Option<KnownMechanism> {
     library.find(name.prefix.as_ref(), &name.name, checked.sources()).ok()
 }
 
-/// The declaration of a mechanism by its name, `ground` among them.
+/// Finds a declaration of a mechanism by its name, which may be `ground`.
 pub(super) fn item_named<'t>(tree: &'t Mechanism, name: &str) -> Option<&'t Item> {
     tree.items.iter().find(|item| match &item.kind {
         ItemKind::Ground { .. } => name == "ground",
@@ -251,7 +250,7 @@ fn table_file(item: &Item) -> Option<&Name> {
     }
 }
 
-/// `crank.B` as its names tell it; nothing of what is no path, or has numbers in it.
+/// Returns the text of a path such as `crank.B`; `None` if the expression is not a path or has indices.
 pub(super) fn path_text(e: &Expr) -> Option<String> {
     match &e.bare().kind {
         ExprKind::Name(name) => Some(name.text.clone()),

@@ -5,22 +5,22 @@ use mechc_lang::check::{NameId, NameKind, Symbols};
 use std::ops::Range;
 use std::path::Path;
 
-/// A declaration.
+/// An entry of the outline.
 #[derive(Clone, PartialEq, Debug)]
 pub struct OutlineEntry {
-    /// Its name.
+    /// The name of the declaration.
     pub name: String,
-    /// What it is.
+    /// The kind of declaration.
     pub kind: NameKind,
-    /// All of it, in bytes of the file.
+    /// The range of the whole declaration, in bytes.
     pub range: Range<u32>,
-    /// Its name's place.
+    /// The range of its name, in bytes.
     pub name_range: Range<u32>,
-    /// What is declared in it.
+    /// The declarations in it.
     pub inside: Vec<OutlineEntry>,
 }
 
-/// The declarations of a file: its mechanisms, with what they declare.
+/// Returns the mechanisms of a file with their declarations.
 #[must_use]
 pub fn outline(snapshot: &Snapshot, path: &Path) -> Option<Vec<OutlineEntry>> {
     let checked = snapshot.checked(path)?;
@@ -39,10 +39,10 @@ fn of_mechanism(symbols: &Symbols) -> Option<OutlineEntry> {
     for &(id, _) in inside.iter().filter(|(_, owner)| owner.is_none()) {
         entry.inside.push(of_name(symbols, id));
     }
-    let places: Vec<NameId> = inside.iter().filter(|(_, owner)| owner.is_none()).map(|(id, _)| *id).collect();
+    let top_level: Vec<NameId> = inside.iter().filter(|(_, owner)| owner.is_none()).map(|(id, _)| *id).collect();
     for (id, owner) in inside.iter().filter_map(|&(id, owner)| Some((id, owner?))) {
-        // declarations have numbers in their order
-        if let Ok(at) = places.binary_search(&owner) {
+        // ids are in the order of declaration, so the list is sorted
+        if let Ok(at) = top_level.binary_search(&owner) {
             entry.inside[at].inside.push(of_name(symbols, id));
         }
     }
@@ -51,12 +51,12 @@ fn of_mechanism(symbols: &Symbols) -> Option<OutlineEntry> {
 
 fn of_name(symbols: &Symbols, id: NameId) -> OutlineEntry {
     let name = symbols.get(id);
-    let (all, own) = (name.declaration, name.span);
+    let (declaration, name_span) = (name.declaration, name.span);
     OutlineEntry {
         name: name.name.clone(),
         kind: name.kind,
-        range: all.start..all.end,
-        name_range: own.start..own.end,
+        range: declaration.start..declaration.end,
+        name_range: name_span.start..name_span.end,
         inside: Vec::new(),
     }
 }

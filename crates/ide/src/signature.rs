@@ -1,36 +1,36 @@
-//! How what is being called is called, while it is typed.
+//! Signature help for the call at the cursor.
 
+use super::lexical::{OpenCall, call_at, is_in_comment};
 use super::location::FilePosition;
 use super::snapshot::Snapshot;
-use super::lexical::{OpenCall, call_at, is_in_comment};
 use mechc_lang::check::NameKind;
 use mechc_pipeline::Checked;
 use mechc_text::vocabulary::{Category, Word, words};
 use std::ops::Range;
 
-/// The ways to call something.
+/// The signatures of a callee.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Signatures {
-    /// One at least.
+    /// The signatures, at least one.
     pub forms: Vec<Signature>,
-    /// The one that fits what is written.
+    /// The index of the signature that fits the arguments so far.
     pub active: usize,
-    /// The argument at the cursor, where the active form has one.
+    /// The argument at the cursor, if the active signature has it.
     pub argument: Option<usize>,
 }
 
-/// A way to call something.
+/// A signature.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Signature {
-    /// `weld(P, Q, angle)`
+    /// The text of the signature: `weld(P, Q, angle)`.
     pub label: String,
-    /// Its arguments, in bytes of the label.
+    /// The ranges of its arguments in the label.
     pub arguments: Vec<Range<usize>>,
-    /// What it means. Markdown.
+    /// Its documentation, in Markdown.
     pub meaning: String,
 }
 
-/// The signatures of the innermost call around a place.
+/// Returns the signatures of the innermost call around a position.
 #[must_use]
 pub fn signatures(snapshot: &Snapshot, position: &FilePosition) -> Option<Signatures> {
     let file = snapshot.checked(&position.path)?;
@@ -42,10 +42,10 @@ pub fn signatures(snapshot: &Snapshot, position: &FilePosition) -> Option<Signat
     }
     let call = call_at(text, offset)?;
     let checked = file.mechanism_at(position.offset).or(file.mechanisms.last())?;
-    of_part(&call, checked).or_else(|| of_own(&call, checked)).or_else(|| of_words(&call))
+    of_part(&call, checked).or_else(|| of_declared_function(&call, checked)).or_else(|| of_words(&call))
 }
 
-/// Of a mechanism that is a part: what may be bound, the argument by its name.
+/// Returns the signature of a part's mechanism: the names that may be bound.
 fn of_part(call: &OpenCall, checked: &Checked) -> Option<Signatures> {
     let (prefix, name) = match call.name.rsplit_once('.') {
         Some((prefix, name)) => (Some(prefix), name),
@@ -59,11 +59,11 @@ fn of_part(call: &OpenCall, checked: &Checked) -> Option<Signatures> {
     Some(Signatures { forms: vec![signature(&call.name, &shown, interface.docs.join("\n"))], active: 0, argument })
 }
 
-/// Of a function or table of the mechanism, which come before words that give way.
-fn of_own(call: &OpenCall, checked: &Checked) -> Option<Signatures> {
+/// Returns the signature of a function or table that the mechanism declares; such a name takes precedence over a word of the language.
+fn of_declared_function(call: &OpenCall, checked: &Checked) -> Option<Signatures> {
     let symbols = checked.symbols();
-    let is_it = |kind: NameKind| matches!(kind, NameKind::Function | NameKind::Table);
-    let (id, function) = symbols.iter().find(|(_, name)| name.name == call.name && is_it(name.kind))?;
+    let is_callable = |kind: NameKind| matches!(kind, NameKind::Function | NameKind::Table);
+    let (id, function) = symbols.iter().find(|(_, name)| name.name == call.name && is_callable(name.kind))?;
     let argument = symbols.iter().find(|(_, name)| name.owner == Some(id)).map_or("u", |(_, argument)| &argument.name);
     let text = checked.sources().text(function.declaration);
     let meaning = format!("```mech\n{}\n```", text.trim_end());
@@ -79,7 +79,7 @@ fn of_words(call: &OpenCall) -> Option<Signatures> {
         word.name == call.name && is_called && is_joint == call.is_kind
     };
     let forms: Vec<Signature> = words().filter(is_called).flat_map(forms_of).collect();
-    let fits = |form: &Signature| call.argument < form.arguments.len() || is_open(form);
+    let fits = |form: &Signature| call.argument < form.arguments.len() || is_variadic(form);
     let active = forms.iter().position(fits).or(forms.len().checked_sub(1))?;
     let last = forms[active].arguments.len().saturating_sub(1);
     let argument = Some(call.argument).filter(|_| fits(&forms[active])).map(|argument| argument.min(last));
@@ -95,8 +95,8 @@ fn forms_of(word: &'static Word) -> impl Iterator<Item = Signature> {
     })
 }
 
-/// Whether it takes as many arguments as there are.
-fn is_open(form: &Signature) -> bool {
+/// Returns whether a signature takes any number of arguments.
+fn is_variadic(form: &Signature) -> bool {
     form.arguments.last().is_some_and(|last| &form.label[last.clone()] == "…")
 }
 

@@ -1,5 +1,6 @@
-//! The shape of a text: what can be folded away, and what lies around a place.
+//! The structure of a text: folding ranges and selection ranges.
 
+use super::lexical::is_word_char;
 use super::location::FilePosition;
 use super::snapshot::Snapshot;
 use mechc_pipeline::Parsed;
@@ -9,27 +10,27 @@ use mechc_text::source::Span;
 use std::ops::Range;
 use std::path::Path;
 
-/// What can be folded away.
+/// A folding range.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Fold {
-    /// What disappears; it begins and ends on different lines.
+    /// The range to hide; it begins and ends on different lines.
     pub range: Range<u32>,
-    /// What it is.
+    /// The kind of range.
     pub kind: FoldKind,
 }
 
-/// Why something is folded.
+/// The kinds of folding ranges.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum FoldKind {
-    /// What stands between braces or brackets.
-    Inside,
-    /// Comments on neighbouring lines.
+    /// Text between braces or brackets.
+    Block,
+    /// Comments on adjacent lines.
     Comment,
-    /// The files that a text uses.
+    /// The `use` declarations of a file.
     Uses,
 }
 
-/// What of a file can be folded away, in order.
+/// Returns the folding ranges of a file, in order.
 #[must_use]
 pub fn folds(snapshot: &Snapshot, path: &Path) -> Option<Vec<Fold>> {
     let parsed = snapshot.parsed(path)?;
@@ -45,7 +46,7 @@ pub fn folds(snapshot: &Snapshot, path: &Path) -> Option<Vec<Fold>> {
     Some(folds)
 }
 
-/// The insides of braces, brackets and parentheses, whatever else is wrong with the text.
+/// Returns the ranges between braces, brackets and parentheses; the text may have errors.
 fn between_brackets(text: &str) -> Vec<Fold> {
     let (mut open, mut folds) = (Vec::new(), Vec::new());
     for token in tokens(text) {
@@ -57,10 +58,10 @@ fn between_brackets(text: &str) -> Vec<Fold> {
                     "]" => "[",
                     _ => "(",
                 };
-                // what was not closed before a brace never is
+                // a closing brace also ends brackets that were left open in its block
                 while let Some((text, at)) = open.pop() {
                     if text == opener {
-                        folds.push(Fold { range: at as u32..token.start as u32, kind: FoldKind::Inside });
+                        folds.push(Fold { range: at as u32..token.start as u32, kind: FoldKind::Block });
                         break;
                     }
                     if opener != "{" {
@@ -88,20 +89,19 @@ fn comments(parsed: &Parsed) -> Vec<Fold> {
     folds
 }
 
-/// What lies around a place, from the word on: formulas, arguments, the declaration, its body, the mechanism, the file. Each holds the
-/// one before it.
+/// Returns the ranges around a position, each within the next: word, formulas, arguments, declaration, body, mechanism, file.
 #[must_use]
-pub fn around(snapshot: &Snapshot, position: &FilePosition) -> Option<Vec<Range<u32>>> {
+pub fn selection_ranges(snapshot: &Snapshot, position: &FilePosition) -> Option<Vec<Range<u32>>> {
     let parsed = snapshot.parsed(&position.path)?;
     let text = &parsed.sources().get(parsed.file()).text;
     let whole = 0..text.len() as u32;
-    let mut found: Vec<Range<u32>> = Vec::from([whole]);
+    let mut ranges: Vec<Range<u32>> = Vec::from([whole]);
     let mut add = |range: Range<u32>| {
         if range.start <= position.offset && position.offset <= range.end && !range.is_empty() {
-            found.push(range);
+            ranges.push(range);
         }
     };
-    for token in tokens(text).into_iter().filter(|token| token.text.starts_with(is_of_word)) {
+    for token in tokens(text).into_iter().filter(|token| token.text.starts_with(is_word_char)) {
         add(token.start as u32..token.end() as u32);
     }
     for fold in between_brackets(text) {
@@ -110,19 +110,15 @@ pub fn around(snapshot: &Snapshot, position: &FilePosition) -> Option<Vec<Range<
     for mechanism in &parsed.tree().mechanisms {
         spans_of(mechanism, position.offset, &mut |span| add(span.start..span.end));
     }
-    found.sort_by_key(|range| (range.end - range.start, range.start));
-    found.dedup();
+    ranges.sort_by_key(|range| (range.end - range.start, range.start));
+    ranges.dedup();
     let mut nested: Vec<Range<u32>> = Vec::new();
-    for range in found {
+    for range in ranges {
         if nested.last().is_none_or(|inner| range.start <= inner.start && inner.end <= range.end) {
             nested.push(range);
         }
     }
     Some(nested)
-}
-
-fn is_of_word(c: char) -> bool {
-    c.is_alphanumeric() || c == '_'
 }
 
 fn spans_of(mechanism: &Mechanism, offset: u32, add: &mut impl FnMut(Span)) {
@@ -169,7 +165,7 @@ fn spans_of_feature(feature: &Feature, add: &mut impl FnMut(Span)) {
 
 #[cfg(test)]
 mod tests {
-    use super::{around, folds};
+    use super::{selection_ranges, folds};
     use crate::testing::{FOUR_BAR, at_cursor};
 
     #[test]
@@ -203,7 +199,7 @@ mod tests {
             }
         };
         let told: Vec<_> =
-            around(&snapshot, &position).expect("a file").iter().map(|range| line(range).replace('\n', " ")).collect();
+            selection_ranges(&snapshot, &position).expect("a file").iter().map(|range| line(range).replace('\n', " ")).collect();
         insta::assert_snapshot!(told.join("\n"), @r"
         len
         2 * len

@@ -1,4 +1,4 @@
-//! Changes of texts, made on a copy of what is known, to see what comes of them.
+//! Changes applied to a copy of a snapshot, to compare the diagnostics before and after.
 
 use super::diagnostics::{DiagnosticStage, EditorDiagnostic, diagnostics};
 use super::location::Change;
@@ -9,14 +9,14 @@ use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::Arc;
 
-/// The text of a file as it is, without a byte-order mark.
+/// Returns the text of a file, without a byte-order mark.
 pub(super) fn text_of(snapshot: &Snapshot, path: &Path) -> Option<String> {
     let parsed = snapshot.parsed(path)?;
     Some(parsed.sources().get(parsed.file()).text.clone())
 }
 
-/// The texts with changes made in them; of changes that overlap the first one.
-pub(super) fn applied(snapshot: &Snapshot, changes: &[Change]) -> Option<Snapshot> {
+/// Applies changes to a copy of a snapshot; of changes that overlap, only the first is applied.
+pub(super) fn apply(snapshot: &Snapshot, changes: &[Change]) -> Option<Snapshot> {
     let mut of_files: BTreeMap<Arc<Path>, Vec<&Change>> = BTreeMap::new();
     for change in changes {
         let path: Arc<Path> = snapshot.buffers().identity(&change.location.path).into();
@@ -36,25 +36,28 @@ pub(super) fn applied(snapshot: &Snapshot, changes: &[Change]) -> Option<Snapsho
             }
         }
         changed += text.get(end..)?;
-        after = after.supposing(&path, changed.into());
+        after = after.with_trial_text(&path, changed.into());
     }
     Some(after)
 }
 
-/// What is to be said of some files' words, in order.
-pub(super) fn faults(snapshot: &Snapshot, files: &[Arc<Path>]) -> Vec<EditorDiagnostic> {
+/// Returns the diagnostics of the first stage for some files, in order.
+pub(super) fn word_diagnostics(snapshot: &Snapshot, files: &[Arc<Path>]) -> Vec<EditorDiagnostic> {
     let of =
         |path: &Arc<Path>| diagnostics(snapshot, path, DiagnosticStage::Words, &Cancel::default).unwrap_or_default();
     files.iter().flat_map(of).collect()
 }
 
-/// The first of some faults that was not there before, or is there once more.
-pub(super) fn first_new<'s>(before: &[EditorDiagnostic], after: &'s [EditorDiagnostic]) -> Option<&'s EditorDiagnostic> {
-    let mut known: BTreeMap<&str, usize> = BTreeMap::new();
-    for said in before {
-        *known.entry(said.code).or_default() += 1;
+/// Returns the first diagnostic that is new, or that occurs more often than before.
+pub(super) fn first_new<'s>(
+    before: &[EditorDiagnostic],
+    after: &'s [EditorDiagnostic],
+) -> Option<&'s EditorDiagnostic> {
+    let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
+    for diagnostic in before {
+        *counts.entry(diagnostic.code).or_default() += 1;
     }
-    after.iter().find(|said| match known.get_mut(said.code) {
+    after.iter().find(|diagnostic| match counts.get_mut(diagnostic.code) {
         Some(count) if *count > 0 => {
             *count -= 1;
             false

@@ -148,7 +148,8 @@ impl LiveSession {
     pub fn new(
         path: &Path,
         choice: Choice,
-        (redundant, pass_bifurcations): (Redundant, bool),
+        redundant: Redundant,
+        pass_bifurcations: bool,
         host: Box<dyn Host>,
     ) -> LiveSession {
         let texts = Arc::new(Texts::read(1, host.world(), path, Vec::new()));
@@ -571,9 +572,9 @@ mechanism disc {
     fn session() -> (Arc<TestFiles>, LiveSession) {
         let disk = Arc::new(TestFiles::default());
         disk.has(MAIN);
-        let options = (Redundant::Refused, false);
+        let host = Box::new(TestHost(Arc::clone(&disk)));
         let session =
-            LiveSession::new(Path::new("disc.mech"), Choice::default(), options, Box::new(TestHost(Arc::clone(&disk))));
+            LiveSession::new(Path::new("disc.mech"), Choice::default(), Redundant::Refused, false, host);
         (disk, session)
     }
 

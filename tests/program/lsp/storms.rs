@@ -245,7 +245,7 @@ fn said(texts: &BTreeMap<String, String>, uri: &str, world: &Arc<Shelf>) -> Vec<
     }
     let text = &texts[uri];
     let of = |stage| ide::diagnostics(&snapshot, &path(uri), stage, &Cancel::default).expect("nobody cancels it");
-    let line = |said: ide::Said| {
+    let line = |said: ide::EditorDiagnostic| {
         let (line, column) = position(text, said.range.start as usize);
         format!("{}:{} {} {}", line + 1, column + 1, said.code, said.message)
     };

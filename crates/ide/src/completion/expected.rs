@@ -1,13 +1,13 @@
-//! What may stand at a place: by the letters with which the vocabulary writes what a word is called with.
+//! The kind of argument that is expected at the cursor, from the letters of the forms in the vocabulary.
 
 use super::cursor::{Call, Cursor};
 use mechc_syntax::ast::FeatureKind;
 use mechc_text::vocabulary::{Dimension, Function, Group, JointWord, QuantityWord, ReductionWord, Word};
 
-/// What an argument or formula may be.
+/// A kind of argument or formula.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(super) enum Expected {
-    /// A number, of a dimension where that is known.
+    /// A number, with its dimension if the position requires one.
     Number(Option<Dimension>),
     Point,
     Axis,
@@ -15,19 +15,19 @@ pub(super) enum Expected {
     /// A circle or curve.
     Profile,
     Body,
-    /// A joint that the quantity is about.
+    /// A joint that has a quantity.
     Joint(&'static str),
     /// A driver or constraint.
     Equation,
-    /// What derivatives are taken by.
+    /// A variable of differentiation.
     Variable,
-    /// On which side of an axis.
+    /// A side of an axis.
     Side,
 }
 
 impl Expected {
-    /// Whether a feature is that.
-    pub fn is(self, feature: &FeatureKind) -> bool {
+    /// Returns whether a feature is of this kind.
+    pub fn matches(self, feature: &FeatureKind) -> bool {
         match feature {
             FeatureKind::Point { .. } => self == Expected::Point,
             FeatureKind::AxisAlong { .. } | FeatureKind::AxisTo { .. } => self == Expected::Axis,
@@ -37,14 +37,14 @@ impl Expected {
         }
     }
 
-    /// Whether it is one of the features of a body.
+    /// Returns whether features of a body are of this kind.
     pub fn is_feature(self) -> bool {
         matches!(self, Expected::Point | Expected::Axis | Expected::Circle | Expected::Profile)
     }
 }
 
-/// What may stand at the cursor, as far as the innermost call and the declaration tell.
-pub(super) fn wanted(cursor: &Cursor<'_>) -> Vec<Expected> {
+/// Returns the kinds that may be at the cursor, from the innermost call and the declaration.
+pub(super) fn expected(cursor: &Cursor<'_>) -> Vec<Expected> {
     match cursor.call().filter(|call| call.name != "[") {
         Some(call) if !call.name.is_empty() => of_call(cursor, call),
         Some(call) => vec![in_tuple(cursor, call)],
@@ -74,15 +74,15 @@ fn of_call(cursor: &Cursor<'_>, call: Call<'_>) -> Vec<Expected> {
     }
 }
 
-/// The letters of an argument in all forms that have it.
+/// Collects the kinds of an argument in all forms that have it.
 fn by_forms(word: &Word, argument: usize, of: impl Fn(&str) -> Expected) -> Vec<Expected> {
     let mut found = Vec::new();
     for form in word.forms {
         let arguments = form.split_once('(').map_or("", |(_, behind)| behind.trim_end_matches(')'));
         if let Some(letters) = arguments.split(',').nth(argument) {
-            let wanted = of(letters.trim());
-            if !found.contains(&wanted) {
-                found.push(wanted);
+            let kind = of(letters.trim());
+            if !found.contains(&kind) {
+                found.push(kind);
             }
         }
     }
@@ -119,7 +119,7 @@ fn of_points(letters: &str) -> Expected {
     }
 }
 
-/// Within parentheses that nothing is called with.
+/// Returns the kind of a coordinate in plain parentheses.
 fn in_tuple(cursor: &Cursor<'_>, call: Call<'_>) -> Expected {
     let behind = cursor.declaration().iter().rev().find(|token| matches!(token.text, "along" | "at" | "=" | "radius"));
     let dimension = match (cursor.head(), behind.map(|token| token.text), call.argument) {
@@ -135,7 +135,7 @@ fn in_tuple(cursor: &Cursor<'_>, call: Call<'_>) -> Expected {
     Expected::Number(dimension)
 }
 
-/// Outside of all parentheses.
+/// Returns the kinds outside parentheses.
 fn at_top(cursor: &Cursor<'_>) -> Vec<Expected> {
     match cursor.head() {
         "circle" if cursor.has("radius") => vec![Expected::Number(Some(Dimension::LENGTH))],
@@ -151,7 +151,7 @@ fn at_top(cursor: &Cursor<'_>) -> Vec<Expected> {
     }
 }
 
-/// The dimension of what stands left of the `=` of an equation, where one quantity does.
+/// Returns the dimension of the quantity left of the `=` of an equation, if it is a single one.
 fn driven(cursor: &Cursor<'_>) -> Option<Dimension> {
     let tokens = cursor.declaration();
     tokens.iter().position(|token| token.text == "=")?;

@@ -1,4 +1,4 @@
-//! Requests, and what answers them: params to a feature of `ide`, and its answer to the protocol's words.
+//! Handlers of requests: each converts the params, calls a feature of `ide` and converts its result.
 
 mod annotations;
 mod completion;
@@ -15,91 +15,93 @@ use gen_lsp_types::{self as lsp, Request};
 use serde_json::Value;
 use std::path::Path;
 
-/// Why a request has no answer.
+/// The reason why a request has no result.
 #[derive(Clone, Debug)]
 pub(super) enum Failure {
-    /// Its params are not those of its method.
+    /// The params are invalid.
     Params(String),
-    /// A later edit made it pointless.
+    /// A later edit has cancelled the request.
     Modified,
-    /// It cannot be done; this is to be told.
+    /// The request cannot be fulfilled; the text is for the user.
     Refused(String),
-    /// The server has a mistake.
+    /// The handler has panicked.
     Panicked(String),
 }
 
-/// How a method is answered.
+/// A method of the protocol with its handler.
 pub(super) struct Method {
-    /// Its name in the protocol.
+    /// The name in the protocol.
     pub name: &'static str,
-    /// Whether its answer is worth as much for a later text: what names no position.
+    /// Whether the request is retried on a later text; it must name no position.
     pub is_retried: bool,
-    /// On which threads.
+    /// The threads that it runs on.
     pub kind: TaskKind,
-    /// From its params to its answer.
+    /// The handler.
     pub answer: fn(&ProtocolContext, Value) -> Result<Value, Failure>,
 }
 
-/// Every request that is answered from a snapshot alone, by name.
+/// The methods that are answered from a snapshot alone, by name.
 pub(super) const TABLE: &[Method] = &[
-    weighed::<lsp::CodeActionRequest>(|context, params| {
-        answered::<lsp::CodeActionRequest>(context, params, edits::actions)
+    slow_method::<lsp::CodeActionRequest>(|context, params| {
+        run::<lsp::CodeActionRequest>(context, params, edits::actions)
     }),
     method::<lsp::CodeLensRequest>(true, |context, params| {
-        answered::<lsp::CodeLensRequest>(context, params, annotations::lenses)
+        run::<lsp::CodeLensRequest>(context, params, annotations::lenses)
     }),
     method::<lsp::CompletionRequest>(false, |context, params| {
-        answered::<lsp::CompletionRequest>(context, params, completion::completion)
+        run::<lsp::CompletionRequest>(context, params, completion::completion)
     }),
     method::<lsp::DefinitionRequest>(false, |context, params| {
-        answered::<lsp::DefinitionRequest>(context, params, navigate::definition)
+        run::<lsp::DefinitionRequest>(context, params, navigate::definition)
     }),
     method::<lsp::DocumentFormattingRequest>(false, |context, params| {
-        answered::<lsp::DocumentFormattingRequest>(context, params, edits::formatting)
+        run::<lsp::DocumentFormattingRequest>(context, params, edits::formatting)
     }),
     method::<lsp::DocumentHighlightRequest>(false, |context, params| {
-        answered::<lsp::DocumentHighlightRequest>(context, params, navigate::highlights)
+        run::<lsp::DocumentHighlightRequest>(context, params, navigate::highlights)
     }),
     method::<lsp::DocumentLinkRequest>(true, |context, params| {
-        answered::<lsp::DocumentLinkRequest>(context, params, navigate::links)
+        run::<lsp::DocumentLinkRequest>(context, params, navigate::links)
     }),
     method::<lsp::DocumentOnTypeFormattingRequest>(false, |context, params| {
-        answered::<lsp::DocumentOnTypeFormattingRequest>(context, params, edits::brace_formatting)
+        run::<lsp::DocumentOnTypeFormattingRequest>(context, params, edits::brace_formatting)
     }),
     method::<lsp::DocumentRangeFormattingRequest>(false, |context, params| {
-        answered::<lsp::DocumentRangeFormattingRequest>(context, params, edits::range_formatting)
+        run::<lsp::DocumentRangeFormattingRequest>(context, params, edits::range_formatting)
     }),
     method::<lsp::DocumentSymbolRequest>(true, |context, params| {
-        answered::<lsp::DocumentSymbolRequest>(context, params, symbols)
+        run::<lsp::DocumentSymbolRequest>(context, params, symbols)
     }),
     method::<lsp::FoldingRangeRequest>(true, |context, params| {
-        answered::<lsp::FoldingRangeRequest>(context, params, structure::folds)
+        run::<lsp::FoldingRangeRequest>(context, params, structure::folds)
     }),
-    method::<lsp::HoverRequest>(false, |context, params| answered::<lsp::HoverRequest>(context, params, hover)),
+    method::<lsp::HoverRequest>(false, |context, params| run::<lsp::HoverRequest>(context, params, hover)),
     method::<lsp::InlayHintRequest>(false, |context, params| {
-        answered::<lsp::InlayHintRequest>(context, params, annotations::hints)
+        run::<lsp::InlayHintRequest>(context, params, annotations::hints)
     }),
     method::<lsp::PrepareRenameRequest>(false, |context, params| {
-        tried::<lsp::PrepareRenameRequest>(context, params, navigate::prepare_rename)
+        try_run::<lsp::PrepareRenameRequest>(context, params, navigate::prepare_rename)
     }),
     method::<lsp::ReferencesRequest>(false, |context, params| {
-        answered::<lsp::ReferencesRequest>(context, params, navigate::references)
+        run::<lsp::ReferencesRequest>(context, params, navigate::references)
     }),
-    weighed::<lsp::RenameRequest>(|context, params| tried::<lsp::RenameRequest>(context, params, navigate::rename)),
+    slow_method::<lsp::RenameRequest>(|context, params| {
+        try_run::<lsp::RenameRequest>(context, params, navigate::rename)
+    }),
     method::<lsp::SelectionRangeRequest>(false, |context, params| {
-        answered::<lsp::SelectionRangeRequest>(context, params, structure::selections)
+        run::<lsp::SelectionRangeRequest>(context, params, structure::selections)
     }),
     method::<lsp::SemanticTokensRangeRequest>(false, |context, params| {
-        answered::<lsp::SemanticTokensRangeRequest>(context, params, tokens::in_range)
+        run::<lsp::SemanticTokensRangeRequest>(context, params, tokens::in_range)
     }),
     method::<lsp::SemanticTokensRequest>(true, |context, params| {
-        answered::<lsp::SemanticTokensRequest>(context, params, tokens::all)
+        run::<lsp::SemanticTokensRequest>(context, params, tokens::all)
     }),
     method::<lsp::SignatureHelpRequest>(false, |context, params| {
-        answered::<lsp::SignatureHelpRequest>(context, params, signature::signatures)
+        run::<lsp::SignatureHelpRequest>(context, params, signature::signatures)
     }),
     method::<lsp::WorkspaceSymbolRequest>(true, |context, params| {
-        answered::<lsp::WorkspaceSymbolRequest>(context, params, navigate::workspace_symbols)
+        run::<lsp::WorkspaceSymbolRequest>(context, params, navigate::workspace_symbols)
     }),
 ];
 
@@ -107,32 +109,32 @@ const fn method<R: Request>(is_retried: bool, answer: fn(&ProtocolContext, Value
     Method { name: R::METHOD.as_str(), is_retried, kind: TaskKind::Request, answer }
 }
 
-/// One that takes a proof, or checks of what would be: others do not wait for it.
-const fn weighed<R: Request>(answer: fn(&ProtocolContext, Value) -> Result<Value, Failure>) -> Method {
+/// Creates a method that needs a proof or checks changed texts, on a thread of its own.
+const fn slow_method<R: Request>(answer: fn(&ProtocolContext, Value) -> Result<Value, Failure>) -> Method {
     Method { kind: TaskKind::Slow, ..method::<R>(false, answer) }
 }
 
-/// Reads the params, and writes the answer; what a snapshot gives that was cancelled is none.
-fn answered<R: Request>(
+/// Parses the params, calls a handler and encodes its result; the result of a cancelled snapshot is discarded.
+fn run<R: Request>(
     context: &ProtocolContext,
     params: Value,
     answer: fn(&ProtocolContext, &R::Params) -> R::Result,
 ) -> Result<Value, Failure> {
     let params = serde_json::from_value(params).map_err(|error| Failure::Params(error.to_string()))?;
-    written::<R>(context, Ok(answer(context, &params)))
+    encode::<R>(context, Ok(answer(context, &params)))
 }
 
-/// The same of what may be refused.
-fn tried<R: Request>(
+/// Runs a handler that may refuse the request.
+fn try_run<R: Request>(
     context: &ProtocolContext,
     params: Value,
     answer: fn(&ProtocolContext, &R::Params) -> Result<R::Result, Failure>,
 ) -> Result<Value, Failure> {
     let params = serde_json::from_value(params).map_err(|error| Failure::Params(error.to_string()))?;
-    written::<R>(context, answer(context, &params))
+    encode::<R>(context, answer(context, &params))
 }
 
-fn written<R: Request>(context: &ProtocolContext, answer: Result<R::Result, Failure>) -> Result<Value, Failure> {
+fn encode<R: Request>(context: &ProtocolContext, answer: Result<R::Result, Failure>) -> Result<Value, Failure> {
     if context.snapshot.is_cancelled() {
         return Err(Failure::Modified);
     }

@@ -1,11 +1,11 @@
-//! Live pages of texts: a workshop for each, whose files are the editor's buffers. A page whose text the editor closes follows the file.
+//! Live pages of texts: a session for each, whose files are the editor's buffers. The page of a closed text follows the file on disk.
 //!
-//! What pages ask is answered in threads of their own, and new versions are looked at a moment after the last keystroke: who types waits
-//! for none of it.
+//! Requests of pages are answered on threads of their own, and sessions reload a moment after the last keystroke, so typing waits for
+//! none of it.
 
 use crossbeam_channel::{Receiver, RecvTimeoutError, Sender, bounded};
 use mechc_engine::analysis::Times;
-use mechc_live::{Host, MotionRequest, Server, RunningServer, LiveSession, WriteRequest};
+use mechc_live::{Host, LiveSession, MotionRequest, RunningServer, Server, WriteRequest};
 use mechc_pipeline::{Choice, Compiled, Redundant};
 use mechc_text::cancel::Cancel;
 use mechc_text::diag::{Code, Diagnostic, Diagnostics};
@@ -19,59 +19,59 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread;
 use std::time::Duration;
 
-/// A page is told of another text once nobody has typed for so long.
-const DELAY: Duration = Duration::from_millis(120);
-/// How often it is looked whether a page is still there, of one that nothing is told.
-const PULSE: Duration = Duration::from_secs(2);
-/// A client that has not said by then whether it has edited a text does not say it: its user may be asked first.
-const EDITED: Duration = Duration::from_secs(60);
+/// The pause in typing after which pages reload.
+const RELOAD_DELAY: Duration = Duration::from_millis(120);
+/// The interval of checks whether a session without news still exists.
+const SESSION_CHECK: Duration = Duration::from_secs(2);
+/// The time to wait for the client's response to an edit; it may ask its user first.
+const EDIT_TIMEOUT: Duration = Duration::from_secs(60);
 
-/// What pages have for the client.
+/// A message of a page to the client.
 pub(super) enum Event {
-    /// It is told something.
-    Tell(&'static str, Value),
-    /// A text is to stand in the place of that of a file.
-    WriteRequest(PendingWrite),
-    /// A place of a file (UTF-16) is to be shown.
+    /// A notification.
+    Notify(&'static str, Value),
+    /// A new text for a file.
+    Write(PendingWrite),
+    /// A position of a file (UTF-16) to show.
     Show(Arc<Path>, u32),
 }
 
-/// A text that is to stand in the place of another one.
+/// A new text for a file, to be written by the client.
 pub(super) struct PendingWrite {
     pub path: Arc<Path>,
-    /// The one that the page shows: another one is not edited.
+    /// The text that the page shows; a different one is not edited.
     pub before: String,
     pub text: String,
-    pub done: Sender<WriteOutcome>,
+    pub outcome: Sender<WriteOutcome>,
 }
 
-/// What came of it: whether that text was still the one, or why the client did not edit it.
+/// The outcome of write: whether the text was still the expected one, or why the client did not edit it.
 pub(super) type WriteOutcome = Result<bool, String>;
 
-/// The pages of a session.
+/// The live pages of an editor's session.
 pub(super) struct LivePages {
     shared: Arc<Shared>,
-    /// Says that some text is another one; made with the first page.
+    /// Wakes the thread that reloads sessions; created with the first page.
     wake: Option<Sender<()>>,
 }
 
 struct Shared {
-    /// The editor's buffers as of now, with the files behind them.
+    /// The editor's current buffers.
     buffers: Mutex<Arc<dyn World>>,
     open: Mutex<Vec<Arc<LivePage>>>,
-    tell: Sender<Event>,
+    events: Sender<Event>,
 }
 
 struct LivePage {
     path: Arc<Path>,
     mechanism: Option<String>,
     session: Arc<LiveSession>,
-    serving: Mutex<Option<RunningServer>>,
-    /// Whether a panel is told of what is new.
+    server: Mutex<Option<RunningServer>>,
+    /// Whether a thread notifies a panel of changes.
     has_panel: AtomicBool,
 }
 
-/// A text whose page is meant: the file, as the client calls it, and which mechanism of it.
+/// The identity of a page: a file with its URI, and a mechanism of it.
 pub(super) struct PageId {
     pub path: Arc<Path>,
     pub uri: String,
@@ -79,75 +79,76 @@ pub(super) struct PageId {
 }
 
 impl LivePages {
-    pub fn new(buffers: Arc<dyn World>, tell: Sender<Event>) -> LivePages {
-        let shared = Shared { buffers: Mutex::new(buffers), open: Mutex::default(), tell };
+    pub fn new(buffers: Arc<dyn World>, events: Sender<Event>) -> LivePages {
+        let shared = Shared { buffers: Mutex::new(buffers), open: Mutex::default(), events };
         LivePages { shared: Arc::new(shared), wake: None }
     }
 
-    /// The buffers are others by now.
-    pub fn turn_to(&self, buffers: Arc<dyn World>) {
+    /// Replaces the buffers and wakes the thread that reloads sessions.
+    pub fn set_buffers(&self, buffers: Arc<dyn World>) {
         let Some(wake) = &self.wake else {
             *lock(&self.shared.buffers) = buffers;
             return;
         };
         *lock(&self.shared.buffers) = buffers;
-        // one that is full wakes anyway
+        // a full channel wakes the thread anyway
         let _ = wake.try_send(());
     }
 
-    /// The address of a page in a browser.
-    pub fn address(&mut self, meant: PageId) -> Result<Value, String> {
-        let view = self.view(meant);
-        let mut serving = lock(&view.serving);
-        if serving.is_none() {
-            let served = Server::bind(0).and_then(|server| server.serve(&view.session));
-            *serving = Some(served.map_err(|error| error.to_string())?);
+    /// Returns the address of a page for a browser.
+    pub fn address(&mut self, id: PageId) -> Result<Value, String> {
+        let page = self.page(id);
+        let mut server = lock(&page.server);
+        if server.is_none() {
+            let running = Server::bind(0).and_then(|server| server.serve(&page.session));
+            *server = Some(running.map_err(|error| error.to_string())?);
         }
-        Ok(json!({ "url": serving.as_ref().map(RunningServer::url) }))
+        Ok(json!({ "url": server.as_ref().map(RunningServer::url) }))
     }
 
-    /// The page itself, for a panel of the editor, which asks in its name.
-    pub fn panel(&mut self, meant: PageId) -> Value {
-        let uri = meant.uri.clone();
-        let view = self.view(meant);
-        let page = json!({ "html": mechc_live::page::shell() });
-        if view.has_panel.swap(true, Ordering::AcqRel) {
-            // one that is made anew asks by itself what there is
-            return page;
+    /// Returns the page itself for a panel of the editor, which sends the page's requests.
+    pub fn panel(&mut self, id: PageId) -> Value {
+        let uri = id.uri.clone();
+        let page = self.page(id);
+        let html = json!({ "html": mechc_live::page::shell() });
+        if page.has_panel.swap(true, Ordering::AcqRel) {
+            // a panel that is opened again requests the state by itself
+            return html;
         }
-        let (weak, told_of) = (Arc::downgrade(&view.session), self.shared.tell.clone());
-        let tell = move || {
-            let mut told = None;
+        let (weak, events) = (Arc::downgrade(&page.session), self.shared.events.clone());
+        let notify = move || {
+            let mut last = None;
             while let Some(session) = weak.upgrade() {
-                let news = session.news(told.as_ref(), PULSE);
-                if let Some(news) = &news {
-                    let mut params = news.told();
+                let status = session.wait_for_change(last.as_ref(), SESSION_CHECK);
+                if let Some(status) = &status {
+                    let mut params = status.to_json();
                     params["uri"] = json!(uri);
-                    if told_of.send(Event::Tell("mechc/view/news", params)).is_err() {
+                    if events.send(Event::Notify("mechc/view/news", params)).is_err() {
                         return;
                     }
                 }
-                told = news.or(told);
+                last = status.or(last);
             }
         };
-        let _ = thread::Builder::new().name("live news".to_owned()).spawn(tell);
-        page
+        let _ = thread::Builder::new().name("live news".to_owned()).spawn(notify);
+        html
     }
 
-    /// A panel is closed; of its page there is nothing left, unless a browser has it too.
-    pub fn leave(&self, path: &Path, mechanism: Option<&str>) {
-        let is_left = |view: &LivePage| *view.path == *path && view.mechanism.as_deref() == mechanism;
-        lock(&self.shared.open).retain(|view| !is_left(view) || lock(&view.serving).is_some());
+    /// Closes the session of a panel, unless a browser has the page too.
+    pub fn close_panel(&self, path: &Path, mechanism: Option<&str>) {
+        let is_closed = |page: &LivePage| *page.path == *path && page.mechanism.as_deref() == mechanism;
+        lock(&self.shared.open).retain(|page| !is_closed(page) || lock(&page.server).is_some());
     }
 
-    /// What a panel asks; it is answered when it is known.
-    pub fn ask(&mut self, meant: PageId, asked: &Value, answer: impl FnOnce(Result<Value, String>) + Send + 'static) {
-        let view = self.view(meant);
-        let body = asked.to_string();
+    /// Answers a panel's request for data on a thread of its own.
+    pub fn ask(&mut self, id: PageId, request: &Value, answer: impl FnOnce(Result<Value, String>) + Send + 'static) {
+        let page = self.page(id);
+        let body = request.to_string();
         let work = move || {
-            answer(match MotionRequest::of(body.as_bytes()) {
-                Ok(asked) => {
-                    Ok(json!({ "data": mechc_live::page::base64(&view.session.answer(&asked, &Cancel::default())) }))
+            answer(match MotionRequest::parse(body.as_bytes()) {
+                Ok(request) => {
+                    let response = page.session.answer(&request, &Cancel::default());
+                    Ok(json!({ "data": mechc_live::page::base64(&response) }))
                 }
                 Err(why) => Err(why.to_owned()),
             });
@@ -155,68 +156,68 @@ impl LivePages {
         let _ = thread::Builder::new().name("live answer".to_owned()).stack_size(8 << 20).spawn(work);
     }
 
-    /// Values that a panel writes.
-    pub fn write(&mut self, meant: PageId, write: &Value, answer: impl FnOnce(Result<Value, String>) + Send + 'static) {
-        let view = self.view(meant);
+    /// Writes the values of a panel's request, on a thread of its own.
+    pub fn write(&mut self, id: PageId, write: &Value, answer: impl FnOnce(Result<Value, String>) + Send + 'static) {
+        let page = self.page(id);
         let body = write.to_string();
         let work = move || {
-            answer(WriteRequest::of(body.as_bytes()).map(|write| view.session.write(&write)).map_err(str::to_owned));
+            answer(WriteRequest::parse(body.as_bytes()).map(|write| page.session.write(&write)).map_err(str::to_owned));
         };
         let _ = thread::Builder::new().name("live write".to_owned()).stack_size(8 << 20).spawn(work);
     }
 
-    /// The cursor is at a place of a file (UTF-16).
-    pub fn point(&self, path: &Path, at: u32) {
+    /// Passes the position of the cursor in a file (UTF-16) to all pages.
+    pub fn set_cursor(&self, path: &Path, at: u32) {
         let open: Vec<Arc<LivePage>> = lock(&self.shared.open).clone();
-        for view in open {
-            view.session.point(path, at);
+        for page in open {
+            page.session.set_cursor(path, at);
         }
     }
 
-    fn view(&mut self, meant: PageId) -> Arc<LivePage> {
-        let PageId { path, mechanism, .. } = meant;
+    fn page(&mut self, id: PageId) -> Arc<LivePage> {
+        let PageId { path, mechanism, .. } = id;
         if self.wake.is_none() {
             let (wake, woken) = bounded(1);
             let shared = Arc::downgrade(&self.shared);
-            let look = move || look(&woken, &shared);
-            if thread::Builder::new().name("live look".to_owned()).spawn(look).is_ok() {
+            let reload = move || reload_sessions(&woken, &shared);
+            if thread::Builder::new().name("live reload".to_owned()).spawn(reload).is_ok() {
                 self.wake = Some(wake);
             }
         }
         let mut open = lock(&self.shared.open);
-        if let Some(view) = open.iter().find(|view| view.path == path && view.mechanism == mechanism) {
-            return Arc::clone(view);
+        if let Some(page) = open.iter().find(|page| page.path == path && page.mechanism == mechanism) {
+            return Arc::clone(page);
         }
         let choice = Choice { mechanism: mechanism.clone(), pictures_forces: true, ..Choice::default() };
         let host = Editor { shared: Arc::clone(&self.shared), path: Arc::clone(&path) };
-        let session = Arc::new(LiveSession::new(&path, choice, (Redundant::Refused, false), Box::new(host)));
-        let view = LivePage { path, mechanism, session, serving: Mutex::default(), has_panel: AtomicBool::default() };
-        let view = Arc::new(view);
-        open.push(Arc::clone(&view));
-        view
+        let session = Arc::new(LiveSession::new(&path, choice, Redundant::Refused, false, Box::new(host)));
+        let page = LivePage { path, mechanism, session, server: Mutex::default(), has_panel: AtomicBool::default() };
+        let page = Arc::new(page);
+        open.push(Arc::clone(&page));
+        page
     }
 }
 
 impl Drop for LivePages {
     fn drop(&mut self) {
-        // their hosts hold what holds them
+        // hosts hold `Shared`, which holds the pages: the cycle must be broken
         lock(&self.shared.open).clear();
     }
 }
 
-/// Looks at all texts that have pages, a moment after the last keystroke.
-fn look(woken: &Receiver<()>, shared: &std::sync::Weak<Shared>) {
+/// Reloads the sessions of all pages a moment after the last keystroke.
+fn reload_sessions(woken: &Receiver<()>, shared: &std::sync::Weak<Shared>) {
     while woken.recv().is_ok() {
-        while woken.recv_timeout(DELAY).is_ok() {}
+        while woken.recv_timeout(RELOAD_DELAY).is_ok() {}
         let Some(shared) = shared.upgrade() else { return };
         let open: Vec<Arc<LivePage>> = lock(&shared.open).clone();
-        for view in open {
-            view.session.look();
+        for page in open {
+            page.session.reload();
         }
     }
 }
 
-/// The editor as the host of a page.
+/// The host of a page: the editor.
 struct Editor {
     shared: Arc<Shared>,
     path: Arc<Path>,
@@ -229,35 +230,35 @@ impl Host for Editor {
 
     fn times(&self, compiled: &Compiled, _: &mut Sources) -> Result<Times, Diagnostics> {
         compiled.times().ok_or_else(|| {
-            let said = Diagnostic::new(Code::E0705, "it is not said which times to compute");
-            said.help("add `analysis from 0 s to 1 s every 10 ms` to the file").into()
+            let diagnostic = Diagnostic::new(Code::E0705, "it is not said which times to compute");
+            diagnostic.help("add `analysis from 0 s to 1 s every 10 ms` to the file").into()
         })
     }
 
-    /// The editor changes its text, which its user saves.
+    /// Asks the editor to change its text, which the user saves.
     fn write(&self, text: &str, is_due: &dyn Fn() -> bool) -> Result<bool, String> {
-        // what is typed from here on makes it another text than this one, which is looked at again where the client's edits come in
+        // if the user types from here on, the server finds a text other than `before` and does not edit it
         let before = self.world().read(&self.path).map_err(|why| why.to_string())?;
         let before = String::from_utf8_lossy(&before.bytes).into_owned();
         if !is_due() {
             return Ok(false);
         }
-        let (done, written) = bounded(1);
-        let writing = PendingWrite { path: Arc::clone(&self.path), before, text: text.to_owned(), done };
+        let (outcome, written) = bounded(1);
+        let write = PendingWrite { path: Arc::clone(&self.path), before, text: text.to_owned(), outcome };
         let gone = || "the editor is gone".to_owned();
-        self.shared.tell.send(Event::WriteRequest(writing)).map_err(|_| gone())?;
-        written.recv_timeout(EDITED).map_err(|why| match why {
+        self.shared.events.send(Event::Write(write)).map_err(|_| gone())?;
+        written.recv_timeout(EDIT_TIMEOUT).map_err(|why| match why {
             RecvTimeoutError::Timeout => "nothing was written: the editor does not say whether it did".to_owned(),
             RecvTimeoutError::Disconnected => gone(),
         })?
     }
 
     fn show(&self, at: u32) {
-        let _ = self.shared.tell.send(Event::Show(Arc::clone(&self.path), at));
+        let _ = self.shared.events.send(Event::Show(Arc::clone(&self.path), at));
     }
 }
 
-/// What of a text is another one in a new text: where, and what stands there.
+/// Returns the range of the old text that differs from the new one, and its replacement.
 pub(super) fn difference<'n>(old: &str, new: &'n str) -> (Range<u32>, &'n str) {
     let same = |mut pairs: Box<dyn Iterator<Item = (char, char)> + '_>| -> usize {
         pairs.by_ref().take_while(|(a, b)| a == b).map(|(a, _)| a.len_utf8()).sum()

@@ -1,4 +1,4 @@
-//! What could be written at a place.
+//! Completion.
 
 use crate::lsp::capabilities::Ability;
 use crate::lsp::convert::{ProtocolContext, markdown};
@@ -8,19 +8,24 @@ use gen_lsp_types as lsp;
 pub(super) fn completion(context: &ProtocolContext, params: &lsp::CompletionParams) -> Option<lsp::CompletionResponse> {
     let position = context.position(&params.text_document_position_params)?;
     let ide::Completions { items, is_incomplete } = ide::completions(&context.snapshot, &position)?;
-    // all of them replace the same
+    // all items replace the same range
     let range = context.range(&position.path, &items.first().map_or(0..0, |item| item.replaces.clone()))?;
     let items = items.into_iter().enumerate().map(|(number, item)| item_of(context, number, item, range));
     let items: Vec<lsp::CompletionItem> = items.collect();
     Some(if is_incomplete {
-        // the client asks again for other letters
+        // the client requests the list again for other letters
         lsp::CompletionList { is_incomplete, items, ..lsp::CompletionList::default() }.into()
     } else {
         items.into()
     })
 }
 
-fn item_of(context: &ProtocolContext, number: usize, item: ide::CompletionItem, range: lsp::Range) -> lsp::CompletionItem {
+fn item_of(
+    context: &ProtocolContext,
+    number: usize,
+    item: ide::CompletionItem,
+    range: lsp::Range,
+) -> lsp::CompletionItem {
     let has_snippets = context.client.can(Ability::Snippets);
     let is_snippet = has_snippets && !item.insert.holes.is_empty();
     let new_text = match has_snippets {
@@ -46,7 +51,7 @@ fn item_of(context: &ProtocolContext, number: usize, item: ide::CompletionItem, 
     }
 }
 
-/// A template in the protocol's own form.
+/// Converts a template to a snippet of the protocol.
 fn snippet(template: &Template) -> String {
     let plain = |text: &str| text.replace('\\', "\\\\").replace('$', "\\$").replace('}', "\\}");
     let (mut snippet, mut end) = (String::new(), 0);
@@ -83,8 +88,8 @@ mod tests {
     use crate::Template;
 
     #[test]
-    fn what_means_something_in_snippets_is_escaped() {
-        let template = Template::marked("body «a$b» {\n    «»\n}");
+    fn special_characters_of_snippets_are_escaped() {
+        let template = Template::from_marked("body «a$b» {\n    «»\n}");
         assert_eq!(snippet(&template), "body ${1:a\\$b} {\n    ${2:}\n\\}");
     }
 }

@@ -1,11 +1,14 @@
-//! Changes of texts that a client can ask for: fixes, refactorings, formatting.
+//! Code actions and formatting.
 
 use crate::lsp::convert::ProtocolContext;
 use crate::{self as ide, ActionKind, FormatScope};
 use gen_lsp_types as lsp;
 use serde_json::Value;
 
-pub(super) fn actions(context: &ProtocolContext, params: &lsp::CodeActionParams) -> Option<Vec<lsp::CodeActionResponse>> {
+pub(super) fn actions(
+    context: &ProtocolContext,
+    params: &lsp::CodeActionParams,
+) -> Option<Vec<lsp::CodeActionResponse>> {
     let path = context.path(&params.text_document.uri);
     let range = context.bytes(&params.text_document, &params.range)?;
     let of = |action: ide::Action| {
@@ -15,11 +18,11 @@ pub(super) fn actions(context: &ProtocolContext, params: &lsp::CodeActionParams)
             ActionKind::Extract => lsp::CodeActionKind::RefactorExtract,
             ActionKind::Drive => lsp::CodeActionKind::RefactorRewrite,
         };
-        if !is_asked(params.context.only.as_deref(), &kind) {
+        if !is_requested(params.context.only.as_deref(), &kind) {
             return None;
         }
         let action = lsp::CodeAction {
-            diagnostics: action.mends.and_then(|said| context.diagnostic(&path, &said)).map(|said| vec![said]),
+            diagnostics: action.fixes.and_then(|fixed| context.diagnostic(&path, &fixed)).map(|diagnostic| vec![diagnostic]),
             is_preferred: action.is_preferred.then_some(true),
             edit: Some(context.edit(&action.changes)?),
             title: action.title,
@@ -31,19 +34,22 @@ pub(super) fn actions(context: &ProtocolContext, params: &lsp::CodeActionParams)
     Some(ide::actions(&context.snapshot, &path, &range)?.into_iter().filter_map(of).collect())
 }
 
-/// Whether a kind is one of those that are asked for, or is a part of one: `source` holds `source.fixAll`.
-fn is_asked(only: Option<&[lsp::CodeActionKind]>, kind: &lsp::CodeActionKind) -> bool {
+/// Returns whether a kind of action is requested, directly or by a parent: `source` includes `source.fixAll`.
+fn is_requested(only: Option<&[lsp::CodeActionKind]>, kind: &lsp::CodeActionKind) -> bool {
     let name = |kind: &lsp::CodeActionKind| match serde_json::to_value(kind) {
         Ok(Value::String(name)) => name,
         _ => String::new(),
     };
     let kind = name(kind);
     only.is_none_or(|only| {
-        only.iter().map(name).any(|asked| asked.is_empty() || kind == asked || kind.starts_with(&format!("{asked}.")))
+        only.iter().map(name).any(|only| only.is_empty() || kind == only || kind.starts_with(&format!("{only}.")))
     })
 }
 
-pub(super) fn formatting(context: &ProtocolContext, params: &lsp::DocumentFormattingParams) -> Option<Vec<lsp::TextEdit>> {
+pub(super) fn formatting(
+    context: &ProtocolContext,
+    params: &lsp::DocumentFormattingParams,
+) -> Option<Vec<lsp::TextEdit>> {
     formatted(context, &params.text_document, &FormatScope::Whole)
 }
 
@@ -52,7 +58,7 @@ pub(super) fn range_formatting(
     params: &lsp::DocumentRangeFormattingParams,
 ) -> Option<Vec<lsp::TextEdit>> {
     let range = context.bytes(&params.text_document, &params.range)?;
-    formatted(context, &params.text_document, &FormatScope::In(range))
+    formatted(context, &params.text_document, &FormatScope::Lines(range))
 }
 
 pub(super) fn brace_formatting(
@@ -64,8 +70,12 @@ pub(super) fn brace_formatting(
     formatted(context, &params.text_document, &FormatScope::AtBrace(position.offset))
 }
 
-fn formatted(context: &ProtocolContext, document: &lsp::TextDocumentIdentifier, what: &FormatScope) -> Option<Vec<lsp::TextEdit>> {
+fn formatted(
+    context: &ProtocolContext,
+    document: &lsp::TextDocumentIdentifier,
+    scope: &FormatScope,
+) -> Option<Vec<lsp::TextEdit>> {
     let path = context.path(&document.uri);
-    let changes = ide::formatting(&context.snapshot, &path, what)?;
+    let changes = ide::formatting(&context.snapshot, &path, scope)?;
     Some(changes.iter().filter_map(|change| context.text_edit(change)).collect())
 }

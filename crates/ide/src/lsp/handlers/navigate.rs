@@ -1,4 +1,4 @@
-//! Where names lead, and what new name they can have.
+//! Navigation and renaming.
 
 use super::Failure;
 use crate as ide;
@@ -29,7 +29,10 @@ pub(super) fn references(context: &ProtocolContext, params: &lsp::ReferenceParam
     Some(found.iter().filter_map(|position| context.location(position)).collect())
 }
 
-pub(super) fn highlights(context: &ProtocolContext, params: &lsp::DocumentHighlightParams) -> Option<Vec<lsp::DocumentHighlight>> {
+pub(super) fn highlights(
+    context: &ProtocolContext,
+    params: &lsp::DocumentHighlightParams,
+) -> Option<Vec<lsp::DocumentHighlight>> {
     let position = context.position(&params.text_document_position_params)?;
     let found = ide::highlights(&context.snapshot, &position)?;
     let of = |one: &ide::Highlight| {
@@ -80,7 +83,10 @@ pub(super) fn prepare_rename(
     Ok(context.range(&position.path, &named.range()).map(Into::into))
 }
 
-pub(super) fn rename(context: &ProtocolContext, params: &lsp::RenameParams) -> Result<Option<lsp::WorkspaceEdit>, Failure> {
+pub(super) fn rename(
+    context: &ProtocolContext,
+    params: &lsp::RenameParams,
+) -> Result<Option<lsp::WorkspaceEdit>, Failure> {
     let Some(position) = context.position(&params.text_document_position_params) else { return Ok(None) };
     let changes = ide::rename(&context.snapshot, &position, &params.new_name).map_err(Failure::Refused)?;
     Ok(context.edit(&changes))

@@ -13,7 +13,7 @@ pub(super) fn signatures(context: &ProtocolContext, params: &lsp::SignatureHelpP
     Some(lsp::SignatureHelp { signatures, active_signature: Some(found.active as u32), active_parameter: argument })
 }
 
-/// Places in labels are in UTF-16, whatever those in texts are in.
+/// Converts a signature. Ranges in labels are in UTF-16, whatever encoding the client uses for texts.
 fn signature(form: ide::Signature) -> lsp::SignatureInformation {
     let at = |byte: usize| Encoding::Utf16.length(&form.label[..byte]) as u32;
     let argument = |range: &std::ops::Range<usize>| lsp::ParameterInformation {

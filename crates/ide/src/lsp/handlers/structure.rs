@@ -1,4 +1,4 @@
-//! The shape of a text.
+//! Folding ranges and selection ranges.
 
 use crate::lsp::capabilities::Ability;
 use crate::lsp::convert::ProtocolContext;
@@ -10,11 +10,11 @@ pub(super) fn folds(context: &ProtocolContext, params: &lsp::FoldingRangeParams)
     let path = context.path(&params.text_document.uri);
     let of = |fold: &ide::Fold| {
         let lsp::Range { start, end } = context.range(&path, &fold.range)?;
-        // who folds whole lines still sees the brace that closes
-        let is_cut = context.client.can(Ability::LineFolding) && fold.kind == FoldKind::Inside;
+        // a client that folds whole lines should still show the closing brace
+        let is_cut = context.client.can(Ability::LineFolding) && fold.kind == FoldKind::Block;
         let end_line = end.line - u32::from(is_cut);
         let kind = match fold.kind {
-            FoldKind::Inside => None,
+            FoldKind::Block => None,
             FoldKind::Comment => Some(lsp::FoldingRangeKind::Comment),
             FoldKind::Uses => Some(lsp::FoldingRangeKind::Imports),
         };
@@ -31,16 +31,19 @@ pub(super) fn folds(context: &ProtocolContext, params: &lsp::FoldingRangeParams)
     Some(ide::folds(&context.snapshot, &path)?.iter().filter_map(of).collect())
 }
 
-pub(super) fn selections(context: &ProtocolContext, params: &lsp::SelectionRangeParams) -> Option<Vec<lsp::SelectionRange>> {
+pub(super) fn selections(
+    context: &ProtocolContext,
+    params: &lsp::SelectionRangeParams,
+) -> Option<Vec<lsp::SelectionRange>> {
     let of = |position: &lsp::Position| {
         let text_document = params.text_document.clone();
         let position = context.position(&lsp::TextDocumentPositionParams { text_document, position: *position })?;
-        nested(context, &position.path, &ide::around(&context.snapshot, &position)?)
+        nested(context, &position.path, &ide::selection_ranges(&context.snapshot, &position)?)
     };
     params.positions.iter().map(of).collect()
 }
 
-/// Ranges, each in the next one.
+/// Converts nested ranges, innermost first.
 fn nested(context: &ProtocolContext, path: &std::path::Path, ranges: &[Range<u32>]) -> Option<lsp::SelectionRange> {
     let mut outer = None;
     for range in ranges.iter().rev() {

@@ -5,8 +5,8 @@ use crate::{self as ide, SemanticToken, TokenKind};
 use gen_lsp_types as lsp;
 use std::ops::Range;
 
-/// The types of the protocol for the kinds of names and words.
-const OF_KINDS: &[(TokenKind, &str)] = &[
+/// The protocol's types of tokens for the kinds of names and words, in the order of the legend.
+const TOKEN_TYPES: &[(TokenKind, &str)] = &[
     (TokenKind::Mechanism, "class"),
     (TokenKind::Part, "namespace"),
     (TokenKind::Body, "struct"),
@@ -20,21 +20,24 @@ const OF_KINDS: &[(TokenKind, &str)] = &[
     (TokenKind::Keyword, "keyword"),
 ];
 
-/// The legend: types, in the order of their numbers.
-pub(in crate::lsp) fn types() -> Vec<&'static str> {
-    OF_KINDS.iter().map(|(_, name)| *name).collect()
+/// Returns the types of the legend.
+pub(in crate::lsp) fn token_types() -> Vec<&'static str> {
+    TOKEN_TYPES.iter().map(|(_, name)| *name).collect()
 }
 
-/// The legend: modifiers, in the order of their bits.
-pub(in crate::lsp) const MODIFIERS: [&str; 3] = ["declaration", "readonly", "defaultLibrary"];
+/// The modifiers of the legend, in the order of their bits.
+pub(in crate::lsp) const TOKEN_MODIFIERS: [&str; 3] = ["declaration", "readonly", "defaultLibrary"];
 
 pub(super) fn all(context: &ProtocolContext, params: &lsp::SemanticTokensParams) -> Option<lsp::SemanticTokens> {
     encoded(context, &params.text_document.uri, &(0..u32::MAX))
 }
 
-pub(super) fn in_range(context: &ProtocolContext, params: &lsp::SemanticTokensRangeParams) -> Option<lsp::SemanticTokens> {
+pub(super) fn in_range(
+    context: &ProtocolContext,
+    params: &lsp::SemanticTokensRangeParams,
+) -> Option<lsp::SemanticTokens> {
     let uri = &params.text_document.uri;
-    encoded(context, uri, &context.stretch(&context.path(uri), &params.range)?)
+    encoded(context, uri, &context.bytes_in(&context.path(uri), &params.range)?)
 }
 
 fn encoded(context: &ProtocolContext, uri: &lsp::Uri, range: &Range<u32>) -> Option<lsp::SemanticTokens> {
@@ -44,7 +47,7 @@ fn encoded(context: &ProtocolContext, uri: &lsp::Uri, range: &Range<u32>) -> Opt
         let lsp::Range { start, end } = context.range(&path, &token.range)?;
         let is_same_line = start.line == before.line;
         let delta_start = start.character - if is_same_line { before.character } else { 0 };
-        let kind = OF_KINDS.iter().position(|(kind, _)| *kind == token.kind)?;
+        let kind = TOKEN_TYPES.iter().position(|(kind, _)| *kind == token.kind)?;
         let marks = [token.declares, token.is_constant, token.is_of_language];
         let marks = marks.iter().enumerate().fold(0, |bits, (k, is)| bits | (u32::from(*is) << k));
         let encoded = lsp::SemanticToken {
