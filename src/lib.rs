@@ -38,7 +38,7 @@ pub use mechc_engine::sweep::{Levels, Method, Numbers, Points, Sampling, Status,
 pub use mechc_ir::layout::ColumnUnit;
 pub use mechc_lang::check::{DeclaredName, Meaning, NameId, NameKind, Symbols, Use};
 #[cfg(feature = "live")]
-pub use mechc_live::page::{picture, written as page};
+pub use mechc_live::page::{picture, render as page};
 pub use mechc_pipeline::output::{TableFormat, TableWriter};
 pub use mechc_pipeline::{
     Adjustable, Adjusting, Affected, AskedPlace, AskedTimes, Assembly, Checked, Choice, Compiled, CurveTolerance,

@@ -20,7 +20,7 @@ pub struct Action {
     pub title: String,
     /// The kind of action.
     pub kind: ActionKind,
-    /// Whether it is certainly what the user intends.
+    /// True if it is certainly what the user intends.
     pub is_preferred: bool,
     /// The diagnostic that it fixes.
     pub fixes: Option<EditorDiagnostic>,

@@ -36,7 +36,7 @@ const MAX_ITEMS: usize = 200;
 pub struct Completions {
     /// The items, best first.
     pub items: Vec<CompletionItem>,
-    /// Whether items were left out: the list then holds the best of those that match the letters typed.
+    /// True if items were left out: the list then holds the best of those that match the letters typed.
     pub is_incomplete: bool,
 }
 

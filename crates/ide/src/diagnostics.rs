@@ -55,7 +55,7 @@ pub struct Related {
 pub struct ProposedFix {
     /// The title.
     pub message: String,
-    /// Whether it may be applied without confirmation.
+    /// True if it may be applied without confirmation.
     pub is_certain: bool,
     /// The changes that it makes.
     pub changes: Vec<Change>,

@@ -78,7 +78,7 @@ pub(super) fn is_in_comment(text: &str, offset: usize) -> bool {
 pub(super) struct OpenCall {
     /// The name of the callee, with its prefix: `lever`, `legs.lever`.
     pub name: String,
-    /// Whether the callee follows the colon of a declaration: `joint a: revolute(`.
+    /// True if the callee follows the colon of a declaration: `joint a: revolute(`.
     pub is_kind: bool,
     /// The text between its parenthesis and the cursor.
     pub inside: String,

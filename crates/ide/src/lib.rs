@@ -57,6 +57,6 @@ pub use outline::{OutlineEntry, outline};
 pub use rename::{prepare_rename, rename};
 pub use signature::{Signature, Signatures, signatures};
 pub use snapshot::{CheckedFile, MotionOutcome, Proof, ResultValue, Snapshot, index_names};
-pub use structure::{Fold, FoldKind, selection_ranges, folds};
+pub use structure::{Fold, FoldKind, folds, selection_ranges};
 pub use tokens::{SemanticToken, TokenKind, tokens};
 pub use workspace::{WorkspaceName, files_in, is_mech, workspace_names};

@@ -21,7 +21,7 @@ pub struct FileRange {
     pub path: Arc<Path>,
     /// The first byte.
     pub start: u32,
-    /// One past the last byte.
+    /// The end: one past the last byte.
     pub end: u32,
 }
 

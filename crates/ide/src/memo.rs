@@ -41,7 +41,7 @@ mod tests {
     use super::Memo;
 
     #[test]
-    fn only_a_cancelled_value_is_computed_again() {
+    fn a_cancelled_value_is_recomputed() {
         let value = Memo::default();
         assert_eq!(value.get_or_compute(|| None), None);
         assert_eq!(value.get(), None);

@@ -22,7 +22,7 @@ pub struct Link {
 pub struct Highlight {
     /// The range of the name.
     pub range: Range<u32>,
-    /// Whether it is the declaration.
+    /// True if it is the declaration.
     pub declares: bool,
 }
 

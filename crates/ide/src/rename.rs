@@ -201,7 +201,7 @@ mod tests {
     }
 
     #[test]
-    fn a_name_changes_wherever_it_stands() {
+    fn a_name_changes_in_all_places() {
         insta::assert_snapshot!(renamed(FOUR_BAR, "body crank", "body cra$0nk", "arm"), @r"
         main.mech: body arm at (0, 0, 60 deg) {
         main.mech: joint main:  revolute(ground.A, arm.A)

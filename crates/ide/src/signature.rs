@@ -152,7 +152,7 @@ mod tests {
     }
 
     #[test]
-    fn own_functions_tables_and_parts_have_signatures() {
+    fn declared_functions_tables_and_parts_have_signatures() {
         assert_eq!(shown("fn swing(v) = v^2\nmeasure k = swing($0"), "> swing(‹v›)");
         assert_eq!(shown("table law = spline [(0, 1), (1, 2)]\nmeasure k = law($0)"), "> law(‹u›)");
         assert_eq!(shown("part p: lever($0)"), "> lever(reach = 80 mm, turn = t)");

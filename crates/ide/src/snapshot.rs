@@ -66,7 +66,7 @@ pub struct MotionOutcome {
     pub diagnostics: Diagnostics,
     /// The results of the motion.
     pub results: Vec<ResultValue>,
-    /// Whether the motion took too long; the results are then those of an earlier text, if any.
+    /// True if the motion took too long; the results are then those of an earlier text, if any.
     pub is_cut_short: bool,
 }
 

@@ -165,7 +165,7 @@ fn spans_of_feature(feature: &Feature, add: &mut impl FnMut(Span)) {
 
 #[cfg(test)]
 mod tests {
-    use super::{selection_ranges, folds};
+    use super::{folds, selection_ranges};
     use crate::testing::{FOUR_BAR, at_cursor};
 
     #[test]
@@ -173,15 +173,15 @@ mod tests {
         let text = "use \"a.mech\"\nuse \"b.mech\" as b\n// one\n// two\n\nmechanism m { // no\n    ground {\n        point A = (0, 0)\n    }\n    table t1 = spline [\n        (0, 0), (1, 1)\n    ]\n    body x { point P = (0, 0) }\n    joint j: revolute(\n        x.P,\n}\n";
         let (snapshot, position) = at_cursor(&format!("{text}$0"));
         let line = |at: u32| text[..at as usize].matches('\n').count() + 1;
-        let told = folds(&snapshot, &position.path).expect("a file").into_iter();
-        let told: Vec<_> =
-            told.map(|fold| format!("{}–{} {:?}", line(fold.range.start), line(fold.range.end), fold.kind)).collect();
-        insta::assert_snapshot!(told.join("\n"), @r"
+        let ranges = folds(&snapshot, &position.path).expect("a file").into_iter();
+        let ranges: Vec<_> =
+            ranges.map(|fold| format!("{}–{} {:?}", line(fold.range.start), line(fold.range.end), fold.kind)).collect();
+        insta::assert_snapshot!(ranges.join("\n"), @r"
         1–2 Uses
         3–4 Comment
-        6–16 Inside
-        7–9 Inside
-        10–12 Inside
+        6–16 Block
+        7–9 Block
+        10–12 Block
         ");
     }
 
@@ -198,9 +198,12 @@ mod tests {
                 text.to_owned()
             }
         };
-        let told: Vec<_> =
-            selection_ranges(&snapshot, &position).expect("a file").iter().map(|range| line(range).replace('\n', " ")).collect();
-        insta::assert_snapshot!(told.join("\n"), @r"
+        let ranges: Vec<_> = selection_ranges(&snapshot, &position)
+            .expect("a file")
+            .iter()
+            .map(|range| line(range).replace('\n', " "))
+            .collect();
+        insta::assert_snapshot!(ranges.join("\n"), @r"
         len
         2 * len
         crank_length + 2 * len

@@ -14,11 +14,11 @@ pub struct SemanticToken {
     pub range: Range<u32>,
     /// The kind of token.
     pub kind: TokenKind,
-    /// Whether it is declared here.
+    /// True if it is declared here.
     pub declares: bool,
-    /// Whether its value is constant.
+    /// True if its value is constant.
     pub is_constant: bool,
-    /// Whether it is a word of the language.
+    /// True if it is a word of the language.
     pub is_of_language: bool,
 }
 
@@ -133,7 +133,7 @@ mod tests {
     }
 
     #[test]
-    fn names_and_words_are_told_apart() {
+    fn names_and_words_have_kinds() {
         insta::assert_snapshot!(shown("\
 mechanism m {
     param A = (5 mm, 0)

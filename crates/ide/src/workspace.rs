@@ -30,7 +30,7 @@ const MAX_NAMES: usize = 500;
 pub struct WorkspaceName {
     /// Its name.
     pub name: String,
-    /// What it is.
+    /// The kind of declaration.
     pub kind: NameKind,
     /// The range of its name.
     pub location: FileRange,

@@ -16,7 +16,7 @@ pub struct ServerIdentity {
     pub token: String,
 }
 
-/// What a request asks for.
+/// An endpoint of the server.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Endpoint {
     /// The page itself, which contains no data of the text.

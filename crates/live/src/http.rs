@@ -25,7 +25,7 @@ pub(super) struct Head {
     pub headers: Vec<(String, String)>,
     /// The length of the body (bytes).
     pub length: usize,
-    /// Whether the connection stays open after the response.
+    /// True if the connection stays open after the response.
     pub keep_alive: bool,
 }
 

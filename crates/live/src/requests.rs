@@ -36,7 +36,7 @@ pub struct WriteRequest {
     pub version: u64,
     /// The values to write.
     pub changes: Vec<ValueChange>,
-    /// Whether the user has confirmed that formulas and shared values may be replaced.
+    /// True if the user has confirmed that formulas and shared values may be replaced.
     pub is_confirmed: bool,
 }
 

@@ -140,7 +140,7 @@ struct ServerState {
     listening: Arc<AtomicUsize>,
 }
 
-/// One of a limited number of slots, which is free again when this is dropped.
+/// A slot of a limited number; dropping it frees the slot.
 struct Slot(Arc<AtomicUsize>);
 
 impl Slot {

@@ -69,7 +69,7 @@ impl LiveStatus {
     }
 }
 
-/// One version of the texts, with the results computed from it.
+/// A version of the texts, with the results computed from it.
 struct Texts {
     version: u64,
     files: FileSnapshot,
@@ -573,8 +573,7 @@ mechanism disc {
         let disk = Arc::new(TestFiles::default());
         disk.has(MAIN);
         let host = Box::new(TestHost(Arc::clone(&disk)));
-        let session =
-            LiveSession::new(Path::new("disc.mech"), Choice::default(), Redundant::Refused, false, host);
+        let session = LiveSession::new(Path::new("disc.mech"), Choice::default(), Redundant::Refused, false, host);
         (disk, session)
     }
 

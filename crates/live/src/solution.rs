@@ -31,7 +31,7 @@ pub(super) struct Solution {
 /// The motion of a mechanism, or its picture at rest if it does not move.
 pub(super) struct Motion {
     pub visualization: Option<Seen>,
-    /// All diagnostics of the mechanism.
+    /// The diagnostics of the mechanism and its motion.
     diagnostics: Diagnostics,
 }
 
@@ -267,7 +267,7 @@ impl SolutionBuilder<'_> {
     }
 }
 
-/// How far inputs that are moved by hand have got.
+/// The outcome of moving inputs by hand.
 pub(super) struct MoveOutcome {
     /// Names of inputs with the values that they reached (SI).
     pub reached: Value,

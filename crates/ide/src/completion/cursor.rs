@@ -37,7 +37,7 @@ pub(super) struct Cursor<'t> {
     /// The word under the cursor, which may be empty; in a string its whole content.
     pub word: Range<usize>,
     pub is_in_string: bool,
-    /// All tokens before the word.
+    /// The tokens before the word.
     tokens: Vec<Token<'t>>,
     /// The index of the declaration's first token.
     first: usize,

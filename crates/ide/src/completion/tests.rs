@@ -349,7 +349,7 @@ fn parts(from: &str, to: &str) -> String {
 }
 
 #[test]
-fn parts_are_known_by_their_files() {
+fn parts_come_from_their_files() {
     insta::assert_snapshot!(proposed(&parts("levers.lever(turn = 30 deg * t / (1 s), reach = 60 mm)", "$0"), 4), @"1 levers.lever → levers.lever(«»)");
     insta::assert_snapshot!(proposed(&parts("levers.lever(turn = 30 deg * t / (1 s), reach = 60 mm)", "levers.$0"), 4), @"1 lever → lever(«»)");
     insta::assert_snapshot!(proposed(&parts("levers.lever(turn = 30 deg * t / (1 s), reach = 60 mm)", "levers.lever(reach = 60 mm, $0"), 4), @"1 turn — input turn = 10 deg * sin(1 rev/s * t) → turn = «»");

@@ -10,13 +10,13 @@ use std::path::PathBuf;
 pub(super) struct Client {
     /// The unit of columns.
     pub encoding: Encoding,
-    /// Whether it requests diagnostics and supports refreshes; otherwise the server pushes them.
+    /// True if it requests diagnostics and supports refreshes; otherwise the server pushes them.
     pub pulls_diagnostics: bool,
     /// Further capabilities.
     abilities: Vec<Ability>,
-    /// Whether it has the commands `mechc.run` and `mechc.check`, which take a URI and the name of a mechanism.
+    /// True if it has the commands `mechc.run` and `mechc.check`, which take a URI and the name of a mechanism.
     pub can_run: bool,
-    /// Whether it has the command that shows a page.
+    /// True if it has the command that shows a page.
     pub can_view: bool,
     /// The features that it can be asked to refresh.
     pub refreshes: Refreshes,

@@ -21,7 +21,7 @@ pub(super) struct Document {
     /// The text without a byte-order mark.
     text: Arc<str>,
     lines: Lines,
-    /// Whether the client's text begins with a byte-order mark, which only its positions count.
+    /// True if the client's text begins with a byte-order mark, which only its positions count.
     has_mark: bool,
 }
 

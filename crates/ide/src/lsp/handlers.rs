@@ -32,7 +32,7 @@ pub(super) enum Failure {
 pub(super) struct Method {
     /// The name in the protocol.
     pub name: &'static str,
-    /// Whether the request is retried on a later text; it must name no position.
+    /// True if the request is retried on a later text; it must name no position.
     pub is_retried: bool,
     /// The threads that it runs on.
     pub kind: TaskKind,

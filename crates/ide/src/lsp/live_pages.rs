@@ -67,7 +67,7 @@ struct LivePage {
     mechanism: Option<String>,
     session: Arc<LiveSession>,
     server: Mutex<Option<RunningServer>>,
-    /// Whether a thread notifies a panel of changes.
+    /// True if a thread notifies a panel of changes.
     has_panel: AtomicBool,
 }
 

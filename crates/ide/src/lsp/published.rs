@@ -14,7 +14,7 @@ pub(super) struct PublishedDiagnostics {
     words: Vec<EditorDiagnostic>,
     proof: Vec<EditorDiagnostic>,
     motion: Vec<EditorDiagnostic>,
-    /// Whether the text can be proven, and whether it can be run, by the last results.
+    /// By the last results, true if the text can be proven, and true if it can be run.
     has_next: [bool; 2],
     /// The last finished stage of the current text.
     reached: Option<DiagnosticStage>,
@@ -22,14 +22,14 @@ pub(super) struct PublishedDiagnostics {
     version: u64,
     /// A number that distinguishes this opening of the text from earlier ones.
     opening: u64,
-    /// Whether positions have shifted since the last update.
+    /// True if positions have shifted since the last update.
     has_shifted: bool,
 }
 
 /// The result of a stage of a text.
 pub(super) struct StageResult {
     pub diagnostics: Vec<EditorDiagnostic>,
-    /// Whether the next stage has anything to analyse.
+    /// True if the next stage has anything to analyse.
     pub has_next: bool,
 }
 

@@ -47,13 +47,13 @@ const IDLE: Duration = Duration::from_secs(3600);
 /// The way in which a session ended.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Ended {
-    /// By `shutdown` and `exit`, as the protocol requires.
+    /// The client sent `shutdown` and `exit`, as the protocol requires.
     Well,
-    /// By the end of the input, without `shutdown`.
+    /// The input ended without `shutdown`.
     Early,
-    /// By the end of the client's process, while its end of the pipe is still open.
+    /// The client's process ended while its end of the pipe is still open.
     Left,
-    /// Without a session: the client did not speak the protocol.
+    /// The client did not speak the protocol.
     Unbegun,
 }
 

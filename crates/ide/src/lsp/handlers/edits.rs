@@ -22,7 +22,10 @@ pub(super) fn actions(
             return None;
         }
         let action = lsp::CodeAction {
-            diagnostics: action.fixes.and_then(|fixed| context.diagnostic(&path, &fixed)).map(|diagnostic| vec![diagnostic]),
+            diagnostics: action
+                .fixes
+                .and_then(|fixed| context.diagnostic(&path, &fixed))
+                .map(|diagnostic| vec![diagnostic]),
             is_preferred: action.is_preferred.then_some(true),
             edit: Some(context.edit(&action.changes)?),
             title: action.title,

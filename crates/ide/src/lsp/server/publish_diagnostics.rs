@@ -43,7 +43,7 @@ impl Server {
         }
     }
 
-    /// Makes the list of a text's names, which most requests ask for, before anybody does.
+    /// Builds the list of a text's names ahead of the requests that need it.
     fn index_names(&self, path: &Arc<Path>) {
         let (path, snapshot) = (Arc::clone(path), self.snapshot.clone());
         self.pool.start(TaskKind::Request, move || {

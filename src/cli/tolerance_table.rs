@@ -1,17 +1,17 @@
-//! What tolerances make of measures and results, as a table to be read, as CSV and as JSON.
+//! The effect of tolerances on measures and results, as a readable table, CSV and JSON.
 
 use mechc_pipeline::{Affected, Deviation, Shown, Tolerance, Verified};
 use mechc_text::diag::readable;
 use serde_json::{Map, Value, json};
 
-/// Digits of what is to be read.
+/// Significant digits in the readable table.
 const DIGITS: usize = 5;
 
-/// All that is told.
-pub(super) struct Contributions {
+/// The tolerances with the measures and results that they affect.
+pub(super) struct ToleranceTable {
     pub tolerances: Vec<Tolerance>,
     pub affected: Vec<Affected>,
-    /// Whether params are spread normally.
+    /// True if params are distributed normally, and not uniformly.
     pub normal: bool,
     pub verified: Option<Verified>,
 }
@@ -33,20 +33,20 @@ const COLUMNS: [&str; 13] = [
     "share",
 ];
 
-/// A value this much smaller than what tolerances make of it is nothing to a reader.
-const NOTHING: f64 = 1e-9;
+/// A nominal value smaller than this fraction of its deviation is shown as 0.
+const NEGLIGIBLE: f64 = 1e-9;
 
-impl Contributions {
+impl ToleranceTable {
     fn deviation(&self, of: &Affected) -> Option<Deviation> {
         of.deviation(&self.tolerances, self.normal)
     }
 
-    /// Whether what was found is near enough to what derivatives say; nothing where that is not known.
+    /// Returns whether the verified range agrees with the derivatives; `None` if it was not verified.
     fn is_linear(&self, k: usize, deviation: Option<&Deviation>) -> Option<bool> {
         Some(self.verified.as_ref()?.is_linear(k, &self.affected[k], deviation?))
     }
 
-    /// To be read.
+    /// Formats the readable table.
     pub fn table(&self) -> String {
         let blocks: Vec<Vec<[String; 5]>> = (0..self.affected.len()).map(|k| self.block(k)).collect();
         let mut widths = [0; 5];
@@ -59,8 +59,8 @@ impl Contributions {
             let at = of.at.map(|t| format!(" at {} s", short(t))).unwrap_or_default();
             let nominal = if of.nominal.is_finite() {
                 let worst = self.deviation(of).map_or(0.0, |all| f64::max(-all.worst[0], all.worst[1]));
-                let is_nothing = of.nominal.abs() < NOTHING * worst;
-                in_unit(if is_nothing { 0.0 } else { of.nominal }, &of.to_be_read(&self.tolerances))
+                let is_negligible = of.nominal.abs() < NEGLIGIBLE * worst;
+                in_unit(if is_negligible { 0.0 } else { of.nominal }, &of.to_be_read(&self.tolerances))
             } else {
                 "null".to_owned()
             };
@@ -74,7 +74,7 @@ impl Contributions {
         text
     }
 
-    /// The lines of one measure or result.
+    /// Formats the lines of a measure or result.
     fn block(&self, k: usize) -> Vec<[String; 5]> {
         let (of, deviation) = (&self.affected[k], self.deviation(&self.affected[k]));
         let shown = of.to_be_read(&self.tolerances);
@@ -82,7 +82,7 @@ impl Contributions {
         let mut lines = vec![["param", "tolerance", "derivative", "contributes", "share"].map(str::to_owned)];
         for (j, by) in self.tolerances.iter().enumerate() {
             let slope = of.slopes[j].map(|slope| shown.slope(slope, by));
-            let derivative = slope.map_or("unknown".to_owned(), |(slope, unit)| told(slope, &unit));
+            let derivative = slope.map_or("unknown".to_owned(), |(slope, unit)| number_with_unit(slope, &unit));
             let contributes = of.slopes[j].map_or(String::new(), |slope| amount(by.times(slope)));
             let share = deviation.as_ref().map_or(String::new(), |all| format!("{:.0} %", 100.0 * all.shares[j]));
             let range = by.range.map(|off| off / by.unit.1);
@@ -105,7 +105,7 @@ impl Contributions {
         lines
     }
 
-    /// A line for each contribution and each sum, all numbers in SI.
+    /// Formats a line for each contribution and each sum, with all numbers in SI.
     pub fn csv(&self) -> String {
         let mut text = COLUMNS.join(",") + "\n";
         for (k, of) in self.affected.iter().enumerate() {
@@ -140,7 +140,7 @@ impl Contributions {
         text
     }
 
-    /// One object, all numbers in SI.
+    /// Formats a JSON object with all numbers in SI.
     pub fn json(&self) -> String {
         let tolerance = |of: &Tolerance| json!({ "param": of.name, "nominal": of.nominal, "low": of.range[0], "high": of.range[1], "unit": of.si });
         let mut all = Map::new();
@@ -152,7 +152,7 @@ impl Contributions {
             let what = if *are_all_corners { "corners" } else { "samples" };
             all.insert("verified_by".to_owned(), json!({ "what": what, "variants": variants, "lost": lost }));
         }
-        // an object of numbers and texts is always written
+        // an object of numbers and texts always serializes
         serde_json::to_string_pretty(&all).unwrap_or_default() + "\n"
     }
 
@@ -188,7 +188,7 @@ impl Contributions {
         Value::Object(object)
     }
 
-    /// What is to be said beside the table.
+    /// Formats remarks on missing values and derivatives, and on the verification.
     pub fn remarks(&self, command: impl Fn(&[String]) -> String) -> String {
         let mut text = String::new();
         for of in &self.affected {
@@ -238,42 +238,42 @@ impl Contributions {
     }
 }
 
-/// `±0.05 mm`, or `-0.1..0 mm`.
+/// Formats a range: `±0.05 mm`, or `-0.1..0 mm`.
 fn between([low, high]: [f64; 2], unit: &str) -> String {
     let [low, high] = [low, high].map(short);
     match low.strip_prefix('-') {
-        Some(size) if size == high => format!("±{high}{}", after(unit)),
-        _ if low == high => format!("{low}{}", after(unit)),
-        _ => format!("{low}..{high}{}", after(unit)),
+        Some(size) if size == high => format!("±{high}{}", unit_suffix(unit)),
+        _ if low == high => format!("{low}{}", unit_suffix(unit)),
+        _ => format!("{low}..{high}{}", unit_suffix(unit)),
     }
 }
 
 fn in_unit(value: f64, Shown { text, size }: &Shown) -> String {
-    told(value / size, text)
+    number_with_unit(value / size, text)
 }
 
-fn told(value: f64, unit: &str) -> String {
-    short(value) + &after(unit)
+fn number_with_unit(value: f64, unit: &str) -> String {
+    short(value) + &unit_suffix(unit)
 }
 
-/// A unit behind a number.
-fn after(unit: &str) -> String {
+/// Formats a unit after a number.
+fn unit_suffix(unit: &str) -> String {
     if unit.is_empty() || unit == "1" { String::new() } else { format!(" {unit}") }
 }
 
-/// A few digits of a number.
+/// Formats a number with few digits.
 fn short(value: f64) -> String {
     let few = format!("{value:.*e}", DIGITS - 1).parse().unwrap_or(value);
     // −0 would surprise a reader
     readable(few + 0.0)
 }
 
-/// A number of the CSV form; empty where it is none.
+/// Formats a number for CSV; empty if it is not finite.
 fn number(value: f64) -> String {
     if value.is_finite() { readable(value + 0.0) } else { String::new() }
 }
 
-/// A cell of the CSV form.
+/// Quotes a cell of CSV.
 fn quoted(cell: &str) -> String {
     if cell.contains([',', '"', '\n']) { format!("\"{}\"", cell.replace('"', "\"\"")) } else { cell.to_owned() }
 }

@@ -1,4 +1,4 @@
-//! What is asked for beside the mechanism, by the names in its text.
+//! Options of pictures that name elements of the mechanism: traced points and bodies.
 
 use crate::cli::arguments::{ThemeChoice, ViewArguments};
 use crate::cli::failure::{Failure, unusable};
@@ -7,54 +7,54 @@ use mechc_draw::view::svg::{Options, Theme};
 use mechc_pipeline::Seen;
 use mechc_text::diag::{Code, Diagnostic, nearest};
 
-/// What is asked for beside the mechanism.
-pub(super) fn pictured(arguments: &ViewArguments, seen: &Seen) -> Result<Options, Failure> {
-    let scene = &seen.scene;
+/// Returns the options of an SVG.
+pub(super) fn svg_options(arguments: &ViewArguments, visualization: &Seen) -> Result<Options, Failure> {
+    let scene = &visualization.scene;
     let theme = match arguments.theme {
         ThemeChoice::Auto => Theme::Auto,
         ThemeChoice::Light => Theme::Light,
         ThemeChoice::Dark => Theme::Dark,
     };
     let traces = arguments.trace.iter().map(|path| trace(scene, path)).collect::<Result<Vec<_>, Failure>>()?;
-    let errors = seen.messages().filter(|said| said.is_error());
-    let said = errors.flat_map(in_lines).collect();
+    let errors = visualization.messages().filter(|message| message.is_error());
+    let messages = errors.flat_map(message_lines).collect();
     let ViewArguments { size, scale, vectors, forces, labels, .. } = *arguments;
-    Ok(Options { size, scale, theme, traces, vectors, forces, labels, captions: Vec::new(), said })
+    Ok(Options { size, scale, theme, traces, vectors, forces, labels, captions: Vec::new(), said: messages })
 }
 
-/// What stands below a picture of an error; with its notes where they tell which lengths to look at.
-fn in_lines(error: &Diagnostic) -> impl Iterator<Item = String> {
+/// Returns the lines of an error below a picture. The notes of E0601 are included, since they name the lengths that do not fit.
+fn message_lines(error: &Diagnostic) -> impl Iterator<Item = String> {
     let notes = error.notes.iter().filter(|_| error.code == Code::E0601).cloned();
     std::iter::once(format!("error[{}]: {}", error.code, error.message)).chain(notes)
 }
 
-/// The name that may be meant, as a question.
-fn meant<'a>(name: &str, names: impl Iterator<Item = &'a str>) -> Option<String> {
-    nearest(name, names).map(|meant| format!("was `{meant}` meant?"))
+/// Formats a suggestion of a similar name.
+fn suggest<'a>(name: &str, names: impl Iterator<Item = &'a str>) -> Option<String> {
+    nearest(name, names).map(|suggestion| format!("was `{suggestion}` meant?"))
 }
 
-/// A point by its path.
+/// Finds a point by its path.
 pub(super) fn trace(scene: &Scene, path: &str) -> Result<(String, Anchor), Failure> {
     let path: String = path.chars().filter(|c| !c.is_whitespace()).collect();
     if let Some(point) = scene.point_named(&path) {
         return Ok((path, Anchor { frame: point.frame, at: point.at }));
     }
     let names = || scene.points.iter().filter(|point| point.frame > 0).map(|point| point.name.as_str());
-    let help = meant(&path, names()).unwrap_or_else(|| match names().next() {
+    let help = suggest(&path, names()).unwrap_or_else(|| match names().next() {
         Some(example) => format!("name a point of a body, as in `--trace {example}`"),
         None => "its bodies have no points that have a name".to_owned(),
     });
     Err(unusable(format!("there is no point `{path}` to trace")).help(help).into())
 }
 
-/// The frame of a body by its name.
+/// Finds the frame of a body by its name.
 pub(super) fn frame(scene: &Scene, name: &str) -> Result<usize, Failure> {
     let bodies = || scene.frames.iter().skip(1).filter_map(|declaration| scene.declarations.get(*declaration));
     if let Some(number) = bodies().position(|body| body.name == name) {
         return Ok(number + 1);
     }
     let names = || bodies().map(|body| body.name.as_str());
-    let help = meant(name, names()).unwrap_or_else(|| {
+    let help = suggest(name, names()).unwrap_or_else(|| {
         let some: Vec<String> = names().take(8).map(|name| format!("`{name}`")).collect();
         format!("its bodies are {}", some.join(", "))
     });

@@ -1,4 +1,4 @@
-//! What no output may be: a file that was read, or that a text names.
+//! Protection of input files: no output may overwrite a file that was read or that a text names.
 
 use super::failure::{Failure, unusable};
 use mechc_text::source::Sources;
@@ -8,20 +8,20 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// What standard input is called in messages.
+/// The name of standard input in messages.
 pub(super) const STANDARD_INPUT: &str = "<stdin>";
 
-/// The files that stay as they are.
+/// The files that no output may overwrite.
 #[derive(Default)]
-pub(super) struct Spared<'s> {
-    /// Those that were read.
+pub(super) struct ProtectedPaths<'s> {
+    /// The files that were read.
     pub read: Option<&'s Sources>,
-    /// Those that texts and options name, whether or not the command needed them.
+    /// The files that texts and options name, even if the command did not read them.
     pub named: &'s [PathBuf],
 }
 
-impl Spared<'_> {
-    /// Refuses to write over one of them, by whatever path or link.
+impl ProtectedPaths<'_> {
+    /// Refuses an output that is one of them, also through links and other paths.
     pub fn refuse(&self, name: &str) -> Result<(), Failure> {
         let path = Path::new(name);
         if name == "-" {
@@ -40,46 +40,46 @@ impl Spared<'_> {
             .into())
     }
 
-    /// What messages call the file of a path, if it was read.
+    /// Returns the name in messages of the file at a path, if it was read.
     fn read_at(&self, path: &Path) -> Option<String> {
-        let own = identity(path)?;
+        let output = identity(path)?;
         let files = self.read?.iter().filter(|source| !source.is_option).map(|source| source.name.as_str());
         let path_of = |shown| if shown == STANDARD_INPUT { "/dev/stdin" } else { shown };
-        let mut found = files.filter(|&shown| identity(Path::new(path_of(shown))).as_ref() == Some(&own));
+        let mut found = files.filter(|&shown| identity(Path::new(path_of(shown))).as_ref() == Some(&output));
         found.next().map(str::to_owned)
     }
 }
 
-/// Whether two paths lead to one file, or would, if it were there.
+/// Returns whether two paths lead to the same file, existing or not.
 pub(super) fn is_same(named: &Path, output: &Path) -> bool {
     match (identity(named), identity(output)) {
         (Some(named), Some(output)) => named == output,
-        (None, None) => place(named).is_some_and(|named| Some(named) == place(output)),
+        (None, None) => location(named).is_some_and(|named| Some(named) == location(output)),
         _ => false,
     }
 }
 
-/// Refuses outputs of which two are one file by a link.
+/// Refuses outputs of which two are the same file through a link.
 pub(super) fn refuse_links<'n>(names: impl Iterator<Item = Cow<'n, str>>) -> Result<(), Failure> {
-    let (mut files, mut places) = (HashMap::new(), HashMap::new());
+    let (mut files, mut locations) = (HashMap::new(), HashMap::new());
     for name in names {
         let path = Path::new(&*name);
-        let other = match (identity(path), place(path)) {
+        let other = match (identity(path), location(path)) {
             (Some(file), _) => files.insert(file, name.clone()),
-            (None, Some(place)) => places.insert(place, name.clone()),
+            (None, Some(location)) => locations.insert(location, name.clone()),
             (None, None) => None,
         };
         if let Some(other) = other {
-            let said = format!("`{other}` and `{name}` are one file by a link");
-            return Err(unusable(said).help("remove the link; nothing was touched").into());
+            let message = format!("`{other}` and `{name}` are one file by a link");
+            return Err(unusable(message).help("remove the link; nothing was touched").into());
         }
     }
     Ok(())
 }
 
-/// Where a file is, or would be if it were there, behind all links; what is there and no file has no such place of its own.
-fn place(path: &Path) -> Option<PathBuf> {
-    let path = behind_links(path).ok()?;
+/// Returns the location of a file, existing or not, with all links resolved; `None` for a folder.
+fn location(path: &Path) -> Option<PathBuf> {
+    let path = resolve_links(path).ok()?;
     if path.is_dir() {
         return None;
     }
@@ -87,7 +87,7 @@ fn place(path: &Path) -> Option<PathBuf> {
     Some(folder.canonicalize().ok()?.join(path.file_name()?))
 }
 
-/// What tells a file from all others, whichever links lead to it; what is no file has none.
+/// Returns the identity of a file, the same through all links; `None` if it is not a regular file.
 #[cfg(unix)]
 fn identity(path: &Path) -> Option<(u64, u64)> {
     use std::os::unix::fs::MetadataExt;
@@ -99,13 +99,13 @@ fn identity(path: &Path) -> Option<PathBuf> {
     path.canonicalize().ok().filter(|path| path.is_file())
 }
 
-/// The file that a chain of links ends at: a link stays a link, what it points to is replaced.
-pub(super) fn behind_links(path: &Path) -> io::Result<PathBuf> {
+/// Returns the end of a chain of links: an output replaces the target of a link and not the link.
+pub(super) fn resolve_links(path: &Path) -> io::Result<PathBuf> {
     let mut path = path.to_owned();
     for _ in 0..40 {
         match fs::read_link(&path) {
             Ok(target) => path = path.parent().unwrap_or(Path::new("")).join(target),
-            // no link
+            // it is not a link
             Err(_) => return Ok(path),
         }
     }
