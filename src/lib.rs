@@ -4,8 +4,8 @@
 //! Sources ──▶ Parsed ──check──▶ Checked ──compile──▶ Compiled ──run──▶ Run ──▶ rows
 //! ```
 //!
-//! Each stage is owned, can be sent to another thread, and is cloned for little. What is to be said of a text is on its stages as
-//! [`Diagnostics`]; [`render()`] writes them.
+//! Each stage is owned, can be sent to another thread, and is cheap to clone. The diagnostics of a text are on its stages as
+//! [`Diagnostics`]; [`render()`] formats them.
 //!
 //! ```
 //! use mechc::{Cancel, Choice, Memory, Parsed, Redundant, RunOptions, Times};
@@ -27,7 +27,7 @@
 //! assert_eq!(row[3], std::f64::consts::FRAC_PI_2);
 //! ```
 //!
-//! The crates behind it are described in `ARCHITECTURE.md`, with what each knows and must not know.
+//! `ARCHITECTURE.md` describes the crates behind it, and what each must not depend on.
 
 #[cfg(feature = "cli")]
 pub mod cli;

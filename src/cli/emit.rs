@@ -30,7 +30,7 @@ pub(super) fn emit(arguments: &EmitArguments, reporter: &mut Reporter) -> Result
     let parsed = input::parsed(&arguments.input, reporter)?;
     let checked = input::checked(&parsed, &arguments.input, reporter)?;
     let (compiled, diagnostics) = input::prove(&checked, arguments.allow_redundant);
-    // the name without its folder: the same output wherever the file lies
+    // the name without its folder, so that the output does not depend on where the file is
     let file = Path::new(&arguments.input.file).file_name().map_or("-".into(), |name| name.to_string_lossy());
     if format != EmitFormat::Rust && compiled.is_none() && diagnostics.iter().all(concerns_counts) {
         let text = if format == EmitFormat::Json { checked.json(&file) } else { checked.latex(&file) };

@@ -78,7 +78,7 @@ const NO_CHARACTER: &str = "\u{fdd0}";
 /// Formats the changes as a unified diff for `patch`; empty if there are none.
 fn diff(change: &Change) -> String {
     let [old, new] = [&change.old, &change.new].map(|text| text.replace('\r', NO_CHARACTER));
-    // a tab ends a name that holds spaces
+    // `patch` needs a tab after a name that contains spaces
     let end = if change.name.contains(char::is_whitespace) { "\t" } else { "" };
     let name = format!("{}{end}", change.name);
     let diff = TextDiff::from_lines(&old, &new);

@@ -1,4 +1,4 @@
-//! `mechc import`: the model files of the course's planar engine, translated.
+//! `mechc import`: translates the model files of the course's planar engine.
 
 use super::arguments::ImportArguments;
 use super::failure::{Failure, unusable};

@@ -35,7 +35,7 @@ pub enum ActionKind {
     Fix,
     /// Applies all fixes of a file that always apply.
     FixAll,
-    /// Gives a number a name.
+    /// Extracts a number into a param.
     Extract,
     /// Adds a driver for a free joint.
     Drive,
@@ -397,7 +397,7 @@ mod tests {
         Drive drive `pivot`
             driver motor: rotation(pivot) = 100 deg + 60 deg/s * t
         ");
-        // of a repeated joint each copy
+        // each copy of a repeated joint can be driven
         let chain = "\
 mechanism chain {
     ground { point O = (0, 0) }
@@ -414,7 +414,7 @@ mechanism chain {
         Drive drive `pin[0]`
             driver drive: rotation(pin[0]) = 60 deg/s * t
         ");
-        // all is driven already
+        // nothing is free
         assert_eq!(offered(&with("joint main", "joint ma$0in")), "");
     }
 }

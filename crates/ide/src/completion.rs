@@ -163,7 +163,7 @@ impl CompletionContext<'_> {
         let cursor = &self.cursor;
         let is_behind_colon = cursor.last() == Some(":");
         match (cursor.head(), cursor.last()) {
-            // a new name
+            // a new name is declared here
             (head, Some(last)) if head == last && cursor.declaration().len() == 1 && is_before_a_name(head) => {
                 Vec::new()
             }

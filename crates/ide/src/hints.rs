@@ -148,7 +148,7 @@ mod tests {
         assert_eq!(of("60 deg + 90", "60 deg + nothing + 90"), "mechanism four_bar⟨NDOF = 0⟩ {");
         assert_eq!(of("    analysis", "    measure half = 2 *\n\n    analysis"), "mechanism four_bar⟨NDOF = 0⟩ {");
         assert_eq!(of("= 30 mm", "= 30 mm +"), "mechanism four_bar⟨NDOF = 0⟩ {");
-        // it may be a joint of any kind
+        // without a kind the joint's equations cannot be counted
         assert_eq!(of("joint pin:   revolute(", "joint pin:   ("), "nothing");
         assert_eq!(of("revolute(crank.B", "pinned(crank.B"), "nothing");
         let twice = "joint pivot: revolute(ground.D, rocker.D)";

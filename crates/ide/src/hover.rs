@@ -231,7 +231,7 @@ mod tests {
 
         At t = 0 s: `crank.B` = (0.015, 0.0259808) m, `coupler.B` = (0.015, 0.0259808) m
         ");
-        // not determined, and so without a place
+        // a mechanism that is not determined has no position
         let free = FOUR_BAR.replacen("    driver motor: rotation(main) = 60 deg + 90 deg/s * t\n", "", 1);
         insta::assert_snapshot!(hover_text(&free.replacen("joint knee", "joint kn$0ee", 1)), @r"
         main.mech:23
@@ -345,7 +345,7 @@ mod tests {
     }
 
     #[test]
-    fn words_show_what_they_mean() {
+    fn words_show_their_documentation() {
         insta::assert_snapshot!(of("revolute", "revo$0lute"), @r"
         main.mech:21
             joint main:  revolute(ground.A, crank.A)

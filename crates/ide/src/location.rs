@@ -8,7 +8,7 @@ use std::sync::Arc;
 /// A byte of a file.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct FilePosition {
-    /// The file, by the path that [`super::Snapshot`] knows it by.
+    /// The file, by its path in [`super::Snapshot`].
     pub path: Arc<Path>,
     /// The offset in bytes.
     pub offset: u32,

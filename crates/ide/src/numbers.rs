@@ -14,7 +14,7 @@ pub(super) fn short(value: f64) -> String {
 pub(super) fn with_unit(value: f64, unit: &str) -> String {
     match unit {
         "" | "1" => short(value),
-        // `60/s`
+        // as in `60/s`
         unit if unit.starts_with("1/") => format!("{}{}", short(value), &unit[1..]),
         unit => format!("{} {unit}", short(value)),
     }

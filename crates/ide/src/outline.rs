@@ -74,7 +74,7 @@ mod tests {
     }
 
     #[test]
-    fn points_stand_below_their_bodies() {
+    fn points_are_nested_in_their_bodies() {
         let (snapshot, position) = at_cursor(&format!("{FOUR_BAR}$0"));
         insta::assert_snapshot!(written(&outline(&snapshot, &position.path).expect("an outline"), 0), @r"
         Mechanism four_bar

@@ -182,7 +182,7 @@ mod tests {
     use crate::testing::{FOUR_BAR, TWO_FILES, at_cursor};
     use crate::trial_edits::{apply, text_of};
 
-    /// The lines that a new name changes, or why it does not.
+    /// Lists the lines that a new name changes, or why it is refused.
     fn renamed(text: &str, from: &str, to: &str, new: &str) -> String {
         assert!(text.contains(from), "{from}");
         let (snapshot, position) = at_cursor(&text.replacen(from, to, 1));
@@ -240,7 +240,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_declared_and_taken_at_once_is_written_out() {
+    fn a_name_that_uses_and_declares_is_written_out() {
         insta::assert_snapshot!(renamed(TWO_FILES, "param A", "param $0A", "B"), @r"
         main.mech: param B = (10 mm, 0)
         main.mech: point A = B
@@ -262,7 +262,7 @@ mod tests {
     }
 
     #[test]
-    fn what_would_clash_is_refused() {
+    fn clashing_names_are_refused() {
         let crank = |new| renamed(FOUR_BAR, "body crank", "body cra$0nk", new);
         insta::assert_snapshot!(crank("rocker"), @"`crank` cannot be called `rocker`: `rocker` is declared twice");
         insta::assert_snapshot!(crank("crank_length"), @"`crank` cannot be called `crank_length`: `crank_length` is declared twice");
@@ -278,7 +278,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_name_of_the_text_stays() {
+    fn words_and_files_cannot_be_renamed() {
         let why = |from: &str, to: &str| {
             let (snapshot, position) = at_cursor(&TWO_FILES.replacen(from, to, 1));
             prepare_rename(&snapshot, &position).expect_err("it stays")

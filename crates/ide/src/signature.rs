@@ -116,7 +116,7 @@ mod tests {
     use super::signatures;
     use crate::testing::at_cursor;
 
-    /// Each form, the active one with its argument in brackets.
+    /// Lists the forms, the active one with its argument in brackets.
     fn shown(inside: &str) -> String {
         let (snapshot, position) = at_cursor(&format!(
             "mechanism m {{\n{inside}\n}}\nmechanism lever {{ param reach = 80 mm\n input turn = t\n }}"
@@ -161,7 +161,7 @@ mod tests {
     }
 
     #[test]
-    fn where_nothing_is_called_nothing_is_shown() {
+    fn without_a_call_there_is_no_signature() {
         assert_eq!(shown("body b at (0, $0"), "nothing");
         assert_eq!(shown("param p = nothing($0"), "nothing");
         assert_eq!(shown("param p = sin(1) // max($0"), "nothing");

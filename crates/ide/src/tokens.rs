@@ -37,7 +37,7 @@ pub enum TokenKind {
     Equation,
     /// A function or table, a quantity or reduction.
     Function,
-    /// The argument of a function, or the number of what is repeated.
+    /// The argument of a function, or the index of a repetition.
     Argument,
     /// A param, input, measure, trace or result, or a constant of the language.
     Value,

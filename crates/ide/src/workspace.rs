@@ -28,7 +28,7 @@ const MAX_NAMES: usize = 500;
 /// A declaration of a file.
 #[derive(Clone, PartialEq, Debug)]
 pub struct WorkspaceName {
-    /// Its name.
+    /// The name.
     pub name: String,
     /// The kind of declaration.
     pub kind: NameKind,

@@ -21,22 +21,22 @@ pub(super) enum EditOutcome {
 /// Replaces values of params in the text of a mechanism. Units and the spaces before them stay as they are written.
 #[must_use]
 pub(super) fn apply_changes(checked: &Checked, write: &WriteRequest) -> EditOutcome {
-    let knobs = checked.knobs();
+    let params = checked.knobs();
     let (mut edits, mut questions): (Vec<(Span, String)>, Vec<String>) = (Vec::new(), Vec::new());
     for change in &write.changes {
-        let (knob, span) = match find_value(checked, &knobs, change) {
+        let (param, span) = match find_value(checked, &params, change) {
             Ok(value) => value,
             Err(why) => return EditOutcome::Refused(why),
         };
         let here = checked.sources().text(span);
         let value =
-            if knob.is_half { format_point(&knobs, knob, write) } else { format_value(knob, here, change.value) };
-        if knob.formula.is_some() {
-            questions.push(format!("`{}` has the formula `{here}`: replace it by {value}?", param_name(knob)));
+            if param.is_half { format_point(&params, param, write) } else { format_value(param, here, change.value) };
+        if param.formula.is_some() {
+            questions.push(format!("`{}` has the formula `{here}`: replace it by {value}?", param_name(param)));
         }
-        let others = other_names_at(&knobs, knob, write);
+        let others = other_names_at(&params, param, write);
         if !others.is_empty() {
-            let (name, (line, _)) = (param_name(knob), checked.sources().get(span.file).position(span.start));
+            let (name, (line, _)) = (param_name(param), checked.sources().get(span.file).position(span.start));
             questions.push(format!(
                 "`{name}` stands in line {line}, which is that of {others} too: write {value} for all of them?"
             ));
@@ -61,32 +61,36 @@ pub(super) fn apply_changes(checked: &Checked, write: &WriteRequest) -> EditOutc
 }
 
 /// Finds the param to change and the span of its value in the file. Fails if the text there is not what the page shows.
-fn find_value<'k>(checked: &Checked, knobs: &'k [Knob], change: &ValueChange) -> Result<(&'k Knob, Span), String> {
+fn find_value<'k>(checked: &Checked, params: &'k [Knob], change: &ValueChange) -> Result<(&'k Knob, Span), String> {
     let ValueChange { name, old, .. } = change;
-    let knob =
-        knobs.iter().find(|knob| knob.name == *name).ok_or_else(|| format!("there is no param `{name}` any more"))?;
-    let span = knob.place.filter(|span| span.file == checked.file()).ok_or_else(|| {
+    let param = params
+        .iter()
+        .find(|param| param.name == *name)
+        .ok_or_else(|| format!("there is no param `{name}` any more"))?;
+    let span = param.place.filter(|span| span.file == checked.file()).ok_or_else(|| {
         let file = &checked.sources().get(checked.file()).name;
         format!("`{name}` has no value of its own in `{file}` that could be replaced")
     })?;
     let here = checked.sources().text(span);
     if here == old {
-        Ok((knob, span))
+        Ok((param, span))
     } else {
         Err(format!("`{name}` is `{here}` in the file by now, and was `{old}`"))
     }
 }
 
 /// Lists the params whose value is the same text as that of a param and that are not written too: those of other copies of a part.
-fn other_names_at(knobs: &[Knob], of: &Knob, write: &WriteRequest) -> String {
+fn other_names_at(params: &[Knob], of: &Knob, write: &WriteRequest) -> String {
     let is_changed = |name: &str| write.changes.iter().any(|change| change.name == name);
-    let is_other = |knob: &&Knob| {
-        let is_of_all = || knobs.iter().any(|copy| copy.of.as_deref() == Some(&knob.name));
-        let is_covered =
-            is_changed(&knob.name) || knob.of.as_deref().is_some_and(is_changed) || param_name(knob) == param_name(of);
-        knob.place == of.place && !is_covered && !is_of_all()
+    let is_other = |param: &&Knob| {
+        let is_of_all = || params.iter().any(|copy| copy.of.as_deref() == Some(&param.name));
+        let is_covered = is_changed(&param.name)
+            || param.of.as_deref().is_some_and(is_changed)
+            || param_name(param) == param_name(of);
+        param.place == of.place && !is_covered && !is_of_all()
     };
-    let mut names: Vec<String> = knobs.iter().filter(is_other).map(|knob| format!("`{}`", param_name(knob))).collect();
+    let mut names: Vec<String> =
+        params.iter().filter(is_other).map(|param| format!("`{}`", param_name(param))).collect();
     names.dedup();
     match names.len().checked_sub(MAX_LISTED) {
         Some(more @ 1..) => format!("{} and {more} more", names[..MAX_LISTED].join(", ")),
@@ -95,28 +99,28 @@ fn other_names_at(knobs: &[Knob], of: &Knob, write: &WriteRequest) -> String {
 }
 
 /// Returns the name of the param, or of the point of which it is a coordinate.
-fn param_name(knob: &Knob) -> &str {
-    let point_name = || knob.name.strip_suffix(".x").or_else(|| knob.name.strip_suffix(".y"));
-    point_name().filter(|_| knob.is_half).unwrap_or(&knob.name)
+fn param_name(param: &Knob) -> &str {
+    let point_name = || param.name.strip_suffix(".x").or_else(|| param.name.strip_suffix(".y"));
+    point_name().filter(|_| param.is_half).unwrap_or(&param.name)
 }
 
 /// Formats both coordinates of a point, of which at least one is changed.
-fn format_point(knobs: &[Knob], of: &Knob, write: &WriteRequest) -> String {
+fn format_point(params: &[Knob], of: &Knob, write: &WriteRequest) -> String {
     let [x, y] = ["x", "y"].map(|axis| {
         let name = format!("{}.{axis}", param_name(of));
-        let knob = knobs.iter().find(|knob| knob.name == name).unwrap_or(of);
+        let param = params.iter().find(|param| param.name == name).unwrap_or(of);
         let change = write.changes.iter().find(|change| change.name == name);
-        format_value(knob, "", change.map_or(knob.value, |change| change.value))
+        format_value(param, "", change.map_or(param.value, |change| change.value))
     });
     format!("({x}, {y})")
 }
 
 /// Formats a value in the unit of its param, with the spacing of the text.
-fn format_value(knob: &Knob, here: &str, value: f64) -> String {
+fn format_value(param: &Knob, here: &str, value: f64) -> String {
     let number = number(value);
-    let unit = &knob.unit;
-    if knob.formula.is_none() && !unit.is_empty() {
-        // a plain 0 has no unit yet
+    let unit = &param.unit;
+    if param.formula.is_none() && !unit.is_empty() {
+        // a plain 0 is written without a unit and needs one now
         let gap = here.strip_suffix(unit.as_str()).map_or(" ", |number| &number[number.trim_end().len()..]);
         return format!("{number}{gap}{unit}");
     }
@@ -163,7 +167,7 @@ mod tests {
     }
 
     #[test]
-    fn the_written_unit_stays_and_nothing_else_changes() {
+    fn only_the_number_changes() {
         check(&[("length", "50mm", 62.5)], "50mm", "62.5mm");
         check(&[("speed", "-60  rpm", 30.0)], "-60  rpm", "30  rpm");
         check(&[("count", "2", 3.0)], "= 2", "= 3");

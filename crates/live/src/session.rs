@@ -247,8 +247,8 @@ impl LiveSession {
         if !baseline.is_sound() {
             return Some((json!({ "live": failure_json(texts.version, &baseline) }), Vec::new()));
         }
-        let knobs = baseline.knobs();
-        let exists = |(name, _): &&(String, String)| knobs.iter().any(|knob| knob.name == *name);
+        let params = baseline.params();
+        let exists = |(name, _): &&(String, String)| params.iter().any(|param| param.name == *name);
         let set: Settings = request.set.iter().filter(exists).cloned().collect();
         let builder = self.builder(texts);
         let solution = if set.is_empty() {
@@ -260,7 +260,7 @@ impl LiveSession {
         match (&request.manual, request.at) {
             (Some(manual), _) => context.manual(&set, manual),
             (None, Some(t)) => context.preview(&texts.cancel, t),
-            (None, None) => context.motion(&texts.cancel, &knobs),
+            (None, None) => context.motion(&texts.cancel, &params),
         }
     }
 
@@ -396,8 +396,8 @@ impl RequestContext<'_> {
     /// Responds with the row that inputs reach when they are moved by hand.
     fn manual(&self, set: &[(String, String)], ManualInputs { time, inputs }: &ManualInputs) -> Option<Response> {
         let outcome = self.builder.move_inputs(&self.solution, set, *time, inputs, self.cancel)?;
-        let jog = json!({ "reached": outcome.reached, "said": outcome.message });
-        Some((json!({ "live": { "version": self.version, "jog": jog } }), outcome.columns))
+        let input = json!({ "reached": outcome.reached, "said": outcome.message });
+        Some((json!({ "live": { "version": self.version, "jog": input } }), outcome.columns))
     }
 
     /// Responds with the picture at one time.
@@ -412,7 +412,7 @@ impl RequestContext<'_> {
     }
 
     /// Responds with the whole motion and the controls of the page.
-    fn motion(&self, of_texts: &Cancel, knobs: &[Knob]) -> Option<Response> {
+    fn motion(&self, of_texts: &Cancel, params: &[Knob]) -> Option<Response> {
         let RequestContext { baseline, solution, .. } = self;
         let mut motion = self.builder.motion(baseline, None, of_texts)?;
         if !Arc::ptr_eq(baseline, solution) {
@@ -422,50 +422,50 @@ impl RequestContext<'_> {
             let mut live = failure_json(self.version, solution);
             if !Arc::ptr_eq(baseline, solution) {
                 // the text is valid and only the params are not, so the page keeps its controls
-                live["knobs"] = self.params_json(knobs);
+                live["knobs"] = self.params_json(params);
             }
             return Some((json!({ "live": live }), Vec::new()));
         };
         let (mut data, mut columns) = page::single_page(visualization, &solution.sources).data();
         let times: Vec<f64> = visualization.motion.rows().iter().map(|row| row[0]).collect();
-        let jogs = solution.jogs(&times);
-        columns.extend(jogs.iter().map(|jog| jog.values.clone()));
+        let inputs = solution.inputs(&times);
+        columns.extend(inputs.iter().map(|input| input.values.clone()));
         data["live"] = json!({
             "version": self.version,
-            "knobs": self.params_json(knobs),
+            "knobs": self.params_json(params),
             "cranks": solution.cranks().iter().map(|crank| json!({
                 "frame": crank.body + 1, "pivot": crank.pivot,
                 "input": crank.input.as_ref().map(|input| &input.name), "rate": crank.input.as_ref().map(|input| input.rate),
             })).collect::<Vec<_>>(),
-            "jogs": jogs.iter().map(|jog| json!({
-                "name": jog.name, "unit": jog.written, "formula": jog.formula,
-                "si": size_of_unit(&jog.written), "dimension": jog.dimension,
+            "jogs": inputs.iter().map(|input| json!({
+                "name": input.name, "unit": input.written, "formula": input.formula,
+                "si": size_of_unit(&input.written), "dimension": input.dimension,
             })).collect::<Vec<_>>(),
         });
         Some((data, columns))
     }
 
     /// Returns the params that the page may set.
-    fn params_json(&self, knobs: &[Knob]) -> Value {
+    fn params_json(&self, params: &[Knob]) -> Value {
         let sources = &self.baseline.sources;
-        let set = self.solution.knobs();
-        let set: FxHashMap<&str, f64> = set.iter().map(|knob| (knob.name.as_str(), knob.value)).collect();
-        let now = |knob: &Knob| set.get(knob.name.as_str()).filter(|_| knob.formula.is_some() || knob.of.is_some());
+        let set = self.solution.params();
+        let set: FxHashMap<&str, f64> = set.iter().map(|param| (param.name.as_str(), param.value)).collect();
+        let now = |param: &Knob| set.get(param.name.as_str()).filter(|_| param.formula.is_some() || param.of.is_some());
         let mut sizes: FxHashMap<&str, f64> = FxHashMap::default();
         let is_here = |span: &Span| self.baseline.checked.as_ref().is_some_and(|checked| checked.file() == span.file);
-        let params = knobs.iter().map(|knob| {
+        let params = params.iter().map(|param| {
             let line = |span: Span| {
                 let file = sources.get(span.file);
                 format!("{}:{}", file.name, file.position(span.start).0)
             };
             json!({
-                "name": knob.name, "unit": knob.unit, "value": knob.value, "formula": knob.formula,
-                "si": sizes.entry(&knob.unit).or_insert_with(|| size_of_unit(&knob.unit)),
-                "dimension": knob.dimension, "held": self.builder.command_setting(&knob.name), "whole": !knob.leads,
-                "now": now(knob),
-                "of": knob.of,
-                "text": knob.place.filter(is_here).map(|span| sources.text(span)),
-                "where": knob.stands.filter(|_| knob.place.is_none_or(|span| !is_here(&span))).map(line),
+                "name": param.name, "unit": param.unit, "value": param.value, "formula": param.formula,
+                "si": sizes.entry(&param.unit).or_insert_with(|| size_of_unit(&param.unit)),
+                "dimension": param.dimension, "held": self.builder.command_setting(&param.name), "whole": !param.leads,
+                "now": now(param),
+                "of": param.of,
+                "text": param.place.filter(is_here).map(|span| sources.text(span)),
+                "where": param.stands.filter(|_| param.place.is_none_or(|span| !is_here(&span))).map(line),
             })
         });
         Value::Array(params.collect())

@@ -51,7 +51,7 @@ impl Solution {
         rendered(motion.as_ref().map_or(&self.diagnostics, |motion| &motion.diagnostics), &self.sources)
     }
 
-    pub fn knobs(&self) -> Vec<Knob> {
+    pub fn params(&self) -> Vec<Knob> {
         self.checked.as_ref().map(Checked::knobs).unwrap_or_default()
     }
 
@@ -61,7 +61,7 @@ impl Solution {
     }
 
     /// Returns the inputs with their values at some times (s).
-    pub fn jogs(&self, times: &[f64]) -> Vec<Jog> {
+    pub fn inputs(&self, times: &[f64]) -> Vec<Jog> {
         let both = self.checked.as_ref().zip(self.compiled.as_ref());
         both.map(|(checked, compiled)| checked.jogs(compiled, times)).unwrap_or_default()
     }
@@ -94,10 +94,11 @@ impl SolutionBuilder<'_> {
 
     /// Returns the options of `run --lead --set …`. A param that decides the number of bodies is set without continuation.
     fn choice(&self, baseline: &Solution, set: &[(String, String)]) -> Choice {
-        let knobs = baseline.knobs();
-        let can_be_continued = |(name, _): &(String, String)| knobs.iter().any(|knob| knob.name == *name && knob.leads);
-        let is_continued = |knob: &Knob| knob.leads || self.command_setting(&knob.name).is_none();
-        let lead = set.iter().all(can_be_continued) && knobs.iter().all(is_continued);
+        let params = baseline.params();
+        let can_be_continued =
+            |(name, _): &(String, String)| params.iter().any(|param| param.name == *name && param.leads);
+        let is_continued = |param: &Knob| param.leads || self.command_setting(&param.name).is_none();
+        let lead = set.iter().all(can_be_continued) && params.iter().all(is_continued);
         let mut choice = Choice { lead, ..self.choice.clone() };
         choice.set.extend(set.iter().map(|(name, formula)| format!("{name}={formula}")));
         choice
@@ -183,7 +184,7 @@ impl SolutionBuilder<'_> {
             Err(_) if cancel.is_cancelled() => return None,
             Err(diagnostics) => return failure(rendered(&diagnostics, &solution.sources)),
         };
-        let available = solution.jogs(&[t]);
+        let available = solution.inputs(&[t]);
         let moves = inputs.iter().filter_map(|(name, to)| InputMove::new(&available, name, *to));
         let moves: Vec<InputMove> = moves.collect();
         let (mut message, mut limit) = (None, 1.0);
@@ -287,8 +288,8 @@ struct InputMove {
 
 impl InputMove {
     fn new(available: &[Jog], name: &str, to: f64) -> Option<InputMove> {
-        let jog = available.iter().find(|jog| jog.name == name)?;
-        Some(InputMove { name: jog.name.clone(), unit: jog.unit.clone(), range: [*jog.values.first()?, to] })
+        let input = available.iter().find(|input| input.name == name)?;
+        Some(InputMove { name: input.name.clone(), unit: input.unit.clone(), range: [*input.values.first()?, to] })
     }
 
     fn at(&self, fraction: f64) -> f64 {

@@ -178,7 +178,7 @@ impl<'t> Cursor<'t> {
                 at -= 2;
             }
             match tokens[at].text {
-                // `in 1/s`
+                // as in `in 1/s`
                 "1" => at = at.checked_sub(1)?,
                 unit => {
                     dimensions.push(Unit::named(unit)?.dimension);

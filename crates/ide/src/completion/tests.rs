@@ -1,10 +1,9 @@
-//! What is proposed in half-typed texts.
+//! Tests of completions in unfinished texts.
 
 use super::completions;
 use crate::testing::{FOUR_BAR, TWO_FILES, at_cursor};
 
-/// The first so many proposals of a text with a cursor: how well each fits, its label with its arguments, what it is, and what it
-/// writes where that is something else.
+/// Lists the first completions at a cursor: rank, label with arguments, description, and the inserted text if it differs from the label.
 #[track_caller]
 fn proposed(text: &str, count: usize) -> String {
     let (snapshot, position) = at_cursor(text);
@@ -22,7 +21,7 @@ fn proposed(text: &str, count: usize) -> String {
     items.iter().take(count).map(line).collect::<Vec<_>>().join("\n")
 }
 
-/// The four-bar with a line in the place of another one.
+/// Replaces a line of the four-bar.
 fn with(from: &str, to: &str) -> String {
     assert!(FOUR_BAR.contains(from), "{from}");
     FOUR_BAR.replacen(from, to, 1)
@@ -45,7 +44,7 @@ fn points_of_a_body_come_behind_its_dot() {
 }
 
 #[test]
-fn a_joint_asks_for_what_it_joins() {
+fn a_joint_proposes_its_arguments() {
     insta::assert_snapshot!(proposed(&with(KNEE, "joint knee: revolute($0\n"), 20), @r"
     1 ground.A — point A = (0, 0), of ground
     1 ground.D — point D = (100 mm, 0), of ground
@@ -85,7 +84,7 @@ fn a_joint_asks_for_what_it_joins() {
 }
 
 #[test]
-fn what_is_missing_is_proposed() {
+fn missing_declarations_are_proposed() {
     insta::assert_snapshot!(proposed(&with(PIN, "$0\n"), 5), @r"
     0 driver drive: rotation(pivot) = 100 deg + 60 deg/s * t — this is left free → driver «drive»: rotation(pivot) = «100 deg + 60 deg/s * t»
     0 driver drive: rotation(knee) = 70 deg + 60 deg/s * t — this is left free → driver «drive»: rotation(knee) = «70 deg + 60 deg/s * t»
@@ -192,7 +191,7 @@ fn units_come_behind_numbers_those_that_fit_first() {
 }
 
 #[test]
-fn formulas_know_what_may_stand_in_them() {
+fn formulas_propose_fitting_operands() {
     insta::assert_snapshot!(proposed(&with("    analysis", "    measure w = $0\n    analysis"), 44), @r"
     1 crank_length — param crank_length = 30 mm
     2 if — one formula or another → if «CONDITION» then «A» else «B»
@@ -310,7 +309,7 @@ fn a_window_is_proposed_behind_the_formula_of_a_reduction() {
 }
 
 #[test]
-fn a_unit_goes_on_with_units_alone() {
+fn a_unit_continues_with_units_only() {
     let labels = |text: &str| {
         let (snapshot, position) = at_cursor(text);
         let items = completions(&snapshot, &position).expect("a file").items;
@@ -327,7 +326,7 @@ fn a_unit_goes_on_with_units_alone() {
     assert!(measure("crank_length/").contains("crank_length"));
 }
 
-/// A text with so many bytes of comments that not everything would be quick in it.
+/// Adds so many bytes of comments that some completions are too slow.
 fn long(text: &str, bytes: usize) -> String {
     format!("{text}{}", "// what was tried before\n".repeat(bytes / 25))
 }
@@ -342,7 +341,7 @@ fn long_texts_know_joints_and_units_as_well() {
     assert_eq!(best(&long(&units, 30_000)), best(&units));
 }
 
-/// The two files with another text for the part in the first one.
+/// Replaces the text of the part in the first of the two files.
 fn parts(from: &str, to: &str) -> String {
     assert!(TWO_FILES.contains(from), "{from}");
     TWO_FILES.replacen(from, to, 1)
@@ -389,7 +388,7 @@ fn every_place_of_every_prefix_has_an_answer() {
 }
 
 #[test]
-fn of_very_many_names_those_come_that_go_with_the_letters() {
+fn very_many_names_are_filtered_by_the_letters() {
     let params = (0..2_000).map(|k| format!("    param length_{k} = {k} mm\n")).collect::<Vec<_>>().concat();
     let of = |letters: &str| {
         let (snapshot, position) =

@@ -277,7 +277,7 @@ mod tests {
     use super::difference;
 
     #[test]
-    fn only_what_differs_is_edited() {
+    fn only_the_difference_is_edited() {
         assert_eq!(difference("a = 50 mm // µ", "a = 62.5 mm // µ"), (4..6, "62.5"));
         assert_eq!(difference("aaa", "aa"), (2..3, ""));
         assert_eq!(difference("µµ", "µaµ"), (2..2, "a"));

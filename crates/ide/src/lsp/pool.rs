@@ -108,7 +108,7 @@ mod tests {
     fn words_do_not_wait_for_a_proof() {
         let (pool, (sender, receiver)) = (Pool::new(), unbounded());
         let (until, end) = unbounded::<()>();
-        // it takes until the words are there
+        // the proof lasts until the words are done
         pool.start(TaskKind::Proof, move || assert!(end.recv().is_err()));
         pool.start(TaskKind::Words, move || sender.send("words").expect("it is open"));
         assert_eq!(receiver.recv(), Ok("words"));

@@ -179,7 +179,7 @@ mod tests {
     }
 
     #[test]
-    fn related_places_and_fixes_move_with_what_they_belong_to() {
+    fn related_locations_and_fixes_shift_with_their_texts() {
         let location = |path: &str, start| FileRange { path: Path::new(path).into(), start, end: start + 4 };
         let related = |path: &str| Related { location: location(path, 20), text: String::new() };
         let fix = |path: &str, start| ProposedFix {

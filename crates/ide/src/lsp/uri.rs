@@ -19,7 +19,7 @@ pub(super) fn path_of(uri: &str) -> PathBuf {
     match path.strip_prefix('/').and_then(with_drive) {
         Some(path) => PathBuf::from(path),
         None if is_here => PathBuf::from(path),
-        // a share of another machine
+        // another host means a network share
         None => PathBuf::from(format!("//{}{path}", decoded(host))),
     }
 }
@@ -116,7 +116,7 @@ mod tests {
 
     #[test]
     fn names_keep_their_case_and_their_form() {
-        // composed and decomposed: which of them are one file is for the system to say
+        // whether composed and decomposed names are the same file depends on the file system
         both_ways("file:///a/%C3%A9.mech", "/a/é.mech");
         both_ways("file:///a/e%CC%81.mech", "/a/e\u{301}.mech");
         both_ways("file:///a/A.MECH", "/a/A.MECH");
