@@ -192,7 +192,8 @@ impl SolutionBuilder<'_> {
             let fraction = limit * if limit < 1.0 { shortened } else { 1.0 };
             let overrides: Vec<(&str, String)> =
                 moves.iter().map(|input| (input.name.as_str(), input.override_at(fraction))).collect();
-            let (row, diagnostics, sources) = self.row_with(self.choice(solution, set), &start, &overrides, cancel);
+            let RowAttempt { row, diagnostics, sources } =
+                self.row_with(self.choice(solution, set), &start, &overrides, cancel);
             if cancel.is_cancelled() {
                 return None;
             }
@@ -233,14 +234,8 @@ impl SolutionBuilder<'_> {
     }
 
     /// Computes the row with inputs overridden (by name, as `--input` takes them), if it is reached from a configuration.
-    fn row_with(
-        &self,
-        mut choice: Choice,
-        start: &Stand,
-        overrides: &[(&str, String)],
-        cancel: &Cancel,
-    ) -> (Option<Vec<f64>>, Diagnostics, Sources) {
-        let Ok(parsed) = self.parsed else { return (None, Diagnostics::default(), Sources::default()) };
+    fn row_with(&self, mut choice: Choice, start: &Stand, overrides: &[(&str, String)], cancel: &Cancel) -> RowAttempt {
+        let Ok(parsed) = self.parsed else { return RowAttempt::default() };
         let is_replaced = |input: &String| {
             input.split_once('=').is_some_and(|(name, _)| overrides.iter().any(|(moved, _)| *moved == name.trim()))
         };
@@ -264,8 +259,16 @@ impl SolutionBuilder<'_> {
                 None
             }
         });
-        (row, diagnostics, sources)
+        RowAttempt { row, diagnostics, sources }
     }
+}
+
+/// A row, if it is reached, with the diagnostics and the texts that these refer to.
+#[derive(Default)]
+struct RowAttempt {
+    row: Option<Vec<f64>>,
+    diagnostics: Diagnostics,
+    sources: Sources,
 }
 
 /// The outcome of moving inputs by hand.

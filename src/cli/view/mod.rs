@@ -55,11 +55,11 @@ pub(super) fn view(arguments: &ViewArguments, reporter: &mut Reporter) -> Result
     let choice = Choice { pictures_forces: form == Form::Page || arguments.forces, ..input::choice(input_arguments) };
     let checked = ManuallyDrop::new(input::checked_in(&parsed, &choice, &Disk, reporter)?);
     let options = RunOptions { pass_bifurcations: arguments.pass_bifurcations, ..RunOptions::default() };
-    let target = Target { arguments, form, output, frames };
+    let target = Target { arguments, form, output, frames, run_options: &options };
     let compiled = match input::prove(&checked, arguments.allow_redundant) {
         (None, diagnostics) => {
             let file = target.open(reporter)?;
-            return target.write_at_rest(file, (&checked, None), (0.0, &options), diagnostics, reporter);
+            return target.write_at_rest(file, &checked, None, 0.0, diagnostics, reporter);
         }
         (compiled, diagnostics) => reporter.require(compiled, diagnostics)?,
     };
@@ -71,8 +71,7 @@ pub(super) fn view(arguments: &ViewArguments, reporter: &mut Reporter) -> Result
     let max_rows = if target.frames.is_some() { usize::MAX } else { MAX_ROWS };
     let mut visualization = match checked.seen(&compiled, &whole, &options, max_rows) {
         (None, diagnostics) => {
-            let at = (whole.from(), &options);
-            return target.write_at_rest(file, (&checked, Some(&compiled)), at, diagnostics, reporter);
+            return target.write_at_rest(file, &checked, Some(&compiled), whole.from(), diagnostics, reporter);
         }
         (visualization, diagnostics) => reporter.require(visualization, diagnostics)?,
     };
@@ -88,7 +87,7 @@ pub(super) fn view(arguments: &ViewArguments, reporter: &mut Reporter) -> Result
     let (moments, stopped) = match listed.filter(|_| !is_isolated && form != Form::Page) {
         None => (rows.filter(|_| !is_isolated && form == Form::Picture), visualization.stopped.clone()),
         Some(times) => {
-            let (motion, stopped) = moments((&checked, &compiled), &times, &options, &visualization)?;
+            let (motion, stopped) = moments(&checked, &compiled, &times, &options, &visualization)?;
             (Some(motion), stopped)
         }
     };
@@ -122,6 +121,8 @@ struct Target<'a> {
     form: Form,
     output: &'a str,
     frames: Option<Frames>,
+    /// The options for the motion.
+    run_options: &'a RunOptions,
 }
 
 impl Target<'_> {
@@ -169,8 +170,9 @@ impl Target<'_> {
     fn write_at_rest(
         &self,
         file: Option<Output>,
-        (checked, compiled): (&Checked, Option<&Compiled>),
-        at: (f64, &RunOptions),
+        checked: &Checked,
+        compiled: Option<&Compiled>,
+        t: f64,
         mut diagnostics: Diagnostics,
         reporter: &Reporter,
     ) -> Result<(), Failure> {
@@ -182,7 +184,7 @@ impl Target<'_> {
         if let Some(why) = why {
             let help = "name a `.svg` or `.html` file to see what is the matter with it";
             diagnostics.push(unusable(format!("{}: {why}", self.not_written())).help(help));
-        } else if let Some(mut still) = checked.seen_at_rest(compiled, at, &diagnostics) {
+        } else if let Some(mut still) = checked.seen_at_rest(compiled, (t, self.run_options), &diagnostics) {
             self.isolate_body(&mut still)?;
             let options = overlays::svg_options(self.arguments, &still)?;
             self.write(file, &Drawing { visualization: &still, moments: None, options: &options }, reporter)?;
@@ -266,7 +268,8 @@ fn plotted_columns(visualization: &Seen) -> impl Iterator<Item = (&String, &Colu
 
 /// Computes the requested moments, and why the last of them are missing, if they are. If the motion stops, its last row is appended.
 fn moments(
-    (checked, compiled): (&Checked, &Compiled),
+    checked: &Checked,
+    compiled: &Compiled,
     times: &Times,
     options: &RunOptions,
     visualization: &Seen,

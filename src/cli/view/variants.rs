@@ -54,6 +54,13 @@ struct SolvedVariant {
     stopped: Option<(Sources, Diagnostics)>,
 }
 
+/// The outcome of solving a variant.
+struct Attempt {
+    checked: ManuallyDrop<Checked>,
+    visualization: Option<Seen>,
+    diagnostics: Diagnostics,
+}
+
 /// Solves the variants of a mechanism.
 struct VariantSolver<'s> {
     arguments: &'s ViewArguments,
@@ -90,7 +97,7 @@ impl VariantSolver<'_> {
     /// Solves all variants; returns them with the index of the one to show first.
     fn solve_all(&self, reporter: &mut Reporter) -> Result<(Vec<SolvedVariant>, usize), Failure> {
         let first = self.varied.iter().fold(0, |index, varied| index * varied.values.len() + varied.nearest);
-        let (checked, solved, diagnostics) = self.solve(first, MAX_ROWS);
+        let Attempt { checked, visualization: solved, diagnostics } = self.solve(first, MAX_ROWS);
         reporter.sources = checked.sources().clone();
         let template = match solved {
             // its diagnostics follow once the page is written
@@ -101,7 +108,7 @@ impl VariantSolver<'_> {
         let progress = &mut Progress::counting("variants", self.count() as u64, false);
         let mut all = Vec::with_capacity(self.count());
         for variant in 0..self.count() {
-            let (checked, solved, diagnostics) = self.solve(variant, max_rows);
+            let Attempt { checked, visualization: solved, diagnostics } = self.solve(variant, max_rows);
             let errors = match solved.as_ref().and_then(|solved| solved.stopped.clone()) {
                 Some(stop) => stop.into(),
                 None if solved.as_ref().is_some_and(has_motion) => Diagnostics::default(),
@@ -121,13 +128,13 @@ impl VariantSolver<'_> {
     }
 
     /// Solves a variant; returns its visualization, if there is one, with its diagnostics.
-    fn solve(&self, variant: usize, max_rows: usize) -> (ManuallyDrop<Checked>, Option<Seen>, Diagnostics) {
+    fn solve(&self, variant: usize, max_rows: usize) -> Attempt {
         let choice = Choice { varied: self.settings(variant), ..self.choice.clone() };
         // see `run`: nothing is dropped before the process ends
         let checked = ManuallyDrop::new(self.parsed.check(&choice, self.world));
         let mut diagnostics = checked.diagnostics().clone();
         if !checked.is_sound() {
-            return (checked, None, diagnostics);
+            return Attempt { checked, visualization: None, diagnostics };
         }
         let (compiled, more) = input::prove(&checked, self.arguments.allow_redundant);
         diagnostics.extend(more);
@@ -150,7 +157,7 @@ impl VariantSolver<'_> {
         });
         let from = times.as_ref().map_or(0.0, |(_, times)| times.from());
         let visualization = moving.or_else(|| checked.seen_at_rest(compiled.as_ref(), (from, &options), &diagnostics));
-        (checked, visualization, diagnostics)
+        Attempt { checked, visualization, diagnostics }
     }
 
     /// Returns the times of a variant, which may depend on its params.
