@@ -175,8 +175,8 @@ const PLATFORM: &[(&str, &str)] = &[
     ("live/src/server.rs", "std::net"),
     ("live/src/server.rs", "std::thread"),
     ("live/src/server.rs", "std::time"),
-    ("live/src/workshop.rs", "std::thread"),
-    ("live/src/workshop.rs", "std::time"),
+    ("live/src/session.rs", "std::thread"),
+    ("live/src/session.rs", "std::time"),
 ];
 
 #[test]

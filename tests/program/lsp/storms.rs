@@ -245,9 +245,9 @@ fn messages(texts: &BTreeMap<String, String>, uri: &str, world: &Arc<Shelf>) -> 
     }
     let text = &texts[uri];
     let of = |stage| ide::diagnostics(&snapshot, &path(uri), stage, &Cancel::default).expect("nobody cancels it");
-    let line = |messages: ide::Said| {
-        let (line, column) = position(text, messages.range.start as usize);
-        format!("{}:{} {} {}", line + 1, column + 1, messages.code, messages.message)
+    let line = |said: ide::EditorDiagnostic| {
+        let (line, column) = position(text, said.range.start as usize);
+        format!("{}:{} {} {}", line + 1, column + 1, said.code, said.message)
     };
     [DiagnosticStage::Words, DiagnosticStage::Proof, DiagnosticStage::Motion]
         .into_iter()
