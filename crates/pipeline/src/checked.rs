@@ -106,8 +106,8 @@ impl Parsed {
     /// Returns the fixes that always apply: those of syntax errors; if there are none, those of all mechanisms.
     #[must_use]
     pub fn certain_fixes(&self, world: &dyn World) -> Vec<Fix> {
-        let certain = |found: &Diagnostics| -> Vec<Fix> {
-            let fixes = found.iter().flat_map(|diagnostic| &diagnostic.fixes);
+        let certain = |diagnostics: &Diagnostics| -> Vec<Fix> {
+            let fixes = diagnostics.iter().flat_map(|diagnostic| &diagnostic.fixes);
             fixes.filter(|fix| fix.applies == Applies::Always).cloned().collect()
         };
         let of_syntax = certain(self.faults());
@@ -303,9 +303,9 @@ impl Checked {
     /// Returns whether another mechanism of its text uses it as a part.
     #[must_use]
     pub fn is_part_of_another(&self) -> bool {
-        let Some(own) = self.tree() else { return false };
-        let is_it = |name: &ast::MechanismName| name.prefix.is_none() && name.name.text == own.name.text;
-        self.parsed.tree().mechanisms.iter().any(|other| other.name != own.name && parts(other).any(is_it))
+        let Some(tree) = self.tree() else { return false };
+        let is_part = |name: &ast::MechanismName| name.prefix.is_none() && name.name.text == tree.name.text;
+        self.parsed.tree().mechanisms.iter().any(|other| other.name != tree.name && parts(other).any(is_part))
     }
 
     /// Returns the model; `None` if the mechanism has errors.
@@ -346,8 +346,8 @@ impl Checked {
     /// Returns the files that its text uses and that can be read, each with the span that names it.
     pub fn used_files(&self) -> impl Iterator<Item = (Span, FileId)> {
         let files = self.library.files();
-        let own = files.iter().take(1).flat_map(|own| own.read.tree.uses.iter().zip(&own.uses));
-        own.filter_map(|(import, index)| Some((import.path.as_ref()?.span, files[(*index)?].id)))
+        let imports = files.iter().take(1).flat_map(|file| file.read.tree.uses.iter().zip(&file.uses));
+        imports.filter_map(|(import, index)| Some((import.path.as_ref()?.span, files[(*index)?].id)))
     }
 
     /// Returns the files whose mechanisms its text may name; its own file is the first.
@@ -463,28 +463,28 @@ fn outermost(mechanisms: &[(&str, Vec<&str>)]) -> Option<usize> {
 
 fn selected_mechanism(parsed: &Parsed, imports: &Imports, requested: Option<&str>) -> Result<usize, Box<Diagnostic>> {
     let names: Vec<&str> = parsed.mechanisms().collect();
-    let with_parts: Vec<(&str, Vec<&str>)> = parsed.tree().mechanisms.iter().map(with_own_parts).collect();
+    let with_parts: Vec<(&str, Vec<&str>)> = parsed.tree().mechanisms.iter().map(with_local_parts).collect();
     let listed = format!("the mechanisms are {}", names.join(", "));
     let file = &parsed.sources().get(parsed.file()).name;
     match requested.map(syntax::normalized) {
         None => outermost(&with_parts).ok_or_else(|| {
-            let diagnostics = Diagnostic::new(Code::E0704, format!("`{file}` holds {} mechanisms", names.len()));
-            Box::new(diagnostics.help(format!("choose one with `--mechanism NAME`; {listed}")))
+            let diagnostic = Diagnostic::new(Code::E0704, format!("`{file}` holds {} mechanisms", names.len()));
+            Box::new(diagnostic.help(format!("choose one with `--mechanism NAME`; {listed}")))
         }),
-        Some(name) => names.iter().position(|known| *known == name).ok_or_else(|| {
-            let meant = nearest(&name, names.iter().copied()).map(|name| format!("was `{name}` meant?"));
-            let diagnostics = Diagnostic::new(Code::E0704, format!("`{file}` holds no mechanism `{name}`"));
+        Some(name) => names.iter().position(|other| *other == name).ok_or_else(|| {
+            let suggestion = nearest(&name, names.iter().copied()).map(|name| format!("was `{name}` meant?"));
+            let diagnostic = Diagnostic::new(Code::E0704, format!("`{file}` holds no mechanism `{name}`"));
             let elsewhere = imports.library.file_of(&name).map(|other| &imports.sources.get(other).name);
             let elsewhere = elsewhere.map(|other| format!("`{other}`, which it uses, holds it: name that file"));
-            Box::new(diagnostics.help(elsewhere.or(meant).unwrap_or(listed)))
+            Box::new(diagnostic.help(elsewhere.or(suggestion).unwrap_or(listed)))
         }),
     }
 }
 
 /// Returns the name of a mechanism, and those of its parts that are declared in the same text.
-fn with_own_parts(tree: &ast::Mechanism) -> (&str, Vec<&str>) {
-    let own = parts(tree).filter(|name| name.prefix.is_none());
-    (&tree.name.text, own.map(|name| name.name.text.as_str()).collect())
+fn with_local_parts(tree: &ast::Mechanism) -> (&str, Vec<&str>) {
+    let local = parts(tree).filter(|name| name.prefix.is_none());
+    (&tree.name.text, local.map(|name| name.name.text.as_str()).collect())
 }
 
 /// Returns the mechanisms that a mechanism uses as parts.
@@ -497,19 +497,19 @@ fn parts(tree: &ast::Mechanism) -> impl Iterator<Item = &ast::MechanismName> {
 
 /// Returns a mechanism and all its parts at all levels, each once.
 fn with_parts<'t>(library: &'t Library, tree: &'t ast::Mechanism, sources: &Sources) -> Vec<&'t ast::Mechanism> {
-    let (mut found, mut next) = (vec![tree], 0);
-    while let Some(tree) = found.get(next).copied() {
+    let (mut trees, mut next) = (vec![tree], 0);
+    while let Some(tree) = trees.get(next).copied() {
         next += 1;
         for name in parts(tree) {
-            if let Ok(known) = library.find(name.prefix.as_ref(), &name.name, sources) {
-                let part = library.tree(known);
-                if !found.iter().any(|tree| tree.name.span == part.name.span) {
-                    found.push(part);
+            if let Ok(place) = library.find(name.prefix.as_ref(), &name.name, sources) {
+                let part = library.tree(place);
+                if !trees.iter().any(|tree| tree.name.span == part.name.span) {
+                    trees.push(part);
                 }
             }
         }
     }
-    found
+    trees
 }
 
 /// Reads the files that the tables of some mechanisms name.

@@ -54,7 +54,7 @@ pub struct Run {
     has_ended: bool,
     has_stopped: bool,
     /// What results are computed from; `None` if there are none.
-    asked: Option<Asked>,
+    result_query: Option<Asked>,
     results: usize,
     part_backtrace: PartBacktrace,
 }
@@ -140,8 +140,8 @@ impl Compiled {
         options: &RunOptions,
         solving: Solving,
     ) -> (Result<Started, Box<Diagnostic>>, Diagnostics) {
-        let (beginning, mut diagnostics) = self.initial_guess(horizon, options);
-        let started = match beginning {
+        let (stage, mut diagnostics) = self.initial_guess(horizon, options);
+        let started = match stage {
             StartStage::Started(started) => return (*started, diagnostics),
             StartStage::At(InitialGuess::Position(q), at) => self.unassembled(at, options).assemble_at(&q, solving),
             StartStage::At(InitialGuess::Estimates(drawn), at) => {
@@ -265,7 +265,7 @@ impl Run {
         let assembly = assembly(compiled, &mut started, times.from());
         let results = compiled.system().results().outcomes.len();
         let interval = times.interval().filter(|_| results > 0);
-        let asked = interval.map(|interval| started.asked(interval, options.pass_bifurcations, &options.cancel));
+        let result_query = interval.map(|interval| started.asked(interval, options.pass_bifurcations, &options.cancel));
         let mut motion = started.into_motion(times);
         if options.pass_bifurcations {
             motion.pass_bifurcations();
@@ -281,7 +281,7 @@ impl Run {
             cancel,
             has_ended: false,
             has_stopped: false,
-            asked,
+            result_query,
             results,
             part_backtrace: compiled.part_backtrace().clone(),
         };
@@ -329,12 +329,12 @@ impl Run {
     /// Returns the results, in the order of [`Compiled::results`]. `None` if only some times were requested or the work is cancelled; results have
     /// no values if the motion has stopped. The first call follows the motion once more, later ones return `None`.
     pub fn results(&mut self) -> Option<Answers> {
-        let asked = self.asked.take()?;
+        let result_query = self.result_query.take()?;
         if self.has_stopped {
             let count = self.results;
             return Some(Answers { values: vec![None; count], digits: vec![0; count], ..Answers::default() });
         }
-        let Answers { values, digits, notes, has_all_rows } = asked.answer()?;
+        let Answers { values, digits, notes, has_all_rows } = result_query.answer()?;
         let mut diagnostics = Diagnostics::default();
         diagnostics.extend(notes);
         let notes = self.part_backtrace.annotate_all(diagnostics).into_iter().collect();
@@ -388,27 +388,27 @@ mod tests {
     }
 
     #[test]
-    fn what_is_cancelled_gives_nothing_and_says_nothing() {
+    fn cancelled_work_gives_nothing_and_reports_nothing() {
         let cancel = Cancel::default();
-        let compiled_now = compiled(&cancel).expect("it is determined");
+        let determined = compiled(&cancel).expect("it is determined");
         let options = RunOptions { cancel: cancel.clone(), ..RunOptions::default() };
         let times = Times::grid(0.0, 1e9, 1.0).expect("a grid");
-        let mut run = compiled_now.run(&times, &options).0.expect("it assembles");
+        let mut run = determined.run(&times, &options).0.expect("it assembles");
         assert!(run.next_row().is_some_and(|row| row.is_ok()));
         cancel.cancel();
         assert!(run.next_row().is_none(), "it went on, or was told why");
-        let (run, diagnostics) = compiled_now.run(&times, &options);
+        let (run, diagnostics) = determined.run(&times, &options);
         assert!(run.is_none() && diagnostics.is_empty());
         assert!(compiled(&cancel).is_none());
     }
 
     #[test]
     fn stages_go_to_other_threads() {
-        fn goes<T: Send + Sync + Clone>() {}
-        fn moves<T: Send>() {}
-        goes::<Parsed>();
-        goes::<crate::Checked>();
-        goes::<Compiled>();
-        moves::<crate::Run>();
+        fn is_shared<T: Send + Sync + Clone>() {}
+        fn is_sent<T: Send>() {}
+        is_shared::<Parsed>();
+        is_shared::<crate::Checked>();
+        is_shared::<Compiled>();
+        is_sent::<crate::Run>();
     }
 }

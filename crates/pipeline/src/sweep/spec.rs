@@ -310,9 +310,9 @@ impl SpecBuilder<'_> {
     fn param(&mut self, name: &str, formulas: &[String]) -> SourcedResult<(usize, Vec<f64>)> {
         let (mut values, mut dimension) = (Vec::with_capacity(formulas.len()), None);
         for formula in formulas {
-            let (_, value, found) = self.reader.number(name, formula)?;
+            let (_, value, dimension_of) = self.reader.number(name, formula)?;
             values.push(value);
-            dimension = dimension.or(found);
+            dimension = dimension.or(dimension_of);
         }
         let texts: Vec<&str> = formulas.iter().map(String::as_str).collect();
         let unit = if dimension.is_none() && values.iter().all(|value| *value == 0.0) {
