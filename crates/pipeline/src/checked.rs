@@ -32,7 +32,7 @@ pub struct Choice {
     pub mechanism: Option<String>,
     /// Params: `NAME=FORMULA`; the last setting of a name counts.
     pub set: Vec<String>,
-    /// Whether the mechanism is assembled with its nominal values, and continued to those of `set` along its branch.
+    /// True if the mechanism is assembled with its nominal values, and continued to those of `set` along its branch.
     pub lead: bool,
     /// Params that vary from run to run, set over those of `set`; messages name them so.
     pub varied: Vec<String>,
@@ -48,12 +48,12 @@ pub struct Choice {
     pub until: Option<String>,
     /// Inputs and params by which all columns are differentiated; the derivatives are columns after all others.
     pub by: Vec<String>,
-    /// Whether results are differentiated by these too, as results after all others. The two flags tell whether the first and the last time of
+    /// True if results are differentiated by these too, as results after all others. The two flags tell whether the first and the last time of
     /// the analysis are those of the text, which may depend on params.
     pub slopes: Option<[bool; 2]>,
-    /// Whether the reactions of all joints and the efforts of all drivers are tabulated.
+    /// True if the reactions of all joints and the efforts of all drivers are tabulated.
     pub reactions: bool,
-    /// Whether pictures show forces, if there are any.
+    /// True if pictures show forces, if there are any.
     pub pictures_forces: bool,
 }
 
@@ -65,7 +65,7 @@ pub struct Choice {
 /// let parsed = Parsed::of("lever.mech", "mechanism lever { body bar { point P = (1 m, 0) } driver d: angle(bra) = t }");
 /// let checked = parsed.check(&Choice::default(), &Memory::default());
 /// assert!(!checked.is_sound());
-/// assert_eq!(checked.diagnostics().iter().map(|said| said.code.as_str()).collect::<Vec<_>>(), ["E0201"]);
+/// assert_eq!(checked.diagnostics().iter().map(|diagnostic| diagnostic.code.as_str()).collect::<Vec<_>>(), ["E0201"]);
 /// ```
 #[derive(Clone, Debug)]
 pub struct Checked {
@@ -76,9 +76,9 @@ pub struct Checked {
     pub(crate) model: Option<Arc<Mechanism>>,
     /// Finds its starting position, if it has parts or is given inputs.
     start_solver: Option<Arc<StartSolver>>,
-    /// Whether it is continued from the values of its text to those that are set.
+    /// True if it is continued from the values of its text to those that are set.
     is_continued: bool,
-    /// What it was checked with.
+    /// The options of its check.
     pub(crate) check_options: Arc<Surroundings>,
     diagnostics: Arc<Diagnostics>,
     symbols: Arc<OnceLock<Symbols>>,
@@ -89,7 +89,7 @@ impl Parsed {
     /// Checks one of its mechanisms.
     #[must_use]
     pub fn check(&self, choice: &Choice, world: &dyn World) -> Checked {
-        Checked::of(self, choice, world)
+        Checked::new(self, choice, world)
     }
 
     /// Checks all its mechanisms, in order, and reads the files that they use once. Returns one stage without a mechanism if there is none.
@@ -122,7 +122,7 @@ impl Parsed {
 }
 
 impl Checked {
-    fn of(parsed: &Parsed, choice: &Choice, world: &dyn World) -> Checked {
+    fn new(parsed: &Parsed, choice: &Choice, world: &dyn World) -> Checked {
         let imports = imports::read(parsed, world);
         match selected_mechanism(parsed, &imports, choice.mechanism.as_deref()) {
             Ok(index) => Checked::from_index(parsed, &imports, index, choice, world),

@@ -37,9 +37,9 @@ pub enum Redundant {
 ///      driver motor: rotation(axle) = 90 deg/s * t
 ///  }";
 /// let checked = Parsed::of("disc.mech", text).check(&Choice::default(), &Memory::default());
-/// let (compiled, said) = checked.compile(Redundant::Refused, &Cancel::default());
+/// let (compiled, diagnostics) = checked.compile(Redundant::Refused, &Cancel::default());
 /// let compiled = compiled.expect("it is determined");
-/// assert!(said.is_empty());
+/// assert!(diagnostics.is_empty());
 /// assert_eq!(compiled.drivers(), [("motor".to_owned(), "rotation(axle) = 90 deg/s * t".to_owned())]);
 /// ```
 #[derive(Clone)]

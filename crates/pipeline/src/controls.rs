@@ -30,13 +30,13 @@ pub struct Knob {
     pub formula: Option<String>,
     /// Span of the formula, if it can be replaced.
     pub place: Option<Span>,
-    /// Whether that formula gives the other coordinate of a point, too.
+    /// True if that formula gives the other coordinate of a point, too.
     pub is_half: bool,
     /// Span of the formula, if there is one.
     pub stands: Option<Span>,
     /// Path of the control of all copies, if this one is of a single copy of a part.
     pub of: Option<String>,
-    /// Whether continuation can change the value; counts of declarations jump.
+    /// True if continuation can change the value; counts of declarations jump.
     pub leads: bool,
 }
 
@@ -190,9 +190,9 @@ impl Checked {
 /// The formula of a param of a part, or of a coordinate of it.
 struct PartParamSource<'t> {
     formula: &'t Expr,
-    /// Whether the formula gives both coordinates of a point.
+    /// True if the formula gives both coordinates of a point.
     is_half: bool,
-    /// Whether the formula is a binding of the part, in which other names are valid.
+    /// True if the formula is a binding of the part, in which other names are valid.
     is_bound: bool,
     /// The unit of lengths in the surrounding text.
     usual: Option<&'static str>,

@@ -19,13 +19,13 @@ const MAX_NUMBERS: usize = 20_000;
 pub struct RustOptions {
     /// Name of the file, for the header.
     pub file: String,
-    /// Whether the code assembles the mechanism and follows its motion, in addition to evaluating the equations.
+    /// True if the code assembles the mechanism and follows its motion, in addition to evaluating the equations.
     pub with_motion: bool,
-    /// Whether the code computes derivatives of the coordinates by the params.
+    /// True if the code computes derivatives of the coordinates by the params.
     pub with_sensitivities: bool,
     /// Number of variants or times that are solved at once, in addition to single ones.
     pub lanes: Option<usize>,
-    /// Whether a crate has a header and functions for C.
+    /// True if a crate has a header and functions for C.
     pub for_c: bool,
     /// Operations beyond this number are written as tables instead of lines.
     pub largest_straight: usize,

@@ -18,7 +18,7 @@ use std::sync::Arc;
 pub struct Adjusting {
     /// Names of the inputs that queries set.
     pub inputs: Vec<String>,
-    /// Whether inputs may have accelerations; if not, accelerations of queries are ignored, and points can be evaluated in lanes.
+    /// True if inputs may have accelerations; if not, accelerations of queries are ignored, and points can be evaluated in lanes.
     pub bend: bool,
     /// Names of the params that queries set.
     pub params: Vec<String>,

@@ -13,7 +13,7 @@ use mechc_text::world::World;
 /// Words that make an angle of a pure number.
 const ANGLES: [&str; 3] = ["deg", "rad", "rev"];
 
-/// What an option specifies, or why it cannot be used, with the texts that the diagnostics point into.
+/// The value of an option, or why it cannot be used, with the texts that the diagnostics point into.
 pub(crate) type SourcedResult<T> = Result<T, (Sources, Diagnostics)>;
 
 /// Refuses params that are given twice, and a param of one copy before that of all copies, which would overwrite it.

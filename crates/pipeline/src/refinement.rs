@@ -27,7 +27,7 @@ pub struct CurveTolerance {
     pub off: f64,
     /// Columns that are plotted.
     pub columns: Vec<String>,
-    /// Whether bodies are shown at all times, so that the motion is refined to its end even if no line needs that.
+    /// True if bodies are shown at all times, so that the motion is refined to its end even if no line needs that.
     pub is_animated: bool,
     /// Limit of the number of rows.
     pub most_rows: usize,
@@ -81,7 +81,7 @@ const MIN_OF_DISTANCE: f64 = 1e-10;
 const MIN_OF_RANGE: f64 = 2e-4;
 const MIN_OF_VALUE: f64 = 1e-3;
 
-/// What a track draws.
+/// The subject of a track.
 #[derive(Clone, PartialEq, Debug)]
 enum Subject {
     /// A body, in a moving picture.
@@ -191,7 +191,7 @@ struct StepEnds {
     upcoming: Vec<f64>,
     /// Number of ends within the refined part.
     passed: usize,
-    /// Whether all steps are read.
+    /// True if all steps are read.
     is_complete: bool,
 }
 

@@ -17,7 +17,7 @@ pub struct Assembly {
     pub t: f64,
     /// For each coordinate: name, value (SI), unit.
     pub coordinates: Vec<(String, f64, &'static str)>,
-    /// How far the bodies moved from their estimates, in words.
+    /// Distances by which the bodies moved from their estimates, in words.
     pub moved: String,
     /// Distance to a singular position: 1 is far, 0 is singular.
     pub conditioning: f64,
@@ -53,7 +53,7 @@ pub struct Run {
     cancel: Cancel,
     has_ended: bool,
     has_stopped: bool,
-    /// What results are computed from; `None` if there are none.
+    /// The query that results are computed from; `None` if there are none.
     result_query: Option<Asked>,
     results: usize,
     part_backtrace: PartBacktrace,
@@ -67,7 +67,7 @@ impl Compiled {
     /// (E0612), and the mechanism was assembled from the estimates of the text alone.
     #[must_use]
     pub fn run(&self, times: &Times, options: &RunOptions) -> (Option<Run>, Diagnostics) {
-        Run::of(self, times, options)
+        Run::new(self, times, options)
     }
 
     /// Returns the position at a time (s) at which [`Compiled::run`] would begin, with diagnostics of the start. Takes less time than a run.
@@ -83,8 +83,8 @@ impl Compiled {
     /// # let checked = Parsed::of("disc.mech", text).check(&Choice::default(), &Memory::default());
     /// # let (compiled, _) = checked.compile(Redundant::Refused, &Cancel::default());
     /// # let compiled = compiled.expect("it is determined");
-    /// let (assembly, said) = compiled.assembled(1.0, &RunOptions::default());
-    /// assert!(said.is_empty());
+    /// let (assembly, diagnostics) = compiled.assembled(1.0, &RunOptions::default());
+    /// assert!(diagnostics.is_empty());
     /// assert_eq!(assembly.expect("it assembles").coordinates[2].1, std::f64::consts::FRAC_PI_2);
     /// ```
     #[must_use]
@@ -246,7 +246,7 @@ enum StartStage {
 }
 
 impl Run {
-    fn of(compiled: &Compiled, times: &Times, options: &RunOptions) -> (Option<Run>, Diagnostics) {
+    fn new(compiled: &Compiled, times: &Times, options: &RunOptions) -> (Option<Run>, Diagnostics) {
         let refused = times.interval().map(|interval| analysis::refused_results(compiled.system(), interval));
         if let Some(refused) = refused.filter(Diagnostics::has_errors) {
             return (None, refused);

@@ -15,7 +15,7 @@ use mechc_text::diag::{Code, Diagnostic, Diagnostics};
 use mechc_text::source::{FileId, Span};
 use rustc_hash::FxHashMap;
 
-/// What there is to draw and to plot of a mechanism.
+/// All that can be drawn and plotted of a mechanism.
 #[derive(Clone, Debug)]
 pub struct Seen {
     /// The scene, at any moment.

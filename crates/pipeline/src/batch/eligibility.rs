@@ -13,7 +13,7 @@ use std::array::from_fn;
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-/// What variants of a sweep share that go in lanes.
+/// The data that variants of a sweep share in lanes.
 pub(crate) struct BatchPlan {
     batch: Arc<Together>,
     /// All params of the reference variant (SI).
@@ -23,7 +23,7 @@ pub(crate) struct BatchPlan {
     guards: Guards,
 }
 
-/// What a sweep computes of each variant.
+/// The rows and results that a sweep computes of each variant.
 pub(crate) struct Requested<'r> {
     pub times: &'r AskedTimes,
     /// The columns of the rows, if rows are wanted.

@@ -53,7 +53,7 @@ pub struct SweepOptions {
     pub pass_bifurcations: bool,
     /// Number of threads, the one that takes the blocks included; `None` for as many as the machine runs at once.
     pub jobs: Option<usize>,
-    /// Whether the certain digits of results are counted; such variants are computed alone.
+    /// True if the certain digits of results are counted; such variants are computed alone.
     pub digits: bool,
     /// Number of variants to skip.
     pub skip: u64,
@@ -86,7 +86,7 @@ impl Default for SweepOptions {
     }
 }
 
-/// What a variant adds to a block.
+/// The size of a variant in a block.
 #[derive(Clone, Copy, Debug)]
 struct VariantSize {
     /// At least 1.
@@ -236,7 +236,7 @@ impl<T: Send + 'static> Iterator for Sweep<T> {
     }
 }
 
-/// What all variants of a sweep share.
+/// The data that all variants of a sweep share.
 struct SweepContext {
     checked: Checked,
     groups: TopologyGroups,
@@ -265,7 +265,7 @@ struct Worker {
 /// Variants that a batch has followed.
 struct BatchOutput<'d> {
     team: &'d Team,
-    /// Which of them have all their rows, or all their results if no rows are wanted.
+    /// For each lane, true if the variant has all its rows, or all their results if no rows are wanted.
     accepted: [bool; LANES],
     /// Rows of each variant.
     rows: usize,

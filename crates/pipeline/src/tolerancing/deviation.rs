@@ -143,7 +143,7 @@ impl Shown {
 pub struct Verified {
     /// Number of variants.
     pub variants: u64,
-    /// Whether they are all corners; if not, they are the worst corners by derivatives and a sample.
+    /// True if they are all corners; if not, they are the worst corners by derivatives and a sample.
     pub are_all_corners: bool,
     /// For each measure or result, the largest nominal value of its SI unit among all and among the params (SI).
     pub largest: Vec<f64>,

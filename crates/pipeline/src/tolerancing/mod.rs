@@ -162,7 +162,7 @@ impl Tolerancing<'_> {
         let by = self.tolerances.iter().map(|of| of.name.clone()).collect();
         // results that options add are in the tree already
         let choice = Choice { by, slopes, lead: true, results: Vec::new(), ..self.choice.clone() };
-        let mut means = if self.tolerances.is_empty() { JumpMeans::default() } else { JumpMeans::of(compiled) };
+        let mut means = if self.tolerances.is_empty() { JumpMeans::default() } else { JumpMeans::new(compiled) };
         let mut checked = self.checked.parsed.check(&Choice { results: means.texts(), ..choice.clone() }, self.world);
         if !checked.is_sound() {
             means = JumpMeans::default();
@@ -267,7 +267,7 @@ impl Tolerancing<'_> {
     pub fn count(&self, affected: &[Affected]) -> u64 {
         let variants: u64 =
             self.corners(affected).0.iter().map(|axes| axes.iter().map(Varying::count).product::<u64>()).sum();
-        variants * CornerSearch::of(affected).sweeps(&SweepOptions::default(), &[]).len() as u64
+        variants * CornerSearch::new(affected).sweeps(&SweepOptions::default(), &[]).len() as u64
     }
 
     /// Computes variants with deviating params; `tick` receives the number of variants that are done. `compiled` is made of the mechanism.
@@ -282,7 +282,7 @@ impl Tolerancing<'_> {
         mut tick: impl FnMut(u64),
     ) -> SourcedResult<Verified> {
         let (all, are_all_corners) = self.corners(affected);
-        let mut search = CornerSearch::of(affected);
+        let mut search = CornerSearch::new(affected);
         for (group, axes) in all.into_iter().enumerate() {
             let variants = self.variants(self.checked, axes)?;
             search.variants += variants.points().count();
@@ -334,7 +334,7 @@ struct JumpMeans {
 }
 
 impl JumpMeans {
-    fn of(compiled: &Compiled) -> JumpMeans {
+    fn new(compiled: &Compiled) -> JumpMeans {
         let system = compiled.system();
         let of_equations: Vec<ExprId> = system.rows().iter().map(|row| row.phi).collect();
         let may_break = |roots: &[ExprId]| {
@@ -499,7 +499,7 @@ struct CornerSearch<'a> {
 }
 
 impl CornerSearch<'_> {
-    fn of(affected: &[Affected]) -> CornerSearch<'_> {
+    fn new(affected: &[Affected]) -> CornerSearch<'_> {
         let mut times: Vec<f64> = affected.iter().filter_map(|of| of.at).collect();
         times.sort_by(f64::total_cmp);
         times.dedup();
