@@ -614,18 +614,18 @@ mod tests {
 
     #[test]
     fn the_outermost_mechanism_is_the_one_that_is_no_part_of_another() {
-        let of = |mechanisms: &[(&str, &[&str])]| {
+        let outermost_of = |mechanisms: &[(&str, &[&str])]| {
             let mechanisms: Vec<_> = mechanisms.iter().map(|(name, parts)| (*name, parts.to_vec())).collect();
             outermost(&mechanisms)
         };
-        assert_eq!(of(&[("leg", &[])]), Some(0));
-        assert_eq!(of(&[("leg", &[]), ("walker", &[])]), None);
-        assert_eq!(of(&[("leg", &["foot"]), ("walker", &["leg", "leg"]), ("foot", &[])]), Some(1));
-        assert_eq!(of(&[("leg", &[]), ("walker", &["leg"]), ("runner", &["leg"])]), None);
+        assert_eq!(outermost_of(&[("leg", &[])]), Some(0));
+        assert_eq!(outermost_of(&[("leg", &[]), ("walker", &[])]), None);
+        assert_eq!(outermost_of(&[("leg", &["foot"]), ("walker", &["leg", "leg"]), ("foot", &[])]), Some(1));
+        assert_eq!(outermost_of(&[("leg", &[]), ("walker", &["leg"]), ("runner", &["leg"])]), None);
         // a mechanism that contains itself is no part of another; of a cycle one is taken, which reports it
-        assert_eq!(of(&[("leg", &["leg"])]), Some(0));
-        assert_eq!(of(&[("leg", &["foot"]), ("foot", &["leg"])]), Some(0));
-        assert_eq!(of(&[("foot", &[]), ("egg", &["hen", "foot"]), ("hen", &["egg"])]), Some(1));
-        assert_eq!(of(&[]), None);
+        assert_eq!(outermost_of(&[("leg", &["leg"])]), Some(0));
+        assert_eq!(outermost_of(&[("leg", &["foot"]), ("foot", &["leg"])]), Some(0));
+        assert_eq!(outermost_of(&[("foot", &[]), ("egg", &["hen", "foot"]), ("hen", &["egg"])]), Some(1));
+        assert_eq!(outermost_of(&[]), None);
     }
 }

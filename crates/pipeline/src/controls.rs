@@ -76,15 +76,15 @@ impl Checked {
             match &value.amount {
                 Amount::Number { si, dimension, is_angle, unit } => {
                     let unit = unit.as_ref().map(|unit| unit.per_second(0));
-                    let unit = unit.or_else(|| unit_of_named(formula, self, &knobs, (*dimension, *is_angle)));
-                    knobs.push(self.knob(&name.text, formula, *si, (kind(*dimension, *is_angle), unit)));
+                    let unit = unit.or_else(|| unit_of_named(formula, self, &knobs, *dimension, *is_angle));
+                    knobs.push(self.knob(&name.text, formula, *si, &kind(*dimension, *is_angle), unit));
                 }
                 Amount::Point(at) => {
                     let parts = coordinates(formula);
                     for (k, axis) in ["x", "y"].into_iter().enumerate() {
                         let formula = parts.map_or(formula, |parts| &parts[k]);
                         let knob =
-                            self.knob(&format!("{}.{axis}", name.text), formula, at[k], (kind(LENGTH, false), None));
+                            self.knob(&format!("{}.{axis}", name.text), formula, at[k], &kind(LENGTH, false), None);
                         // a plain 0 has the unit of the other coordinate
                         let other = parts.and_then(|parts| number_and_unit(self.sources().text(parts[1 - k].span)));
                         let is_plain = knob.unit.is_empty();
@@ -105,7 +105,7 @@ impl Checked {
         knobs
     }
 
-    fn knob(&self, name: &str, formula: &Expr, si: f64, (kind, unit): (ValueKind, Option<String>)) -> Knob {
+    fn knob(&self, name: &str, formula: &Expr, si: f64, kind: &ValueKind, unit: Option<String>) -> Knob {
         let text = self.sources().text(formula.span);
         let place = Some(formula.span);
         let param = self.param_in_part(name);
@@ -238,7 +238,8 @@ fn unit_of_named(
     formula: &Expr,
     checked: &Checked,
     knobs: &[Knob],
-    (dimension, is_angle): (Dimension, bool),
+    dimension: Dimension,
+    is_angle: bool,
 ) -> Option<String> {
     let dimension = si_unit(dimension, false);
     let text = checked.sources().text(formula.span);

@@ -96,7 +96,7 @@ impl Compiled {
     fn check_no_varied_forces(&self) -> Result<(), Box<Diagnostic>> {
         let system = self.system();
         let has_varied_forces = |id| system.graph().dependence(id).on(Dependence::VARIED_MULTIPLIERS);
-        let Some(measure) = system.measures().iter().find(|of| has_varied_forces(of.value)) else {
+        let Some(measure) = system.measures().iter().find(|measure| has_varied_forces(measure.value)) else {
             return Ok(());
         };
         let message = format!("measure `{}` holds the derivative of a force", measure.name);

@@ -308,7 +308,7 @@ impl Shared {
         let Some(variants) = &self.params else { return Ok((self.nominal.clone(), self.compiled.analysis())) };
         let (model, diagnostics) = self.checked.model_with(variants.read_settings(params), variants.sources());
         let model = model.ok_or_else(|| first_error(diagnostics))?;
-        let analysis = model.analysis.map(|of| [of.from, of.to, of.every]);
+        let analysis = model.analysis.map(|analysis| [analysis.from, analysis.to, analysis.every]);
         Ok((model.params.iter().map(|param| param.value).collect(), analysis))
     }
 }

@@ -542,7 +542,7 @@ fn subdivide(
         }
         let is_short = ends[1] - ends[0] <= least;
         let state_of = curves.iter().zip(before).map(|(curve, before)| match before {
-            Interval::Unresolved => curve.state((motion, row), (between, checked_rows.clone()), is_short),
+            Interval::Unresolved => curve.state(motion, row, between, checked_rows.clone(), is_short),
             settled => *settled,
         });
         let judged: Vec<Interval> = state_of.collect();
@@ -577,8 +577,10 @@ impl TrackedCurve {
     /// Returns the state of the interval after a row, given rows between its ends.
     fn state(
         &self,
-        (motion, row): (&Motion, usize),
-        (between, checked_rows): (&Motion, std::ops::Range<usize>),
+        motion: &Motion,
+        row: usize,
+        between: &Motion,
+        checked_rows: std::ops::Range<usize>,
         is_short: bool,
     ) -> Interval {
         let ends = [row, row + 1].map(|row| self.track.in_row(motion, row));

@@ -332,7 +332,8 @@ fn lengths(scene: &Scene, diagnostics: &Diagnostics) -> Vec<Length> {
 fn blamed_length(scene: &Scene, blamed: &serde_json::Value) -> Option<Length> {
     let text = |key: &str| blamed[key].as_str();
     let declared = |name: &str| {
-        let is_declared = |one: &Declaration| matches!(one.kind, "joint" | "constraint" | "driver") && one.name == name;
+        let is_declared =
+            |other: &Declaration| matches!(other.kind, "joint" | "constraint" | "driver") && other.name == name;
         scene.declarations.iter().position(is_declared)
     };
     let declared_name = text("of")?;
@@ -355,9 +356,9 @@ fn named_declarations<'d>(scene: &Scene, diagnostics: impl Iterator<Item = &'d D
             error.data.get("redundant").and_then(|names| names.as_array()).filter(|names| !names.is_empty());
         match redundant {
             Some(names) => {
-                let is_redundant = |name: &str| names.iter().any(|one| one.as_str() == Some(name));
+                let is_redundant = |name: &str| names.iter().any(|other| other.as_str() == Some(name));
                 let all = scene.declarations.iter().enumerate();
-                named.extend(all.filter(|(_, one)| is_redundant(&one.name)).map(|(index, _)| index));
+                named.extend(all.filter(|(_, declaration)| is_redundant(&declaration.name)).map(|(index, _)| index));
             }
             None => error.labels.iter().for_each(|label| named.extend(innermost(scene, label.span, error))),
         }
@@ -370,10 +371,11 @@ fn named_declarations<'d>(scene: &Scene, diagnostics: impl Iterator<Item = &'d D
 /// Returns the smallest declarations around a span; of copies of one text those that the diagnostic names, if it names any.
 fn innermost(scene: &Scene, inner: Span, diagnostic: &Diagnostic) -> Vec<usize> {
     let holds = |span: Span| span.file == inner.file && span.start <= inner.start && inner.end <= span.end;
-    let around = || scene.declarations.iter().enumerate().filter(|(_, one)| holds(one.span));
+    let around = || scene.declarations.iter().enumerate().filter(|(_, declaration)| holds(declaration.span));
     let size = |span: Span| span.end - span.start;
-    let Some(least) = around().map(|(_, one)| size(one.span)).min() else { return Vec::new() };
-    let copies: Vec<usize> = around().filter(|(_, one)| size(one.span) == least).map(|(index, _)| index).collect();
+    let Some(least) = around().map(|(_, declaration)| size(declaration.span)).min() else { return Vec::new() };
+    let copies: Vec<usize> =
+        around().filter(|(_, declaration)| size(declaration.span) == least).map(|(index, _)| index).collect();
     let texts = || {
         std::iter::once(&diagnostic.message)
             .chain(&diagnostic.notes)

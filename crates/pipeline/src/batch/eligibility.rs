@@ -70,7 +70,8 @@ impl BatchPlan {
         varying.iter_mut().filter(|value| **value == 0.0).for_each(|value| *value = near(0.0));
         let model_of = |varying: &[f64]| checked.model_with(variants.read_settings(varying), variants.sources()).0;
         let model = model_of(&varying)?;
-        let (values, analysis) = (values_of(&model), model.analysis.map(|of| [of.from, of.to, of.every]));
+        let (values, analysis) =
+            (values_of(&model), model.analysis.map(|analysis| [analysis.from, analysis.to, analysis.every]));
         let times = requested.times.over(analysis).and_then(|times| times.times()).ok()?;
         let mut targets = Vec::with_capacity(varying.len());
         for k in 0..varying.len() {

@@ -119,14 +119,14 @@ impl<W: Write + Send> ParquetWriter<W> {
 
 /// Returns a column of the schema; the first one has no missing number.
 fn field(k: usize, column: &SheetColumn) -> Result<Type, ParquetError> {
-    let of = |physical| Type::primitive_type_builder(&column.name, physical);
+    let builder = |physical| Type::primitive_type_builder(&column.name, physical);
     match column.kind {
-        Kind::Whole => of(Physical::INT64).with_repetition(Repetition::REQUIRED),
-        Kind::Number if k == 0 => of(Physical::DOUBLE).with_repetition(Repetition::REQUIRED),
-        Kind::Number => of(Physical::DOUBLE).with_repetition(Repetition::OPTIONAL),
-        Kind::Word => {
-            of(Physical::BYTE_ARRAY).with_logical_type(Some(LogicalType::String)).with_repetition(Repetition::REQUIRED)
-        }
+        Kind::Whole => builder(Physical::INT64).with_repetition(Repetition::REQUIRED),
+        Kind::Number if k == 0 => builder(Physical::DOUBLE).with_repetition(Repetition::REQUIRED),
+        Kind::Number => builder(Physical::DOUBLE).with_repetition(Repetition::OPTIONAL),
+        Kind::Word => builder(Physical::BYTE_ARRAY)
+            .with_logical_type(Some(LogicalType::String))
+            .with_repetition(Repetition::REQUIRED),
     }
     .build()
 }

@@ -410,7 +410,13 @@ impl SweepContext {
         let group = self.groups.group_of(params, &self.checked, &self.variants);
         let (model, _) = self.checked.model_with(self.variants.read_settings(params), self.variants.sources());
         let model = model?;
-        let times = self.options.times.over(model.analysis.map(|of| [of.from, of.to, of.every])).ok()?.times().ok()?;
+        let times = self
+            .options
+            .times
+            .over(model.analysis.map(|analysis| [analysis.from, analysis.to, analysis.every]))
+            .ok()?
+            .times()
+            .ok()?;
         let values: Vec<f64> = model.params.iter().map(|param| param.value).collect();
         let Outcome::AtTarget(Ok(mut started)) = group.continuation.start_values(&values, &times, &options) else {
             return None;
@@ -498,7 +504,11 @@ impl SweepContext {
         let settings = self.variants.read_settings(params);
         let (model, diagnostics) = self.checked.model_with(settings, self.variants.sources());
         let model = model.ok_or_else(|| first_error(&diagnostics))?;
-        let times = self.options.times.over(model.analysis.map(|of| [of.from, of.to, of.every]))?.times()?;
+        let times = self
+            .options
+            .times
+            .over(model.analysis.map(|analysis| [analysis.from, analysis.to, analysis.every]))?
+            .times()?;
         let values: Vec<f64> = model.params.iter().map(|param| param.value).collect();
         match group.continuation.start_values(&values, &times, &options) {
             Outcome::AtTarget(started) => self.follow(*started?, &times, &options, &group.outputs, variant),

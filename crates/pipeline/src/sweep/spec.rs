@@ -92,10 +92,10 @@ impl Variants {
 
     /// Returns the settings of given values as formulas.
     pub(crate) fn read_settings(&self, values: &[f64]) -> impl Iterator<Item = Setting> {
-        let set = |((name, one), &value): ((&String, &ast::Expr), &f64)| {
-            let number = ast::Expr { kind: ast::ExprKind::Literal { value, unit: None }, span: one.span };
-            let kind = ast::ExprKind::Product(Box::new(number), vec![(ast::Factor::Times, one.clone())]);
-            Setting { path: name.clone(), value: ast::Expr { kind, span: one.span } }
+        let set = |((name, unit), &value): ((&String, &ast::Expr), &f64)| {
+            let number = ast::Expr { kind: ast::ExprKind::Literal { value, unit: None }, span: unit.span };
+            let kind = ast::ExprKind::Product(Box::new(number), vec![(ast::Factor::Times, unit.clone())]);
+            Setting { path: name.clone(), value: ast::Expr { kind, span: unit.span } }
         };
         self.points.params().iter().zip(&self.ones).zip(values).map(set)
     }
@@ -368,15 +368,15 @@ impl SpecBuilder<'_> {
         let table = self.sources.get(header.file);
         let file = sources.add(table.name.clone(), table.text.clone());
         let mut relabeled = Diagnostics::default();
-        for mut one in diagnostics.iter().cloned() {
-            if let Some(label) = one.labels.first_mut() {
+        for mut diagnostic in diagnostics.iter().cloned() {
+            if let Some(label) = diagnostic.labels.first_mut() {
                 label.span = Span { file, ..header };
             }
-            one.help.extend(one.fixes.drain(..).map(|fix| fix.message));
+            diagnostic.help.extend(diagnostic.fixes.drain(..).map(|fix| fix.message));
             if self.sources.text(header).ends_with(')') {
-                one.help = vec!["a unit stands in brackets behind the name: `rod [mm]`".to_owned()];
+                diagnostic.help = vec!["a unit stands in brackets behind the name: `rod [mm]`".to_owned()];
             }
-            relabeled.push(one);
+            relabeled.push(diagnostic);
         }
         (sources, relabeled)
     }

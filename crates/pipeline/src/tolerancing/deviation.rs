@@ -87,11 +87,11 @@ impl Affected {
     pub fn deviation(&self, tolerances: &[Tolerance], normal: bool) -> Option<Deviation> {
         let slopes: Vec<f64> = self.slopes.iter().copied().collect::<Option<_>>()?;
         let of_each = || tolerances.iter().zip(&slopes);
-        let contributions: Vec<[f64; 2]> = of_each().map(|(of, &slope)| of.times(slope)).collect();
-        let square = |(of, slope): (&Tolerance, &f64)| (slope * of.half()) * (slope * of.half());
+        let contributions: Vec<[f64; 2]> = of_each().map(|(tolerance, &slope)| tolerance.times(slope)).collect();
+        let square = |(tolerance, slope): (&Tolerance, &f64)| (slope * tolerance.half()) * (slope * tolerance.half());
         let squares: Vec<f64> = of_each().map(square).collect();
         let sum: f64 = squares.iter().sum();
-        let worst = [0, 1].map(|end| contributions.iter().map(|of| of[end]).sum());
+        let worst = [0, 1].map(|end| contributions.iter().map(|range| range[end]).sum());
         let (middle, half) = (0.5 * (worst[0] + worst[1]), sum.sqrt());
         Some(Deviation {
             contributions,
@@ -164,12 +164,13 @@ impl Verified {
 
     /// Returns whether derivatives and variants agree on a measure or result.
     #[must_use]
-    pub fn is_linear(&self, k: usize, of: &Affected, deviation: &Deviation) -> bool {
+    pub fn is_linear(&self, k: usize, output: &Affected, deviation: &Deviation) -> bool {
         let [low, high] = deviation.worst;
         if self.missing(k) > 0 {
             return false;
         }
-        let limit = LINEAR * f64::max(low.abs(), high.abs()) + DIGITS * of.nominal.abs() + ROUNDING * self.largest[k];
+        let limit =
+            LINEAR * f64::max(low.abs(), high.abs()) + DIGITS * output.nominal.abs() + ROUNDING * self.largest[k];
         self.found[k].is_some_and(|found| (found[0] - low).abs() <= limit && (found[1] - high).abs() <= limit)
     }
 }

@@ -127,21 +127,21 @@ impl ToleranceArgument {
             unit if unit.is_empty() => "1".to_owned(),
             unit => unit,
         };
-        let of = |(name, nominal, dimension): (String, f64, Dimension)| {
+        let tolerance = |(name, nominal, dimension): (String, f64, Dimension)| {
             let si = unit_of(dimension);
             let unit = self.unit(reader).unwrap_or((si.clone(), 1.0));
             Tolerance { name, nominal, range, si, unit }
         };
-        Ok(params.into_iter().map(of).collect())
+        Ok(params.into_iter().map(tolerance).collect())
     }
 
     /// Returns the unit of the argument and its value in SI, if all its numbers have that unit.
     fn unit(&self, reader: &OptionReader<'_>) -> Option<(String, f64)> {
-        let of =
+        let unit_of =
             |end: &String| number_and_unit(end).filter(|(value, _)| *value != 0.0).map(|(_, unit)| unit.to_owned());
-        let unit = self.ends.iter().find_map(of).filter(|unit| !unit.is_empty())?;
+        let unit = self.ends.iter().find_map(unit_of).filter(|unit| !unit.is_empty())?;
         let (size, _) = reader.value(&format!("1 {unit}")).ok()?;
-        let is_of_all = |end: &String| number_and_unit(end).is_some_and(|(value, of)| value == 0.0 || of == unit);
+        let is_of_all = |end: &String| number_and_unit(end).is_some_and(|(value, other)| value == 0.0 || other == unit);
         self.ends.iter().all(is_of_all).then_some((unit, size))
     }
 }
@@ -159,7 +159,7 @@ impl Tolerancing<'_> {
     /// The nominal mechanism does not run, or has no measure and no result; with the texts that the diagnostics point into.
     pub fn affected(&self, compiled: &Compiled, options: &SweepOptions) -> SourcedResult<Vec<Affected>> {
         let slopes = Some([options.times.from.is_none(), options.times.to.is_none()]);
-        let by = self.tolerances.iter().map(|of| of.name.clone()).collect();
+        let by = self.tolerances.iter().map(|tolerance| tolerance.name.clone()).collect();
         // results that options add are in the tree already
         let choice = Choice { by, slopes, lead: true, results: Vec::new(), ..self.choice.clone() };
         let mut means = if self.tolerances.is_empty() { JumpMeans::default() } else { JumpMeans::new(compiled) };
@@ -180,7 +180,7 @@ impl Tolerancing<'_> {
                 .help("add one to the file, or a result with `--result 'stroke = max(x(P)) - min(x(P))'`");
             return Err(refused(&why.into()));
         }
-        let nominal = Levels::Listed(self.tolerances.iter().map(|of| of.nominal).collect());
+        let nominal = Levels::Listed(self.tolerances.iter().map(|tolerance| tolerance.nominal).collect());
         let variants = self.variants(&checked, vec![Varying { params: self.all(), values: nominal }])?;
         let columns = (!outputs.measures.is_empty()).then(|| outputs.columns());
         let options = SweepOptions { columns, jobs: Some(1), ..options.clone() };
@@ -195,13 +195,14 @@ impl Tolerancing<'_> {
 
     /// For each measure or result, returns the largest nominal value of its SI unit among all and among the params.
     fn largest(&self, affected: &[Affected]) -> Vec<f64> {
-        let of_params = self.tolerances.iter().map(|of| (&of.si, of.nominal));
-        let all: Vec<(&String, f64)> = of_params.chain(affected.iter().map(|of| (&of.si, of.nominal))).collect();
-        let of = |si: &String| {
+        let of_params = self.tolerances.iter().map(|tolerance| (&tolerance.si, tolerance.nominal));
+        let all: Vec<(&String, f64)> =
+            of_params.chain(affected.iter().map(|output| (&output.si, output.nominal))).collect();
+        let largest_of = |si: &String| {
             // `f64::max` ignores NaN
             all.iter().filter(|(unit, _)| *unit == si).fold(0.0, |largest: f64, (_, value)| largest.max(value.abs()))
         };
-        affected.iter().map(|affected| of(&affected.si)).collect()
+        affected.iter().map(|output| largest_of(&output.si)).collect()
     }
 
     /// Returns the indices of all params.
@@ -209,12 +210,16 @@ impl Tolerancing<'_> {
         (0..self.tolerances.len()).collect()
     }
 
-    fn variants(&self, of: &Checked, axes: Vec<Varying>) -> SourcedResult<Variants> {
-        let names = self.tolerances.iter().map(|of| of.name.clone()).collect();
-        let units = self.tolerances.iter().map(|of| if of.si == "1" { String::new() } else { of.si.clone() }).collect();
-        let too_many = || (of.sources().clone(), unusable("there are too many corners".to_owned()).into());
+    fn variants(&self, checked: &Checked, axes: Vec<Varying>) -> SourcedResult<Variants> {
+        let names = self.tolerances.iter().map(|tolerance| tolerance.name.clone()).collect();
+        let units = self
+            .tolerances
+            .iter()
+            .map(|tolerance| if tolerance.si == "1" { String::new() } else { tolerance.si.clone() })
+            .collect();
+        let too_many = || (checked.sources().clone(), unusable("there are too many corners".to_owned()).into());
         let points = Points::new(names, axes).ok_or_else(too_many)?;
-        Variants::new(points, units, of.sources().clone(), TOL)
+        Variants::new(points, units, checked.sources().clone(), TOL)
     }
 
     /// Returns the columns and results of a mechanism that is compiled with their derivatives.
@@ -222,7 +227,7 @@ impl Tolerancing<'_> {
         let (columns, units) = (compiled.columns(), compiled.units());
         let column_of = |name: &str| columns.iter().position(|column| column == name);
         let by = |name: &str| -> Vec<Option<usize>> {
-            self.tolerances.iter().map(|of| column_of(&format!("{name}.by.{}", of.name))).collect()
+            self.tolerances.iter().map(|tolerance| column_of(&format!("{name}.by.{}", tolerance.name))).collect()
         };
         let measures = compiled.system().measures().iter().filter_map(|measure| {
             let column = column_of(&measure.name)?;
@@ -231,7 +236,7 @@ impl Tolerancing<'_> {
         });
         let results = compiled.results().into_iter().zip(compiled.results_of_variants());
         let results = results.map(|((name, unit), (_, si))| (name, unit, si)).collect::<Vec<_>>();
-        let nominal_count = results.len() / (self.tolerances.len() + 1) - means.of.len();
+        let nominal_count = results.len() / (self.tolerances.len() + 1) - means.measures.len();
         ToleratedOutputs { measures: measures.collect(), results: results[..nominal_count].to_vec(), means }
     }
 
@@ -246,11 +251,11 @@ impl Tolerancing<'_> {
             return (vec![ends.iter().enumerate().map(axis).collect()], true);
         }
         let mut worst: Vec<Vec<f64>> = Vec::new();
-        for of in affected {
+        for output in affected {
             for sign in [1.0, -1.0] {
                 let end =
                     |(slope, ends): (&Option<f64>, &[f64; 2])| ends[usize::from(sign * slope.unwrap_or(0.0) > 0.0)];
-                let corner: Vec<f64> = of.slopes.iter().zip(&ends).map(end).collect();
+                let corner: Vec<f64> = output.slopes.iter().zip(&ends).map(end).collect();
                 if !worst.contains(&corner) {
                     worst.push(corner);
                 }
@@ -286,11 +291,11 @@ impl Tolerancing<'_> {
         for (group, axes) in all.into_iter().enumerate() {
             let variants = self.variants(self.checked, axes)?;
             search.variants += variants.points().count();
-            for outputs in search.sweeps(options, &compiled.columns()) {
-                let sweep = self.checked.sweep(compiled, &variants, &outputs, |swept| swept);
+            for sweep_options in search.sweeps(options, &compiled.columns()) {
+                let sweep = self.checked.sweep(compiled, &variants, &sweep_options, |swept| swept);
                 let sweep = sweep.map_err(|why| (self.checked.sources().clone(), Diagnostics::from(*why)))?;
                 for swept in sweep {
-                    search.take(&swept, outputs.columns.is_some(), (group, &variants));
+                    search.take(&swept, sweep_options.columns.is_some(), group, &variants);
                     tick(swept.len() as u64);
                 }
             }
@@ -330,7 +335,7 @@ struct ToleratedOutputs {
 #[derive(Default)]
 struct JumpMeans {
     /// Names of the measures.
-    of: Vec<String>,
+    measures: Vec<String>,
 }
 
 impl JumpMeans {
@@ -348,11 +353,11 @@ impl JumpMeans {
             let is_driven = dependence.highest_order() >= Some(2) || dependence.on(Dependence::FORCES);
             may_break(&[measure.value]) || (is_driven && (equations_bend || dependence.on(Dependence::FORCES)))
         };
-        JumpMeans { of: system.measures().iter().filter(jumps).map(|measure| measure.name.clone()).collect() }
+        JumpMeans { measures: system.measures().iter().filter(jumps).map(|measure| measure.name.clone()).collect() }
     }
 
     fn texts(&self) -> Vec<String> {
-        self.of.iter().enumerate().map(|(k, name)| format!("mean_that_may_jump_{k} = mean({name})")).collect()
+        self.measures.iter().enumerate().map(|(k, name)| format!("mean_that_may_jump_{k} = mean({name})")).collect()
     }
 }
 
@@ -384,10 +389,10 @@ struct Rows<'s> {
 impl ToleratedOutputs {
     /// Returns the columns of the time, and of each measure with its derivatives.
     fn columns(&self) -> Vec<usize> {
-        let of = |measure: &MeasureColumns| {
+        let columns = |measure: &MeasureColumns| {
             [measure.column].into_iter().chain(measure.by.iter().copied().flatten()).collect()
         };
-        [0].into_iter().chain(self.measures.iter().flat_map(|measure| -> Vec<usize> { of(measure) })).collect()
+        [0].into_iter().chain(self.measures.iter().flat_map(|measure| -> Vec<usize> { columns(measure) })).collect()
     }
 
     /// Collects measures and results from the nominal variant.
@@ -395,10 +400,14 @@ impl ToleratedOutputs {
         let (mut columns, mut all) = (swept.columns.iter(), Vec::new());
         let (nominal_count, count) = (self.results.len(), tolerances.len());
         let number = |k: usize| Some(swept.results[k][0]).filter(|value| value.is_finite());
-        let all_results = nominal_count + self.means.of.len();
+        let all_results = nominal_count + self.means.measures.len();
         let jumps = |measure: &MeasureColumns| -> Vec<bool> {
-            let mean =
-                self.means.of.iter().position(|of| *of == measure.name).filter(|k| number(nominal_count + k).is_some());
+            let mean = self
+                .means
+                .measures
+                .iter()
+                .position(|name| *name == measure.name)
+                .filter(|k| number(nominal_count + k).is_some());
             let slope = |k: usize, j: usize| number(all_results + (nominal_count + k) * count + j);
             (0..count).map(|j| mean.is_some_and(|k| slope(k, j).is_none())).collect()
         };
@@ -476,8 +485,8 @@ fn where_it_is_worst(measure: MeasureColumns, rows: &Rows<'_>, tolerances: &[Tol
 
 /// Returns the largest deviation that slopes cause; NaN if one of them is NaN.
 fn size<'t>(slopes: impl Iterator<Item = (f64, &'t Tolerance)>) -> f64 {
-    let [low, high] = slopes.fold([0.0, 0.0], |[low, high], (slope, of)| {
-        let [less, more] = of.times(slope);
+    let [low, high] = slopes.fold([0.0, 0.0], |[low, high], (slope, tolerance)| {
+        let [less, more] = tolerance.times(slope);
         [low + less, high + more]
     });
     // `f64::max` ignores NaN
@@ -500,7 +509,7 @@ struct CornerSearch<'a> {
 
 impl CornerSearch<'_> {
     fn new(affected: &[Affected]) -> CornerSearch<'_> {
-        let mut times: Vec<f64> = affected.iter().filter_map(|of| of.at).collect();
+        let mut times: Vec<f64> = affected.iter().filter_map(|output| output.at).collect();
         times.sort_by(f64::total_cmp);
         times.dedup();
         let (extremes, missing) = (vec![None; affected.len()], vec![None; affected.len()]);
@@ -511,19 +520,19 @@ impl CornerSearch<'_> {
     fn sweeps(&self, options: &SweepOptions, columns: &[String]) -> Vec<SweepOptions> {
         let mut sweeps = Vec::with_capacity(2);
         if !self.times.is_empty() {
-            let column = |of: &Affected| columns.iter().position(|column| *column == of.name);
-            let columns = self.affected.iter().filter(|of| of.at.is_some()).filter_map(column).collect();
+            let column = |output: &Affected| columns.iter().position(|column| *column == output.name);
+            let columns = self.affected.iter().filter(|output| output.at.is_some()).filter_map(column).collect();
             let times = AskedTimes { at: self.times.clone(), ..options.times.clone() };
             sweeps.push(SweepOptions { columns: Some(columns), times, ..options.clone() });
         }
-        if self.affected.iter().any(|of| of.at.is_none()) {
+        if self.affected.iter().any(|output| output.at.is_none()) {
             sweeps.push(SweepOptions { columns: None, ..options.clone() });
         }
         sweeps
     }
 
     /// Adds a block of variants with measures or with results.
-    fn take(&mut self, swept: &Swept, has_measures: bool, (group, variants): (usize, &Variants)) {
+    fn take(&mut self, swept: &Swept, has_measures: bool, group: usize, variants: &Variants) {
         let mut first_row = 0;
         for (k, &length) in swept.lengths.iter().enumerate() {
             let (number, status, row) = (swept.first + k as u64, swept.statuses[k], first_row);
