@@ -288,7 +288,7 @@ impl Shared {
             Outcome::Refused(diagnostics) => return Err(first_error(diagnostics)),
             Outcome::NoPath(why) => return Err(no_path(why)),
         };
-        // a run asks for the conditioning, which decides the factors that are used; the bits must be the same
+        // a run reports the conditioning of its start, which restores the factors there; do the same for the same bits
         let _ = started.conditioning();
         let has_results = !self.compiled.system().results().outcomes.is_empty();
         let interval = times.interval().filter(|_| has_results);

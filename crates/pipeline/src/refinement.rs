@@ -127,7 +127,7 @@ impl Checked {
         }
         // each pass over the motion begins here
         let (Ok(mut started), _) = compiled.start(Horizon::of(times), options) else { return diagnostics };
-        // a run asks for the conditioning, which decides the factors that are used; the bits must be the same
+        // a run reports the conditioning of its start, which restores the factors there; do the same for the same bits
         let _ = started.conditioning();
         started.use_vectors(options.vectors);
         let pass_bifurcations = options.pass_bifurcations;

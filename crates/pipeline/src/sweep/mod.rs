@@ -430,7 +430,7 @@ impl SweepContext {
 
     /// Returns what results are computed from, if there are any.
     fn result_query(&self, started: &mut Started, times: &Times, options: &RunOptions) -> Option<Asked> {
-        // a run asks for the conditioning, which decides the factors that are used; a variant must have the same bits
+        // a run reports the conditioning of its start, which restores the factors there; do the same for the same bits
         let _ = started.conditioning();
         started.use_vectors(options.vectors);
         let interval = times.interval().filter(|_| self.result_count > 0);
