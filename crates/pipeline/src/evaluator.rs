@@ -77,8 +77,8 @@ pub struct AskedPlace {
 /// let disc = checked.adjustable(&adjusting, &Cancel::default()).expect("it is determined");
 /// let turn = InputMotion { value: 0.3, rate: 2.0, acceleration: 0.0 };
 /// let (once, mut row) = (AskedTimes { at: vec![0.0], ..AskedTimes::default() }, Vec::new());
-/// let found = disc.follow(&[turn], &[], &once, &Cancel::default(), |found| row.extend_from_slice(found));
-/// assert!(found.is_ok());
+/// let results = disc.follow(&[turn], &[], &once, &Cancel::default(), |values| row.extend_from_slice(values));
+/// assert!(results.is_ok());
 /// assert_eq!((row[3], row[6]), (0.3, 2.0));
 /// ```
 #[derive(Clone)]

@@ -26,7 +26,7 @@ pub(crate) struct BatchPlan {
 /// The rows and results that a sweep computes of each variant.
 pub(crate) struct Requested<'r> {
     pub times: &'r AskedTimes,
-    /// The columns of the rows, if rows are wanted.
+    /// The columns of the rows, if rows are requested.
     pub columns: Option<&'r [usize]>,
     pub results: bool,
 }
@@ -108,7 +108,7 @@ impl BatchPlan {
     }
 
     /// Follows up to `LANES` variants, given by the values of the varying params, variant by variant, and writes their rows. Returns which of
-    /// them have all rows, or all results if no rows are wanted. Variants whose guards differ from the reference are not followed.
+    /// them have all rows, or all results if no rows are requested. Variants whose guards differ from the reference are not followed.
     pub fn follow(&self, lanes: &mut BatchLanes, varying: &[f64], room: Room<'_>, cancel: &Cancel) -> [bool; LANES] {
         let width = self.targets.len();
         let count = varying.len() / width.max(1);

@@ -43,7 +43,7 @@ const MAX_NUMBERS: u64 = 1 << 22;
 pub struct SweepOptions {
     /// The times that are requested.
     pub times: AskedTimes,
-    /// Indices of the columns whose rows are wanted; `None` for results alone.
+    /// Indices of the columns whose rows are requested; `None` for results alone.
     pub columns: Option<Vec<usize>>,
     /// The treatment of redundant equations.
     pub redundant: Redundant,
@@ -265,7 +265,7 @@ struct Worker {
 /// Variants that a batch has followed.
 struct BatchOutput<'d> {
     team: &'d Team,
-    /// For each lane, true if the variant has all its rows, or all their results if no rows are wanted.
+    /// For each lane, true if the variant has all its rows, or all its results if no rows are requested.
     accepted: [bool; LANES],
     /// Rows of each variant.
     rows: usize,
@@ -373,7 +373,7 @@ impl SweepContext {
         None
     }
 
-    /// Returns whether a batch has computed all that is wanted of a variant, and none is searched for.
+    /// Returns whether a batch has computed all that is requested of a variant, and none is searched for.
     fn has_all_results(&self, team: &Team, lane: usize) -> bool {
         self.result_count == 0 || self.until.is_none() && team.results(lane).is_some()
     }
@@ -530,7 +530,7 @@ impl SweepContext {
         variant: &mut OneVariant,
     ) -> Result<(), Box<Diagnostic>> {
         let mut query = self.result_query(&mut started, times, options);
-        // if no rows are wanted, it only matters whether all of them exist
+        // if no rows are requested, it only matters whether all of them exist
         let early = query.take_if(|_| self.options.columns.is_none()).and_then(Asked::answer);
         if !early.as_ref().is_some_and(|answers| answers.has_all_rows) {
             let mut motion = started.into_motion(times);
