@@ -4,6 +4,7 @@ use crate::continuation::StartSolver;
 use crate::imports::{self, Imports};
 use crate::lowering::Rebuild;
 use crate::lowering::lowered;
+use crate::option_reader::spaceless;
 use crate::part_backtrace::PartBacktrace;
 use crate::queries::QueryCache;
 use crate::{Compiled, Parsed, Redundant};
@@ -134,7 +135,7 @@ impl Checked {
                 diagnostics.extend(imports.diagnostics.clone());
                 diagnostics.extend((is_read && !diagnostics.has_errors()).then_some(*why));
                 let library = imports.library;
-                Checked::with(parsed.with_sources(imports.sources), None, library, None, diagnostics)
+                Checked::from_model(parsed.with_sources(imports.sources), None, library, None, diagnostics)
             }
         }
     }
@@ -161,8 +162,7 @@ impl Checked {
         let given = given(choice, world, &mut sources);
         let files = table_files(&library, with_parts(&library, tree, &sources), world, &mut sources);
         let is_continued = choice.lead && !choice.set.is_empty();
-        let spaceless = |name: &String| syntax::normalized(name).chars().filter(|c| !c.is_whitespace()).collect();
-        let by = choice.by.iter().map(spaceless).collect();
+        let by = choice.by.iter().map(|name| spaceless(name)).collect();
         match (settings, given) {
             (Err(why), Ok(_)) | (Ok(_), Err(why)) => diagnostics.extend(why),
             (Err(why), Err(more)) => {
@@ -187,7 +187,7 @@ impl Checked {
                 return Checked::with_check_options(parsed, index, check_options, is_continued, diagnostics);
             }
         }
-        Checked::with(parsed.with_sources(sources), Some(index), library, None, diagnostics)
+        Checked::from_model(parsed.with_sources(sources), Some(index), library, None, diagnostics)
     }
 
     /// Checks the mechanism at an index with all options of the checker. `diagnostics` are reported first.
@@ -208,7 +208,7 @@ impl Checked {
             Arc::new(StartSolver { read, index, check_options, sources, has_given_inputs })
         });
         let library = check_options.library.clone();
-        let checked = Checked::with(parsed, Some(index), library, model, diagnostics);
+        let checked = Checked::from_model(parsed, Some(index), library, model, diagnostics);
         Checked { start_solver, is_continued, check_options: Arc::new(check_options), ..checked }
     }
 
@@ -244,13 +244,8 @@ impl Checked {
         let is_until =
             |item: &ast::Item| matches!(&item.kind, ast::ItemKind::Result { name, .. } if name.text == UNTIL);
         let parsed = self.parsed.without_items(index, is_until);
-        Checked::with_check_options(
-            parsed,
-            index,
-            (*self.check_options).clone(),
-            self.is_continued,
-            Diagnostics::default(),
-        )
+        let options = (*self.check_options).clone();
+        Checked::with_check_options(parsed, index, options, self.is_continued, Diagnostics::default())
     }
 
     /// Returns what rebuilds the mechanism with signals or reactions.
@@ -258,7 +253,7 @@ impl Checked {
         Some(Rebuild::new(self.parsed.clone(), self.index?, Arc::clone(&self.check_options)))
     }
 
-    fn with(
+    fn from_model(
         parsed: Parsed,
         index: Option<usize>,
         library: Library,
@@ -422,8 +417,8 @@ impl Checked {
     }
 
     fn compiled(&self, model: &Mechanism, redundant: Redundant, cancel: &Cancel) -> (Option<Compiled>, Diagnostics) {
-        let (start_solver, part_backtrace) = (self.start_solver.clone(), PartBacktrace::new(model));
-        Compiled::new(self.sources().clone(), lowered(model), redundant, start_solver, part_backtrace, cancel)
+        let (start_solver, backtrace) = (self.start_solver.clone(), PartBacktrace::new(model));
+        Compiled::new(self.sources().clone(), lowered(model), redundant, start_solver, backtrace, cancel)
     }
 
     /// Returns the model in which the given parts request derivatives by their own equations, though they move together with their surroundings.

@@ -127,7 +127,7 @@ impl Checked {
 
     /// Returns the control of a param of a part, in the unit in which its formula is written.
     fn knob_of_part(&self, name: &str, si: f64, dimension: Dimension) -> Knob {
-        let source = self.part_param_source(name);
+        let source = self.part_source(name);
         let text = source.as_ref().map(|source| self.sources().text(source.formula.span));
         let number = text.and_then(number_and_unit);
         let unit = number.map(|(_, unit)| unit).filter(|unit| !unit.is_empty());
@@ -142,7 +142,7 @@ impl Checked {
     }
 
     /// Returns the formula of a param of a part: the binding where the part is declared, or the formula in its own mechanism.
-    fn part_param_source(&self, path: &str) -> Option<PartParamSource<'_>> {
+    fn part_source(&self, path: &str) -> Option<ParamSource<'_>> {
         let mut tree = self.tree()?;
         let mut names = path.split('.').map(|name| name.split('[').next().unwrap_or_default());
         let mut name = names.next()?;
@@ -153,19 +153,14 @@ impl Checked {
                     let coordinate = axis.zip(coordinates(value)).map(|(axis, parts)| &parts[axis]);
                     let usual = usual_unit_of_length(&tree.items).map(|unit| unit.word.name);
                     let is_half = axis.is_some() && coordinate.is_none();
-                    return Some(PartParamSource {
-                        formula: coordinate.unwrap_or(value),
-                        is_half,
-                        is_bound: false,
-                        usual,
-                    });
+                    return Some(ParamSource { formula: coordinate.unwrap_or(value), is_half, is_bound: false, usual });
                 }
                 ItemKind::Part(part) => {
                     name = names.next()?;
                     let bound =
                         part.bindings.iter().find(|bound| bound.name.text == name && bound.coordinate.is_none());
                     if let Some(bound) = bound {
-                        return Some(PartParamSource {
+                        return Some(ParamSource {
                             formula: &bound.value,
                             is_half: false,
                             is_bound: true,
@@ -188,7 +183,7 @@ impl Checked {
 }
 
 /// The formula of a param of a part, or of a coordinate of it.
-struct PartParamSource<'t> {
+struct ParamSource<'t> {
     formula: &'t Expr,
     /// True if the formula gives both coordinates of a point.
     is_half: bool,

@@ -56,7 +56,7 @@ pub struct Run {
     /// The query that results are computed from; `None` if there are none.
     result_query: Option<Asked>,
     results: usize,
-    part_backtrace: PartBacktrace,
+    backtrace: PartBacktrace,
 }
 
 impl Compiled {
@@ -94,11 +94,11 @@ impl Compiled {
         match started {
             _ if options.cancel.is_cancelled() => (None, Diagnostics::default()),
             Ok(mut started) => {
-                diagnostics.extend(self.part_backtrace().annotate_all(started.remarks()));
+                diagnostics.extend(self.backtrace().annotate_all(started.remarks()));
                 (Some(assembly(self, &mut started, t)), diagnostics)
             }
             Err(why) => {
-                diagnostics.push(self.part_backtrace().annotate(*why));
+                diagnostics.push(self.backtrace().annotate(*why));
                 (None, diagnostics)
             }
         }
@@ -256,11 +256,11 @@ impl Run {
             _ if options.cancel.is_cancelled() => return (None, Diagnostics::default()),
             Ok(started) => started,
             Err(why) => {
-                diagnostics.push(compiled.part_backtrace().annotate(*why));
+                diagnostics.push(compiled.backtrace().annotate(*why));
                 return (None, diagnostics);
             }
         };
-        diagnostics.extend(compiled.part_backtrace().annotate_all(started.remarks()));
+        diagnostics.extend(compiled.backtrace().annotate_all(started.remarks()));
         started.use_vectors(options.vectors);
         let assembly = assembly(compiled, &mut started, times.from());
         let results = compiled.system().results().outcomes.len();
@@ -283,7 +283,7 @@ impl Run {
             has_stopped: false,
             result_query,
             results,
-            part_backtrace: compiled.part_backtrace().clone(),
+            backtrace: compiled.backtrace().clone(),
         };
         (Some(run), diagnostics)
     }
@@ -323,7 +323,7 @@ impl Run {
         let row = self.motion.next_row();
         self.has_ended = !matches!(row, Some(Ok(_)));
         self.has_stopped |= matches!(row, Some(Err(_)));
-        row.map(|row| row.map_err(|why| Box::new(self.part_backtrace.annotate(*why))))
+        row.map(|row| row.map_err(|why| Box::new(self.backtrace.annotate(*why))))
     }
 
     /// Returns the results, in the order of [`Compiled::results`]. `None` if only some times were requested or the work is cancelled; results have
@@ -337,7 +337,7 @@ impl Run {
         let Answers { values, digits, notes, has_all_rows } = result_query.answer()?;
         let mut diagnostics = Diagnostics::default();
         diagnostics.extend(notes);
-        let notes = self.part_backtrace.annotate_all(diagnostics).into_iter().collect();
+        let notes = self.backtrace.annotate_all(diagnostics).into_iter().collect();
         Some(Answers { values, digits, notes, has_all_rows })
     }
 
@@ -354,7 +354,7 @@ impl Run {
 
     /// Returns the warnings and notes of the rows so far, and forgets them.
     pub fn take_remarks(&mut self) -> Diagnostics {
-        self.part_backtrace.annotate_all(self.motion.take_remarks())
+        self.backtrace.annotate_all(self.motion.take_remarks())
     }
 }
 

@@ -85,42 +85,29 @@ impl Checked {
         let (run, mut diagnostics) = compiled.run(times, options);
         let Some(run) = run else { return (None, diagnostics) };
         let (columns, units) = (run.columns().to_vec(), run.units().to_vec());
-        let rows_of_run = rows(run, most);
-        diagnostics.extend(rows_of_run.diagnostics);
-        let motion = if rows_of_run.kept.is_empty() {
+        let run_rows = rows(run, most);
+        diagnostics.extend(run_rows.diagnostics);
+        let motion = if run_rows.kept.is_empty() {
             Motion::still(drawn_poses(model))
         } else {
-            Motion::of_rows(&compiled.columns_of_poses(), &columns, rows_of_run.kept, rows_of_run.edges)
+            Motion::of_rows(&compiled.columns_of_poses(), &columns, run_rows.kept, run_rows.edges)
         };
         let mut scene = match before.filter(|_| !motion.rows().is_empty()) {
             Some(before) => Scene::with_symbols(model, &motion, before.scene.unit),
             None => Scene::of(model, &motion),
         };
         self.widen_spans(&mut scene);
-        highlight_stop(&mut scene, model, &motion, rows_of_run.stopped.as_ref());
+        highlight_stop(&mut scene, model, &motion, run_rows.stopped.as_ref());
         if let Some(before) = before {
             scene.extent = before.scene.extent;
         }
-        let values = rows_of_run.results.into_iter();
+        let values = run_rows.results.into_iter();
         let results =
             compiled.results().into_iter().zip(values).map(|((name, unit), value)| (name, unit, value)).collect();
-        let (all_rows, stopped, texts) = (rows_of_run.all, rows_of_run.stopped, self.texts());
+        let (all_rows, stopped, texts) = (run_rows.all, run_rows.stopped, self.texts());
         let kinds = layout::columns(compiled.system()).into_iter().map(|column| column.kind).collect();
-        (
-            Some(Seen {
-                scene,
-                motion,
-                columns,
-                units,
-                kinds,
-                all_rows,
-                stopped,
-                said: diagnostics.clone(),
-                results,
-                texts,
-            }),
-            diagnostics,
-        )
+        let said = diagnostics.clone();
+        (Some(Seen { scene, motion, columns, units, kinds, all_rows, stopped, said, results, texts }), diagnostics)
     }
 
     /// Draws a single time `t` (s) of a motion that is followed from the time `from`, with guides and slots as long as in the visualization
@@ -235,10 +222,10 @@ impl Checked {
         let (run, mut diagnostics) = compiled.run(times, options);
         let Some(run) = run else { return (None, diagnostics) };
         let columns = run.columns().to_vec();
-        let rows_of_run = rows(run, usize::MAX);
-        diagnostics.extend(rows_of_run.diagnostics);
-        let motion = Motion::of_rows(&compiled.columns_of_poses(), &columns, rows_of_run.kept, rows_of_run.edges);
-        (Some((motion, rows_of_run.stopped)), diagnostics)
+        let run_rows = rows(run, usize::MAX);
+        diagnostics.extend(run_rows.diagnostics);
+        let motion = Motion::of_rows(&compiled.columns_of_poses(), &columns, run_rows.kept, run_rows.edges);
+        (Some((motion, run_rows.stopped)), diagnostics)
     }
 
     /// Replaces the spans of declarations, which are those of their names, by those of the whole declarations.

@@ -328,7 +328,7 @@ impl SpecBuilder<'_> {
         let param_info = self.reader.checked.settable_params().into_iter().find(|param| param.name == name);
         let unit = param_info.map(|param| param.unit).unwrap_or_default();
         // a point may have plain numbers as coordinates
-        let is_accepted = self.reader.with(name, &format!("0 * {}", written(1.0, &unit))).is_ok();
+        let is_accepted = self.reader.check_with(name, &format!("0 * {}", written(1.0, &unit))).is_ok();
         if is_accepted { unit } else { String::new() }
     }
 
@@ -355,7 +355,7 @@ impl SpecBuilder<'_> {
                 (dimension, _) => si_unit(dimension.unwrap_or(Dimension::PURE), *is_of_angles),
             };
             let sample = written(nonzero.unwrap_or(0.0), &unit);
-            self.reader.with(name, &sample).map_err(|why| self.at_header(*span, why))?;
+            self.reader.check_with(name, &sample).map_err(|why| self.at_header(*span, why))?;
             params.push(self.add(name, unit));
         }
         let rows = columns.first().map_or(0, |column| column.values.len());
