@@ -8,7 +8,7 @@ use mechc_text::world::World;
 use std::collections::BTreeSet;
 
 /// Outputs may name outputs; so many rounds remove what depends on those that were removed.
-const MOST_ROUNDS: usize = 4;
+const MAX_ROUNDS: usize = 4;
 
 impl Checked {
     /// Returns whether all errors in its text, in any mechanism, are in measures, traces, results and the analysis.
@@ -23,7 +23,7 @@ impl Checked {
     pub fn without_wrong_outputs(&self, world: &dyn World) -> Option<Checked> {
         let index = self.index?;
         let (mut checked, mut faulty) = (self.clone(), self.faulty_outputs()?);
-        for _ in 0..MOST_ROUNDS {
+        for _ in 0..MAX_ROUNDS {
             let text = &checked.sources().get(checked.file()).text;
             let parsed = checked.parsed.edited(&blanked(text, &faulty));
             // if a brace was blanked, the rest of the text reads differently

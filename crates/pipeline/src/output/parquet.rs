@@ -203,13 +203,13 @@ mod tests {
         let schema = reader.metadata().file_metadata().schema_descr();
         let names: Vec<String> = schema.columns().iter().map(|column| column.name().to_owned()).collect();
         assert_eq!(names, ["t", "rod.phi.dd"]);
-        let found: Vec<[u64; 2]> = reader
+        let read_back: Vec<[u64; 2]> = reader
             .get_row_iter(None)
             .unwrap()
             .map(|row| row.unwrap())
             .map(|row| [0, 1].map(|k| row.get_double(k).unwrap().to_bits()))
             .collect();
-        assert_eq!(found, rows.map(|row| row.map(f64::to_bits)));
+        assert_eq!(read_back, rows.map(|row| row.map(f64::to_bits)));
     }
 
     #[test]
@@ -228,9 +228,9 @@ mod tests {
             writer.row(&row).unwrap();
         }
         let reader = read(writer.finish().unwrap());
-        let found: Vec<Option<f64>> =
+        let read_back: Vec<Option<f64>> =
             reader.get_row_iter(None).unwrap().map(|row| row.unwrap().get_double(1).ok()).collect();
-        assert_eq!(found, [Some(1.5), None, None, Some(2.5)]);
+        assert_eq!(read_back, [Some(1.5), None, None, Some(2.5)]);
     }
 
     #[test]

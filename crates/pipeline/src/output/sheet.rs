@@ -179,8 +179,8 @@ mod tests {
     #[test]
     fn csv_has_a_line_for_each_row() {
         let text = String::from_utf8(written(TableFormat::Csv)).unwrap();
-        let wanted = "variant,rod,\"at (1, 2)\",status\n0,0.1,-2.0,ok\n1,,,E0602\n2,0.1,-2.0,ok\n3,,,E0602\n";
-        assert_eq!(text, wanted);
+        let expected = "variant,rod,\"at (1, 2)\",status\n0,0.1,-2.0,ok\n1,,,E0602\n2,0.1,-2.0,ok\n3,,,E0602\n";
+        assert_eq!(text, expected);
     }
 
     #[test]

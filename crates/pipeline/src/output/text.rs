@@ -7,9 +7,9 @@ use std::mem;
 /// Numbers that are formatted at once: 64 kB of them, twice that of text.
 const AT_ONCE: usize = 1 << 13;
 /// This many threads format text as fast as one thread computes rows.
-const MOST_JOBS: usize = 4;
+const MAX_JOBS: usize = 4;
 /// Numbers that are formatted side by side: each is copied after the processor has stored its digits.
-const ABREAST: usize = 8;
+const BATCH: usize = 8;
 
 /// Returns the name of a column in CSV. Names hold no quotes; those of pairs hold a comma (RFC 4180).
 pub(super) fn quoted(name: &str) -> String {
@@ -77,7 +77,7 @@ impl<W: Write> TextWriter<W> {
             return text.map_or(Ok(()), |text| self.write(&text));
         }
         let marks = self.marks;
-        self.relay = Some(Relay::new(usual_jobs().min(MOST_JOBS), move |rows: Rows| marks.text(&rows)));
+        self.relay = Some(Relay::new(usual_jobs().min(MAX_JOBS), move |rows: Rows| marks.text(&rows)));
         self.write(&marks.text(&rows))
     }
 
@@ -122,7 +122,7 @@ impl Marks {
 }
 
 /// Formats numbers, each as the shortest decimal that reads back to it.
-pub(super) struct Numbers([zmij::Buffer; ABREAST]);
+pub(super) struct Numbers([zmij::Buffer; BATCH]);
 
 impl Default for Numbers {
     fn default() -> Numbers {
@@ -133,8 +133,8 @@ impl Default for Numbers {
 impl Numbers {
     /// Appends numbers to a text, separated by commas; `missing` stands for those that are not finite.
     pub fn write(&mut self, values: &[f64], missing: &str, text: &mut Vec<u8>) {
-        for (group, values) in values.chunks(ABREAST).enumerate() {
-            let mut written = [missing; ABREAST];
+        for (group, values) in values.chunks(BATCH).enumerate() {
+            let mut written = [missing; BATCH];
             for ((written, buffer), &value) in written.iter_mut().zip(&mut self.0).zip(values) {
                 if value.is_finite() {
                     *written = buffer.format_finite(value);
