@@ -7,7 +7,7 @@ use mechc_text::source::{Sources, Span};
 /// Words that make an angle of a pure number, or of a time.
 const WORDS: [&str; 4] = ["deg", "rad", "rev", "rpm"];
 /// Depth to which names in a formula are followed.
-const DEEPEST: u32 = 8;
+const MAX_DEPTH: u32 = 8;
 
 /// The texts whose formulas decide.
 #[derive(Clone, Debug)]
@@ -24,8 +24,9 @@ impl Angles {
     /// Returns whether the param or input whose name is at a span is an angle, provided that it is dimensionless.
     pub fn has(&self, name: Span) -> bool {
         let mut mechanisms = self.library.files().iter().flat_map(|file| &file.read.tree.mechanisms);
-        mechanisms
-            .any(|tree| formulas(tree).any(|(span, _, formula)| span == name && self.is_angle(tree, formula, DEEPEST)))
+        mechanisms.any(|tree| {
+            formulas(tree).any(|(span, _, formula)| span == name && self.is_angle(tree, formula, MAX_DEPTH))
+        })
     }
 
     fn is_angle(&self, tree: &Mechanism, formula: &Expr, depth: u32) -> bool {

@@ -4,6 +4,7 @@ use crate::continuation::StartSolver;
 use crate::imports::{self, Imports};
 use crate::lowering::Rebuild;
 use crate::lowering::lowered;
+use crate::option_reader::spaceless;
 use crate::part_backtrace::PartBacktrace;
 use crate::queries::QueryCache;
 use crate::{Compiled, Parsed, Redundant};
@@ -32,7 +33,7 @@ pub struct Choice {
     pub mechanism: Option<String>,
     /// Params: `NAME=FORMULA`; the last setting of a name counts.
     pub set: Vec<String>,
-    /// Whether the mechanism is assembled with its nominal values, and continued to those of `set` along its branch.
+    /// True if the mechanism is assembled with its nominal values, and continued to those of `set` along its branch.
     pub lead: bool,
     /// Params that vary from run to run, set over those of `set`; messages name them so.
     pub varied: Vec<String>,
@@ -48,12 +49,12 @@ pub struct Choice {
     pub until: Option<String>,
     /// Inputs and params by which all columns are differentiated; the derivatives are columns after all others.
     pub by: Vec<String>,
-    /// Whether results are differentiated by these too, as results after all others. The two flags tell whether the first and the last time of
+    /// True if results are differentiated by these too, as results after all others. The two flags tell whether the first and the last time of
     /// the analysis are those of the text, which may depend on params.
     pub slopes: Option<[bool; 2]>,
-    /// Whether the reactions of all joints and the efforts of all drivers are tabulated.
+    /// True if the reactions of all joints and the efforts of all drivers are tabulated.
     pub reactions: bool,
-    /// Whether pictures show forces, if there are any.
+    /// True if pictures show forces, if there are any.
     pub pictures_forces: bool,
 }
 
@@ -65,7 +66,7 @@ pub struct Choice {
 /// let parsed = Parsed::of("lever.mech", "mechanism lever { body bar { point P = (1 m, 0) } driver d: angle(bra) = t }");
 /// let checked = parsed.check(&Choice::default(), &Memory::default());
 /// assert!(!checked.is_sound());
-/// assert_eq!(checked.diagnostics().iter().map(|said| said.code.as_str()).collect::<Vec<_>>(), ["E0201"]);
+/// assert_eq!(checked.diagnostics().iter().map(|diagnostic| diagnostic.code.as_str()).collect::<Vec<_>>(), ["E0201"]);
 /// ```
 #[derive(Clone, Debug)]
 pub struct Checked {
@@ -76,9 +77,9 @@ pub struct Checked {
     pub(crate) model: Option<Arc<Mechanism>>,
     /// Finds its starting position, if it has parts or is given inputs.
     start_solver: Option<Arc<StartSolver>>,
-    /// Whether it is continued from the values of its text to those that are set.
+    /// True if it is continued from the values of its text to those that are set.
     is_continued: bool,
-    /// What it was checked with.
+    /// The options of its check.
     pub(crate) check_options: Arc<Surroundings>,
     diagnostics: Arc<Diagnostics>,
     symbols: Arc<OnceLock<Symbols>>,
@@ -89,7 +90,7 @@ impl Parsed {
     /// Checks one of its mechanisms.
     #[must_use]
     pub fn check(&self, choice: &Choice, world: &dyn World) -> Checked {
-        Checked::of(self, choice, world)
+        Checked::new(self, choice, world)
     }
 
     /// Checks all its mechanisms, in order, and reads the files that they use once. Returns one stage without a mechanism if there is none.
@@ -106,8 +107,8 @@ impl Parsed {
     /// Returns the fixes that always apply: those of syntax errors; if there are none, those of all mechanisms.
     #[must_use]
     pub fn certain_fixes(&self, world: &dyn World) -> Vec<Fix> {
-        let certain = |found: &Diagnostics| -> Vec<Fix> {
-            let fixes = found.iter().flat_map(|diagnostic| &diagnostic.fixes);
+        let certain = |diagnostics: &Diagnostics| -> Vec<Fix> {
+            let fixes = diagnostics.iter().flat_map(|diagnostic| &diagnostic.fixes);
             fixes.filter(|fix| fix.applies == Applies::Always).cloned().collect()
         };
         let of_syntax = certain(self.faults());
@@ -122,7 +123,7 @@ impl Parsed {
 }
 
 impl Checked {
-    fn of(parsed: &Parsed, choice: &Choice, world: &dyn World) -> Checked {
+    fn new(parsed: &Parsed, choice: &Choice, world: &dyn World) -> Checked {
         let imports = imports::read(parsed, world);
         match selected_mechanism(parsed, &imports, choice.mechanism.as_deref()) {
             Ok(index) => Checked::from_index(parsed, &imports, index, choice, world),
@@ -134,7 +135,7 @@ impl Checked {
                 diagnostics.extend(imports.diagnostics.clone());
                 diagnostics.extend((is_read && !diagnostics.has_errors()).then_some(*why));
                 let library = imports.library;
-                Checked::with(parsed.with_sources(imports.sources), None, library, None, diagnostics)
+                Checked::from_model(parsed.with_sources(imports.sources), None, library, None, diagnostics)
             }
         }
     }
@@ -161,8 +162,7 @@ impl Checked {
         let given = given(choice, world, &mut sources);
         let files = table_files(&library, with_parts(&library, tree, &sources), world, &mut sources);
         let is_continued = choice.lead && !choice.set.is_empty();
-        let spaceless = |name: &String| syntax::normalized(name).chars().filter(|c| !c.is_whitespace()).collect();
-        let by = choice.by.iter().map(spaceless).collect();
+        let by = choice.by.iter().map(|name| spaceless(name)).collect();
         match (settings, given) {
             (Err(why), Ok(_)) | (Ok(_), Err(why)) => diagnostics.extend(why),
             (Err(why), Err(more)) => {
@@ -187,7 +187,7 @@ impl Checked {
                 return Checked::with_check_options(parsed, index, check_options, is_continued, diagnostics);
             }
         }
-        Checked::with(parsed.with_sources(sources), Some(index), library, None, diagnostics)
+        Checked::from_model(parsed.with_sources(sources), Some(index), library, None, diagnostics)
     }
 
     /// Checks the mechanism at an index with all options of the checker. `diagnostics` are reported first.
@@ -208,7 +208,7 @@ impl Checked {
             Arc::new(StartSolver { read, index, check_options, sources, has_given_inputs })
         });
         let library = check_options.library.clone();
-        let checked = Checked::with(parsed, Some(index), library, model, diagnostics);
+        let checked = Checked::from_model(parsed, Some(index), library, model, diagnostics);
         Checked { start_solver, is_continued, check_options: Arc::new(check_options), ..checked }
     }
 
@@ -244,13 +244,8 @@ impl Checked {
         let is_until =
             |item: &ast::Item| matches!(&item.kind, ast::ItemKind::Result { name, .. } if name.text == UNTIL);
         let parsed = self.parsed.without_items(index, is_until);
-        Checked::with_check_options(
-            parsed,
-            index,
-            (*self.check_options).clone(),
-            self.is_continued,
-            Diagnostics::default(),
-        )
+        let options = (*self.check_options).clone();
+        Checked::with_check_options(parsed, index, options, self.is_continued, Diagnostics::default())
     }
 
     /// Returns what rebuilds the mechanism with signals or reactions.
@@ -258,7 +253,7 @@ impl Checked {
         Some(Rebuild::new(self.parsed.clone(), self.index?, Arc::clone(&self.check_options)))
     }
 
-    fn with(
+    fn from_model(
         parsed: Parsed,
         index: Option<usize>,
         library: Library,
@@ -303,9 +298,9 @@ impl Checked {
     /// Returns whether another mechanism of its text uses it as a part.
     #[must_use]
     pub fn is_part_of_another(&self) -> bool {
-        let Some(own) = self.tree() else { return false };
-        let is_it = |name: &ast::MechanismName| name.prefix.is_none() && name.name.text == own.name.text;
-        self.parsed.tree().mechanisms.iter().any(|other| other.name != own.name && parts(other).any(is_it))
+        let Some(tree) = self.tree() else { return false };
+        let is_part = |name: &ast::MechanismName| name.prefix.is_none() && name.name.text == tree.name.text;
+        self.parsed.tree().mechanisms.iter().any(|other| other.name != tree.name && parts(other).any(is_part))
     }
 
     /// Returns the model; `None` if the mechanism has errors.
@@ -346,8 +341,8 @@ impl Checked {
     /// Returns the files that its text uses and that can be read, each with the span that names it.
     pub fn used_files(&self) -> impl Iterator<Item = (Span, FileId)> {
         let files = self.library.files();
-        let own = files.iter().take(1).flat_map(|own| own.read.tree.uses.iter().zip(&own.uses));
-        own.filter_map(|(import, index)| Some((import.path.as_ref()?.span, files[(*index)?].id)))
+        let imports = files.iter().take(1).flat_map(|file| file.read.tree.uses.iter().zip(&file.uses));
+        imports.filter_map(|(import, index)| Some((import.path.as_ref()?.span, files[(*index)?].id)))
     }
 
     /// Returns the files whose mechanisms its text may name; its own file is the first.
@@ -422,8 +417,8 @@ impl Checked {
     }
 
     fn compiled(&self, model: &Mechanism, redundant: Redundant, cancel: &Cancel) -> (Option<Compiled>, Diagnostics) {
-        let (start_solver, part_backtrace) = (self.start_solver.clone(), PartBacktrace::new(model));
-        Compiled::new(self.sources().clone(), lowered(model), redundant, start_solver, part_backtrace, cancel)
+        let (start_solver, backtrace) = (self.start_solver.clone(), PartBacktrace::new(model));
+        Compiled::new(self.sources().clone(), lowered(model), redundant, start_solver, backtrace, cancel)
     }
 
     /// Returns the model in which the given parts request derivatives by their own equations, though they move together with their surroundings.
@@ -463,28 +458,28 @@ fn outermost(mechanisms: &[(&str, Vec<&str>)]) -> Option<usize> {
 
 fn selected_mechanism(parsed: &Parsed, imports: &Imports, requested: Option<&str>) -> Result<usize, Box<Diagnostic>> {
     let names: Vec<&str> = parsed.mechanisms().collect();
-    let with_parts: Vec<(&str, Vec<&str>)> = parsed.tree().mechanisms.iter().map(with_own_parts).collect();
+    let with_parts: Vec<(&str, Vec<&str>)> = parsed.tree().mechanisms.iter().map(with_local_parts).collect();
     let listed = format!("the mechanisms are {}", names.join(", "));
     let file = &parsed.sources().get(parsed.file()).name;
     match requested.map(syntax::normalized) {
         None => outermost(&with_parts).ok_or_else(|| {
-            let diagnostics = Diagnostic::new(Code::E0704, format!("`{file}` holds {} mechanisms", names.len()));
-            Box::new(diagnostics.help(format!("choose one with `--mechanism NAME`; {listed}")))
+            let diagnostic = Diagnostic::new(Code::E0704, format!("`{file}` holds {} mechanisms", names.len()));
+            Box::new(diagnostic.help(format!("choose one with `--mechanism NAME`; {listed}")))
         }),
-        Some(name) => names.iter().position(|known| *known == name).ok_or_else(|| {
-            let meant = nearest(&name, names.iter().copied()).map(|name| format!("was `{name}` meant?"));
-            let diagnostics = Diagnostic::new(Code::E0704, format!("`{file}` holds no mechanism `{name}`"));
+        Some(name) => names.iter().position(|other| *other == name).ok_or_else(|| {
+            let suggestion = nearest(&name, names.iter().copied()).map(|name| format!("was `{name}` meant?"));
+            let diagnostic = Diagnostic::new(Code::E0704, format!("`{file}` holds no mechanism `{name}`"));
             let elsewhere = imports.library.file_of(&name).map(|other| &imports.sources.get(other).name);
             let elsewhere = elsewhere.map(|other| format!("`{other}`, which it uses, holds it: name that file"));
-            Box::new(diagnostics.help(elsewhere.or(meant).unwrap_or(listed)))
+            Box::new(diagnostic.help(elsewhere.or(suggestion).unwrap_or(listed)))
         }),
     }
 }
 
 /// Returns the name of a mechanism, and those of its parts that are declared in the same text.
-fn with_own_parts(tree: &ast::Mechanism) -> (&str, Vec<&str>) {
-    let own = parts(tree).filter(|name| name.prefix.is_none());
-    (&tree.name.text, own.map(|name| name.name.text.as_str()).collect())
+fn with_local_parts(tree: &ast::Mechanism) -> (&str, Vec<&str>) {
+    let local = parts(tree).filter(|name| name.prefix.is_none());
+    (&tree.name.text, local.map(|name| name.name.text.as_str()).collect())
 }
 
 /// Returns the mechanisms that a mechanism uses as parts.
@@ -497,19 +492,19 @@ fn parts(tree: &ast::Mechanism) -> impl Iterator<Item = &ast::MechanismName> {
 
 /// Returns a mechanism and all its parts at all levels, each once.
 fn with_parts<'t>(library: &'t Library, tree: &'t ast::Mechanism, sources: &Sources) -> Vec<&'t ast::Mechanism> {
-    let (mut found, mut next) = (vec![tree], 0);
-    while let Some(tree) = found.get(next).copied() {
+    let (mut trees, mut next) = (vec![tree], 0);
+    while let Some(tree) = trees.get(next).copied() {
         next += 1;
         for name in parts(tree) {
-            if let Ok(known) = library.find(name.prefix.as_ref(), &name.name, sources) {
-                let part = library.tree(known);
-                if !found.iter().any(|tree| tree.name.span == part.name.span) {
-                    found.push(part);
+            if let Ok(place) = library.find(name.prefix.as_ref(), &name.name, sources) {
+                let part = library.tree(place);
+                if !trees.iter().any(|tree| tree.name.span == part.name.span) {
+                    trees.push(part);
                 }
             }
         }
     }
-    found
+    trees
 }
 
 /// Reads the files that the tables of some mechanisms name.
@@ -614,18 +609,18 @@ mod tests {
 
     #[test]
     fn the_outermost_mechanism_is_the_one_that_is_no_part_of_another() {
-        let of = |mechanisms: &[(&str, &[&str])]| {
+        let outermost_of = |mechanisms: &[(&str, &[&str])]| {
             let mechanisms: Vec<_> = mechanisms.iter().map(|(name, parts)| (*name, parts.to_vec())).collect();
             outermost(&mechanisms)
         };
-        assert_eq!(of(&[("leg", &[])]), Some(0));
-        assert_eq!(of(&[("leg", &[]), ("walker", &[])]), None);
-        assert_eq!(of(&[("leg", &["foot"]), ("walker", &["leg", "leg"]), ("foot", &[])]), Some(1));
-        assert_eq!(of(&[("leg", &[]), ("walker", &["leg"]), ("runner", &["leg"])]), None);
+        assert_eq!(outermost_of(&[("leg", &[])]), Some(0));
+        assert_eq!(outermost_of(&[("leg", &[]), ("walker", &[])]), None);
+        assert_eq!(outermost_of(&[("leg", &["foot"]), ("walker", &["leg", "leg"]), ("foot", &[])]), Some(1));
+        assert_eq!(outermost_of(&[("leg", &[]), ("walker", &["leg"]), ("runner", &["leg"])]), None);
         // a mechanism that contains itself is no part of another; of a cycle one is taken, which reports it
-        assert_eq!(of(&[("leg", &["leg"])]), Some(0));
-        assert_eq!(of(&[("leg", &["foot"]), ("foot", &["leg"])]), Some(0));
-        assert_eq!(of(&[("foot", &[]), ("egg", &["hen", "foot"]), ("hen", &["egg"])]), Some(1));
-        assert_eq!(of(&[]), None);
+        assert_eq!(outermost_of(&[("leg", &["leg"])]), Some(0));
+        assert_eq!(outermost_of(&[("leg", &["foot"]), ("foot", &["leg"])]), Some(0));
+        assert_eq!(outermost_of(&[("foot", &[]), ("egg", &["hen", "foot"]), ("hen", &["egg"])]), Some(1));
+        assert_eq!(outermost_of(&[]), None);
     }
 }

@@ -37,9 +37,9 @@ pub enum Redundant {
 ///      driver motor: rotation(axle) = 90 deg/s * t
 ///  }";
 /// let checked = Parsed::of("disc.mech", text).check(&Choice::default(), &Memory::default());
-/// let (compiled, said) = checked.compile(Redundant::Refused, &Cancel::default());
+/// let (compiled, diagnostics) = checked.compile(Redundant::Refused, &Cancel::default());
 /// let compiled = compiled.expect("it is determined");
-/// assert!(said.is_empty());
+/// assert!(diagnostics.is_empty());
 /// assert_eq!(compiled.drivers(), [("motor".to_owned(), "rotation(axle) = 90 deg/s * t".to_owned())]);
 /// ```
 #[derive(Clone)]
@@ -49,7 +49,7 @@ pub struct Compiled {
     program: Arc<OnceLock<Arc<Program>>>,
     /// Finds its starting position, if it has parts or is given inputs.
     start_solver: Option<Arc<StartSolver>>,
-    part_backtrace: PartBacktrace,
+    backtrace: PartBacktrace,
     redundant: Redundant,
     /// Rebuilds it with signals or reactions.
     rebuild: Option<Rebuild>,
@@ -63,7 +63,7 @@ impl Compiled {
         system: ConstraintSystem,
         redundant: Redundant,
         start_solver: Option<Arc<StartSolver>>,
-        part_backtrace: PartBacktrace,
+        backtrace: PartBacktrace,
         cancel: &Cancel,
     ) -> (Option<Compiled>, Diagnostics) {
         if cancel.is_cancelled() {
@@ -72,16 +72,16 @@ impl Compiled {
         let horizon = Horizon::of_analysis(system.analysis());
         match analysis::determine(system, redundant == Redundant::LeftOut, horizon) {
             _ if cancel.is_cancelled() => (None, Diagnostics::default()),
-            Err(why) => (None, part_backtrace.annotate_all(why)),
+            Err(why) => (None, backtrace.annotate_all(why)),
             Ok((determined, diagnostics)) => {
-                let (determined, diagnostics) = (Arc::new(determined), part_backtrace.annotate_all(diagnostics));
+                let (determined, diagnostics) = (Arc::new(determined), backtrace.annotate_all(diagnostics));
                 let (program, rebuild, continuation) = Default::default();
                 let compiled = Compiled {
                     sources,
                     determined,
                     program,
                     start_solver,
-                    part_backtrace,
+                    backtrace,
                     redundant,
                     rebuild,
                     continuation,
@@ -112,7 +112,7 @@ impl Compiled {
             system.derive_by_params();
         }
         let (compiled, diagnostics) =
-            Compiled::new(self.sources.clone(), system, self.redundant, None, self.part_backtrace.clone(), cancel);
+            Compiled::new(self.sources.clone(), system, self.redundant, None, self.backtrace.clone(), cancel);
         compiled.map(Some).ok_or(diagnostics)
     }
 
@@ -125,15 +125,9 @@ impl Compiled {
     pub(crate) fn by_params(&self) -> Result<Compiled, Diagnostics> {
         let mut system = self.determined.whole().clone();
         system.derive_by_params();
-        let start_solver = self.start_solver.clone();
-        let (compiled, diagnostics) = Compiled::new(
-            self.sources.clone(),
-            system,
-            self.redundant,
-            start_solver,
-            self.part_backtrace.clone(),
-            &Cancel::default(),
-        );
+        let (start_solver, backtrace) = (self.start_solver.clone(), self.backtrace.clone());
+        let (compiled, diagnostics) =
+            Compiled::new(self.sources.clone(), system, self.redundant, start_solver, backtrace, &Cancel::default());
         compiled.map(|compiled| compiled.with_rebuild(self.rebuild.clone())).ok_or(diagnostics)
     }
 
@@ -141,15 +135,9 @@ impl Compiled {
     /// leave the reactions undetermined.
     pub(crate) fn with_reactions(&self) -> Option<Compiled> {
         let (system, rebuild) = self.rebuild.as_ref()?.with_reactions()?;
-        let (start_solver, part_backtrace) = (self.start_solver.clone(), self.part_backtrace.clone());
-        let (compiled, _) = Compiled::new(
-            self.sources.clone(),
-            system,
-            self.redundant,
-            start_solver,
-            part_backtrace,
-            &Cancel::default(),
-        );
+        let (start_solver, backtrace) = (self.start_solver.clone(), self.backtrace.clone());
+        let (compiled, _) =
+            Compiled::new(self.sources.clone(), system, self.redundant, start_solver, backtrace, &Cancel::default());
         Some(compiled?.with_rebuild(Some(rebuild)))
     }
 
@@ -282,8 +270,8 @@ impl Compiled {
     }
 
     /// Returns the places where its parts are used.
-    pub(crate) fn part_backtrace(&self) -> &PartBacktrace {
-        &self.part_backtrace
+    pub(crate) fn backtrace(&self) -> &PartBacktrace {
+        &self.backtrace
     }
 
     /// Returns the parts that request derivatives by their own equations and move together with their surroundings.

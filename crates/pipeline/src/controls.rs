@@ -1,4 +1,4 @@
-//! What of a mechanism can be turned by hand: its params, and its inputs.
+//! Controls of a page: the params and inputs that a user can change by hand.
 
 use crate::angles::Angles;
 use crate::option_reader::{is_of_angles, number_and_unit, si_unit, written};
@@ -14,51 +14,52 @@ use mechc_text::source::{Sources, Span};
 use mechc_text::vocabulary::Unit;
 use rustc_hash::FxHashMap;
 
-/// A param, or a coordinate of one that is a point, as an option sets it.
+/// A control of a param, or of a coordinate of a param that is a point.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Knob {
-    /// Its path.
+    /// Path of the param.
     pub name: String,
-    /// The unit that it is written in; where that is no single number, the one of what the formula names, or SI. Empty for a pure number.
+    /// Unit in which the param is written. If its formula is no single number: the unit of a param that the formula names, or SI. Empty for a pure
+    /// number.
     pub unit: String,
-    /// Its dimension as an SI unit, in which angles are pure numbers.
+    /// Dimension as an SI unit, in which angles are pure numbers.
     pub dimension: String,
-    /// What it is by the text and what is set in it, in that unit.
+    /// Value in that unit, by the text and the settings.
     pub value: f64,
-    /// What the text says, where that is more than a number.
+    /// Formula of the text, if it is more than a number.
     pub formula: Option<String>,
-    /// Where any text says it in words that can be replaced.
+    /// Span of the formula, if it can be replaced.
     pub place: Option<Span>,
-    /// Whether that says the other coordinate of a point too.
+    /// True if that formula gives the other coordinate of a point, too.
     pub is_half: bool,
-    /// Where any text says it.
+    /// Span of the formula, if there is one.
     pub stands: Option<Span>,
-    /// The one of all copies of a part, where it is of a single copy.
+    /// Path of the control of all copies, if this one is of a single copy of a part.
     pub of: Option<String>,
-    /// Whether a mechanism can be led from one value to another: what decides how often something is there jumps.
+    /// True if continuation can change the value; counts of declarations jump.
     pub leads: bool,
 }
 
-/// An input.
+/// A control of an input.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Jog {
-    /// Its path.
+    /// Path of the input.
     pub name: String,
-    /// Its SI unit; empty for a pure number.
+    /// SI unit; empty for a pure number.
     pub unit: String,
-    /// The unit in which its formula writes what is of its kind; else its SI unit.
+    /// Unit of its kind in which its formula is written; else its SI unit.
     pub written: String,
-    /// Its dimension as an SI unit, in which angles are pure numbers.
+    /// Dimension as an SI unit, in which angles are pure numbers.
     pub dimension: String,
-    /// What it is at some times (SI).
+    /// Values (SI) at the requested times.
     pub values: Vec<f64>,
-    /// The formula, as it is written.
+    /// Formula, as it is written.
     pub formula: String,
 }
 
 impl Checked {
-    /// What can be set of it, in the order of the text, then what can be set in parts; where there are copies of these, of all of them
-    /// and then of each. Nothing where it is not sound.
+    /// Returns the controls of params in the order of the text, then those of parts. Copies of parts have a control of all copies, followed by
+    /// one for each. Empty if the mechanism has errors.
     #[must_use]
     pub fn knobs(&self) -> Vec<Knob> {
         let (Some(tree), Some(model)) = (self.tree(), self.model()) else { return Vec::new() };
@@ -70,40 +71,41 @@ impl Checked {
                 _ => None,
             });
             let Some((name, formula)) = declared else { continue };
-            let of = |dimension, is_angle| Kind { dimension, is_angle, usual: usual.filter(|_| dimension == LENGTH) };
+            let kind =
+                |dimension, is_angle| ValueKind { dimension, is_angle, usual: usual.filter(|_| dimension == LENGTH) };
             match &value.amount {
                 Amount::Number { si, dimension, is_angle, unit } => {
                     let unit = unit.as_ref().map(|unit| unit.per_second(0));
-                    let unit = unit.or_else(|| unit_of_named(formula, self, &knobs, (*dimension, *is_angle)));
-                    knobs.push(self.knob(&name.text, formula, *si, (of(*dimension, *is_angle), unit)));
+                    let unit = unit.or_else(|| unit_of_named(formula, self, &knobs, *dimension, *is_angle));
+                    knobs.push(self.knob(&name.text, formula, *si, &kind(*dimension, *is_angle), unit));
                 }
                 Amount::Point(at) => {
                     let parts = coordinates(formula);
                     for (k, axis) in ["x", "y"].into_iter().enumerate() {
                         let formula = parts.map_or(formula, |parts| &parts[k]);
                         let knob =
-                            self.knob(&format!("{}.{axis}", name.text), formula, at[k], (of(LENGTH, false), None));
-                        // a plain 0 is of the unit beside it
-                        let beside = parts.and_then(|parts| number_and_unit(self.sources().text(parts[1 - k].span)));
+                            self.knob(&format!("{}.{axis}", name.text), formula, at[k], &kind(LENGTH, false), None);
+                        // a plain 0 has the unit of the other coordinate
+                        let other = parts.and_then(|parts| number_and_unit(self.sources().text(parts[1 - k].span)));
                         let is_plain = knob.unit.is_empty();
-                        let beside = beside.filter(|_| is_plain).map_or(knob.unit, |(_, unit)| unit.to_owned());
-                        // and what is nothing else, of that of the others
-                        let is_origin = beside.is_empty() && at.iter().all(|at| *at == 0.0);
-                        let unit = usual.filter(|_| is_origin).map_or(beside, str::to_owned);
+                        let unit = other.filter(|_| is_plain).map_or(knob.unit, |(_, unit)| unit.to_owned());
+                        // the origin has the usual unit of the text
+                        let is_origin = unit.is_empty() && at.iter().all(|at| *at == 0.0);
+                        let unit = usual.filter(|_| is_origin).map_or(unit, str::to_owned);
                         knobs.push(Knob { unit, is_half: parts.is_none(), ..knob });
                     }
                 }
             }
         }
-        let is_own = |name: &str| knobs.iter().any(|knob| knob.name == name);
+        let is_listed = |name: &str| knobs.iter().any(|knob| knob.name == name);
         let of_parts = model.params.iter().filter(|param| param.declared.name.contains('.'));
-        let of_parts = of_parts.filter(|param| !is_own(&param.declared.name));
+        let of_parts = of_parts.filter(|param| !is_listed(&param.declared.name));
         let of_parts = of_parts.map(|param| self.knob_of_part(&param.declared.name, param.value, param.dimension));
         knobs.extend(with_all_copies(of_parts.collect()));
         knobs
     }
 
-    fn knob(&self, name: &str, formula: &Expr, si: f64, (kind, unit): (Kind, Option<String>)) -> Knob {
+    fn knob(&self, name: &str, formula: &Expr, si: f64, kind: &ValueKind, unit: Option<String>) -> Knob {
         let text = self.sources().text(formula.span);
         let place = Some(formula.span);
         let param = self.param_in_part(name);
@@ -123,24 +125,24 @@ impl Checked {
         Knob { name, unit, dimension, value, formula, place, is_half, stands: place, of, leads: true }
     }
 
-    /// A param of a part: in the unit in which some text says it.
+    /// Returns the control of a param of a part, in the unit in which its formula is written.
     fn knob_of_part(&self, name: &str, si: f64, dimension: Dimension) -> Knob {
-        let found = self.said_of_part(name);
-        let text = found.as_ref().map(|said| self.sources().text(said.formula.span));
+        let source = self.part_source(name);
+        let text = source.as_ref().map(|source| self.sources().text(source.formula.span));
         let number = text.and_then(number_and_unit);
         let unit = number.map(|(_, unit)| unit).filter(|unit| !unit.is_empty());
-        let usual = || found.as_ref().and_then(|said| said.usual).filter(|_| dimension == LENGTH);
+        let usual = || source.as_ref().and_then(|source| source.usual).filter(|_| dimension == LENGTH);
         let unit = unit.or_else(usual).map_or_else(|| si_unit(dimension, false), str::to_owned);
         let (value, dimension) = (in_unit(si, &unit), si_unit(dimension, false));
         let formula = text.filter(|_| number.is_none()).map(str::to_owned);
-        let stands = found.as_ref().map(|said| said.formula.span);
-        let (is_half, is_bound) = found.map_or((false, true), |said| (said.is_half, said.is_bound));
+        let stands = source.as_ref().map(|source| source.formula.span);
+        let (is_half, is_bound) = source.map_or((false, true), |source| (source.is_half, source.is_bound));
         let (name, place, of) = (name.to_owned(), stands.filter(|_| !is_bound), None);
         Knob { name, unit, dimension, value, formula, place, is_half, stands, of, leads: true }
     }
 
-    /// What says what a param of a part is: where the part is declared, or in its own mechanism.
-    fn said_of_part(&self, path: &str) -> Option<SaidOfPart<'_>> {
+    /// Returns the formula of a param of a part: the binding where the part is declared, or the formula in its own mechanism.
+    fn part_source(&self, path: &str) -> Option<ParamSource<'_>> {
         let mut tree = self.tree()?;
         let mut names = path.split('.').map(|name| name.split('[').next().unwrap_or_default());
         let mut name = names.next()?;
@@ -151,14 +153,19 @@ impl Checked {
                     let coordinate = axis.zip(coordinates(value)).map(|(axis, parts)| &parts[axis]);
                     let usual = usual_unit_of_length(&tree.items).map(|unit| unit.word.name);
                     let is_half = axis.is_some() && coordinate.is_none();
-                    return Some(SaidOfPart { formula: coordinate.unwrap_or(value), is_half, is_bound: false, usual });
+                    return Some(ParamSource { formula: coordinate.unwrap_or(value), is_half, is_bound: false, usual });
                 }
                 ItemKind::Part(part) => {
                     name = names.next()?;
                     let bound =
                         part.bindings.iter().find(|bound| bound.name.text == name && bound.coordinate.is_none());
                     if let Some(bound) = bound {
-                        return Some(SaidOfPart { formula: &bound.value, is_half: false, is_bound: true, usual: None });
+                        return Some(ParamSource {
+                            formula: &bound.value,
+                            is_half: false,
+                            is_bound: true,
+                            usual: None,
+                        });
                     }
                     tree = self.mechanism(&part.mechanism)?;
                 }
@@ -167,36 +174,36 @@ impl Checked {
         }
     }
 
-    /// Whether something else than the text says what a param, or a coordinate of one, is.
+    /// Returns whether a setting replaces the formula of a param, or of a coordinate of it.
     fn is_set(&self, name: &str) -> bool {
-        let is_it =
+        let is_param =
             |path: &str| path == name || name.strip_prefix(path).is_some_and(|axis| [".x", ".y"].contains(&axis));
-        self.check_options.settings.iter().any(|setting| is_it(&setting.path))
+        self.check_options.settings.iter().any(|setting| is_param(&setting.path))
     }
 }
 
-/// What says what a param of a part, or a coordinate of one, is.
-struct SaidOfPart<'t> {
+/// The formula of a param of a part, or of a coordinate of it.
+struct ParamSource<'t> {
     formula: &'t Expr,
-    /// Whether it says both coordinates of a point.
+    /// True if the formula gives both coordinates of a point.
     is_half: bool,
-    /// Whether it is said where the part is declared, and so may be said there of other things.
+    /// True if the formula is a binding of the part, in which other names are valid.
     is_bound: bool,
-    /// The unit in which lengths are written around it.
+    /// The unit of lengths in the surrounding text.
     usual: Option<&'static str>,
 }
 
-/// Params of parts, and before those of copies one of all of them.
+/// Adds a control of all copies before those of single copies.
 fn with_all_copies(knobs: Vec<Knob>) -> Vec<Knob> {
     let mut all: Vec<(String, Vec<Knob>)> = Vec::new();
-    let mut known: FxHashMap<String, usize> = FxHashMap::default();
+    let mut indices: FxHashMap<String, usize> = FxHashMap::default();
     for knob in knobs {
-        let name = of_all_copies(&knob.name);
-        let number = *known.entry(name.clone()).or_insert(all.len());
-        if number == all.len() {
+        let name = without_copy_indices(&knob.name);
+        let index = *indices.entry(name.clone()).or_insert(all.len());
+        if index == all.len() {
             all.push((name, Vec::new()));
         }
-        all[number].1.push(knob);
+        all[index].1.push(knob);
     }
     let of_all = |(name, copies): (String, Vec<Knob>)| {
         let are_copies = copies.len() > 1;
@@ -208,28 +215,29 @@ fn with_all_copies(knobs: Vec<Knob>) -> Vec<Knob> {
     all.into_iter().flat_map(of_all).collect()
 }
 
-/// The path of a param of a part without the numbers of copies.
-fn of_all_copies(path: &str) -> String {
+/// Returns the path of a param of a part without indices of copies.
+fn without_copy_indices(path: &str) -> String {
     path.split('.').map(|name| name.split('[').next().unwrap_or_default()).collect::<Vec<_>>().join(".")
 }
 
-/// What a param is by its value.
-struct Kind {
+/// The kind of a value, which decides its unit.
+struct ValueKind {
     dimension: Dimension,
     is_angle: bool,
-    /// The unit in which its text writes what is of this dimension.
+    /// The unit in which the text writes this dimension.
     usual: Option<&'static str>,
 }
 
-/// The unit of the first param that a formula names and that is of its dimension.
+/// Returns the unit of the first param of the same dimension that a formula names.
 fn unit_of_named(
     formula: &Expr,
-    of: &Checked,
+    checked: &Checked,
     knobs: &[Knob],
-    (dimension, is_angle): (Dimension, bool),
+    dimension: Dimension,
+    is_angle: bool,
 ) -> Option<String> {
     let dimension = si_unit(dimension, false);
-    let text = of.sources().text(formula.span);
+    let text = checked.sources().text(formula.span);
     let mut words = text.split(|c: char| !(c.is_alphanumeric() || matches!(c, '_' | '.')));
     let named = words.find_map(|word| {
         knobs.iter().find(|knob| knob.name == word && knob.dimension == dimension && !knob.unit.is_empty())
@@ -237,7 +245,7 @@ fn unit_of_named(
     named.filter(|_| !dimension.is_empty() || is_angle).map(|knob| knob.unit.clone())
 }
 
-/// The unit of a formula's first number that has one of the kind of an SI unit.
+/// Returns the unit of the first number in a formula that has the kind of an SI unit.
 fn unit_of_literals(formula: &Expr, si: &str) -> Option<String> {
     let is_of_kind = |unit: &Unit| match si {
         "rad" => is_of_angles(unit.word.name),
@@ -249,12 +257,12 @@ fn unit_of_literals(formula: &Expr, si: &str) -> Option<String> {
     formula.children().into_iter().find_map(|part| unit_of_literals(part, si))
 }
 
-/// A value (SI) in a unit.
+/// Converts a value (SI) to a unit.
 fn in_unit(si: f64, unit: &str) -> f64 {
     rounded(si / size_of_unit(unit))
 }
 
-/// What one of a unit is in SI; not a number of what is none.
+/// Returns the SI value of one of a unit; NaN for what is no unit.
 #[must_use]
 pub fn size_of_unit(unit: &str) -> f64 {
     if unit.is_empty() {
@@ -266,7 +274,7 @@ pub fn size_of_unit(unit: &str) -> f64 {
 
 const LENGTH: Dimension = Dimension::LENGTH;
 
-/// Both coordinates of a point that is written as such.
+/// Returns the coordinates of a point that is written as a pair.
 fn coordinates(formula: &Expr) -> Option<&[Expr; 2]> {
     match &formula.kind {
         ExprKind::Tuple(parts) => parts.as_slice().try_into().ok(),
@@ -276,7 +284,7 @@ fn coordinates(formula: &Expr) -> Option<&[Expr; 2]> {
 }
 
 impl Checked {
-    /// The inputs of what it was compiled to, with what they are at some times (s).
+    /// Returns the controls of inputs, with their values at some times (s).
     #[must_use]
     pub fn jogs(&self, compiled: &Compiled, times: &[f64]) -> Vec<Jog> {
         let system = compiled.system();
@@ -300,7 +308,7 @@ impl Checked {
             let text = formula.map_or("", |formula| self.sources().text(formula.span));
             let whole = number_and_unit(text).map(|(_, unit)| unit.to_owned()).filter(|unit| !unit.is_empty());
             let written = whole.or_else(|| unit_of_literals(formula?, &unit));
-            // as it stands behind a number
+            // as the unit follows a number
             let si = unit.strip_prefix('1').unwrap_or(&unit);
             Jog {
                 name: input.name.clone(),
@@ -316,7 +324,7 @@ impl Checked {
 }
 
 impl Compiled {
-    /// Whether a driver turns something by an input.
+    /// Returns whether a driver turns something by an input.
     fn turns(&self, input: &Input) -> bool {
         let system = self.system();
         let is_angle = |&(column, _): &(u32, ExprId)| {
@@ -324,18 +332,18 @@ impl Compiled {
         };
         (0..system.rows().len())
             .filter(|&row| system.is_driver(row) && system.phi_q().row(row).iter().all(is_angle))
-            .any(|row| self.speaks_of(row, input))
+            .any(|row| self.names_input(row, input))
     }
 
-    /// Whether the formula of a driver's row names an input.
-    fn speaks_of(&self, row: usize, input: &Input) -> bool {
+    /// Returns whether the formula of a driver's row names an input.
+    fn names_input(&self, row: usize, input: &Input) -> bool {
         let written = self.system().declaration_of(row).written.map(|span| self.sources().text(span));
         let is_name = |c: char| c.is_alphanumeric() || matches!(c, '_' | '.' | '[' | ']');
         written.is_some_and(|written| written.split(|c| !is_name(c)).any(|word| word == input.name))
     }
 }
 
-/// The value of a formula of time.
+/// Evaluates a formula of time at `t` (s).
 pub(crate) fn at_time(system: &ConstraintSystem, formula: ExprId, t: f64) -> f64 {
     system.graph().value(formula, |symbol| match symbol {
         Symbol::Param(k) => system.params()[k as usize].value,
@@ -352,7 +360,7 @@ mod tests {
     use mechc_text::world::Memory;
 
     #[test]
-    fn params_of_copies_are_told_of_all_and_of_each() {
+    fn copies_have_a_control_for_all_and_for_each() {
         let text = "mechanism legs {
             param speed = 60 rpm
             part leg[k in 0..2]: leg() at (k * 200 mm, 0, 0)
@@ -371,7 +379,8 @@ mod tests {
         let checked = Parsed::of("legs.mech", text)
             .check(&Choice { mechanism: Some("legs".to_owned()), ..Choice::default() }, &Memory::default());
         let knobs = checked.knobs();
-        let told: Vec<_> = knobs.iter().map(|k| (k.name.as_str(), k.value, k.unit.as_str(), k.of.as_deref())).collect();
+        let controls: Vec<_> =
+            knobs.iter().map(|k| (k.name.as_str(), k.value, k.unit.as_str(), k.of.as_deref())).collect();
         let of_copies = |name: &'static str, value, copies: [&'static str; 2]| {
             let [first, second] = copies.map(|copy| (copy, value, "mm", Some(name)));
             [(name, value, "mm", None), first, second]
@@ -383,8 +392,9 @@ mod tests {
             of_copies("leg.P.y", 3.0, ["leg[0].P.y", "leg[1].P.y"]),
         ];
         let one = [("one.half", 20.0, "mm", None), ("one.P.x", 0.0, "mm", None), ("one.P.y", 3.0, "mm", None)];
-        let wanted: Vec<_> = std::iter::once(("speed", 60.0, "rpm", None)).chain(copies.concat()).chain(one).collect();
-        assert_eq!(told, wanted);
+        let expected: Vec<_> =
+            std::iter::once(("speed", 60.0, "rpm", None)).chain(copies.concat()).chain(one).collect();
+        assert_eq!(controls, expected);
         let place = |name: &str| knobs.iter().find(|knob| knob.name == name).and_then(|knob| knob.place);
         let text_of = |name: &str| place(name).map(|place| checked.sources().text(place));
         assert_eq!(text_of("leg.rod"), Some("40 mm"));
@@ -397,7 +407,7 @@ mod tests {
     }
 
     #[test]
-    fn params_are_told_as_they_are_written() {
+    fn params_have_the_units_of_their_formulas() {
         let text = "mechanism lever {
             param length = 50 mm
             param half = length / 2
@@ -411,9 +421,9 @@ mod tests {
         }";
         let checked = Parsed::of("lever.mech", text).check(&Choice::default(), &Memory::default());
         let knobs = checked.knobs();
-        let told: Vec<_> = knobs.iter().map(|k| (k.name.as_str(), k.value, k.unit.as_str(), k.leads)).collect();
+        let controls: Vec<_> = knobs.iter().map(|k| (k.name.as_str(), k.value, k.unit.as_str(), k.leads)).collect();
         assert_eq!(
-            told,
+            controls,
             [
                 ("length", 50.0, "mm", true),
                 ("half", 25.0, "mm", true),
@@ -432,7 +442,7 @@ mod tests {
     }
 
     #[test]
-    fn inputs_are_told_in_the_unit_of_their_formula() {
+    fn inputs_have_the_units_of_their_formulas() {
         let text = "mechanism press {
             param speed = 60 rpm
             input a = 60 deg + 10 deg/s * t
@@ -451,13 +461,13 @@ mod tests {
             analysis from 0 s to 1 s every 100 ms
         }";
         let checked = Parsed::of("press.mech", text).check(&Choice::default(), &Memory::default());
-        let (compiled, said) = checked.compile(Redundant::Refused, &Cancel::default());
-        let compiled = compiled.unwrap_or_else(|| panic!("{said:?}"));
+        let (compiled, diagnostics) = checked.compile(Redundant::Refused, &Cancel::default());
+        let compiled = compiled.unwrap_or_else(|| panic!("{diagnostics:?}"));
         let jogs = checked.jogs(&compiled, &[0.0]);
-        let told: Vec<_> =
+        let controls: Vec<_> =
             jogs.iter().map(|jog| (jog.name.as_str(), jog.written.as_str(), jog.dimension.as_str())).collect();
-        let wanted = [("a", "deg", ""), ("b", "mm", "m"), ("c", "rad", ""), ("e", "deg/s", "/s"), ("f", "mm", "m")];
+        let expected = [("a", "deg", ""), ("b", "mm", "m"), ("c", "rad", ""), ("e", "deg/s", "/s"), ("f", "mm", "m")];
         let without = |(name, ..): &&(&str, &str, &str)| *name != "d";
-        assert_eq!(told.iter().filter(without).copied().collect::<Vec<_>>(), wanted);
+        assert_eq!(controls.iter().filter(without).copied().collect::<Vec<_>>(), expected);
     }
 }

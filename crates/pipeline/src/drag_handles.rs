@@ -36,20 +36,20 @@ impl Compiled {
         // the equations of the text have formulas of time in place of inputs
         let signals = self.with_signals();
         let system = signals.as_ref().unwrap_or(system);
-        let turned = Turned { own: self.system(), system, t };
-        (0..system.rows().len()).filter(|&row| system.is_driver(row)).filter_map(|row| turned.crank(row)).collect()
+        let moment = Moment { by_time: self.system(), system, t };
+        (0..system.rows().len()).filter(|&row| system.is_driver(row)).filter_map(|row| moment.crank(row)).collect()
     }
 }
 
 /// A mechanism whose inputs are signals, at a time (s).
-struct Turned<'s> {
+struct Moment<'s> {
     /// The mechanism whose inputs are formulas of time.
-    own: &'s ConstraintSystem,
+    by_time: &'s ConstraintSystem,
     system: &'s ConstraintSystem,
     t: f64,
 }
 
-impl Turned<'_> {
+impl Moment<'_> {
     /// Returns the body that the driver of a row turns.
     fn crank(&self, row: usize) -> Option<Crank> {
         let system = self.system;
@@ -58,26 +58,26 @@ impl Turned<'_> {
         let [.., phi] = system.pose_of(body);
         let pivot = system.declarations().iter().find_map(|joint| pivot(system, joint, body))?;
         let by_input = system.by_inputs().zip(system.inputs());
-        let mut led = by_input
+        let mut turning = by_input
             .map(|(side, input)| (side[row], input))
             .filter(|(slope, input)| !input.is_time() && !system.graph().is_zero(*slope))
-            .map(|(slope, input)| self.led(slope, *by_angle, input))
+            .map(|(slope, input)| self.turning_input(slope, *by_angle, input))
             .peekable();
-        let is_led = led.peek().is_some();
-        let input = led.flatten().next();
+        let has_inputs = turning.peek().is_some();
+        let input = turning.flatten().next();
         // a body that an input turns, but not at this time, is not turned by time either
-        (phi == *column as usize && is_led == input.is_some()).then_some(Crank { body: body.index(), pivot, input })
+        (phi == *column as usize && has_inputs == input.is_some()).then_some(Crank { body: body.index(), pivot, input })
     }
 
     /// Returns the input if it changes the angle, by `−Φ_u` and `Φ_φ`.
-    fn led(&self, slope: ExprId, by_angle: ExprId, input: &Input) -> Option<Led> {
+    fn turning_input(&self, slope: ExprId, by_angle: ExprId, input: &Input) -> Option<Led> {
         let rate = self.value(slope) / self.value(by_angle);
         (rate.is_finite() && rate.abs() > LEAST_RATE).then(|| Led { name: input.name.clone(), rate })
     }
 
     /// Evaluates a formula at that time, with estimates as coordinates.
     fn value(&self, formula: ExprId) -> f64 {
-        let Turned { own, system, t } = self;
+        let Moment { by_time, system, t } = self;
         system.graph().value(formula, |symbol| match symbol {
             Symbol::Param(k) => system.params()[k as usize].value,
             Symbol::Coordinate { index, order: 0 } => {
@@ -85,11 +85,11 @@ impl Turned<'_> {
             }
             Symbol::Shift(_) => 0.0,
             Symbol::Signal { order: 0, .. } => {
-                let is_it = |input: &&Input| input.symbol() == symbol;
-                let named = |name: &str| own.inputs().iter().find(|input| input.name == name);
-                match system.inputs().iter().find(is_it) {
+                let has_symbol = |input: &&Input| input.symbol() == symbol;
+                let named = |name: &str| by_time.inputs().iter().find(|input| input.name == name);
+                match system.inputs().iter().find(has_symbol) {
                     Some(input) if !input.is_time() => {
-                        named(&input.name).map_or(f64::NAN, |input| at_time(own, input.formulas[0], *t))
+                        named(&input.name).map_or(f64::NAN, |input| at_time(by_time, input.formulas[0], *t))
                     }
                     _ => *t,
                 }
@@ -119,7 +119,7 @@ mod tests {
     use mechc_text::world::Memory;
 
     /// Returns the inputs that turn a disc whose driver names `axle`, or `back`, whose points are in reverse order.
-    fn led(driver: &str) -> Vec<Option<Led>> {
+    fn inputs_of(driver: &str) -> Vec<Option<Led>> {
         let text = format!(
             "mechanism disc {{
     input turn = 60 deg + 1 rev/s * t
@@ -134,13 +134,13 @@ mod tests {
         )
         .replace("joint axle", if driver.contains("back") { "joint back" } else { "joint axle" });
         let checked = Parsed::of("disc.mech", &text).check(&Choice::default(), &Memory::default());
-        let (compiled, said) = checked.compile(Redundant::Refused, &Cancel::default());
-        let compiled = compiled.unwrap_or_else(|| panic!("{driver}: {said:?}"));
+        let (compiled, diagnostics) = checked.compile(Redundant::Refused, &Cancel::default());
+        let compiled = compiled.unwrap_or_else(|| panic!("{driver}: {diagnostics:?}"));
         compiled.cranks(0.0).into_iter().map(|crank| crank.input).collect()
     }
 
     #[test]
-    fn an_angle_is_led_as_the_equations_have_it() {
+    fn rates_of_angles_follow_from_the_equations() {
         for (driver, name, rate) in [
             ("rotation(axle) = turn", "turn", 1.0),
             ("rotation(axle) = 2 * turn", "turn", 2.0),
@@ -150,14 +150,14 @@ mod tests {
             ("2 * rotation(axle) = turn + 10 deg/s * t", "turn", 0.5),
             ("rotation(axle) = lift / 2 mm", "lift", 500.0),
         ] {
-            let found = led(driver);
-            let [Some(led)] = found.as_slice() else { panic!("{driver}: {found:?}") };
-            assert_eq!(led.name, name, "{driver}");
-            assert!((led.rate - rate).abs() < 1e-9 * rate.abs(), "{driver}: {}", led.rate);
+            let inputs = inputs_of(driver);
+            let [Some(input)] = inputs.as_slice() else { panic!("{driver}: {inputs:?}") };
+            assert_eq!(input.name, name, "{driver}");
+            assert!((input.rate - rate).abs() < 1e-9 * rate.abs(), "{driver}: {}", input.rate);
         }
-        assert_eq!(led("rotation(axle) = 1 rev/s * t"), [None]);
+        assert_eq!(inputs_of("rotation(axle) = 1 rev/s * t"), [None]);
         // the input does not turn the disc at the first time
-        assert_eq!(led("rotation(axle) = 1 rev/s * t * (turn - 60 deg)"), []);
-        assert_eq!(led("rotation(axle) = (turn - 60 deg)^2"), []);
+        assert_eq!(inputs_of("rotation(axle) = 1 rev/s * t * (turn - 60 deg)"), []);
+        assert_eq!(inputs_of("rotation(axle) = (turn - 60 deg)^2"), []);
     }
 }

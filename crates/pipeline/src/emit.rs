@@ -11,21 +11,21 @@ use mechc_text::cancel::Cancel;
 use mechc_text::diag::{Code, Diagnostic, Diagnostics};
 
 /// Limits of the rows and numbers that a crate is tested against.
-const MOST_ROWS: usize = 20;
-const MOST_NUMBERS: usize = 20_000;
+const MAX_ROWS: usize = 20;
+const MAX_NUMBERS: usize = 20_000;
 
 /// Options of emitted Rust code.
 #[derive(Clone, Debug)]
 pub struct RustOptions {
     /// Name of the file, for the header.
     pub file: String,
-    /// Whether the code assembles the mechanism and follows its motion, in addition to evaluating the equations.
+    /// True if the code assembles the mechanism and follows its motion, in addition to evaluating the equations.
     pub with_motion: bool,
-    /// Whether the code computes derivatives of the coordinates by the params.
+    /// True if the code computes derivatives of the coordinates by the params.
     pub with_sensitivities: bool,
     /// Number of variants or times that are solved at once, in addition to single ones.
     pub lanes: Option<usize>,
-    /// Whether a crate has a header and functions for C.
+    /// True if a crate has a header and functions for C.
     pub for_c: bool,
     /// Operations beyond this number are written as tables instead of lines.
     pub largest_straight: usize,
@@ -45,26 +45,26 @@ impl Compiled {
     /// Emits a Rust module; returns diagnostics, too. `None` if the start cannot be assembled, or the module would be too large.
     #[must_use]
     pub fn rust(&self, options: &RustOptions) -> (Option<String>, Diagnostics) {
-        self.emitted(options, |_, unit, _| Ok(emit::rust(unit)))
+        self.emit_with(options, |_, unit, _| Ok(emit::rust(unit)))
     }
 
     /// Emits a crate of a name around that module. Its test compares it with the rows of the text's analysis, or of the first second. Reports why the
     /// motion stops, if it does.
     #[must_use]
     pub fn package(&self, name: &str, options: &RustOptions) -> (Option<Vec<CrateFile>>, Diagnostics) {
-        self.emitted(options, |compiled, unit, said| {
-            let reference = compiled.reference(said)?;
+        self.emit_with(options, |compiled, unit, diagnostics| {
+            let reference = compiled.reference(diagnostics)?;
             Ok(emit::package(unit, &reference, name))
         })
     }
 
     /// Makes code from a translation unit; returns diagnostics, too.
-    fn emitted<T>(
+    fn emit_with<T>(
         &self,
         options: &RustOptions,
         make: impl FnOnce(&Compiled, &TranslationUnit<'_>, &mut Diagnostics) -> Result<T, Box<Diagnostic>>,
     ) -> (Option<T>, Diagnostics) {
-        if let Err(why) = self.has_no_varied_forces() {
+        if let Err(why) = self.check_no_varied_forces() {
             return (None, (*why).into());
         }
         let with_reactions = self.with_reactions();
@@ -79,11 +79,12 @@ impl Compiled {
             Ok(signals) => signals,
             Err(why) => return (None, why),
         };
-        let mut said = Diagnostics::default();
-        let made =
-            compiled.unit(options, signals.as_ref(), &mut said).and_then(|unit| make(compiled, &unit, &mut said));
+        let mut diagnostics = Diagnostics::default();
+        let made = compiled
+            .unit(options, signals.as_ref(), &mut diagnostics)
+            .and_then(|unit| make(compiled, &unit, &mut diagnostics));
         match made {
-            Ok(made) => (Some(made), said),
+            Ok(made) => (Some(made), diagnostics),
             Err(why) => (None, (*why).into()),
         }
     }
@@ -92,10 +93,10 @@ impl Compiled {
     ///
     /// # Errors
     /// A measure holds the derivative of a force by an input or param, which only `run` computes.
-    fn has_no_varied_forces(&self) -> Result<(), Box<Diagnostic>> {
+    fn check_no_varied_forces(&self) -> Result<(), Box<Diagnostic>> {
         let system = self.system();
-        let is_it = |id| system.graph().dependence(id).on(Dependence::VARIED_MULTIPLIERS);
-        let Some(measure) = system.measures().iter().find(|of| is_it(of.value)) else {
+        let has_varied_forces = |id| system.graph().dependence(id).on(Dependence::VARIED_MULTIPLIERS);
+        let Some(measure) = system.measures().iter().find(|measure| has_varied_forces(measure.value)) else {
             return Ok(());
         };
         let message = format!("measure `{}` holds the derivative of a force", measure.name);
@@ -116,17 +117,17 @@ impl Compiled {
         &'u self,
         options: &'u RustOptions,
         signals: Option<&'u Signals>,
-        said: &mut Diagnostics,
+        diagnostics: &mut Diagnostics,
     ) -> Result<TranslationUnit<'u>, Box<Diagnostic>> {
         let program = &**self.program();
-        let motion = if options.with_motion { Some(self.motion(program, None, options, said)?) } else { None };
+        let motion = if options.with_motion { Some(self.motion(program, None, options, diagnostics)?) } else { None };
         let (system, sources) = (self.system(), self.sources());
         let RustOptions { file, lanes, largest_straight, .. } = options;
         let (lanes, largest_straight, for_c) = (*lanes, *largest_straight, options.for_c);
         let following = match signals {
             None => None,
             Some(Signals { compiled, given: program }) => {
-                // the diagnostics of the assembly are in `said` already
+                // the diagnostics of the assembly are reported already
                 let begin = motion.as_ref().map(|motion| motion.q.as_slice());
                 let motion = Some(compiled.motion(program, begin, options, &mut Diagnostics::default())?);
                 let system = compiled.system();
@@ -160,7 +161,7 @@ impl Compiled {
         program: &Program,
         begin: Option<&[f64]>,
         options: &RustOptions,
-        said: &mut Diagnostics,
+        diagnostics: &mut Diagnostics,
     ) -> Result<EmittedMotion, Box<Diagnostic>> {
         let horizon = Horizon::of_analysis(self.analysis());
         let mut started = if let Some(q) = begin {
@@ -169,10 +170,10 @@ impl Compiled {
                 .map_err(|stop| Box::new(self.explain_start(&stop, horizon)))?
         } else {
             let (started, report) = self.start(horizon, &RunOptions::default());
-            said.extend(report.diagnostics);
+            diagnostics.extend(report.diagnostics);
             started.map_err(|stop| Box::new(self.explain_start(&stop, horizon)))?
         };
-        said.extend(started.remarks());
+        diagnostics.extend(started.remarks());
         let mut solver_of =
             |program: &Program| started.solver_for_code_of(program).ok_or_else(|| Box::new(too_large()));
         let plain = program.without_reactions();
@@ -194,7 +195,7 @@ impl Compiled {
     }
 
     /// Returns the motion over the text's analysis, or over the first second.
-    fn reference(&self, said: &mut Diagnostics) -> Result<Reference, Box<Diagnostic>> {
+    fn reference(&self, diagnostics: &mut Diagnostics) -> Result<Reference, Box<Diagnostic>> {
         let [from, to, every] = self.analysis().unwrap_or([0.0, 1.0, 0.1]);
         let times = Times::grid(from, to, every).unwrap_or_else(|| Times::listed(from, vec![from]));
         // without an analysis the last time is omitted, as its row belongs to the motion after an edge
@@ -206,16 +207,16 @@ impl Compiled {
         let mut columns = run.columns().to_vec();
         let reactions = RowLayout::new(self.system()).reactions();
         columns.drain(reactions.clone());
-        let wanted = (MOST_NUMBERS / columns.len()).clamp(2, MOST_ROWS) as u64;
+        let sampled = (MAX_NUMBERS / columns.len()).clamp(2, MAX_ROWS) as u64;
         // spread evenly, the first and the last included
-        let is_wanted = |k: u64| k == 0 || k * (wanted - 1) / (count - 1) > (k - 1) * (wanted - 1) / (count - 1);
+        let is_sampled = |k: u64| k == 0 || k * (sampled - 1) / (count - 1) > (k - 1) * (sampled - 1) / (count - 1);
         let (mut rows, mut last, mut number) = (Vec::new(), Vec::new(), 0);
         let (mut stopped, mut why) = (None, None);
         while number < count
             && let Some(row) = run.next_row()
         {
             match row {
-                Ok(row) if is_wanted(number) => rows.push(row.to_vec()),
+                Ok(row) if is_sampled(number) => rows.push(row.to_vec()),
                 Ok(row) => row.clone_into(&mut last),
                 Err(diagnostic) if number == 0 => return Err(diagnostic),
                 Err(diagnostic) => {
@@ -230,8 +231,8 @@ impl Compiled {
             rows.push(last);
         }
         let forces = rows.iter_mut().map(|row: &mut Vec<f64>| row.drain(reactions.clone()).collect()).collect();
-        said.extend(run.take_remarks());
-        said.extend(why);
+        diagnostics.extend(run.take_remarks());
+        diagnostics.extend(why);
         Ok(Reference { columns, rows, forces, steps: number - 1, every, stopped })
     }
 }

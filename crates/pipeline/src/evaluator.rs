@@ -18,7 +18,7 @@ use std::sync::Arc;
 pub struct Adjusting {
     /// Names of the inputs that queries set.
     pub inputs: Vec<String>,
-    /// Whether inputs may have accelerations; if not, accelerations of queries are ignored, and points can be evaluated in lanes.
+    /// True if inputs may have accelerations; if not, accelerations of queries are ignored, and points can be evaluated in lanes.
     pub bend: bool,
     /// Names of the params that queries set.
     pub params: Vec<String>,
@@ -77,8 +77,8 @@ pub struct AskedPlace {
 /// let disc = checked.adjustable(&adjusting, &Cancel::default()).expect("it is determined");
 /// let turn = InputMotion { value: 0.3, rate: 2.0, acceleration: 0.0 };
 /// let (once, mut row) = (AskedTimes { at: vec![0.0], ..AskedTimes::default() }, Vec::new());
-/// let found = disc.follow(&[turn], &[], &once, &Cancel::default(), |found| row.extend_from_slice(found));
-/// assert!(found.is_ok());
+/// let results = disc.follow(&[turn], &[], &once, &Cancel::default(), |values| row.extend_from_slice(values));
+/// assert!(results.is_ok());
 /// assert_eq!((row[3], row[6]), (0.3, 2.0));
 /// ```
 #[derive(Clone)]
@@ -124,8 +124,8 @@ impl Checked {
             return Err(refused(if checked.is_sound() { &diagnostics } else { checked.diagnostics() }));
         };
         let first_param = |name: &String| {
-            let is_it = |led: &&mechc_lang::model::Led| led.declared.name == *name;
-            model.led.iter().find(is_it).and_then(|led| led.param).map(|k| k as usize)
+            let is_named = |param: &&mechc_lang::model::Led| param.declared.name == *name;
+            model.led.iter().find(is_named).and_then(|param| param.param).map(|k| k as usize)
         };
         let unknown = |name: &String, what: &str| {
             let message = format!("there is no {what} `{name}` that could be adjusted");
@@ -134,7 +134,7 @@ impl Checked {
         let inputs = adjusting.inputs.iter().map(|name| first_param(name).ok_or_else(|| unknown(name, "input")));
         let inputs = inputs.collect::<Result<Vec<usize>, _>>()?;
         if let Some(name) = adjusting.params.iter().find(|name| first_param(name).is_none()) {
-            return Err(if self.settable_params().iter().any(|of| of.name == *name) {
+            return Err(if self.settable_params().iter().any(|param| param.name == *name) {
                 let message = format!(
                     "`{name}` decides what is repeated, and nothing leads from one number of bodies to another"
                 );
@@ -144,10 +144,10 @@ impl Checked {
             });
         }
         let nominal = model.params.iter().map(|param| param.value).collect();
-        let batch = BatchEvaluator::new(model.led.iter().filter_map(|led| led.param).collect());
+        let batch = BatchEvaluator::new(model.led.iter().filter_map(|param| param.param).collect());
         let params = self.params_to_adjust(&adjusting.params)?;
-        let (led, redundant) = (checked.clone(), adjusting.redundant);
-        let continuation = Continuation::new(move |options| led.nominal(redundant, options));
+        let (source, redundant) = (checked.clone(), adjusting.redundant);
+        let continuation = Continuation::new(move |options| source.nominal(redundant, options));
         let (adjusting, columns) = (adjusting.clone(), compiled.columns().len());
         let shared = Shared { checked, compiled, continuation, nominal, inputs, params, adjusting, columns, batch };
         Ok(Adjustable(Arc::new(shared)))
@@ -158,10 +158,10 @@ impl Checked {
         if names.is_empty() {
             return Ok(None);
         }
-        let known = self.settable_params();
-        let of = |name: &String| known.iter().find(|of| of.name == *name);
-        let values: Vec<f64> = names.iter().filter_map(|name| Some(of(name)?.value)).collect();
-        let units = names.iter().map(|name| of(name).map_or(String::new(), |of| of.unit.clone())).collect();
+        let params = self.settable_params();
+        let param = |name: &String| params.iter().find(|param| param.name == *name);
+        let values: Vec<f64> = names.iter().filter_map(|name| Some(param(name)?.value)).collect();
+        let units = names.iter().map(|name| param(name).map_or(String::new(), |param| param.unit.clone())).collect();
         let nominal = Varying { params: (0..names.len()).collect(), values: Levels::Listed(values) };
         let Some(points) = Points::new(names.to_vec(), vec![nominal]) else { return Ok(None) };
         Variants::new(points, units, self.sources().clone(), "--set").map(Some)
@@ -195,21 +195,21 @@ impl Adjustable {
         self.0.follow(&query, cancel, row)
     }
 
-    /// Evaluates `count` points, which `ask` writes. `found` receives the row of each in their order, in SI and the order of the columns, with the
+    /// Evaluates `count` points, which `ask` writes. `receive` receives the row of each in their order, in SI and the order of the columns, with the
     /// bits that [`Adjustable::follow`] gives; or why a point cannot be reached. Cancelling ends it.
     pub fn at_each(
         &self,
         count: usize,
         mut ask: impl FnMut(usize, &mut AskedPlace),
         cancel: &Cancel,
-        mut found: impl FnMut(Result<&[f64], Box<Diagnostic>>),
+        mut receive: impl FnMut(Result<&[f64], Box<Diagnostic>>),
     ) {
-        let (mut place, mut last, mut row) = (AskedPlace::default(), None, Vec::new());
+        let (mut point, mut last, mut row) = (AskedPlace::default(), None, Vec::new());
         let (shared, options) = (&*self.0, self.0.options(cancel));
         for first in (0..count).step_by(LANES) {
             let mut query = |index| {
-                ask(index, &mut place);
-                shared.query_at(&place, &mut last)
+                ask(index, &mut point);
+                shared.query_at(&point, &mut last)
             };
             let queries: Vec<QueryResult> = (first..count.min(first + LANES)).map(&mut query).collect();
             let lanes = shared.batch.follow(&queries, &shared.continuation, shared.columns, &options);
@@ -220,7 +220,7 @@ impl Adjustable {
                 if cancel.is_cancelled() {
                     return;
                 }
-                found(outcome.map(|()| &row[..shared.columns]));
+                receive(outcome.map(|()| &row[..shared.columns]));
             }
             if let Some(lanes) = lanes {
                 shared.batch.give_back(lanes);
@@ -241,41 +241,42 @@ impl Shared {
     /// Returns a query with inputs that are set at the first of its times.
     fn query(&self, mut values: Vec<f64>, times: Times, inputs: &[InputMotion]) -> Query {
         for (&first, &InputMotion { value, rate, acceleration }) in self.inputs.iter().zip(inputs) {
-            let of_input = [value, times.from(), rate, acceleration];
+            let motion = [value, times.from(), rate, acceleration];
             let count = if self.adjusting.bend { 4 } else { 3 };
-            values[first..first + count].copy_from_slice(&of_input[..count]);
+            values[first..first + count].copy_from_slice(&motion[..count]);
         }
         Query { values, times }
     }
 
     /// Returns the query of a point.
-    fn query_at(&self, place: &AskedPlace, last: &mut LastParams) -> QueryResult {
-        let is_it =
-            |params: &[f64]| params.iter().map(|of| of.to_bits()).eq(place.params.iter().map(|of| of.to_bits()));
-        let known = match last.take().filter(|(params, _)| is_it(params)) {
-            Some(known) => known,
-            None => (place.params.clone(), self.values(&place.params)?),
+    fn query_at(&self, point: &AskedPlace, last: &mut LastParams) -> QueryResult {
+        let is_equal = |params: &[f64]| {
+            params.iter().map(|value| value.to_bits()).eq(point.params.iter().map(|value| value.to_bits()))
         };
-        let (values, analysis) = &last.insert(known).1;
-        let at = place.t.unwrap_or_else(|| analysis.map_or(0.0, |[from, ..]| from));
-        if let Some([from, ..]) = analysis.filter(|[from, ..]| place.inputs.is_empty() && at < *from) {
+        let current = match last.take().filter(|(params, _)| is_equal(params)) {
+            Some(current) => current,
+            None => (point.params.clone(), self.values(&point.params)?),
+        };
+        let (values, analysis) = &last.insert(current).1;
+        let at = point.t.unwrap_or_else(|| analysis.map_or(0.0, |[from, ..]| from));
+        if let Some([from, ..]) = analysis.filter(|[from, ..]| point.inputs.is_empty() && at < *from) {
             let message =
                 format!("`t` is {} s, before the first time of the analysis at {} s", readable(at), readable(from));
             let help = "the motion begins there: ask for later times";
             return Err(Box::new(Diagnostic::new(Code::E0706, message).help(help)));
         }
         // inputs have their values at that time only
-        let from = (!place.inputs.is_empty()).then_some(at);
+        let from = (!point.inputs.is_empty()).then_some(at);
         let times = AskedTimes { from, at: vec![at], ..AskedTimes::default() }.over(*analysis)?.times()?;
-        Ok(self.query(values.clone(), times, &place.inputs))
+        Ok(self.query(values.clone(), times, &point.inputs))
     }
 
     /// Writes the last row that is followed, which is that of the time.
     fn last_row(&self, query: &Query, cancel: &Cancel, row: &mut Vec<f64>) -> Result<(), Box<Diagnostic>> {
         row.resize(self.columns, f64::NAN);
-        let keep = |found: &[f64]| {
+        let keep = |followed: &[f64]| {
             row.clear();
-            row.extend_from_slice(found);
+            row.extend_from_slice(followed);
         };
         self.follow(query, cancel, keep).map(|_| ())
     }
@@ -286,13 +287,13 @@ impl Shared {
             Outcome::Started(started) => *started,
             Outcome::CannotStart(stop, variant) => return Err(Box::new(stop.explain(variant.system()))),
             Outcome::Refused(diagnostics) => return Err(first_error(diagnostics)),
-            Outcome::NoPath(why) => return Err(lost(why)),
+            Outcome::NoPath(why) => return Err(no_path(why)),
         };
-        // a run asks for the conditioning, which decides the factors that are used; the bits must be the same
+        // a run reports the conditioning of its start, which restores the factors there; do the same for the same bits
         let _ = started.conditioning();
         let has_results = !self.compiled.system().results().outcomes.is_empty();
         let interval = times.interval().filter(|_| has_results);
-        let asked = interval.map(|interval| started.asked(interval, options.pass_bifurcations, cancel));
+        let results = interval.map(|interval| started.asked(interval, options.pass_bifurcations, cancel));
         let mut motion = started.into_motion(times);
         if options.pass_bifurcations {
             motion.pass_bifurcations();
@@ -303,7 +304,7 @@ impl Shared {
                 Err(stop) => return Err(Box::new(stop.explain(motion.system()))),
             }
         }
-        Ok(asked.and_then(Asked::answer).unwrap_or_default())
+        Ok(results.and_then(Asked::answer).unwrap_or_default())
     }
 
     /// Returns the values of all params of the model (SI), inputs at their nominal values, and first time, last time and step of the analysis (s).
@@ -311,13 +312,13 @@ impl Shared {
         let Some(variants) = &self.params else { return Ok((self.nominal.clone(), self.compiled.analysis())) };
         let (model, diagnostics) = self.checked.model_with(variants.read_settings(params), variants.sources());
         let model = model.ok_or_else(|| first_error(diagnostics))?;
-        let analysis = model.analysis.map(|of| [of.from, of.to, of.every]);
+        let analysis = model.analysis.map(|analysis| [analysis.from, analysis.to, analysis.every]);
         Ok((model.params.iter().map(|param| param.value).collect(), analysis))
     }
 }
 
 /// Reports that no path leads to the values; nothing else is tried.
-fn lost(why: Option<Box<Diagnostic>>) -> Box<Diagnostic> {
+fn no_path(why: Option<Box<Diagnostic>>) -> Box<Diagnostic> {
     match why {
         Some(why) => Box::new(Diagnostic { notes: Vec::new(), ..*why }),
         None => Box::new(Diagnostic::new(

@@ -8,13 +8,13 @@ use mechc_text::world::World;
 use std::collections::BTreeSet;
 
 /// Outputs may name outputs; so many rounds remove what depends on those that were removed.
-const MOST_ROUNDS: usize = 4;
+const MAX_ROUNDS: usize = 4;
 
 impl Checked {
     /// Returns whether all errors in its text, in any mechanism, are in measures, traces, results and the analysis.
     #[must_use]
     pub fn is_sound_but_for_outputs(&self) -> bool {
-        self.wrong_outputs().is_some()
+        self.faulty_outputs().is_some()
     }
 
     /// Returns the mechanism without faulty outputs and those that depend on them; all spans stay as they are. `None` if there are other errors, or
@@ -22,10 +22,10 @@ impl Checked {
     #[must_use]
     pub fn without_wrong_outputs(&self, world: &dyn World) -> Option<Checked> {
         let index = self.index?;
-        let (mut checked, mut wrong) = (self.clone(), self.wrong_outputs()?);
-        for _ in 0..MOST_ROUNDS {
+        let (mut checked, mut faulty) = (self.clone(), self.faulty_outputs()?);
+        for _ in 0..MAX_ROUNDS {
             let text = &checked.sources().get(checked.file()).text;
-            let parsed = checked.parsed.edited(&blanked(text, &wrong));
+            let parsed = checked.parsed.edited(&blanked(text, &faulty));
             // if a brace was blanked, the rest of the text reads differently
             if parsed.mechanisms().len() != checked.parsed.mechanisms().len() {
                 return None;
@@ -35,24 +35,24 @@ impl Checked {
             if checked.is_sound() {
                 return Some(checked);
             }
-            wrong = checked.wrong_outputs()?;
+            faulty = checked.faulty_outputs()?;
         }
         None
     }
 
     /// Returns the spans of the faulty outputs; `None` if there are other errors, or none.
-    fn wrong_outputs(&self) -> Option<BTreeSet<Span>> {
-        let errors = self.diagnostics().iter().filter(|said| said.is_error());
-        let places: Option<BTreeSet<Span>> = errors.map(|error| self.output_of(error)).collect();
-        places.filter(|places| !places.is_empty())
+    fn faulty_outputs(&self) -> Option<BTreeSet<Span>> {
+        let errors = self.diagnostics().iter().filter(|diagnostic| diagnostic.is_error());
+        let spans: Option<BTreeSet<Span>> = errors.map(|error| self.output_of(error)).collect();
+        spans.filter(|spans| !spans.is_empty())
     }
 
     /// Returns the span of the output that an error is in.
     fn output_of(&self, error: &Diagnostic) -> Option<Span> {
-        let place = error.labels.first().map(|label| label.span).filter(|span| span.file == self.file())?;
+        let span = error.labels.first().map(|label| label.span).filter(|span| span.file == self.file())?;
         let mut items = self.parsed.tree().mechanisms.iter().flat_map(|mechanism| &mechanism.items);
-        let is_broken = |item: &&Item| matches!(item.kind, ItemKind::Broken { .. }) && item.span.start <= place.start;
-        let holds = |item: &&Item| item.span.start <= place.start && place.end <= item.span.end;
+        let is_broken = |item: &&Item| matches!(item.kind, ItemKind::Broken { .. }) && item.span.start <= span.start;
+        let holds = |item: &&Item| item.span.start <= span.start && span.end <= item.span.end;
         // the parser reports what is missing at the end of a declaration where the next one begins
         let is_of_syntax = self.parsed.faults().iter().any(|fault| fault == error);
         let item = if is_of_syntax { items.rfind(is_broken) } else { items.find(holds) }?;
@@ -78,10 +78,10 @@ impl Checked {
 }
 
 /// Replaces spans of a text by spaces, byte for byte.
-fn blanked(text: &str, stretches: &BTreeSet<Span>) -> String {
+fn blanked(text: &str, spans: &BTreeSet<Span>) -> String {
     let (mut blanked, mut end) = (String::with_capacity(text.len()), 0);
-    for stretch in stretches {
-        let range = stretch.start as usize..stretch.end as usize;
+    for span in spans {
+        let range = span.start as usize..span.end as usize;
         blanked += &text[end..range.start];
         blanked.extend(text[range.clone()].bytes().map(|byte| if byte == b'\n' { '\n' } else { ' ' }));
         end = range.end;
@@ -102,30 +102,35 @@ mod tests {
 }";
 
     /// Returns the text that remains after the part that all cases share.
-    fn left(more: &str) -> Option<String> {
+    fn remainder(more: &str) -> Option<String> {
         let text = DISC.replace("MORE", more);
         let world = Memory::default();
         let checked = Parsed::of("disc.mech", &text).check(&Choice::default(), &world);
-        let left = checked.without_wrong_outputs(&world);
-        assert!(left.is_none() || checked.is_sound_but_for_outputs());
-        left.map(|left| {
-            left.sources().get(left.file()).text.trim_start_matches(DISC.split("MORE").next().unwrap()).to_owned()
+        let remainder = checked.without_wrong_outputs(&world);
+        assert!(remainder.is_none() || checked.is_sound_but_for_outputs());
+        remainder.map(|remainder| {
+            remainder
+                .sources()
+                .get(remainder.file())
+                .text
+                .trim_start_matches(DISC.split("MORE").next().unwrap())
+                .to_owned()
         })
     }
 
     #[test]
     fn outputs_that_are_wrong_are_left_out() {
-        assert_eq!(left("measure half = 2 *").as_deref().map(str::trim), Some("}"));
-        assert_eq!(left("measure a = 2 *\n    measure b = t").as_deref().map(str::trim), Some("measure b = t\n}"));
-        assert_eq!(left("trace p = wheel.Q").as_deref().map(str::trim), Some("}"));
+        assert_eq!(remainder("measure half = 2 *").as_deref().map(str::trim), Some("}"));
+        assert_eq!(remainder("measure a = 2 *\n    measure b = t").as_deref().map(str::trim), Some("measure b = t\n}"));
+        assert_eq!(remainder("trace p = wheel.Q").as_deref().map(str::trim), Some("}"));
         // a result whose measure was removed
-        assert_eq!(left("measure a = 1 mm + 1 s\n    result b = max(a)").as_deref().map(str::trim), Some("}"));
+        assert_eq!(remainder("measure a = 1 mm + 1 s\n    result b = max(a)").as_deref().map(str::trim), Some("}"));
     }
 
     #[test]
     fn what_moves_is_not_left_out() {
-        assert_eq!(left("joint b: revolute(ground.O, wheel.)"), None);
-        assert_eq!(left("measure a = 2 *\n    driver d: rotation(axl) = t"), None);
-        assert_eq!(left("measure a = t"), None, "nothing is wrong");
+        assert_eq!(remainder("joint b: revolute(ground.O, wheel.)"), None);
+        assert_eq!(remainder("measure a = 2 *\n    driver d: rotation(axl) = t"), None);
+        assert_eq!(remainder("measure a = t"), None, "nothing is wrong");
     }
 }

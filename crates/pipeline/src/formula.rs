@@ -40,10 +40,10 @@ impl Formula {
         let tree = syntax::parse_expression(sources, file)?;
         let FormulaOfTime { mut graph, value, dimension, conditions, remarks } =
             check::formula_of_time(&tree, sources)?;
-        let mut derivative = |of: ExprId| {
+        let mut derivative = |formula: ExprId| {
             let slopes =
-                graph.derivatives(&[of], |graph, symbol| (symbol == Symbol::Time).then(|| graph.constant(1.0)));
-            slopes.first().copied().unwrap_or(of)
+                graph.derivatives(&[formula], |graph, symbol| (symbol == Symbol::Time).then(|| graph.constant(1.0)));
+            slopes.first().copied().unwrap_or(formula)
         };
         let first = derivative(value);
         let second = derivative(first);
@@ -152,15 +152,15 @@ fn dimension_line(dimension: Dimension) -> String {
     // the unit follows
     let words = words.split(" (").next().unwrap_or(&words);
     let mut units = Vec::new();
-    let mut of = dimension;
+    let mut of_derivative = dimension;
     for (order, name) in NAMES.iter().enumerate() {
-        let pure = of.is(Dimension::PURE);
+        let pure = of_derivative.is(Dimension::PURE);
         match order {
             0 if pure => {}
             _ if pure => units.push(format!("{name} a pure number")),
-            _ => units.push(format!("{name} in {}", of.unit())),
+            _ => units.push(format!("{name} in {}", of_derivative.unit())),
         }
-        of = of.over(Dimension::TIME);
+        of_derivative = of_derivative.over(Dimension::TIME);
     }
     format!("dimension: {words}; {}", units.join(", "))
 }
@@ -169,10 +169,10 @@ fn dimension_line(dimension: Dimension) -> String {
 fn not_finite(span: Span, order: usize, value: f64, t: Option<f64>) -> Diagnostic {
     let what = ["the formula", "the first derivative of the formula", "the second derivative of the formula"];
     let (what, name) = (what[order], NAMES[order]);
-    let found = if value.is_nan() { "not a number" } else { "infinite" };
+    let kind = if value.is_nan() { "not a number" } else { "infinite" };
     let when = t.map_or("at any time".to_owned(), |t| format!("at t = {} s", number(t)));
     let diagnostic = Diagnostic::new(Code::E0605, format!("{what} is not finite {when}"));
-    let diagnostic = diagnostic.at(span, format!("{name} is {found}"));
+    let diagnostic = diagnostic.at(span, format!("{name} is {kind}"));
     match t {
         Some(t) => diagnostic.datum("t", t),
         None => diagnostic,

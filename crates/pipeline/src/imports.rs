@@ -52,11 +52,11 @@ impl Parsed {
 
 /// Returns the paths of all files that the texts of a library name: `use`d texts, and tables of all mechanisms.
 pub(crate) fn named_files(library: &Library) -> Vec<PathBuf> {
-    let of = |file: &KnownFile| {
+    let paths = |file: &KnownFile| {
         let user = file.path.to_string_lossy().into_owned();
         names_of_files(&file.read.tree).map(|name| world::beside(&user, &name.text)).collect::<Vec<_>>()
     };
-    library.files().iter().flat_map(of).collect()
+    library.files().iter().flat_map(paths).collect()
 }
 
 /// Returns the paths as a text writes them.

@@ -45,12 +45,17 @@ impl Checked {
 fn drawn(model: &Mechanism) -> Drawn {
     let mut graph = model.graph.clone();
     let mut place = |frame: Frame| model.drawn(&mut graph, &mut |_, e| e, None, frame);
-    let of_points: Vec<_> = model.points.iter().map(|point| (point, place(point.frame))).collect();
-    let of_bodies: Vec<_> = model.body_ids().map(|body| (body, place(Frame::Body(body)))).collect();
-    let of_axes: Vec<_> = model.axes.iter().map(|axis| place(axis.frame)).collect();
-    let points: Vec<_> = of_points.iter().map(|(point, place)| place.placed(&mut graph, point.at)).collect();
-    let directions: Vec<_> =
-        model.axes.iter().zip(&of_axes).map(|(axis, place)| place.turned(&mut graph, axis.direction)).collect();
+    let placed_points: Vec<_> = model.points.iter().map(|point| (point, place(point.frame))).collect();
+    let placed_bodies: Vec<_> = model.body_ids().map(|body| (body, place(Frame::Body(body)))).collect();
+    let placed_axes: Vec<_> = model.axes.iter().map(|axis| place(axis.frame)).collect();
+    let points: Vec<_> =
+        placed_points.iter().map(|(point, placement)| placement.placed(&mut graph, point.at)).collect();
+    let directions: Vec<_> = model
+        .axes
+        .iter()
+        .zip(&placed_axes)
+        .map(|(axis, placement)| placement.turned(&mut graph, axis.direction))
+        .collect();
     let mut values = Vec::new();
     graph.extend_values(&mut values, |symbol| match symbol {
         Symbol::Param(k) => model.params.get(k as usize).map_or(f64::NAN, |param| param.value),
@@ -60,9 +65,10 @@ fn drawn(model: &Mechanism) -> Drawn {
     let value = |id: ExprId| values[id.index()];
     let angle = |frame: Frame| match frame {
         Frame::Ground => 0.0,
-        frame => {
-            of_points.iter().find(|(point, _)| point.frame == frame).map_or(f64::NAN, |(_, place)| value(place.phi))
-        }
+        frame => placed_points
+            .iter()
+            .find(|(point, _)| point.frame == frame)
+            .map_or(f64::NAN, |(_, placement)| value(placement.phi)),
     };
     let position = |kind: JointKind| match kind {
         JointKind::Revolute(p, q) => Some(("rotation", angle(model[q].frame) - angle(model[p].frame))),
@@ -82,8 +88,11 @@ fn drawn(model: &Mechanism) -> Drawn {
         Some(DrawnJoint { name: joint.declared.name.clone(), quantity, value })
     };
     Drawn {
-        points: of_points.iter().zip(&points).filter_map(point).collect(),
+        points: placed_points.iter().zip(&points).filter_map(point).collect(),
         joints: model.joints.iter().filter_map(joint).collect(),
-        angles: of_bodies.iter().map(|(id, place)| (model[*id].declared.name.clone(), value(place.phi))).collect(),
+        angles: placed_bodies
+            .iter()
+            .map(|(id, placement)| (model[*id].declared.name.clone(), value(placement.phi)))
+            .collect(),
     }
 }

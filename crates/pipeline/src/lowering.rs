@@ -28,7 +28,7 @@ pub(crate) fn lower_on_path(model: &Mechanism, clock: Clock) -> ConstraintSystem
     system
 }
 
-/// What a mechanism is checked from, to check it with other options.
+/// All that a mechanism is checked from, to check it again with other options.
 #[derive(Clone)]
 pub(crate) struct Rebuild {
     parsed: Parsed,

@@ -10,20 +10,20 @@ use mechc_text::source::{FileId, Sources};
 /// `None` if the language cannot express a part of the model.
 #[must_use]
 pub fn imported(model: FileId, settings: Option<FileId>, sources: &Sources) -> (Option<String>, Diagnostics) {
-    let (file, mut said) = import::import(model, settings, sources);
+    let (file, mut diagnostics) = import::import(model, settings, sources);
     if let Some(file) = &file {
-        said.extend(without_value(file, sources));
+        diagnostics.extend(errors_without_value(file, sources));
     }
-    (file.filter(|_| !said.has_errors()).map(|file| syntax::format(&file)), said)
+    (file.filter(|_| !diagnostics.has_errors()).map(|file| syntax::format(&file)), diagnostics)
 }
 
 /// Returns the errors of formulas that have no value, which only the checker finds; spans of the tree point into the model file. All other
 /// errors of the mechanism are left to `mechc check`.
-fn without_value(file: &ast::File, sources: &Sources) -> Diagnostics {
-    let mut found = Diagnostics::default();
+fn errors_without_value(file: &ast::File, sources: &Sources) -> Diagnostics {
+    let mut errors = Diagnostics::default();
     for mechanism in &file.mechanisms {
-        let (_, said) = check::check(mechanism, &Surroundings::default(), sources);
-        found.extend(said.into_iter().filter(|one| matches!(one.code, Code::E0404 | Code::E0410)));
+        let (_, of_check) = check::check(mechanism, &Surroundings::default(), sources);
+        errors.extend(of_check.into_iter().filter(|error| matches!(error.code, Code::E0404 | Code::E0410)));
     }
-    found
+    errors
 }

@@ -13,7 +13,7 @@ use mechc_text::world::World;
 /// Words that make an angle of a pure number.
 const ANGLES: [&str; 3] = ["deg", "rad", "rev"];
 
-/// What an option specifies, or why it cannot be used, with the texts that the diagnostics point into.
+/// The value of an option, or why it cannot be used, with the texts that the diagnostics point into.
 pub(crate) type SourcedResult<T> = Result<T, (Sources, Diagnostics)>;
 
 /// Refuses params that are given twice, and a param of one copy before that of all copies, which would overwrite it.
@@ -68,7 +68,7 @@ pub(crate) struct OptionReader<'r> {
 impl OptionReader<'_> {
     /// Checks the mechanism with a param set to a formula. Errors in the formula itself are returned as errors; errors that the value causes
     /// in the mechanism stay in its diagnostics.
-    pub fn with(&self, name: &str, formula: &str) -> SourcedResult<Checked> {
+    pub fn check_with(&self, name: &str, formula: &str) -> SourcedResult<Checked> {
         let set = vec![format!("{name}={formula}")];
         let choice = match self.option {
             TOL => Choice { off: set, ..self.choice.clone() },
@@ -88,7 +88,7 @@ impl OptionReader<'_> {
 
     /// Checks the mechanism with a param set to a number; returns it with the value (SI) and its dimension, if it has one.
     pub fn number(&self, name: &str, formula: &str) -> SourcedResult<(Checked, f64, Option<Dimension>)> {
-        let number = self.with(name, formula).and_then(|checked| {
+        let number = self.check_with(name, formula).and_then(|checked| {
             let (value, dimension) = self.value(formula)?;
             Ok((checked, value, dimension))
         });

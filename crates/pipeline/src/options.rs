@@ -9,7 +9,7 @@ use mechc_text::cancel::Cancel;
 pub struct RunOptions {
     /// Tolerance of each row of Φ, scaled.
     pub tolerance: f64,
-    /// Whether a motion continues beyond bifurcations, along the smooth branch, with a warning each time.
+    /// True if a motion continues beyond bifurcations, along the smooth branch, with a warning each time.
     pub pass_bifurcations: bool,
     /// The configuration from which given inputs are reached; `None` for the start of the mechanism itself.
     pub stand: Option<Stand>,

@@ -47,39 +47,41 @@ impl Checked {
     #[must_use]
     pub fn settable_params(&self) -> Vec<Settable> {
         let (Some(tree), Some(model)) = (self.tree(), self.model()) else { return Vec::new() };
-        let mut found: Vec<Settable> = Vec::new();
-        for known in &self.known().values {
+        let mut params: Vec<Settable> = Vec::new();
+        for declared_value in &self.known().values {
             let declared = tree.items.iter().find_map(|item| match &item.kind {
-                ItemKind::Param { name, value } if Some(name.span) == known.name => Some((&name.text, value.span)),
+                ItemKind::Param { name, value } if Some(name.span) == declared_value.name => {
+                    Some((&name.text, value.span))
+                }
                 _ => None,
             });
             let Some((name, formula)) = declared else { continue };
             let is_angle = is_of_angles(self.sources().text(formula));
-            match &known.amount {
-                Amount::Number { si, dimension, is_angle: is_known_angle, .. } => {
-                    let unit = si_unit(*dimension, is_angle || *is_known_angle);
-                    found.push(Settable { name: name.clone(), unit, value: *si, dimension: *dimension });
+            match &declared_value.amount {
+                Amount::Number { si, dimension, is_angle: is_angle_value, .. } => {
+                    let unit = si_unit(*dimension, is_angle || *is_angle_value);
+                    params.push(Settable { name: name.clone(), unit, value: *si, dimension: *dimension });
                 }
-                Amount::Point(at) => found.extend(["x", "y"].into_iter().zip(at).map(|(axis, &value)| {
+                Amount::Point(at) => params.extend(["x", "y"].into_iter().zip(at).map(|(axis, &value)| {
                     let (name, unit) = (format!("{name}.{axis}"), "m".to_owned());
                     Settable { name, unit, value, dimension: Dimension::LENGTH }
                 })),
             }
         }
-        let own = found.len();
+        let count = params.len();
         for param in &model.params {
             let name = &param.declared.name;
-            match found[..own].iter_mut().find(|known| known.name == *name) {
+            match params[..count].iter_mut().find(|param| param.name == *name) {
                 // the value in the model is the one that is computed with
-                Some(known) => known.value = param.value,
+                Some(listed) => listed.value = param.value,
                 None if name.contains('.') => {
                     let unit = si_unit(param.dimension, false);
-                    found.push(Settable { name: name.clone(), unit, value: param.value, dimension: param.dimension });
+                    params.push(Settable { name: name.clone(), unit, value: param.value, dimension: param.dimension });
                 }
                 None => {}
             }
         }
-        found
+        params
     }
 
     /// Returns the inputs of the compiled mechanism.
@@ -109,7 +111,7 @@ mod tests {
     use mechc_text::world::Memory;
 
     #[test]
-    fn formulas_for_what_is_set_are_of_what_it_is() {
+    fn formulas_have_the_dimension_of_the_param() {
         let text = "mechanism lever {
             param length = 50 mm
             input slide  = 0.1 m/s * t
@@ -123,11 +125,12 @@ mod tests {
         let (params, inputs) = (checked.settable_params(), checked.settable_inputs(&compiled));
         let rate = inputs[0].by_time(1);
         assert_eq!(rate.unit, "m/s");
-        let read = |of: &super::Settable, text: &str| {
+        let read = |param: &super::Settable, text: &str| {
             let mut sources = mechc_text::source::Sources::default();
-            let said =
-                |said: mechc_text::diag::Diagnostics| said.iter().next().map_or(String::new(), |of| of.message.clone());
-            of.read("--set it", "the value of", text, &mut sources).map_err(said)
+            let first_message = |diagnostics: mechc_text::diag::Diagnostics| {
+                diagnostics.iter().next().map_or(String::new(), |first| first.message.clone())
+            };
+            param.read("--set it", "the value of", text, &mut sources).map_err(first_message)
         };
         assert_eq!(read(&params[0], "2 * (20 mm + 1 cm)"), Ok(0.06));
         assert_eq!(read(&inputs[0], "20 mm"), Ok(0.02));
@@ -145,7 +148,7 @@ mod tests {
     }
 
     #[test]
-    fn params_and_inputs_are_told_in_si() {
+    fn params_and_inputs_are_in_si() {
         let text = "mechanism lever {
             param length = 50 mm
             param lean   = 30 deg
@@ -160,13 +163,13 @@ mod tests {
         }";
         let checked = Parsed::of("lever.mech", text).check(&Choice::default(), &Memory::default());
         let compiled = checked.compile(Redundant::Refused, &Cancel::default()).0.expect("it is determined");
-        let of = |settable: Vec<super::Settable>| -> Vec<String> {
-            settable.into_iter().map(|of| format!("{} = {:.3} {}", of.name, of.value, of.unit)).collect()
+        let described = |params: Vec<super::Settable>| -> Vec<String> {
+            params.into_iter().map(|param| format!("{} = {:.3} {}", param.name, param.value, param.unit)).collect()
         };
         assert_eq!(
-            of(checked.settable_params()),
+            described(checked.settable_params()),
             ["length = 0.050 m", "lean = 0.524 rad", "count = 2.000 ", "A.x = 0.010 m", "A.y = 0.020 m"]
         );
-        assert_eq!(of(checked.settable_inputs(&compiled)), ["turn = 7.854 rad"]);
+        assert_eq!(described(checked.settable_inputs(&compiled)), ["turn = 7.854 rad"]);
     }
 }

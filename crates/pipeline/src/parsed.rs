@@ -54,10 +54,10 @@ impl Parsed {
     /// Reads an edited text of the same file, and only what the edit touches. The outcome equals that of [`Parsed::of`].
     #[must_use]
     pub fn edited(&self, text: &str) -> Parsed {
-        let own = self.sources.get(self.file);
+        let current = self.sources.get(self.file);
         let mut sources = Sources::default();
-        let file = sources.add(&own.name, text);
-        let reread = || syntax::reread(&self.read, &own.text, &sources, file);
+        let file = sources.add(&current.name, text);
+        let reread = || syntax::reread(&self.read, &current.text, &sources, file);
         let read = Arc::new(unless_too_large(&sources, file, reread));
         Parsed { sources, file, path: Arc::clone(&self.path), read }
     }

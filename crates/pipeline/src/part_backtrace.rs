@@ -39,12 +39,12 @@ impl PartBacktrace {
         }
         // from the inside out
         parts.sort_by_key(|(part, _)| std::cmp::Reverse(part.matches('.').count()));
-        let mut annotate_all = 0;
+        let mut shown = 0;
         for (part, span) in parts {
             // copies are declared at one place, which is shown once
-            if annotate_all < MAX_PARTS && diagnostic.labels.iter().all(|label| label.span != span) {
+            if shown < MAX_PARTS && diagnostic.labels.iter().all(|label| label.span != span) {
                 diagnostic = diagnostic.in_part(&part, span);
-                annotate_all += 1;
+                shown += 1;
             }
         }
         diagnostic
@@ -67,8 +67,8 @@ fn dedup_copies(diagnostics: impl Iterator<Item = Diagnostic>) -> Vec<Diagnostic
     for diagnostic in diagnostics {
         let message = without_copy_indices(&diagnostic.message);
         let is_of_copy = message != diagnostic.message;
-        let place = diagnostic.labels.first().map(|label| label.span);
-        match first_of.entry((diagnostic.code, place, message)) {
+        let span = diagnostic.labels.first().map(|label| label.span);
+        match first_of.entry((diagnostic.code, span, message)) {
             Entry::Occupied(mut first) if is_of_copy => first.get_mut().1 += 1,
             Entry::Occupied(_) => once.push(diagnostic),
             Entry::Vacant(new) => {

@@ -14,7 +14,7 @@ use std::sync::OnceLock;
 #[derive(Debug, Default)]
 pub(crate) struct QueryCache {
     /// Facts about its declarations.
-    pub known: OnceLock<Known>,
+    pub facts: OnceLock<Known>,
     /// Its equations; `None` inside if it has errors.
     pub lowered: OnceLock<Option<ConstraintSystem>>,
 }
@@ -45,7 +45,7 @@ impl Checked {
     /// Returns facts about its declarations and the values of its params, as far as the text gives them, even if it has errors.
     #[must_use]
     pub fn known(&self) -> &Known {
-        self.query_cache.known.get_or_init(|| {
+        self.query_cache.facts.get_or_init(|| {
             self.tree().map(|tree| check::known(tree, &self.check_options, self.sources())).unwrap_or_default()
         })
     }
@@ -63,7 +63,7 @@ impl Checked {
                 }
                 (ItemKind::Part(part), _) => tree = self.mechanism(&part.mechanism)?,
                 (ItemKind::Body { features, .. } | ItemKind::Ground { features }, [feature]) => {
-                    return features.iter().find(|known| known.name.text == **feature).map(feature_declaration);
+                    return features.iter().find(|declared| declared.name.text == **feature).map(feature_declaration);
                 }
                 _ => return None,
             }
@@ -104,14 +104,14 @@ impl Checked {
     #[must_use]
     pub fn param_in_part(&self, path: &str) -> Option<(f64, Dimension)> {
         let params = || self.model().into_iter().flat_map(|model| &model.params);
-        let of = |is_it: &dyn Fn(&str) -> bool| params().find(|param| is_it(&param.declared.name));
-        let param = of(&|name| name == path).or_else(|| of(&|name| is_copy(name, path)))?;
+        let find = |is_match: &dyn Fn(&str) -> bool| params().find(|param| is_match(&param.declared.name));
+        let param = find(&|name| name == path).or_else(|| find(&|name| is_copy_of(name, path)))?;
         Some((param.value, param.dimension))
     }
 
     pub(crate) fn mechanism(&self, name: &MechanismName) -> Option<&Mechanism> {
-        let found = self.library.find(name.prefix.as_ref(), &name.name, self.sources()).ok()?;
-        Some(self.library.tree(found))
+        let mechanism = self.library.find(name.prefix.as_ref(), &name.name, self.sources()).ok()?;
+        Some(self.library.tree(mechanism))
     }
 }
 
@@ -135,7 +135,7 @@ impl Compiled {
                 .chain(measures)
                 .chain(system.results().outcomes.iter().map(|outcome| &outcome.name))
         };
-        names().find(|known| *known == name).or_else(|| names().find(|known| is_copy(known, name))).cloned()
+        names().find(|other| *other == name).or_else(|| names().find(|other| is_copy_of(other, name))).cloned()
     }
 
     /// Returns the named points that a joint, constraint or driver connects.
@@ -175,9 +175,9 @@ impl Compiled {
     }
 }
 
-/// Returns whether `known` is `name` with indices of copies.
-fn is_copy(known: &str, name: &str) -> bool {
-    let mut parts = known.split('[');
+/// Returns whether `copy` is `name` with indices of copies.
+fn is_copy_of(copy: &str, name: &str) -> bool {
+    let mut parts = copy.split('[');
     let mut rest = name;
     let Some(behind) = parts.next().and_then(|first| rest.strip_prefix(first)) else { return false };
     rest = behind;
@@ -191,7 +191,7 @@ fn is_copy(known: &str, name: &str) -> bool {
 pub(crate) fn item_named<'t>(tree: &'t Mechanism, name: &str) -> Option<&'t Item> {
     tree.items.iter().find(|item| match &item.kind {
         ItemKind::Ground { .. } => name == "ground",
-        _ => check::name_of(item).is_some_and(|own| own.text == name),
+        _ => check::name_of(item).is_some_and(|declared| declared.text == name),
     })
 }
 

@@ -18,7 +18,7 @@ pub struct Assembly {
     pub t: f64,
     /// For each coordinate: name, value (SI), unit.
     pub coordinates: Vec<(String, f64, &'static str)>,
-    /// How far the bodies moved from their estimates, in words.
+    /// Distances by which the bodies moved from their estimates, in words.
     pub moved: String,
     /// Distance to a singular position: 1 is far, 0 is singular.
     pub conditioning: f64,
@@ -55,10 +55,10 @@ pub struct Run {
     cancel: Cancel,
     has_ended: bool,
     stopped_at: Option<f64>,
-    /// What results are computed from; `None` if there are none.
-    asked: Option<Asked>,
+    /// The query that results are computed from; `None` if there are none.
+    result_query: Option<Asked>,
     results: usize,
-    part_backtrace: PartBacktrace,
+    backtrace: PartBacktrace,
 }
 
 /// What a start has to report.
@@ -104,8 +104,8 @@ impl Compiled {
     /// # let checked = Parsed::of("disc.mech", text).check(&Choice::default(), &Memory::default());
     /// # let (compiled, _) = checked.compile(Redundant::Refused, &Cancel::default());
     /// # let compiled = compiled.expect("it is determined");
-    /// let (assembly, said) = compiled.assembled(1.0, &RunOptions::default());
-    /// assert!(said.is_empty());
+    /// let (assembly, diagnostics) = compiled.assembled(1.0, &RunOptions::default());
+    /// assert!(diagnostics.is_empty());
     /// assert_eq!(assembly.expect("it assembles").coordinates[2].1, std::f64::consts::FRAC_PI_2);
     /// ```
     #[must_use]
@@ -116,7 +116,7 @@ impl Compiled {
         match started {
             _ if options.cancel.is_cancelled() => (None, Diagnostics::default()),
             Ok(mut started) => {
-                diagnostics.extend(self.part_backtrace().annotate_all(started.remarks()));
+                diagnostics.extend(self.backtrace().annotate_all(started.remarks()));
                 (Some(assembly(self, &mut started, t)), diagnostics)
             }
             Err(stop) => {
@@ -250,7 +250,7 @@ impl Compiled {
     /// Describes why the mechanism does not start at the first time of a horizon; proposes an analysis if the text has none, and no values
     /// at 0 s.
     pub(crate) fn explain_start(&self, stop: &Stop, horizon: Horizon) -> Diagnostic {
-        let diagnostic = self.part_backtrace().annotate(stop.explain(self.system()));
+        let diagnostic = self.backtrace().annotate(stop.explain(self.system()));
         if self.analysis().is_some() || horizon.from.total_cmp(&0.0).is_eq() || !stop.is_without_value() {
             return diagnostic;
         }
@@ -287,12 +287,12 @@ impl Run {
                 return (None, report);
             }
         };
-        report.diagnostics.extend(compiled.part_backtrace().annotate_all(started.remarks()));
+        report.diagnostics.extend(compiled.backtrace().annotate_all(started.remarks()));
         started.use_vectors(options.vectors);
         let assembly = assembly(compiled, &mut started, times.from());
         let results = compiled.system().results().outcomes.len();
         let interval = times.interval().filter(|_| results > 0);
-        let asked = interval.map(|interval| started.asked(interval, options.pass_bifurcations, &options.cancel));
+        let result_query = interval.map(|interval| started.asked(interval, options.pass_bifurcations, &options.cancel));
         let mut motion = started.into_motion(times);
         if options.pass_bifurcations {
             motion.pass_bifurcations();
@@ -309,9 +309,9 @@ impl Run {
             cancel,
             has_ended: false,
             stopped_at: None,
-            asked,
+            result_query,
             results,
-            part_backtrace: compiled.part_backtrace().clone(),
+            backtrace: compiled.backtrace().clone(),
         };
         (Some(run), report)
     }
@@ -362,7 +362,7 @@ impl Run {
             }
             Some(Err(stop)) => {
                 (self.has_ended, self.stopped_at) = (true, Some(stop.t));
-                Some(Err(Box::new(self.part_backtrace.annotate(stop.explain(self.determined.system())))))
+                Some(Err(Box::new(self.backtrace.annotate(stop.explain(self.determined.system())))))
             }
         }
     }
@@ -370,15 +370,15 @@ impl Run {
     /// Returns the results, in the order of [`Compiled::results`]. `None` if only some times were requested or the work is cancelled; results have
     /// no values if the motion has stopped. The first call follows the motion once more, later ones return `None`.
     pub fn results(&mut self) -> Option<Answers> {
-        let asked = self.asked.take()?;
+        let result_query = self.result_query.take()?;
         if self.stopped_at.is_some() {
             let count = self.results;
             return Some(Answers { values: vec![None; count], digits: vec![0; count], ..Answers::default() });
         }
-        let Answers { values, digits, notes, has_all_rows } = asked.answer()?;
+        let Answers { values, digits, notes, has_all_rows } = result_query.answer()?;
         let mut diagnostics = Diagnostics::default();
         diagnostics.extend(notes);
-        let notes = self.part_backtrace.annotate_all(diagnostics).into_iter().collect();
+        let notes = self.backtrace.annotate_all(diagnostics).into_iter().collect();
         Some(Answers { values, digits, notes, has_all_rows })
     }
 
@@ -398,7 +398,7 @@ impl Run {
         let warnings = self.motion.take_warnings();
         let mut diagnostics = Diagnostics::default();
         diagnostics.extend(warnings.iter().map(|warning| warning.explain(self.determined.system())));
-        self.part_backtrace.annotate_all(diagnostics)
+        self.backtrace.annotate_all(diagnostics)
     }
 }
 
@@ -432,27 +432,27 @@ mod tests {
     }
 
     #[test]
-    fn what_is_cancelled_gives_nothing_and_says_nothing() {
+    fn cancelled_work_gives_nothing_and_reports_nothing() {
         let cancel = Cancel::default();
-        let compiled_now = compiled(&cancel).expect("it is determined");
+        let determined = compiled(&cancel).expect("it is determined");
         let options = RunOptions { cancel: cancel.clone(), ..RunOptions::default() };
         let times = Times::grid(0.0, 1e9, 1.0).expect("a grid");
-        let mut run = compiled_now.run(&times, &options).0.expect("it assembles");
+        let mut run = determined.run(&times, &options).0.expect("it assembles");
         assert!(run.next_row().is_some_and(|row| row.is_ok()));
         cancel.cancel();
         assert!(run.next_row().is_none(), "it went on, or was told why");
-        let (run, diagnostics) = compiled_now.run(&times, &options);
+        let (run, diagnostics) = determined.run(&times, &options);
         assert!(run.is_none() && diagnostics.is_empty());
         assert!(compiled(&cancel).is_none());
     }
 
     #[test]
     fn stages_go_to_other_threads() {
-        fn goes<T: Send + Sync + Clone>() {}
-        fn moves<T: Send>() {}
-        goes::<Parsed>();
-        goes::<crate::Checked>();
-        goes::<Compiled>();
-        moves::<crate::Run>();
+        fn is_shared<T: Send + Sync + Clone>() {}
+        fn is_sent<T: Send>() {}
+        is_shared::<Parsed>();
+        is_shared::<crate::Checked>();
+        is_shared::<Compiled>();
+        is_sent::<crate::Run>();
     }
 }

@@ -225,9 +225,9 @@ mod tests {
             ("speed=1/s..180 deg/s / 30:2", "rad/s", [0.104_719_755_119_659_77, 1.0], "speed=1 rad/s"),
             ("A.x=-1e1mm..5mm:2", "mm", [-10.0, 5.0], "A.x=5 mm"),
         ] {
-            let found = one(request);
-            assert_eq!((found.unit.as_str(), found.settings[1].as_str()), (unit, setting), "{request}");
-            assert!(found.values.iter().zip(values).all(|(a, b)| (a - b).abs() < 1e-15), "{:?}", found.values);
+            let range = one(request);
+            assert_eq!((range.unit.as_str(), range.settings[1].as_str()), (unit, setting), "{request}");
+            assert!(range.values.iter().zip(values).all(|(a, b)| (a - b).abs() < 1e-15), "{:?}", range.values);
         }
     }
 
@@ -279,7 +279,7 @@ mod tests {
 
     #[test]
     fn numbers_are_no_formulas() {
-        for (text, wanted) in [
+        for (text, expected) in [
             ("40mm", Some((40.0, "mm"))),
             ("-.5e1 m", Some((-5.0, "m"))),
             ("3", Some((3.0, ""))),
@@ -300,7 +300,7 @@ mod tests {
             ("inf", None),
             ("4 mm + 1 mm", None),
         ] {
-            assert_eq!(number_and_unit(text), wanted, "{text}");
+            assert_eq!(number_and_unit(text), expected, "{text}");
         }
     }
 }

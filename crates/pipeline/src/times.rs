@@ -77,9 +77,9 @@ impl AskedTimes {
     /// # Errors
     /// See [`AskedTimes::times`].
     pub fn whole(&self) -> Result<Times, Box<Diagnostic>> {
-        let is_known = self.from.is_some() && self.to.is_some() && self.every.is_some();
+        let has_interval = self.from.is_some() && self.to.is_some() && self.every.is_some();
         match self.listed()? {
-            Some(listed) if !is_known => Ok(listed),
+            Some(listed) if !has_interval => Ok(listed),
             _ => self.grid(),
         }
     }
@@ -93,8 +93,8 @@ impl AskedTimes {
         let from = self.from.unwrap_or(earliest);
         if earliest < from {
             let [earliest, from] = [earliest, from].map(readable);
-            let said = format!("`--at` {earliest} s is before the start of the analysis at {from} s");
-            return Err(Box::new(unusable(said).help("start earlier with `--from`")));
+            let message = format!("`--at` {earliest} s is before the start of the analysis at {from} s");
+            return Err(Box::new(unusable(message).help("start earlier with `--from`")));
         }
         Ok(Some(Times::listed(from, self.at.clone()).within_analysis_to(self.to)))
     }
@@ -105,15 +105,15 @@ impl AskedTimes {
     /// The interval is not given, or its times cannot be computed.
     pub fn grid(&self) -> Result<Times, Box<Diagnostic>> {
         let (Some(from), Some(to), Some(every)) = (self.from, self.to, self.every) else {
-            let said = Diagnostic::new(Code::E0705, "it is not said which times to compute").help(
+            let diagnostic = Diagnostic::new(Code::E0705, "it is not said which times to compute").help(
                 "add `analysis from 0 s to 1 s every 10 ms` to the file,\nor give `--from T --to T --every H`, or `--at T`",
             );
-            return Err(Box::new(said));
+            return Err(Box::new(diagnostic));
         };
         let [first, last, step] = [from, to, every].map(readable);
         if to < from {
-            let said = format!("the analysis would end at {last} s, before its start at {first} s");
-            return Err(Box::new(unusable(said)));
+            let message = format!("the analysis would end at {last} s, before its start at {first} s");
+            return Err(Box::new(unusable(message)));
         }
         let too_small = || unusable(format!("a step of {step} s is too small to get from {first} s to {last} s"));
         Times::grid(from, to, every).ok_or_else(|| Box::new(too_small()))

@@ -1,4 +1,4 @@
-//! What there is to see of a mechanism: its scene, its motion as a table, its texts. The one door to those who draw.
+//! Visualizations of a mechanism: its scene, its motion as a table, its diagnostics. The only source of what is drawn.
 
 use crate::lowering::lowered;
 use crate::options::RunOptions;
@@ -15,51 +15,51 @@ use mechc_text::diag::{Code, Diagnostic, Diagnostics};
 use mechc_text::source::{FileId, Span};
 use rustc_hash::FxHashMap;
 
-/// What there is to see of a mechanism.
+/// All that can be drawn and plotted of a mechanism.
 #[derive(Clone, Debug)]
 pub struct Seen {
-    /// What there is to draw, at any moment.
+    /// The scene, at any moment.
     pub scene: Scene,
-    /// Where everything is, row by row, and the table itself (its rows), in SI; as it is drawn in the text where there is no row.
+    /// Poses and rows (SI) of the motion; the poses of the text if there is no row.
     pub motion: Motion,
-    /// The names of the table's columns.
+    /// Names of the columns.
     pub columns: Vec<String>,
-    /// The units in which they are printed.
+    /// Units in which the columns are printed.
     pub units: Vec<ColumnUnit>,
-    /// What they hold.
+    /// Kinds of the columns.
     pub kinds: Vec<ColumnKind>,
-    /// How many rows there would be if none had been left out.
+    /// Number of rows before some were left out.
     pub all_rows: usize,
-    /// Why the motion ended before its last time, if it did.
+    /// Why the motion stopped before its last time, if it did.
     pub stopped: Option<Diagnostic>,
-    /// What else there is to say of it: why there is no motion, or what was said beside it.
+    /// Other diagnostics: why there is no motion, or warnings of it.
     pub said: Diagnostics,
-    /// Results with the units in which they are told, in SI; none where only some times were asked for.
+    /// Name, printed unit and value (SI) of each result; empty if only some times were requested.
     pub results: Vec<(String, ColumnUnit, Option<f64>)>,
-    /// The texts that its declarations stand in, its own first.
+    /// The texts of its declarations, its own first.
     pub texts: Vec<FileId>,
 }
 
 impl Seen {
-    /// All that there is to say of it, why it ended first.
+    /// Returns all diagnostics, the reason why the motion stopped first.
     pub fn messages(&self) -> impl Iterator<Item = &Diagnostic> {
         self.stopped.iter().chain(self.said.iter())
     }
 }
 
-/// The rows of a run, and how it ended.
+/// The rows of a run, and its end.
 struct Rows {
     kept: Vec<Vec<f64>>,
     all: usize,
     edges: Vec<f64>,
     stopped: Option<Diagnostic>,
     results: Vec<Option<f64>>,
-    said: Diagnostics,
+    diagnostics: Diagnostics,
 }
 
 impl Checked {
-    /// Runs it, and makes a scene of it; of more rows than `most` the motion has some, evenly spread, and the last. With what is to be said
-    /// of the run. Nothing where it cannot be assembled.
+    /// Runs the mechanism and draws it. A motion of more rows than `most` keeps some, evenly spread, and the last. Returns the diagnostics of the
+    /// run, too; `None` if the mechanism cannot be assembled.
     #[must_use]
     pub fn seen(
         &self,
@@ -71,7 +71,7 @@ impl Checked {
         self.seen_beside(compiled, times, options, most, None)
     }
 
-    /// The same; where something was seen before it, in a picture of the extent of that one, with symbols of its size.
+    /// Runs the mechanism and draws it with the extent and the symbol size of a visualization before it, if there was one.
     #[must_use]
     pub fn seen_beside(
         &self,
@@ -82,38 +82,36 @@ impl Checked {
         before: Option<&Seen>,
     ) -> (Option<Seen>, Diagnostics) {
         let Some(model) = self.model() else { return (None, Diagnostics::default()) };
-        let (run, mut said) = compiled.run(times, options);
-        let Some(run) = run else { return (None, said) };
+        let (run, mut diagnostics) = compiled.run(times, options);
+        let Some(run) = run else { return (None, diagnostics) };
         let (columns, units) = (run.columns().to_vec(), run.units().to_vec());
-        let found = rows(run, most);
-        said.extend(found.said);
-        let motion = if found.kept.is_empty() {
+        let run_rows = rows(run, most);
+        diagnostics.extend(run_rows.diagnostics);
+        let motion = if run_rows.kept.is_empty() {
             Motion::still(drawn_poses(model))
         } else {
-            Motion::of_rows(&compiled.columns_of_poses(), &columns, found.kept, found.edges)
+            Motion::of_rows(&compiled.columns_of_poses(), &columns, run_rows.kept, run_rows.edges)
         };
         let mut scene = match before.filter(|_| !motion.rows().is_empty()) {
             Some(before) => Scene::with_symbols(model, &motion, before.scene.unit),
             None => Scene::of(model, &motion),
         };
-        self.widen_places(&mut scene);
-        show_stop(&mut scene, model, &motion, found.stopped.as_ref());
+        self.widen_spans(&mut scene);
+        highlight_stop(&mut scene, model, &motion, run_rows.stopped.as_ref());
         if let Some(before) = before {
             scene.extent = before.scene.extent;
         }
-        let values = found.results.into_iter();
+        let values = run_rows.results.into_iter();
         let results =
             compiled.results().into_iter().zip(values).map(|((name, unit), value)| (name, unit, value)).collect();
-        let (all_rows, stopped, texts) = (found.all, found.stopped, self.texts());
+        let (all_rows, stopped, texts) = (run_rows.all, run_rows.stopped, self.texts());
         let kinds = layout::columns(compiled.system()).into_iter().map(|column| column.kind).collect();
-        (
-            Some(Seen { scene, motion, columns, units, kinds, all_rows, stopped, said: said.clone(), results, texts }),
-            said,
-        )
+        let said = diagnostics.clone();
+        (Some(Seen { scene, motion, columns, units, kinds, all_rows, stopped, said, results, texts }), diagnostics)
     }
 
-    /// The picture at one time (s) alone, followed from another one, beside a motion that was seen before: guides and slots are as long
-    /// as that one asks for, be there other values of params or not. Nothing where it does not get there.
+    /// Draws a single time `t` (s) of a motion that is followed from the time `from`, with guides and slots as long as in the visualization
+    /// `before`, which may have other params. `None` if the motion does not get there.
     #[must_use]
     pub fn glimpse(
         &self,
@@ -130,43 +128,42 @@ impl Checked {
             return None;
         }
         let mut scene = Scene::with_symbols(model, &before.motion, before.scene.unit);
-        self.widen_places(&mut scene);
+        self.widen_spans(&mut scene);
         scene.extent = before.scene.extent;
         let (columns, units, kinds) = (before.columns.clone(), before.units.clone(), before.kinds.clone());
-        let (stopped, said, results, texts) = (None, Diagnostics::default(), Vec::new(), before.texts.clone());
-        Some(Seen { scene, motion, columns, units, kinds, all_rows: 1, stopped, said, results, texts })
+        let (stopped, diagnostics, results, texts) = (None, Diagnostics::default(), Vec::new(), before.texts.clone());
+        Some(Seen { scene, motion, columns, units, kinds, all_rows: 1, stopped, said: diagnostics, results, texts })
     }
 
-    /// What there is to draw of a motion that was seen, with symbols of a size (m); nothing where it is not sound.
+    /// Draws the motion of a visualization anew, with symbols of a size (m); `None` if the mechanism has errors.
     #[must_use]
     pub fn drawn_with_symbols(&self, seen: &Seen, unit: f64) -> Option<Scene> {
         let model = self.model()?;
-        Some(self.with_places(Scene::with_symbols(model, &seen.motion, unit), seen))
+        Some(self.finished(Scene::with_symbols(model, &seen.motion, unit), seen))
     }
 
-    /// What there is to draw of a motion that was seen; nothing where it is not sound.
-    pub(crate) fn drawn_anew(&self, seen: &Seen) -> Option<Scene> {
+    /// Draws the motion of a visualization anew; `None` if the mechanism has errors.
+    pub(crate) fn redrawn(&self, seen: &Seen) -> Option<Scene> {
         let model = self.model()?;
-        Some(self.with_places(Scene::of(model, &seen.motion), seen))
+        Some(self.finished(Scene::of(model, &seen.motion), seen))
     }
 
-    fn with_places(&self, mut scene: Scene, seen: &Seen) -> Scene {
-        self.widen_places(&mut scene);
+    fn finished(&self, mut scene: Scene, seen: &Seen) -> Scene {
+        self.widen_spans(&mut scene);
         if let Some(model) = self.model() {
-            show_stop(&mut scene, model, &seen.motion, seen.stopped.as_ref());
+            highlight_stop(&mut scene, model, &seen.motion, seen.stopped.as_ref());
         }
         scene
     }
 
-    /// What there is to see of one that is sound and has no motion, for what was said of it. One that is not determined is as it is
-    /// drawn in the text, with its free motions as arrows; one that cannot be assembled at a time (s) as it comes nearest to that, with
-    /// its gaps. Nothing where it is not sound.
+    /// Draws a mechanism without motion, with its diagnostics. If it is not determined, it has the poses of the text and its free motions as
+    /// arrows. If it cannot be assembled at a time (s), it is as near to that as it gets, with gaps. `None` if it has errors.
     #[must_use]
     pub fn seen_at_rest(
         &self,
         compiled: Option<&Compiled>,
         (t, options): (f64, &RunOptions),
-        said: &Diagnostics,
+        diagnostics: &Diagnostics,
     ) -> Option<Seen> {
         let model = self.model()?;
         let lowered = if compiled.is_none() { Some(lowered(model)) } else { None };
@@ -175,8 +172,8 @@ impl Checked {
         let joints = if nearest.is_some() { Joints::Open } else { Joints::Drawn };
         let motion = Motion::still(nearest.map_or_else(|| drawn_poses(model), |q| poses(system, &q)));
         let mut scene = Scene::of(model, &motion);
-        self.widen_places(&mut scene);
-        let is_left_free = said.iter().any(|said| matches!(said.code, Code::E0502 | Code::E0503));
+        self.widen_spans(&mut scene);
+        let is_left_free = diagnostics.iter().any(|diagnostic| matches!(diagnostic.code, Code::E0502 | Code::E0503));
         let free = if is_left_free {
             analysis::free_motions(system, Horizon::of_analysis(system.analysis()))
         } else {
@@ -188,8 +185,8 @@ impl Checked {
             compiled.start(horizon, options).0.err()
         });
         let lengths = open.map_or_else(Vec::new, |stop| lengths(&scene, &stop, system));
-        let mut named = named(&scene, said.iter());
-        // a length of the ground is a line of its own, and a declaration of its own is named
+        let mut named = named_declarations(&scene, diagnostics.iter());
+        // a length of the ground is a line of its own, and its declaration is highlighted
         let bodies = lengths.iter().filter_map(|length| length.frame.filter(|frame| *frame > 0));
         named.extend(bodies.filter_map(|frame| scene.frames.get(frame)));
         named.extend(lengths.iter().filter(|length| length.frame.is_none()).map(|length| length.ends[0]));
@@ -212,13 +209,13 @@ impl Checked {
             kinds,
             all_rows: 0,
             stopped: None,
-            said: said.clone(),
+            said: diagnostics.clone(),
             results,
             texts: self.texts(),
         })
     }
 
-    /// The motion at some times alone, with why it ended before the last of them, if it did.
+    /// Returns the motion at some times, and why it stopped before the last of them, if it did.
     #[must_use]
     pub fn moments(
         &self,
@@ -226,18 +223,18 @@ impl Checked {
         times: &Times,
         options: &RunOptions,
     ) -> (Option<(Motion, Option<Diagnostic>)>, Diagnostics) {
-        let (run, mut said) = compiled.run(times, options);
-        let Some(run) = run else { return (None, said) };
+        let (run, mut diagnostics) = compiled.run(times, options);
+        let Some(run) = run else { return (None, diagnostics) };
         let columns = run.columns().to_vec();
-        let found = rows(run, usize::MAX);
-        said.extend(found.said);
-        let motion = Motion::of_rows(&compiled.columns_of_poses(), &columns, found.kept, found.edges);
-        (Some((motion, found.stopped)), said)
+        let run_rows = rows(run, usize::MAX);
+        diagnostics.extend(run_rows.diagnostics);
+        let motion = Motion::of_rows(&compiled.columns_of_poses(), &columns, run_rows.kept, run_rows.edges);
+        (Some((motion, run_rows.stopped)), diagnostics)
     }
 
-    /// Declarations have the places of their names; here they get those of all that is written of them.
-    fn widen_places(&self, scene: &mut Scene) {
-        let whole = whole_places(self.library());
+    /// Replaces the spans of declarations, which are those of their names, by those of the whole declarations.
+    fn widen_spans(&self, scene: &mut Scene) {
+        let whole = declaration_spans(self.library());
         for declaration in &mut scene.declarations {
             if let Some(span) = whole.get(&declaration.span) {
                 declaration.span = *span;
@@ -258,7 +255,7 @@ impl Checked {
     }
 }
 
-/// Runs to the end, or to where it stops.
+/// Runs to the end, or to where the motion stops.
 fn rows(mut run: Run, most: usize) -> Rows {
     run.keep_edges();
     let count = usize::try_from(run.times().len()).unwrap_or(usize::MAX);
@@ -287,14 +284,14 @@ fn rows(mut run: Run, most: usize) -> Rows {
         rows.push(last);
     }
     let answers = run.results().unwrap_or_default();
-    let mut said = run.take_remarks();
-    said.extend(answers.notes);
+    let mut diagnostics = run.take_remarks();
+    diagnostics.extend(answers.notes);
     let (first, end) = (rows.first().map_or(0.0, |row| row[0]), rows.last().map_or(0.0, |row| row[0]));
     let edges = run.edges().into_iter().filter(|edge| first < *edge && *edge < end).collect();
-    Rows { kept: rows, all, edges, stopped, results: answers.values, said }
+    Rows { kept: rows, all, edges, stopped, results: answers.values, diagnostics }
 }
 
-/// Where frames are by the coordinates [m, rad], the ground first.
+/// Returns the poses of frames for coordinates [m, rad], the ground first.
 fn poses(system: &ConstraintSystem, q: &[f64]) -> Vec<Pose> {
     let of_body = |body: BodyId| {
         let [x, y, phi] = system.pose_of(body).map(|coordinate| q[coordinate]);
@@ -303,16 +300,16 @@ fn poses(system: &ConstraintSystem, q: &[f64]) -> Vec<Pose> {
     std::iter::once(Pose::default()).chain(system.bodies().ids().map(of_body)).collect()
 }
 
-/// A free motion as one of frames, of which the ground is the first.
+/// Returns a free motion by frames, of which the ground is the first.
 fn of_frames(motion: &FreeMotion) -> Vec<(usize, Pose)> {
     let of_body = |&(body, [x, y, phi]): &(BodyId, [f64; 3])| (body.index() + 1, Pose { at: [x, y], phi });
     motion.bodies.iter().map(of_body).collect()
 }
 
-/// Shows what is named by the message of a motion that stops.
-fn show_stop(scene: &mut Scene, model: &Mechanism, motion: &Motion, stopped: Option<&Diagnostic>) {
+/// Highlights the declarations in the diagnostic of a motion that stops.
+fn highlight_stop(scene: &mut Scene, model: &Mechanism, motion: &Motion, stopped: Option<&Diagnostic>) {
     if let Some(why) = stopped {
-        let faults = Faults { named: named(scene, std::iter::once(why)), ..Faults::default() };
+        let faults = Faults { named: named_declarations(scene, std::iter::once(why)), ..Faults::default() };
         scene.show_faults(model, motion, &faults);
     }
 }
@@ -330,7 +327,8 @@ fn lengths(scene: &Scene, stop: &Stop, system: &ConstraintSystem) -> Vec<Length>
 fn faulty_length(scene: &Scene, link: &Link, system: &ConstraintSystem) -> Option<Length> {
     let declaration = |id: DeclarationId| {
         let name = &system.declarations()[id].name;
-        let is_it = |one: &Declaration| matches!(one.kind, "joint" | "constraint" | "driver") && one.name == *name;
+        let is_it =
+            |other: &Declaration| matches!(other.kind, "joint" | "constraint" | "driver") && other.name == *name;
         scene.declarations.iter().position(is_it)
     };
     let fault = if link.too_short { "too short" } else { "too long" };
@@ -345,16 +343,16 @@ fn faulty_length(scene: &Scene, link: &Link, system: &ConstraintSystem) -> Optio
     }
 }
 
-/// The declarations that errors name: those that they call redundant, else those that their places are in.
-fn named<'d>(scene: &Scene, said: impl Iterator<Item = &'d Diagnostic>) -> Vec<usize> {
+/// Returns the declarations that errors call redundant, or else those around their spans.
+fn named_declarations<'d>(scene: &Scene, diagnostics: impl Iterator<Item = &'d Diagnostic>) -> Vec<usize> {
     let mut named: Vec<usize> = Vec::new();
-    for error in said.filter(|said| said.is_error()) {
+    for error in diagnostics.filter(|diagnostic| diagnostic.is_error()) {
         let redundant = Some(&error.redundant).filter(|names| !names.is_empty());
         match redundant {
             Some(names) => {
                 let is_redundant = |name: &String| names.contains(name);
                 let all = scene.declarations.iter().enumerate();
-                named.extend(all.filter(|(_, one)| is_redundant(&one.name)).map(|(number, _)| number));
+                named.extend(all.filter(|(_, declaration)| is_redundant(&declaration.name)).map(|(index, _)| index));
             }
             None => error.labels.iter().for_each(|label| named.extend(innermost(scene, label.span, error))),
         }
@@ -364,33 +362,38 @@ fn named<'d>(scene: &Scene, said: impl Iterator<Item = &'d Diagnostic>) -> Vec<u
     named
 }
 
-/// The smallest declarations around a place; of copies of one text those whose names a message tells, if it tells any.
-fn innermost(scene: &Scene, place: Span, told: &Diagnostic) -> Vec<usize> {
-    let holds = |span: Span| span.file == place.file && span.start <= place.start && place.end <= span.end;
-    let around = || scene.declarations.iter().enumerate().filter(|(_, one)| holds(one.span));
+/// Returns the smallest declarations around a span; of copies of one text those that the diagnostic names, if it names any.
+fn innermost(scene: &Scene, inner: Span, diagnostic: &Diagnostic) -> Vec<usize> {
+    let holds = |span: Span| span.file == inner.file && span.start <= inner.start && inner.end <= span.end;
+    let around = || scene.declarations.iter().enumerate().filter(|(_, declaration)| holds(declaration.span));
     let size = |span: Span| span.end - span.start;
-    let Some(least) = around().map(|(_, one)| size(one.span)).min() else { return Vec::new() };
-    let copies: Vec<usize> = around().filter(|(_, one)| size(one.span) == least).map(|(number, _)| number).collect();
-    let texts = || std::iter::once(&told.message).chain(&told.notes).chain(told.labels.iter().map(|label| &label.text));
-    let has_given_inputs = |number: &usize| {
-        let name = format!("`{}`", scene.declarations[*number].name);
+    let Some(least) = around().map(|(_, declaration)| size(declaration.span)).min() else { return Vec::new() };
+    let copies: Vec<usize> =
+        around().filter(|(_, declaration)| size(declaration.span) == least).map(|(index, _)| index).collect();
+    let texts = || {
+        std::iter::once(&diagnostic.message)
+            .chain(&diagnostic.notes)
+            .chain(diagnostic.labels.iter().map(|label| &label.text))
+    };
+    let is_named = |index: &usize| {
+        let name = format!("`{}`", scene.declarations[*index].name);
         texts().any(|text| text.contains(&name))
     };
-    let told: Vec<usize> = copies.iter().copied().filter(has_given_inputs).collect();
-    if told.is_empty() { copies } else { told }
+    let named: Vec<usize> = copies.iter().copied().filter(is_named).collect();
+    if named.is_empty() { copies } else { named }
 }
 
-/// The places of declarations, by those of their names.
-fn whole_places(library: &Library) -> FxHashMap<Span, Span> {
+/// Returns the span of each declaration, by the span of its name.
+fn declaration_spans(library: &Library) -> FxHashMap<Span, Span> {
     let mechanisms = library.files().iter().flat_map(|file| &file.read.tree.mechanisms);
-    let mut places = FxHashMap::default();
+    let mut spans = FxHashMap::default();
     for item in mechanisms.flat_map(|mechanism| &mechanism.items) {
         if let Some(name) = check::name_of(item) {
-            places.insert(name.span, item.span);
+            spans.insert(name.span, item.span);
         }
         if let ast::ItemKind::Ground { features } | ast::ItemKind::Body { features, .. } = &item.kind {
-            places.extend(features.iter().map(|feature| (feature.name.span, feature.span)));
+            spans.extend(features.iter().map(|feature| (feature.name.span, feature.span)));
         }
     }
-    places
+    spans
 }

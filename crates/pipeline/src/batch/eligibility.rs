@@ -13,7 +13,7 @@ use std::array::from_fn;
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-/// What variants of a sweep share that go in lanes.
+/// The data that variants of a sweep share in lanes.
 pub(crate) struct BatchPlan {
     batch: Arc<Together>,
     /// All params of the reference variant (SI).
@@ -23,10 +23,10 @@ pub(crate) struct BatchPlan {
     guards: Guards,
 }
 
-/// What a sweep computes of each variant.
+/// The rows and results that a sweep computes of each variant.
 pub(crate) struct Requested<'r> {
     pub times: &'r AskedTimes,
-    /// The columns of the rows, if rows are wanted.
+    /// The columns of the rows, if rows are requested.
     pub columns: Option<&'r [usize]>,
     pub results: bool,
 }
@@ -70,7 +70,8 @@ impl BatchPlan {
         varying.iter_mut().filter(|value| **value == 0.0).for_each(|value| *value = near(0.0));
         let model_of = |varying: &[f64]| checked.model_with(variants.read_settings(varying), variants.sources()).0;
         let model = model_of(&varying)?;
-        let (values, analysis) = (values_of(&model), model.analysis.map(|of| [of.from, of.to, of.every]));
+        let (values, analysis) =
+            (values_of(&model), model.analysis.map(|analysis| [analysis.from, analysis.to, analysis.every]));
         let times = requested.times.over(analysis).and_then(|times| times.times()).ok()?;
         let mut targets = Vec::with_capacity(varying.len());
         for k in 0..varying.len() {
@@ -107,7 +108,7 @@ impl BatchPlan {
     }
 
     /// Follows up to `LANES` variants, given by the values of the varying params, variant by variant, and writes their rows. Returns which of
-    /// them have all rows, or all results if no rows are wanted. Variants whose guards differ from the reference are not followed.
+    /// them have all rows, or all results if no rows are requested. Variants whose guards differ from the reference are not followed.
     pub fn follow(&self, lanes: &mut BatchLanes, varying: &[f64], room: Room<'_>, cancel: &Cancel) -> [bool; LANES] {
         let width = self.targets.len();
         let count = varying.len() / width.max(1);

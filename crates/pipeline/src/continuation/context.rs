@@ -1,4 +1,4 @@
-//! Continuation of one mechanism from its nominal params to others: what all its variants share, and the path of one of them.
+//! Continuation of one mechanism from its nominal params to others. Keeps what all its variants share, and follows the path of one.
 
 use super::messages::{ContinuationTarget, passed_bifurcation, stopped_path};
 use super::nominal::Nominal;
@@ -26,7 +26,7 @@ pub(crate) struct ContinuedStart {
     pub stopped_path: Option<f64>,
 }
 
-/// What a continuation to given values of params comes to.
+/// The outcome of a continuation to given values of params.
 pub(crate) enum Outcome {
     /// The path reaches its target, where the mechanism starts.
     Started(Box<Started>),
@@ -38,7 +38,7 @@ pub(crate) enum Outcome {
     NoPath(Option<Box<Diagnostic>>),
 }
 
-/// What all continuations of one mechanism share.
+/// The data that all continuations of one mechanism share.
 pub(super) struct ContinuationContext {
     pub nominal: Nominal,
     /// Nominal values of all params (SI).

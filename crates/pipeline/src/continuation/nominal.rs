@@ -19,7 +19,7 @@ pub(crate) struct Nominal {
     pub started: Started,
     /// First time (s).
     pub t: f64,
-    /// Whether it has inputs whose values are set at a time.
+    /// True if it has inputs whose values are set at a time.
     pub sets_inputs: bool,
     pub leave_out_redundant: bool,
     /// For messages.

@@ -4,7 +4,7 @@
 use rustc_hash::FxHashMap;
 use std::hash::Hash;
 
-/// What a part is continued to.
+/// The target of a part's continuation.
 pub(crate) struct PartTarget<'t, K> {
     /// Parts with equal keys have the same standalone position.
     pub key: &'t K,
@@ -12,7 +12,7 @@ pub(crate) struct PartTarget<'t, K> {
     pub nominal: Option<&'t [f64]>,
     /// Target inputs (SI).
     pub inputs: &'t [f64],
-    /// Whether the time changes along the path, too.
+    /// True if the time changes along the path, too.
     pub has_other_time: bool,
 }
 

@@ -31,7 +31,7 @@ pub(crate) struct StartSolver {
     pub has_given_inputs: bool,
 }
 
-/// Where the continuation to given inputs begins.
+/// The beginning of a continuation to given inputs.
 pub(crate) enum ContinuationOrigin {
     /// At the position that the nominal inputs give at a time (s).
     Nominal(f64),
@@ -41,7 +41,7 @@ pub(crate) enum ContinuationOrigin {
     Estimates,
 }
 
-/// What a mechanism is assembled from [m, rad].
+/// The coordinates that a mechanism is assembled from [m, rad].
 pub(crate) enum InitialGuess {
     /// The position at the end of a continuation.
     Position(Vec<f64>),

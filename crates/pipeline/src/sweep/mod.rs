@@ -44,7 +44,7 @@ const MAX_NUMBERS: u64 = 1 << 22;
 pub struct SweepOptions {
     /// The times that are requested.
     pub times: AskedTimes,
-    /// Indices of the columns whose rows are wanted; `None` for results alone.
+    /// Indices of the columns whose rows are requested; `None` for results alone.
     pub columns: Option<Vec<usize>>,
     /// The treatment of redundant equations.
     pub redundant: Redundant,
@@ -54,7 +54,7 @@ pub struct SweepOptions {
     pub pass_bifurcations: bool,
     /// Number of threads, the one that takes the blocks included; `None` for as many as the machine runs at once.
     pub jobs: Option<usize>,
-    /// Whether the certain digits of results are counted; such variants are computed alone.
+    /// True if the certain digits of results are counted; such variants are computed alone.
     pub digits: bool,
     /// Number of variants to skip.
     pub skip: u64,
@@ -87,7 +87,7 @@ impl Default for SweepOptions {
     }
 }
 
-/// What a variant adds to a block.
+/// The size of a variant in a block.
 #[derive(Clone, Copy, Debug)]
 struct VariantSize {
     /// At least 1.
@@ -237,7 +237,7 @@ impl<T: Send + 'static> Iterator for Sweep<T> {
     }
 }
 
-/// What all variants of a sweep share.
+/// The data that all variants of a sweep share.
 struct SweepContext {
     checked: Checked,
     groups: TopologyGroups,
@@ -266,7 +266,7 @@ struct Worker {
 /// Variants that a batch has followed.
 struct BatchOutput<'d> {
     team: &'d Team,
-    /// Which of them have all their rows, or all their results if no rows are wanted.
+    /// For each lane, true if the variant has all its rows, or all its results if no rows are requested.
     accepted: [bool; LANES],
     /// Rows of each variant.
     rows: usize,
@@ -374,7 +374,7 @@ impl SweepContext {
         None
     }
 
-    /// Returns whether a batch has computed all that is wanted of a variant, and none is searched for.
+    /// Returns whether a batch has computed all that is requested of a variant, and none is searched for.
     fn has_all_results(&self, team: &Team, lane: usize) -> bool {
         self.result_count == 0 || self.until.is_none() && team.results(lane).is_some()
     }
@@ -411,7 +411,13 @@ impl SweepContext {
         let group = self.groups.group_of(params, &self.checked, &self.variants);
         let (model, _) = self.checked.model_with(self.variants.read_settings(params), self.variants.sources());
         let model = model?;
-        let times = self.options.times.over(model.analysis.map(|of| [of.from, of.to, of.every])).ok()?.times().ok()?;
+        let times = self
+            .options
+            .times
+            .over(model.analysis.map(|analysis| [analysis.from, analysis.to, analysis.every]))
+            .ok()?
+            .times()
+            .ok()?;
         let values: Vec<f64> = model.params.iter().map(|param| param.value).collect();
         let Outcome::Started(mut started) = group.continuation.start_values(&values, &times, &options) else {
             return None;
@@ -425,7 +431,7 @@ impl SweepContext {
 
     /// Returns what results are computed from, if there are any.
     fn result_query(&self, started: &mut Started, times: &Times, options: &RunOptions) -> Option<Asked> {
-        // a run asks for the conditioning, which decides the factors that are used; a variant must have the same bits
+        // a run reports the conditioning of its start, which restores the factors there; do the same for the same bits
         let _ = started.conditioning();
         started.use_vectors(options.vectors);
         let interval = times.interval().filter(|_| self.result_count > 0);
@@ -499,7 +505,11 @@ impl SweepContext {
         let settings = self.variants.read_settings(params);
         let (model, diagnostics) = self.checked.model_with(settings, self.variants.sources());
         let model = model.ok_or_else(|| first_error(&diagnostics))?;
-        let times = self.options.times.over(model.analysis.map(|of| [of.from, of.to, of.every]))?.times()?;
+        let times = self
+            .options
+            .times
+            .over(model.analysis.map(|analysis| [analysis.from, analysis.to, analysis.every]))?
+            .times()?;
         let values: Vec<f64> = model.params.iter().map(|param| param.value).collect();
         match group.continuation.start_values(&values, &times, &options) {
             Outcome::Started(started) => self.follow(*started, &times, &options, &group.outputs, variant),
@@ -522,7 +532,7 @@ impl SweepContext {
         variant: &mut OneVariant,
     ) -> Result<(), VariantStop> {
         let mut query = self.result_query(&mut started, times, options);
-        // if no rows are wanted, it only matters whether all of them exist
+        // if no rows are requested, it only matters whether all of them exist
         let early = query.take_if(|_| self.options.columns.is_none()).and_then(Asked::answer);
         if !early.as_ref().is_some_and(|answers| answers.has_all_rows) {
             let mut motion = started.into_motion(times);

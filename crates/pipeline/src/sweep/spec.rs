@@ -92,10 +92,10 @@ impl Variants {
 
     /// Returns the settings of given values as formulas.
     pub(crate) fn read_settings(&self, values: &[f64]) -> impl Iterator<Item = Setting> {
-        let set = |((name, one), &value): ((&String, &ast::Expr), &f64)| {
-            let number = ast::Expr { kind: ast::ExprKind::Literal { value, unit: None }, span: one.span };
-            let kind = ast::ExprKind::Product(Box::new(number), vec![(ast::Factor::Times, one.clone())]);
-            Setting { path: name.clone(), value: ast::Expr { kind, span: one.span } }
+        let set = |((name, unit), &value): ((&String, &ast::Expr), &f64)| {
+            let number = ast::Expr { kind: ast::ExprKind::Literal { value, unit: None }, span: unit.span };
+            let kind = ast::ExprKind::Product(Box::new(number), vec![(ast::Factor::Times, unit.clone())]);
+            Setting { path: name.clone(), value: ast::Expr { kind, span: unit.span } }
         };
         self.points.params().iter().zip(&self.ones).zip(values).map(set)
     }
@@ -310,9 +310,9 @@ impl SpecBuilder<'_> {
     fn param(&mut self, name: &str, formulas: &[String]) -> SourcedResult<(usize, Vec<f64>)> {
         let (mut values, mut dimension) = (Vec::with_capacity(formulas.len()), None);
         for formula in formulas {
-            let (_, value, found) = self.reader.number(name, formula)?;
+            let (_, value, dimension_of) = self.reader.number(name, formula)?;
             values.push(value);
-            dimension = dimension.or(found);
+            dimension = dimension.or(dimension_of);
         }
         let texts: Vec<&str> = formulas.iter().map(String::as_str).collect();
         let unit = if dimension.is_none() && values.iter().all(|value| *value == 0.0) {
@@ -328,7 +328,7 @@ impl SpecBuilder<'_> {
         let param_info = self.reader.checked.settable_params().into_iter().find(|param| param.name == name);
         let unit = param_info.map(|param| param.unit).unwrap_or_default();
         // a point may have plain numbers as coordinates
-        let is_accepted = self.reader.with(name, &format!("0 * {}", written(1.0, &unit))).is_ok();
+        let is_accepted = self.reader.check_with(name, &format!("0 * {}", written(1.0, &unit))).is_ok();
         if is_accepted { unit } else { String::new() }
     }
 
@@ -355,7 +355,7 @@ impl SpecBuilder<'_> {
                 (dimension, _) => si_unit(dimension.unwrap_or(Dimension::PURE), *is_of_angles),
             };
             let sample = written(nonzero.unwrap_or(0.0), &unit);
-            self.reader.with(name, &sample).map_err(|why| self.at_header(*span, why))?;
+            self.reader.check_with(name, &sample).map_err(|why| self.at_header(*span, why))?;
             params.push(self.add(name, unit));
         }
         let rows = columns.first().map_or(0, |column| column.values.len());
@@ -368,15 +368,15 @@ impl SpecBuilder<'_> {
         let table = self.sources.get(header.file);
         let file = sources.add(table.name.clone(), table.text.clone());
         let mut relabeled = Diagnostics::default();
-        for mut one in diagnostics.iter().cloned() {
-            if let Some(label) = one.labels.first_mut() {
+        for mut diagnostic in diagnostics.iter().cloned() {
+            if let Some(label) = diagnostic.labels.first_mut() {
                 label.span = Span { file, ..header };
             }
-            one.help.extend(one.fixes.drain(..).map(|fix| fix.message));
+            diagnostic.help.extend(diagnostic.fixes.drain(..).map(|fix| fix.message));
             if self.sources.text(header).ends_with(')') {
-                one.help = vec!["a unit stands in brackets behind the name: `rod [mm]`".to_owned()];
+                diagnostic.help = vec!["a unit stands in brackets behind the name: `rod [mm]`".to_owned()];
             }
-            relabeled.push(one);
+            relabeled.push(diagnostic);
         }
         (sources, relabeled)
     }

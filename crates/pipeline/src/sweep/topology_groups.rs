@@ -38,9 +38,9 @@ pub(crate) struct TopologyGroup {
     pub outputs: OutputMapping,
 }
 
-/// Where the tabulated columns and results are among those of a variant.
+/// The places of the tabulated columns and results among those of a variant.
 pub(crate) enum OutputMapping {
-    /// As in the mechanism of the text.
+    /// The same places as in the mechanism of the text.
     Identity,
     /// At these indices; `None` if a variant has no such column or result.
     ByName { columns: Vec<Option<usize>>, results: Vec<Option<usize>> },

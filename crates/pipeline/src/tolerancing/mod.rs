@@ -1,6 +1,6 @@
-//! A mechanism whose params may be off: what is asked of it, read; how its measures and results go with that; and what they are at corners.
+//! Tolerance analysis: reads `--tol`, computes derivatives of measures and results at the nominal values, and verifies them at corners.
 //!
-//! All of it is that of variants of a sweep, the nominal one among them.
+//! All numbers are those of sweep variants, the nominal one included.
 
 mod deviation;
 
@@ -18,11 +18,11 @@ use mechc_text::diag::{Diagnostic, Diagnostics};
 use mechc_text::world::World;
 use std::collections::BTreeSet;
 
-/// All corners are run of so many params; of more, those that are worst by the derivatives, and a sample.
+/// Up to this many params, all corners are computed; with more, the worst corners by derivatives, and a sample.
 const MAX_CORNER_PARAMS: usize = 12;
 const SAMPLE: u64 = 10_000;
 
-/// A mechanism whose params may be off, with what it was chosen by.
+/// A tolerance analysis of a mechanism.
 pub struct Tolerancing<'c> {
     checked: &'c Checked,
     choice: &'c Choice,
@@ -31,10 +31,10 @@ pub struct Tolerancing<'c> {
 }
 
 impl Checked {
-    /// What may be off, as options say it: `rod=0.05mm`, `rod=-0.1mm..0mm`. It is sound; `choice` is what it was checked with.
+    /// Reads tolerances, `rod=0.05mm` or `rod=-0.1mm..0mm`, of a sound mechanism; `choice` is what it was checked with.
     ///
     /// # Errors
-    /// Something cannot be off so; with the texts that the diagnostics speak of.
+    /// A param cannot have such a tolerance; with the texts that the diagnostics point into.
     pub fn tolerancing<'c>(
         &'c self,
         arguments: &[String],
@@ -48,7 +48,7 @@ impl Checked {
         for text in arguments {
             let argument = ToleranceArgument::parse(text).map_err(|why| with_sources(*why))?;
             for tolerance in argument.tolerances(&reader)? {
-                if tolerances.iter().any(|known| known.name == tolerance.name) {
+                if tolerances.iter().any(|other| other.name == tolerance.name) {
                     let why = unusable(format!("`{}` has two tolerances", tolerance.name));
                     return Err(with_sources(why.help("say one of them")));
                 }
@@ -58,20 +58,21 @@ impl Checked {
         Ok(Tolerancing { checked: self, choice, world, tolerances })
     }
 
-    /// Params of a name with their values (SI), as symbols of the model; those of all copies where the name has no number.
+    /// Returns params of a name as symbols of the model, with their values (SI); those of all copies if the name has no index.
     fn symbolic_params(&self, name: &str) -> Vec<(String, f64, Dimension)> {
-        self.with_symbolic_params(vec![name.to_owned()])
-            .and_then(|symbolic| symbolic.model.clone())
-            .map_or(Vec::new(), |model| {
-                model.led.iter().map(|led| (led.declared.name.clone(), led.line[0], led.dimension)).collect()
-            })
+        self.with_symbolic_params(vec![name.to_owned()]).and_then(|symbolic| symbolic.model.clone()).map_or(
+            Vec::new(),
+            |model| {
+                model.led.iter().map(|param| (param.declared.name.clone(), param.line[0], param.dimension)).collect()
+            },
+        )
     }
 }
 
-/// One `--tol` in its parts.
+/// A `--tol` argument.
 struct ToleranceArgument {
     name: String,
-    /// How far it may be below and above, or both where it is one.
+    /// Deviations below and above; one if they are equal.
     ends: Vec<String>,
 }
 
@@ -126,42 +127,42 @@ impl ToleranceArgument {
             unit if unit.is_empty() => "1".to_owned(),
             unit => unit,
         };
-        let of = |(name, nominal, dimension): (String, f64, Dimension)| {
+        let tolerance = |(name, nominal, dimension): (String, f64, Dimension)| {
             let si = unit_of(dimension);
             let unit = self.unit(reader).unwrap_or((si.clone(), 1.0));
             Tolerance { name, nominal, range, si, unit }
         };
-        Ok(params.into_iter().map(of).collect())
+        Ok(params.into_iter().map(tolerance).collect())
     }
 
-    /// The unit of what is said, where that is numbers of one, and how much of SI it is.
+    /// Returns the unit of the argument and its value in SI, if all its numbers have that unit.
     fn unit(&self, reader: &OptionReader<'_>) -> Option<(String, f64)> {
-        let of =
+        let unit_of =
             |end: &String| number_and_unit(end).filter(|(value, _)| *value != 0.0).map(|(_, unit)| unit.to_owned());
-        let unit = self.ends.iter().find_map(of).filter(|unit| !unit.is_empty())?;
+        let unit = self.ends.iter().find_map(unit_of).filter(|unit| !unit.is_empty())?;
         let (size, _) = reader.value(&format!("1 {unit}")).ok()?;
-        let is_of_all = |end: &String| number_and_unit(end).is_some_and(|(value, of)| value == 0.0 || of == unit);
+        let is_of_all = |end: &String| number_and_unit(end).is_some_and(|(value, other)| value == 0.0 || other == unit);
         self.ends.iter().all(is_of_all).then_some((unit, size))
     }
 }
 
 impl Tolerancing<'_> {
-    /// What may be off.
+    /// Returns the tolerances.
     #[must_use]
     pub fn tolerances(&self) -> &[Tolerance] {
         &self.tolerances
     }
 
-    /// How measures and results go with what may be off. It is compiled as `compiled`.
+    /// Computes derivatives of measures and results by the params. `compiled` is made of the mechanism.
     ///
     /// # Errors
-    /// The mechanism with its own params does not run, or there is nothing that could be off; with the texts that the diagnostics speak of.
+    /// The nominal mechanism does not run, or has no measure and no result; with the texts that the diagnostics point into.
     pub fn affected(&self, compiled: &Compiled, options: &SweepOptions) -> SourcedResult<Vec<Affected>> {
         let slopes = Some([options.times.from.is_none(), options.times.to.is_none()]);
-        let by = self.tolerances.iter().map(|of| of.name.clone()).collect();
-        // results that are asked for beside the text stand in it already
+        let by = self.tolerances.iter().map(|tolerance| tolerance.name.clone()).collect();
+        // results that options add are in the tree already
         let choice = Choice { by, slopes, lead: true, results: Vec::new(), ..self.choice.clone() };
-        let mut means = if self.tolerances.is_empty() { JumpMeans::default() } else { JumpMeans::of(compiled) };
+        let mut means = if self.tolerances.is_empty() { JumpMeans::default() } else { JumpMeans::new(compiled) };
         let mut checked = self.checked.parsed.check(&Choice { results: means.texts(), ..choice.clone() }, self.world);
         if !checked.is_sound() {
             means = JumpMeans::default();
@@ -179,7 +180,7 @@ impl Tolerancing<'_> {
                 .help("add one to the file, or a result with `--result 'stroke = max(x(P)) - min(x(P))'`");
             return Err(refused(&why.into()));
         }
-        let nominal = Levels::Listed(self.tolerances.iter().map(|of| of.nominal).collect());
+        let nominal = Levels::Listed(self.tolerances.iter().map(|tolerance| tolerance.nominal).collect());
         let variants = self.variants(&checked, vec![Varying { params: self.all(), values: nominal }])?;
         let columns = (!outputs.measures.is_empty()).then(|| outputs.columns());
         let options = SweepOptions { columns, jobs: Some(1), ..options.clone() };
@@ -192,49 +193,54 @@ impl Tolerancing<'_> {
         Ok(outputs.affected(&swept, &self.tolerances))
     }
 
-    /// By measure or result: the largest nominal value of its SI unit among all of them, and among what may be off.
+    /// For each measure or result, returns the largest nominal value of its SI unit among all and among the params.
     fn largest(&self, affected: &[Affected]) -> Vec<f64> {
-        let of_params = self.tolerances.iter().map(|of| (&of.si, of.nominal));
-        let all: Vec<(&String, f64)> = of_params.chain(affected.iter().map(|of| (&of.si, of.nominal))).collect();
-        let of = |si: &String| {
-            // the larger of two numbers passes over what is none
+        let of_params = self.tolerances.iter().map(|tolerance| (&tolerance.si, tolerance.nominal));
+        let all: Vec<(&String, f64)> =
+            of_params.chain(affected.iter().map(|output| (&output.si, output.nominal))).collect();
+        let largest_of = |si: &String| {
+            // `f64::max` ignores NaN
             all.iter().filter(|(unit, _)| *unit == si).fold(0.0, |largest: f64, (_, value)| largest.max(value.abs()))
         };
-        affected.iter().map(|affected| of(&affected.si)).collect()
+        affected.iter().map(|output| largest_of(&output.si)).collect()
     }
 
-    /// All params that may be off, by their numbers.
+    /// Returns the indices of all params.
     fn all(&self) -> Vec<usize> {
         (0..self.tolerances.len()).collect()
     }
 
-    fn variants(&self, of: &Checked, axes: Vec<Varying>) -> SourcedResult<Variants> {
-        let names = self.tolerances.iter().map(|of| of.name.clone()).collect();
-        let units = self.tolerances.iter().map(|of| if of.si == "1" { String::new() } else { of.si.clone() }).collect();
-        let too_many = || (of.sources().clone(), unusable("there are too many corners".to_owned()).into());
+    fn variants(&self, checked: &Checked, axes: Vec<Varying>) -> SourcedResult<Variants> {
+        let names = self.tolerances.iter().map(|tolerance| tolerance.name.clone()).collect();
+        let units = self
+            .tolerances
+            .iter()
+            .map(|tolerance| if tolerance.si == "1" { String::new() } else { tolerance.si.clone() })
+            .collect();
+        let too_many = || (checked.sources().clone(), unusable("there are too many corners".to_owned()).into());
         let points = Points::new(names, axes).ok_or_else(too_many)?;
-        Variants::new(points, units, of.sources().clone(), TOL)
+        Variants::new(points, units, checked.sources().clone(), TOL)
     }
 
-    /// The columns and results that can be off, of what is compiled with their derivatives.
+    /// Returns the columns and results of a mechanism that is compiled with their derivatives.
     fn tolerated_outputs(&self, compiled: &Compiled, means: JumpMeans) -> ToleratedOutputs {
         let (columns, units) = (compiled.columns(), compiled.units());
-        let place = |name: &str| columns.iter().position(|column| column == name);
+        let column_of = |name: &str| columns.iter().position(|column| column == name);
         let by = |name: &str| -> Vec<Option<usize>> {
-            self.tolerances.iter().map(|of| place(&format!("{name}.by.{}", of.name))).collect()
+            self.tolerances.iter().map(|tolerance| column_of(&format!("{name}.by.{}", tolerance.name))).collect()
         };
         let measures = compiled.system().measures().iter().filter_map(|measure| {
-            let column = place(&measure.name)?;
+            let column = column_of(&measure.name)?;
             let (name, si) = (measure.name.clone(), measure.units.si.clone());
             Some(MeasureColumns { by: by(&name), name, column, unit: units[column].clone(), si })
         });
         let results = compiled.results().into_iter().zip(compiled.results_of_variants());
         let results = results.map(|((name, unit), (_, si))| (name, unit, si)).collect::<Vec<_>>();
-        let nominal_count = results.len() / (self.tolerances.len() + 1) - means.of.len();
+        let nominal_count = results.len() / (self.tolerances.len() + 1) - means.measures.len();
         ToleratedOutputs { measures: measures.collect(), results: results[..nominal_count].to_vec(), means }
     }
 
-    /// The variants that verify what derivatives say, with how many of them are corners of all.
+    /// Returns the axes of the variants that verify derivatives, and whether they are all corners.
     fn corners(&self, affected: &[Affected]) -> (Vec<Vec<Varying>>, bool) {
         let ends: Vec<[f64; 2]> = self.tolerances.iter().map(Tolerance::ends).collect();
         if self.tolerances.len() <= MAX_CORNER_PARAMS {
@@ -245,11 +251,11 @@ impl Tolerancing<'_> {
             return (vec![ends.iter().enumerate().map(axis).collect()], true);
         }
         let mut worst: Vec<Vec<f64>> = Vec::new();
-        for of in affected {
+        for output in affected {
             for sign in [1.0, -1.0] {
                 let end =
                     |(slope, ends): (&Option<f64>, &[f64; 2])| ends[usize::from(sign * slope.unwrap_or(0.0) > 0.0)];
-                let corner: Vec<f64> = of.slopes.iter().zip(&ends).map(end).collect();
+                let corner: Vec<f64> = output.slopes.iter().zip(&ends).map(end).collect();
                 if !worst.contains(&corner) {
                     worst.push(corner);
                 }
@@ -261,18 +267,18 @@ impl Tolerancing<'_> {
         (vec![vec![corners], vec![sample]], false)
     }
 
-    /// How many variants are computed to verify it.
+    /// Returns the number of variants that verification computes.
     #[must_use]
     pub fn count(&self, affected: &[Affected]) -> u64 {
         let variants: u64 =
             self.corners(affected).0.iter().map(|axes| axes.iter().map(Varying::count).product::<u64>()).sum();
-        variants * CornerSearch::of(affected).sweeps(&SweepOptions::default(), &[]).len() as u64
+        variants * CornerSearch::new(affected).sweeps(&SweepOptions::default(), &[]).len() as u64
     }
 
-    /// Runs it with params that are off, and tells of so many variants that are done. It is compiled as `compiled`.
+    /// Computes variants with deviating params; `tick` receives the number of variants that are done. `compiled` is made of the mechanism.
     ///
     /// # Errors
-    /// The times are not said; with the texts that the diagnostics speak of.
+    /// The times are not given; with the texts that the diagnostics point into.
     pub fn verified(
         &self,
         compiled: &Compiled,
@@ -281,15 +287,15 @@ impl Tolerancing<'_> {
         mut tick: impl FnMut(u64),
     ) -> SourcedResult<Verified> {
         let (all, are_all_corners) = self.corners(affected);
-        let mut search = CornerSearch::of(affected);
+        let mut search = CornerSearch::new(affected);
         for (group, axes) in all.into_iter().enumerate() {
             let variants = self.variants(self.checked, axes)?;
             search.variants += variants.points().count();
-            for outputs in search.sweeps(options, &compiled.columns()) {
-                let sweep = self.checked.sweep(compiled, &variants, &outputs, |swept| swept);
+            for sweep_options in search.sweeps(options, &compiled.columns()) {
+                let sweep = self.checked.sweep(compiled, &variants, &sweep_options, |swept| swept);
                 let sweep = sweep.map_err(|why| (self.checked.sources().clone(), Diagnostics::from(*why)))?;
                 for swept in sweep {
-                    search.take(&swept, outputs.columns.is_some(), (group, &variants));
+                    search.take(&swept, sweep_options.columns.is_some(), group, &variants);
                     tick(swept.len() as u64);
                 }
             }
@@ -298,7 +304,7 @@ impl Tolerancing<'_> {
     }
 }
 
-/// Why it does not run with its own params.
+/// Returns why the nominal mechanism does not run.
 fn nominal_failure(compiled: &Compiled, options: &SweepOptions) -> Diagnostics {
     let times = options.times.over(compiled.analysis()).and_then(|times| times.times());
     let times = match times {
@@ -317,23 +323,23 @@ fn nominal_failure(compiled: &Compiled, options: &SweepOptions) -> Diagnostics {
     diagnostics
 }
 
-/// The columns and results that can be off.
+/// Columns and results that can deviate.
 struct ToleratedOutputs {
     measures: Vec<MeasureColumns>,
     results: Vec<(String, ColumnUnit, String)>,
     means: JumpMeans,
 }
 
-/// Means of measures that may jump, as further results behind all others: where a jump goes with a param, a measure has derivatives at all
-/// times but that one, of which they say nothing, while its mean has none.
+/// Means of measures that may jump, added after all other results. If the time of a jump depends on a param, the measure has derivatives at all
+/// other times, which do not show it; the mean has none.
 #[derive(Default)]
 struct JumpMeans {
-    /// Their measures.
-    of: Vec<String>,
+    /// Names of the measures.
+    measures: Vec<String>,
 }
 
 impl JumpMeans {
-    fn of(compiled: &Compiled) -> JumpMeans {
+    fn new(compiled: &Compiled) -> JumpMeans {
         let system = compiled.system();
         let of_equations: Vec<ExprId> = system.rows().iter().map(|row| row.phi).collect();
         let may_break = |roots: &[ExprId]| {
@@ -341,21 +347,21 @@ impl JumpMeans {
             graph.reachable(roots).into_iter().any(|id| may_jump(graph.node(id)))
         };
         let equations_bend = may_break(&of_equations);
-        // velocities and places do not jump where equations bend
+        // velocities and positions do not jump where equations have kinks
         let jumps = |measure: &&Measure| {
             let dependence = system.graph().dependence(measure.value);
             let is_driven = dependence.highest_order() >= Some(2) || dependence.on(Dependence::FORCES);
             may_break(&[measure.value]) || (is_driven && (equations_bend || dependence.on(Dependence::FORCES)))
         };
-        JumpMeans { of: system.measures().iter().filter(jumps).map(|measure| measure.name.clone()).collect() }
+        JumpMeans { measures: system.measures().iter().filter(jumps).map(|measure| measure.name.clone()).collect() }
     }
 
     fn texts(&self) -> Vec<String> {
-        self.of.iter().enumerate().map(|(k, name)| format!("mean_that_may_jump_{k} = mean({name})")).collect()
+        self.measures.iter().enumerate().map(|(k, name)| format!("mean_that_may_jump_{k} = mean({name})")).collect()
     }
 }
 
-/// Whether the value of a node may jump.
+/// Returns whether the value of a node may jump.
 fn may_jump(node: Node) -> bool {
     matches!(
         node,
@@ -366,38 +372,42 @@ fn may_jump(node: Node) -> bool {
 struct MeasureColumns {
     name: String,
     column: usize,
-    /// By tolerance: the column of its derivative, if it has one.
+    /// For each tolerance, the column of the derivative, if there is one.
     by: Vec<Option<usize>>,
     unit: ColumnUnit,
     si: String,
 }
 
-/// What a measure is at the times of the nominal variant.
+/// Values of a measure over the times of the nominal variant.
 struct Rows<'s> {
     times: &'s [f64],
     values: &'s [f64],
-    /// By tolerance: its derivative, if it has one.
+    /// For each tolerance, the derivative, if there is one.
     slopes: Vec<Option<&'s [f64]>>,
 }
 
 impl ToleratedOutputs {
-    /// The columns of time, and of each measure with its derivatives.
+    /// Returns the columns of the time, and of each measure with its derivatives.
     fn columns(&self) -> Vec<usize> {
-        let of = |measure: &MeasureColumns| {
+        let columns = |measure: &MeasureColumns| {
             [measure.column].into_iter().chain(measure.by.iter().copied().flatten()).collect()
         };
-        [0].into_iter().chain(self.measures.iter().flat_map(|measure| -> Vec<usize> { of(measure) })).collect()
+        [0].into_iter().chain(self.measures.iter().flat_map(|measure| -> Vec<usize> { columns(measure) })).collect()
     }
 
-    /// What there is of the nominal variant.
+    /// Collects measures and results from the nominal variant.
     fn affected(self, swept: &Swept, tolerances: &[Tolerance]) -> Vec<Affected> {
         let (mut columns, mut all) = (swept.columns.iter(), Vec::new());
         let (nominal_count, count) = (self.results.len(), tolerances.len());
         let number = |k: usize| Some(swept.results[k][0]).filter(|value| value.is_finite());
-        let all_results = nominal_count + self.means.of.len();
+        let all_results = nominal_count + self.means.measures.len();
         let jumps = |measure: &MeasureColumns| -> Vec<bool> {
-            let mean =
-                self.means.of.iter().position(|of| *of == measure.name).filter(|k| number(nominal_count + k).is_some());
+            let mean = self
+                .means
+                .measures
+                .iter()
+                .position(|name| *name == measure.name)
+                .filter(|k| number(nominal_count + k).is_some());
             let slope = |k: usize, j: usize| number(all_results + (nominal_count + k) * count + j);
             (0..count).map(|j| mean.is_some_and(|k| slope(k, j).is_none())).collect()
         };
@@ -428,7 +438,7 @@ impl ToleratedOutputs {
     }
 }
 
-/// A measure behind its widest jump, with no derivatives by those that the jump goes with.
+/// Returns a measure after its largest jump, without derivatives by the params that move the jump.
 fn where_it_jumps(measure: MeasureColumns, rows: &Rows<'_>, jumps: &[bool]) -> Affected {
     let Rows { times, values, slopes } = rows;
     let change = |row: &usize| (values[*row] - values[*row - 1]).abs();
@@ -447,7 +457,7 @@ fn where_it_jumps(measure: MeasureColumns, rows: &Rows<'_>, jumps: &[bool]) -> A
     }
 }
 
-/// A measure at the time at which the worst case of all tolerances is the largest; at the first time where no derivative is known.
+/// Returns a measure at the time of its largest worst case; at the first time if no derivative is known.
 fn where_it_is_worst(measure: MeasureColumns, rows: &Rows<'_>, tolerances: &[Tolerance]) -> Affected {
     let Rows { times, values, slopes } = rows;
     let rows: Vec<usize> = (0..times.len()).filter(|&row| values[row].is_finite()).collect();
@@ -473,56 +483,56 @@ fn where_it_is_worst(measure: MeasureColumns, rows: &Rows<'_>, tolerances: &[Tol
     }
 }
 
-/// How far off slopes may bring a value; no number where one of them is none.
+/// Returns the largest deviation that slopes cause; NaN if one of them is NaN.
 fn size<'t>(slopes: impl Iterator<Item = (f64, &'t Tolerance)>) -> f64 {
-    let [low, high] = slopes.fold([0.0, 0.0], |[low, high], (slope, of)| {
-        let [less, more] = of.times(slope);
+    let [low, high] = slopes.fold([0.0, 0.0], |[low, high], (slope, tolerance)| {
+        let [less, more] = tolerance.times(slope);
         [low + less, high + more]
     });
-    // a largest of two numbers would pass over what is none
+    // `f64::max` ignores NaN
     if (low + high).is_finite() { f64::max(-low, high) } else { f64::NAN }
 }
 
-/// What is found of measures and results while variants are run.
+/// Collects the extreme deviations of measures and results over variants.
 struct CornerSearch<'a> {
     affected: &'a [Affected],
-    /// The times (s) at which measures are looked at, rising, each once.
+    /// The times (s) of measures, rising, without repetition.
     times: Vec<f64>,
-    found: Vec<Option<[f64; 2]>>,
-    /// Of those that came to their end: how many have no value of it, and what sets the first of them.
+    extremes: Vec<Option<[f64; 2]>>,
+    /// Complete variants without a value: their number, and the settings of the first.
     missing: Vec<Option<(u64, Vec<String>)>>,
     variants: u64,
-    /// Variants that did not come to their end on the branch, by their group; and what sets the first of them, with its status.
+    /// Variants that did not complete on the branch, by group and index; settings and status of the first.
     lost: BTreeSet<(usize, u64)>,
     first_lost: Option<(Vec<String>, &'static str)>,
 }
 
 impl CornerSearch<'_> {
-    fn of(affected: &[Affected]) -> CornerSearch<'_> {
-        let mut times: Vec<f64> = affected.iter().filter_map(|of| of.at).collect();
+    fn new(affected: &[Affected]) -> CornerSearch<'_> {
+        let mut times: Vec<f64> = affected.iter().filter_map(|output| output.at).collect();
         times.sort_by(f64::total_cmp);
         times.dedup();
-        let (found, missing) = (vec![None; affected.len()], vec![None; affected.len()]);
-        CornerSearch { affected, times, found, missing, variants: 0, lost: BTreeSet::new(), first_lost: None }
+        let (extremes, missing) = (vec![None; affected.len()], vec![None; affected.len()]);
+        CornerSearch { affected, times, extremes, missing, variants: 0, lost: BTreeSet::new(), first_lost: None }
     }
 
-    /// The sweeps that it takes: one for measures, at their times, and one for results.
+    /// Returns the sweeps to compute: one for measures, at their times, and one for results.
     fn sweeps(&self, options: &SweepOptions, columns: &[String]) -> Vec<SweepOptions> {
         let mut sweeps = Vec::with_capacity(2);
         if !self.times.is_empty() {
-            let place = |of: &Affected| columns.iter().position(|column| *column == of.name);
-            let columns = self.affected.iter().filter(|of| of.at.is_some()).filter_map(place).collect();
+            let column = |output: &Affected| columns.iter().position(|column| *column == output.name);
+            let columns = self.affected.iter().filter(|output| output.at.is_some()).filter_map(column).collect();
             let times = AskedTimes { at: self.times.clone(), ..options.times.clone() };
             sweeps.push(SweepOptions { columns: Some(columns), times, ..options.clone() });
         }
-        if self.affected.iter().any(|of| of.at.is_none()) {
+        if self.affected.iter().any(|output| output.at.is_none()) {
             sweeps.push(SweepOptions { columns: None, ..options.clone() });
         }
         sweeps
     }
 
-    /// Takes in a block of variants with measures or with results.
-    fn take(&mut self, swept: &Swept, has_measures: bool, (group, variants): (usize, &Variants)) {
+    /// Adds a block of variants with measures or with results.
+    fn take(&mut self, swept: &Swept, has_measures: bool, group: usize, variants: &Variants) {
         let mut first_row = 0;
         for (k, &length) in swept.lengths.iter().enumerate() {
             let (number, status, row) = (swept.first + k as u64, swept.statuses[k], first_row);
@@ -557,8 +567,8 @@ impl CornerSearch<'_> {
     fn record(&mut self, k: usize, value: f64, set: impl Fn() -> Vec<String>) {
         let off = value - self.affected[k].nominal;
         if off.is_finite() {
-            let [low, high] = self.found[k].unwrap_or([off; 2]);
-            self.found[k] = Some([low.min(off), high.max(off)]);
+            let [low, high] = self.extremes[k].unwrap_or([off; 2]);
+            self.extremes[k] = Some([low.min(off), high.max(off)]);
         } else if self.affected[k].nominal.is_finite() {
             self.missing[k].get_or_insert_with(|| (0, set())).0 += 1;
         }
@@ -570,7 +580,7 @@ impl CornerSearch<'_> {
             variants: self.variants,
             are_all_corners,
             largest,
-            found: self.found,
+            found: self.extremes,
             missing: self.missing,
             lost: self.first_lost.map(|(set, status)| (count, set, status)),
         }
