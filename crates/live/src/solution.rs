@@ -5,7 +5,7 @@ use super::host::Host;
 use mechc_engine::analysis::Times;
 use mechc_pipeline::{Checked, Choice, Compiled, Crank, Jog, Knob, Parsed, Redundant, RunOptions, Seen, Stand};
 use mechc_text::cancel::Cancel;
-use mechc_text::diag::{Code, Color, Diagnostic, Diagnostics, Format, render};
+use mechc_text::diag::{Code, Color, Diagnostics, Format, render};
 use mechc_text::source::Sources;
 use serde_json::{Value, json};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
