@@ -41,14 +41,16 @@ pub use mechc_lang::check::{DeclaredName, Meaning, NameId, NameKind, Symbols, Us
 pub use mechc_live::page::{picture, render as page};
 pub use mechc_pipeline::output::{TableFormat, TableWriter};
 pub use mechc_pipeline::{
-    Adjustable, Adjusting, Affected, AskedPlace, AskedTimes, Assembly, Checked, Choice, Compiled, CurveTolerance,
-    Deviation, Formula, InputMotion, Parsed, Redundant, Run, RunOptions, RustOptions, Seen, Settable, Shown, Sweep,
-    SweepOptions, SweptColumn, Tolerance, Tolerancing, Variants, VaryOptions, Vectors, Verified, imported, seconds,
+    Assembly, Checked, Choice, Compiled, CornerReport, CurveTolerance, Deviation, DisplayUnit, EvaluationPoint,
+    EvaluatorOptions, Formula, InputMotion, MechanismEvaluator, OutputSensitivity, Parsed, Redundant, RequestedTimes,
+    Run, RunOptions, RustOptions, SettableParam, Sweep, SweepOptions, SweptColumn, Tolerance, Tolerancing, Variants,
+    VaryOptions, Vectors, Visualization, import_model, seconds,
 };
 pub use mechc_syntax::{Comment, Trivia};
 pub use mechc_text::cancel::Cancel;
 pub use mechc_text::diag::{
-    Applies, Blame, Code, Color, Diagnostic, Diagnostics, Edit, Fix, Format, Label, OptionText, Severity, fixed, render,
+    Applicability, Code, Color, Diagnostic, Diagnostics, Edit, Fix, Format, Label, OptionText, Responsibility,
+    Severity, fixed, render,
 };
 pub use mechc_text::source::{Encoding, FileId, Source, Sources, Span};
 pub use mechc_text::vocabulary::{Category, Word, words};

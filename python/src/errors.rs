@@ -2,7 +2,7 @@
 //! in `mechc/errors.py`.
 
 use crate::words::in_python;
-use mechc::{Blame, Color, Diagnostic, Diagnostics, Format, Severity, Sources, render};
+use mechc::{Responsibility, Color, Diagnostic, Diagnostics, Format, Severity, Sources, render};
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
 use pyo3::types::PyList;
@@ -38,12 +38,12 @@ impl Said {
             texts.push(text(Format::Human));
         }
         let first = diagnostics.iter().find(|of| of.severity() == Severity::Error);
-        let blame = match Blame::of(diagnostics, sources) {
+        let blame = match Responsibility::of(diagnostics, sources) {
             None => "",
-            Some(Blame::Input) => "input",
-            Some(Blame::Usage) => "usage",
-            Some(Blame::Analysis) => "analysis",
-            Some(Blame::Files) => "files",
+            Some(Responsibility::Input) => "input",
+            Some(Responsibility::Usage) => "usage",
+            Some(Responsibility::Analysis) => "analysis",
+            Some(Responsibility::Files) => "files",
         };
         Said {
             json,

@@ -48,7 +48,7 @@ pub(super) fn emit(arguments: &EmitArguments, reporter: &mut Reporter) -> Result
         with_sensitivities: arguments.with == Content::Sensitivities,
         lanes: arguments.lanes,
         for_c: arguments.ffi,
-        ..RustOptions::of(&*file)
+        ..RustOptions::new(&*file)
     };
     if let Some(folder) = &arguments.folder {
         return package(&compiled, folder, &options, reporter);

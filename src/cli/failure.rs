@@ -1,6 +1,6 @@
 //! Failures of commands, and their exit codes.
 
-use mechc_text::diag::{Blame, Code, Diagnostic, Diagnostics};
+use mechc_text::diag::{Code, Diagnostic, Diagnostics, Responsibility};
 use mechc_text::source::Sources;
 
 /// The exit code if the input has errors or is not formatted.
@@ -53,11 +53,11 @@ pub(super) fn concerns_options(diagnostics: &Diagnostics, sources: &Sources) -> 
 
 /// Returns the exit code for some diagnostics.
 pub(super) fn exit_code(diagnostics: &Diagnostics, sources: &Sources) -> u8 {
-    match Blame::of(diagnostics, sources) {
+    match Responsibility::of(diagnostics, sources) {
         None => 0,
-        Some(Blame::Input) => INPUT,
-        Some(Blame::Usage) => USAGE,
-        Some(Blame::Analysis) => ANALYSIS,
-        Some(Blame::Files) => FILES,
+        Some(Responsibility::Input) => INPUT,
+        Some(Responsibility::Usage) => USAGE,
+        Some(Responsibility::Analysis) => ANALYSIS,
+        Some(Responsibility::Files) => FILES,
     }
 }

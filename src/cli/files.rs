@@ -93,7 +93,7 @@ impl World for Disk {
     }
 
     fn identity(&self, path: &Path) -> PathBuf {
-        path.canonicalize().unwrap_or_else(|_| world::normalised(path))
+        path.canonicalize().unwrap_or_else(|_| world::normalize_path(path))
     }
 }
 

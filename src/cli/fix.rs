@@ -16,7 +16,7 @@ const MAX_ROUNDS: usize = 32;
 /// The file is replaced whole or not at all; standard input goes to standard output.
 pub(super) fn fix(input: &Input, reporter: &mut Reporter) -> Result<Parsed, Failure> {
     let (first, has_mark) = files::read_with_mark(&input.file, &mut reporter.sources)?;
-    let read = |file, reporter: &Reporter| Parsed::of_source(reporter.sources.clone(), file, input::path(input));
+    let read = |file, reporter: &Reporter| Parsed::from_source(reporter.sources.clone(), file, input::path(input));
     let (mut parsed, mut applied) = (read(first, reporter), Vec::new());
     for _ in 0..MAX_ROUNDS {
         let fixes = parsed.certain_fixes(&Disk);

@@ -51,8 +51,8 @@ fn change(name: &str, reporter: &mut Reporter) -> Result<Change, Failure> {
     let (file, has_mark) = files::read_to_replace(name, &mut reporter.sources)?;
     let source = reporter.sources.get(file);
     // the text alone: the other texts are only needed to report errors
-    let new = Parsed::of(&source.name, &source.text).formatted();
-    let errors = || Parsed::of_source(reporter.sources.clone(), file, Path::new(name)).faults().clone();
+    let new = Parsed::new(&source.name, &source.text).formatted();
+    let errors = || Parsed::from_source(reporter.sources.clone(), file, Path::new(name)).faults().clone();
     let new = new.ok_or_else(errors)?;
     let mark = if has_mark { "\u{feff}" } else { "" };
     let old = format!("{mark}{}", source.text);

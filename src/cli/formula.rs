@@ -15,7 +15,7 @@ pub(super) fn formula(arguments: &FormulaArguments, reporter: &mut Reporter) -> 
             .help("write it in quotes: `mechc formula '2 * t^2'`")
             .into());
     }
-    let formula = Formula::of(&arguments.formula, &mut reporter.sources)?;
+    let formula = Formula::parse(&arguments.formula, &mut reporter.sources)?;
     reporter.print(formula.remarks());
     let at = |text: &String| stages::seconds("--at", text, &mut reporter.sources);
     let times = arguments.at.iter().map(at).collect::<Result<Vec<f64>, Diagnostics>>()?;

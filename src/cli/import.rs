@@ -13,7 +13,7 @@ pub(super) fn import(arguments: &ImportArguments, reporter: &mut Reporter) -> Re
     }
     let model = files::read(&arguments.model, &mut reporter.sources)?;
     let settings = arguments.acf.as_ref().map(|acf| files::read(acf, &mut reporter.sources)).transpose()?;
-    let (text, diagnostics) = mechc_pipeline::imported(model, settings, &reporter.sources);
+    let (text, diagnostics) = mechc_pipeline::import_model(model, settings, &reporter.sources);
     let text = reporter.require(text, diagnostics)?;
     Output::write(&arguments.output, &text, &reporter.protected())
 }

@@ -5,7 +5,7 @@ use super::failure::{Failure, unusable};
 use super::files::{self, Disk};
 use super::report::Reporter;
 use super::timings::{Phase, Timings};
-use mechc_pipeline::{AskedTimes, Checked, Choice, Compiled, Parsed, Redundant};
+use mechc_pipeline::{Checked, Choice, Compiled, Parsed, Redundant, RequestedTimes};
 use mechc_text::cancel::Cancel;
 use mechc_text::diag::Diagnostics;
 use mechc_text::source::Sources;
@@ -62,7 +62,7 @@ pub(super) fn parsed(input: &Input, reporter: &mut Reporter) -> Result<Parsed, F
     }
     let file = files::read(&input.file, &mut reporter.sources)?;
     reporter.named_files.extend(input.samples.clone().filter(|path| path != Path::new("-")));
-    Ok(Parsed::of_source(reporter.sources.clone(), file, path(input)))
+    Ok(Parsed::from_source(reporter.sources.clone(), file, path(input)))
 }
 
 /// Returns the path to which names in a command's file are relative: the current folder for standard input.
@@ -106,11 +106,15 @@ pub(super) fn requested_times(
     at: &[String],
     analysis: Option<[f64; 3]>,
     sources: &mut Sources,
-) -> Result<AskedTimes, Failure> {
+) -> Result<RequestedTimes, Failure> {
     Ok(time_options(interval, at, sources)?.over(analysis)?)
 }
 
 /// Returns the times of a command's options.
-pub(super) fn time_options(interval: &Interval, at: &[String], sources: &mut Sources) -> Result<AskedTimes, Failure> {
-    Ok(AskedTimes::of([&interval.from, &interval.to, &interval.every], at, sources)?)
+pub(super) fn time_options(
+    interval: &Interval,
+    at: &[String],
+    sources: &mut Sources,
+) -> Result<RequestedTimes, Failure> {
+    Ok(RequestedTimes::from_options([&interval.from, &interval.to, &interval.every], at, sources)?)
 }

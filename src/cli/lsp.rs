@@ -4,7 +4,7 @@ use super::arguments::LspArguments;
 use super::failure::Failure;
 use super::files::{Disk, cannot_write};
 use super::report::Reporter;
-use mechc_ide::lsp::{self, Ended, Log};
+use mechc_ide::lsp::{self, Log, SessionEnd};
 use std::fs::File;
 use std::io::{BufWriter, IsTerminal};
 use std::sync::Arc;
@@ -27,8 +27,8 @@ pub(super) fn lsp(arguments: &LspArguments) -> Result<bool, Failure> {
         Reporter::print_text(FOR_EDITORS);
     }
     let ended = lsp::serve_pipe(Arc::new(Disk), log);
-    if ended == Ended::Unbegun && !is_typed {
+    if ended == SessionEnd::Unbegun && !is_typed {
         Reporter::print_text(FOR_EDITORS);
     }
-    Ok(ended == Ended::Well)
+    Ok(ended == SessionEnd::Well)
 }

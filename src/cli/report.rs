@@ -3,7 +3,7 @@
 use super::arguments::{MessageFormat, Messages, When};
 use super::failure::{Failure, exit_code};
 use super::protected_paths::ProtectedPaths;
-use mechc_text::diag::{Color, Diagnostics, Fix, Format, render, render_made, visible};
+use mechc_text::diag::{Color, Diagnostics, Fix, Format, render, render_applied, visible};
 use mechc_text::source::{FileId, Sources};
 use std::cell::Cell;
 use std::io::{IsTerminal, Write};
@@ -85,7 +85,7 @@ impl Reporter {
             |fix: &Fix| fix.edits.first().map(|edit| self.sources.get(edit.span.file).position(edit.span.start));
         let mut fixes: Vec<&Fix> = fixes.iter().collect();
         fixes.sort_by_key(|fix| position(fix));
-        let mut text: String = fixes.iter().map(|fix| render_made(fix, &self.sources, self.format)).collect();
+        let mut text: String = fixes.iter().map(|fix| render_applied(fix, &self.sources, self.format)).collect();
         if self.format != Format::Json {
             let name = &self.sources.get(file).name;
             text += &match fixes.len() {

@@ -35,7 +35,7 @@ pub(super) fn run(arguments: &RunArguments, reporter: &mut Reporter) -> Result<(
     let requested =
         input::requested_times(&arguments.interval, &arguments.at, compiled.analysis(), &mut reporter.sources)?;
     let times = requested.times()?;
-    let columns = compiled.chosen_columns(&arguments.columns)?;
+    let columns = compiled.select_columns(&arguments.columns)?;
     let output = Output::open(&arguments.output, &reporter.protected())?;
     let results = results::open(arguments.results.as_deref(), &arguments.output, &reporter.protected())?;
     if format == TableFormat::Parquet && output.is_terminal() {
@@ -134,7 +134,7 @@ impl Table<'_> {
         }
         self.output.close_with(self.results)?;
         self.timings.end(Phase::Write);
-        let mut remarks = run.take_remarks();
+        let mut remarks = run.take_warnings();
         answers.notes.iter().for_each(|note| remarks.push(note.clone()));
         Ok(TableOutcome { remarks, answers, timings: self.timings.text(rows), result: stopped })
     }

@@ -182,12 +182,12 @@ impl Table {
         let (mut indices, mut units) = (None, Vec::new());
         if arguments.rows {
             let (names, all) = (compiled.columns(), compiled.units());
-            let chosen = compiled.chosen_columns(&arguments.columns)?;
+            let chosen = compiled.select_columns(&arguments.columns)?;
             units.extend(chosen.iter().map(|&k| all[k].clone()));
             columns.extend(chosen.iter().map(|&k| column(&names[k], &all[k].text, Kind::Number)));
             indices = Some(chosen);
         } else {
-            let results = compiled.results_of_variants();
+            let results = compiled.variant_results();
             columns.extend(results.iter().map(|(name, unit)| column(name, unit, Kind::Number)));
             if arguments.digits {
                 columns.push(column("digits", "1", Kind::Whole));
@@ -289,7 +289,7 @@ impl SweepJob<'_> {
         };
         let mut sweep = checked.sweep(compiled, self.variants, &self.options, make)?;
         let [first, last] = self.range;
-        let results = compiled.results_of_variants().into_iter().map(|(name, _)| name);
+        let results = compiled.variant_results().into_iter().map(|(name, _)| name);
         let mut summary = Summary::new(results.collect());
         let progress = &mut Progress::counting("variants", last - first, output.is_standard());
         let written = (|| {
@@ -316,7 +316,7 @@ impl SweepJob<'_> {
             let command = |variant| variant_command(self.arguments).format(&self.variants.settings(variant));
             Reporter::print_text(&summary.text(&command));
             if self.arguments.until.is_some() && !cancel.is_cancelled() {
-                Reporter::print_text(&self.until_text(sweep.has_found().then(|| first + done - 1)));
+                Reporter::print_text(&self.until_text(sweep.found_match().then(|| first + done - 1)));
             }
         }
         match interrupts::exit_code() {

@@ -31,10 +31,10 @@ pub(super) fn tolerance(arguments: &ToleranceArguments, reporter: &mut Reporter)
         ..SweepOptions::default()
     };
     let output = Output::open(&arguments.output, &reporter.protected())?;
-    let affected = with_sources(tolerancing.affected(&compiled, &options), reporter)?;
+    let affected = with_sources(tolerancing.sensitivities(&compiled, &options), reporter)?;
     let verified = if arguments.verify {
         let mut progress = Progress::counting("variants", tolerancing.count(&affected), false);
-        let verified = tolerancing.verified(&compiled, &affected, &options, |count| progress.advance(count));
+        let verified = tolerancing.verify(&compiled, &affected, &options, |count| progress.advance(count));
         progress.finish();
         Some(with_sources(verified, reporter)?)
     } else {

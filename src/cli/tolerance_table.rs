@@ -1,6 +1,6 @@
 //! The effect of tolerances on measures and results, as a readable table, CSV and JSON.
 
-use mechc_pipeline::{Affected, Deviation, Shown, Tolerance, Verified};
+use mechc_pipeline::{CornerReport, Deviation, DisplayUnit, OutputSensitivity, Tolerance};
 use mechc_text::diag::readable;
 use serde_json::{Map, Value, json};
 
@@ -10,10 +10,10 @@ const DIGITS: usize = 5;
 /// The tolerances with the measures and results that they affect.
 pub(super) struct ToleranceTable {
     pub tolerances: Vec<Tolerance>,
-    pub affected: Vec<Affected>,
+    pub affected: Vec<OutputSensitivity>,
     /// True if params are distributed normally, and not uniformly.
     pub normal: bool,
-    pub verified: Option<Verified>,
+    pub verified: Option<CornerReport>,
 }
 
 /// The columns of the CSV form.
@@ -37,7 +37,7 @@ const COLUMNS: [&str; 13] = [
 const NEGLIGIBLE: f64 = 1e-9;
 
 impl ToleranceTable {
-    fn deviation(&self, of: &Affected) -> Option<Deviation> {
+    fn deviation(&self, of: &OutputSensitivity) -> Option<Deviation> {
         of.deviation(&self.tolerances, self.normal)
     }
 
@@ -60,7 +60,7 @@ impl ToleranceTable {
             let nominal = if of.nominal.is_finite() {
                 let worst = self.deviation(of).map_or(0.0, |all| f64::max(-all.worst[0], all.worst[1]));
                 let is_negligible = of.nominal.abs() < NEGLIGIBLE * worst;
-                in_unit(if is_negligible { 0.0 } else { of.nominal }, &of.to_be_read(&self.tolerances))
+                in_unit(if is_negligible { 0.0 } else { of.nominal }, &of.display_unit(&self.tolerances))
             } else {
                 "null".to_owned()
             };
@@ -77,7 +77,7 @@ impl ToleranceTable {
     /// Formats the lines of a measure or result.
     fn block(&self, k: usize) -> Vec<[String; 5]> {
         let (of, deviation) = (&self.affected[k], self.deviation(&self.affected[k]));
-        let shown = of.to_be_read(&self.tolerances);
+        let shown = of.display_unit(&self.tolerances);
         let amount = |ends: [f64; 2]| between(ends.map(|end| end / shown.size), &shown.text);
         let mut lines = vec![["param", "tolerance", "derivative", "contributes", "share"].map(str::to_owned)];
         for (j, by) in self.tolerances.iter().enumerate() {
@@ -147,7 +147,7 @@ impl ToleranceTable {
         all.insert("tolerances".to_owned(), self.tolerances.iter().map(tolerance).collect());
         all.insert("spread".to_owned(), json!(if self.normal { "normal" } else { "uniform" }));
         all.insert("affected".to_owned(), (0..self.affected.len()).map(|k| self.object(k)).collect());
-        if let Some(Verified { variants, are_all_corners, lost, .. }) = &self.verified {
+        if let Some(CornerReport { variants, are_all_corners, lost, .. }) = &self.verified {
             let lost = lost.as_ref().map_or(0, |(count, ..)| *count);
             let what = if *are_all_corners { "corners" } else { "samples" };
             all.insert("verified_by".to_owned(), json!({ "what": what, "variants": variants, "lost": lost }));
@@ -248,7 +248,7 @@ fn between([low, high]: [f64; 2], unit: &str) -> String {
     }
 }
 
-fn in_unit(value: f64, Shown { text, size }: &Shown) -> String {
+fn in_unit(value: f64, DisplayUnit { text, size }: &DisplayUnit) -> String {
     number_with_unit(value / size, text)
 }
 

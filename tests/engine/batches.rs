@@ -303,7 +303,7 @@ fn zeros_and_times_of_their_own_are_as_alone() {
     }
     let variants = subject.variants(&vary(&["rod=3.3..3.7:9"]));
     let all = subject.sweep(&variants, &subject.all_columns());
-    let times = mechc::AskedTimes { at: vec![1.5, 3.0], ..mechc::AskedTimes::default() };
+    let times = mechc::RequestedTimes { at: vec![1.5, 3.0], ..mechc::RequestedTimes::default() };
     let some = subject.sweep(&variants, &SweepOptions { times, ..subject.all_columns() });
     assert_eq!((some.abreast, &some.lengths), (9, &vec![2; 9]));
     let rows = all.lengths[0];

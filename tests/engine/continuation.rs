@@ -4,7 +4,7 @@
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, clippy::float_cmp)] // a test fails by panicking
 
 use mechc::{Cancel, Choice, Compiled, Diagnostics, Memory, Parsed, Redundant, RunOptions, Sources, Times};
-use mechc_engine::analysis::{self, Horizon, LeadOptions, Way};
+use mechc_engine::analysis::{self, ContinuationOptions, Horizon, PathOutcome};
 use mechc_expr::math::{acos, cos, sin};
 use mechc_ir::program::Program;
 use mechc_lang::check;
@@ -59,7 +59,7 @@ fn compiled(text: &str, inputs: &[&str], samples: Option<&str>) -> Compiled {
     let world = samples.map_or_else(Memory::default, |text| Memory::default().with("samples.csv", text));
     let inputs = inputs.iter().map(|input| (*input).to_owned()).collect();
     let choice = Choice { inputs, samples: samples.map(|_| "samples.csv".into()), ..Choice::default() };
-    let checked = Parsed::of("four_bar.mech", text).check(&choice, &world);
+    let checked = Parsed::new("four_bar.mech", text).check(&choice, &world);
     let (compiled, messages) = checked.compile(Redundant::Refused, &Cancel::default());
     compiled.unwrap_or_else(|| panic!("{:?} {messages:?}", checked.diagnostics()))
 }
@@ -69,7 +69,7 @@ fn run(compiled: &Compiled, times: &Times) -> (Vec<Vec<f64>>, Diagnostics) {
     let (run, mut messages) = compiled.run(times, &RunOptions::default());
     let Some(mut run) = run else { return (Vec::new(), messages) };
     let rows = run.by_ref().map_while(Result::ok).collect();
-    messages.extend(run.take_remarks());
+    messages.extend(run.take_warnings());
     (rows, messages)
 }
 
@@ -194,7 +194,7 @@ fn a_file_that_does_not_stand_alone_begins_from_its_estimates() {
         let text = rocking(&format!("input turn = {own}"), "turn");
         let world = Memory::default();
         let choice = Choice { inputs: vec!["turn=30 deg".to_owned()], ..Choice::default() };
-        let checked = Parsed::of("a.mech", &text).check(&choice, &world);
+        let checked = Parsed::new("a.mech", &text).check(&choice, &world);
         if !checked.is_sound() {
             assert_eq!(codes(checked.diagnostics()), ["E0404"], "{own}");
             continue;
@@ -215,7 +215,7 @@ fn estimates_that_are_far_off_are_told_of_the_file_s_own_start() {
 fn code_begins_where_a_run_does() {
     let text = four_bar(&DRAG_LINK[1], TURN, "turn");
     let led = compiled(&text, &["turn=250 deg + 0 rad/s * t"], None);
-    let (code, messages) = led.rust(&mechc::RustOptions::of("four_bar"));
+    let (code, messages) = led.rust(&mechc::RustOptions::new("four_bar"));
     assert!(messages.is_empty(), "{messages:?}");
     let code = code.expect("code");
     for value in &first_row(&led, 0.0)[4..10] {
@@ -232,19 +232,20 @@ fn an_input_is_led_to_a_number_too() {
     let tree = syntax::parse(&sources, file).tree;
     // time goes from 1 s to 3 s, and nobody says anything of the other input: 21 deg are added at first, and 63 deg at last
     let inputs = vec![("turn".to_owned(), 250_f64.to_radians())];
-    let lead = Some(check::Lead { times: [1.0, 3.0], inputs });
-    let surroundings = check::Surroundings { lead, ..check::Surroundings::default() };
+    let lead = Some(check::ContinuationPath { times: [1.0, 3.0], inputs });
+    let surroundings = check::CheckOptions { continuation: lead, ..check::CheckOptions::default() };
     let (model, messages) = check::check(&tree.mechanisms[0], &surroundings, &sources);
     let model = model.unwrap_or_else(|| panic!("{messages:?}"));
-    let lines: Vec<(&str, [f64; 2])> = model.led.iter().map(|led| (led.declared.name.as_str(), led.line)).collect();
+    let lines: Vec<(&str, [f64; 2])> =
+        model.continued.iter().map(|led| (led.declared.name.as_str(), led.line)).collect();
     assert_eq!(lines, [("turn", [30.0, 250.0]), ("more", [20.0, 60.0])].map(|(n, l)| (n, l.map(f64::to_radians))));
     let (determined, _) =
-        analysis::determine(lower::lowered(&model), false, Horizon::of_analysis(None)).expect("determined");
+        analysis::determine(lower::lower_model(&model), false, Horizon::of_analysis(None)).expect("determined");
     let program = Arc::new(Program::new(determined.system()));
     let (cancel, t) = (Cancel::default(), 1.0);
-    let options = LeadOptions { tolerance: mechc::TOLERANCE, pass_bifurcations: false, t, cancel };
+    let options = ContinuationOptions { tolerance: mechc::TOLERANCE, pass_bifurcations: false, t, cancel };
     let way = analysis::lead(&Arc::new(determined), &program, None, &[0.25, 1.0], &options);
-    let Ok(Way { reached, stopped: None, .. }) = way else { panic!("it is led") };
+    let Ok(PathOutcome { reached, stopped: None, .. }) = way else { panic!("it is led") };
     assert_eq!(reached.len(), 2);
     let q = [&[0.0][..], &reached[1]].concat();
     assert!(same_place(&q, &followed(|d, driver| four_bar(&DRAG_LINK[1], d, driver), 313.0)));
@@ -348,7 +349,7 @@ fn a_part_tells_what_it_passed_on_its_way_and_where_it_is_used() {
 fn led_over(text: &str, set: &[&str]) -> Compiled {
     let set = set.iter().map(|set| (*set).to_owned()).collect();
     let checked =
-        Parsed::of("four_bar.mech", text).check(&Choice { set, lead: true, ..Choice::default() }, &Memory::default());
+        Parsed::new("four_bar.mech", text).check(&Choice { set, lead: true, ..Choice::default() }, &Memory::default());
     let (compiled, messages) = checked.compile(Redundant::Refused, &Cancel::default());
     compiled.unwrap_or_else(|| panic!("{:?} {messages:?}", checked.diagnostics()))
 }
@@ -379,7 +380,7 @@ fn inputs_go_where_params_have_gone() {
         let (set, inputs) = (vec!["start=-100 deg".to_owned()], vec!["turn=310 deg".to_owned()]);
         let choice = Choice { set, inputs, lead: true, ..Choice::default() };
         let both = text("param start = 0 deg\n input turn = 30 deg", "start + turn");
-        let checked = Parsed::of("four_bar.mech", both.as_str()).check(&choice, &Memory::default());
+        let checked = Parsed::new("four_bar.mech", both.as_str()).check(&choice, &Memory::default());
         let compiled = checked.compile(Redundant::Refused, &Cancel::default()).0.expect("it is determined");
         assert!(same_place(&first_row(&compiled, 0.0), &followed(text, 210.0)));
     }

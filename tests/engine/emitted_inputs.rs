@@ -48,7 +48,7 @@ fn follows_samples(name: &str, inputs: &[(&str, usize)], fields: &[&str], has_ti
         Memory::default().with("samples.csv", csv),
     );
     let text = text_of(name).replace("to 3 s", "to 0.399 s");
-    let checked = Parsed::of("machine.mech", &text).check(&choice, &world);
+    let checked = Parsed::new("machine.mech", &text).check(&choice, &world);
     let (compiled, messages) = checked.compile(mechc::Redundant::Refused, &mechc::Cancel::default());
     let compiled = compiled.unwrap_or_else(|| panic!("{:?} {messages:?}", checked.diagnostics()));
     let (rows, stop) = all_rows(&compiled, &compiled.times().expect("times"));
@@ -859,7 +859,7 @@ fn main() {
 
 /// The largest difference of `sensitivity` and differences of assembled variants, led by time and then by inputs.
 fn sensitivities(text: &str, fields: [&str; 2], is_led: bool) -> Vec<[f64; 2]> {
-    let options = RustOptions { with_sensitivities: true, ..RustOptions::of("machine.mech") };
+    let options = RustOptions { with_sensitivities: true, ..RustOptions::new("machine.mech") };
     let (module, messages) = emitted(text).compiled.rust(&options);
     let module = module.unwrap_or_else(|| panic!("{messages:?}"));
     let program = r#"
@@ -937,7 +937,7 @@ fn without_parameters_there_is_nothing_to_be_sensitive_to() {
     let without = text.replace("    param crank_length = 50 mm\n    param rod_length   = 150 mm\n", "");
     let without = without.replace("crank_length", "50 mm").replace("rod_length", "150 mm");
     for largest_straight in [mechc::LARGEST_STRAIGHT, 0] {
-        let options = RustOptions { with_sensitivities: true, largest_straight, ..RustOptions::of("machine.mech") };
+        let options = RustOptions { with_sensitivities: true, largest_straight, ..RustOptions::new("machine.mech") };
         let (module, messages) = emitted(&without).compiled.rust(&options);
         let module = module.unwrap_or_else(|| panic!("{messages:?}"));
         let program = r#"
@@ -954,7 +954,7 @@ fn main() {
 
 /// Names of a kind in an emitted module, with what they are of: fields, constants, variants.
 fn emitted_names(text: &str) -> Vec<[String; 2]> {
-    let options = RustOptions { with_sensitivities: true, ..RustOptions::of("machine.mech") };
+    let options = RustOptions { with_sensitivities: true, ..RustOptions::new("machine.mech") };
     let module = emitted(text).compiled.rust(&options).0.expect("a module");
     let lines: Vec<&str> = module.lines().map(str::trim).collect();
     let mut found = Vec::new();

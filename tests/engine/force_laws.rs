@@ -33,7 +33,7 @@ struct Table {
 impl Table {
     fn of(text: &str, set: &[String]) -> Table {
         let choice = Choice { reactions: true, set: set.to_vec(), ..Choice::default() };
-        let checked = Parsed::of("text", text).check(&choice, &Memory::default());
+        let checked = Parsed::new("text", text).check(&choice, &Memory::default());
         let (compiled, messages) = checked.compile(Redundant::Refused, &Cancel::default());
         let mut outcome = Outcome {
             sources: checked.sources().clone(),

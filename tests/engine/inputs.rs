@@ -34,7 +34,7 @@ const INPUTS: &str = "input turn = 30 deg + 1 rev/s * t
 
 /// The rows of a text, or the codes of what is wrong with it.
 fn rows(text: &str, choice: &Choice, world: &Memory) -> Result<Vec<Vec<u64>>, Vec<&'static str>> {
-    let checked = Parsed::of("machine.mech", text).check(choice, world);
+    let checked = Parsed::new("machine.mech", text).check(choice, world);
     let (compiled, messages) = checked.compile(Redundant::Refused, &Cancel::default());
     let codes =
         || checked.diagnostics().iter().chain(messages.iter()).map(|fault| fault.code.as_str()).collect::<Vec<_>>();
@@ -101,7 +101,7 @@ fn lines_may_end_in_carriage_returns() {
     assert!(of("\r") == Ok(wanted.clone()) && of("\r\n") == Ok(wanted));
     // where the fault is, is told by lines as an editor shows them
     let (choice, world) = reported(&[], Some("t,turn\r0,0.5\r2,x\r"));
-    let checked = Parsed::of("machine.mech", &machine(INPUTS, ["turn", "feed"])).check(&choice, &world);
+    let checked = Parsed::new("machine.mech", &machine(INPUTS, ["turn", "feed"])).check(&choice, &world);
     let fault = checked.diagnostics().iter().next().expect("a fault");
     let span = fault.labels.first().expect("a place").span;
     assert_eq!(checked.sources().get(span.file).position(span.start), (3, 3));
@@ -112,7 +112,7 @@ fn headers_of_samples_say_what_is_missing() {
     let of = |header: &str| {
         // a column that is none of an input's may hold anything
         let (choice, world) = reported(&[], Some(&format!("{header}\n0,zero\n1,one\n")));
-        let checked = Parsed::of("machine.mech", &machine(INPUTS, ["turn", "feed"])).check(&choice, &world);
+        let checked = Parsed::new("machine.mech", &machine(INPUTS, ["turn", "feed"])).check(&choice, &world);
         let reported: Vec<String> = checked
             .diagnostics()
             .iter()
@@ -135,7 +135,7 @@ fn a_formula_from_outside_names_no_part() {
         mechanism lever { input turn = t / 1 s ground { point O = (0, 0) } body b { point O = (0, 0) }
             joint j: revolute(ground.O, b.O) driver d: rotation(j) = turn }";
     let of = |input: &str| {
-        let checked = Parsed::of("r.mech", text).check(&reported(&[input], None).0, &Memory::default());
+        let checked = Parsed::new("r.mech", text).check(&reported(&[input], None).0, &Memory::default());
         checked.diagnostics().iter().map(|fault| fault.message.clone()).collect::<Vec<_>>().join(" | ")
     };
     assert_eq!(of("own=2 * t / 1 s"), "");
@@ -221,13 +221,13 @@ fn repeated_inputs_are_told_all_or_one() {
 
 #[test]
 fn what_decides_how_many_there_are_is_no_parameter_of_emitted_code() {
-    let parsed = Parsed::of("cranks.mech", CRANKS);
+    let parsed = Parsed::new("cranks.mech", CRANKS);
     let (compiled, _) = parsed
         .check(&Choice { set: vec!["n=3".to_owned()], ..Choice::default() }, &Memory::default())
         .compile(Redundant::Refused, &Cancel::default());
     let compiled = compiled.expect("a mechanism");
     let is_a_body = |column: &&String| column.starts_with("b[") && column.split('.').count() == 2;
     assert_eq!(compiled.columns().iter().filter(is_a_body).count(), 9);
-    let (rust, _) = compiled.rust(&mechc::RustOptions::of("cranks"));
+    let (rust, _) = compiled.rust(&mechc::RustOptions::new("cranks"));
     assert!(!rust.expect("code").contains("pub n: f64"), "`n` is a field of the parameters");
 }

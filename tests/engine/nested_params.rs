@@ -28,14 +28,14 @@ const SET: [(&str, &str, f64); 12] = [
 fn compiled(set: &[String]) -> Compiled {
     let text = fs::read_to_string("tests/slopes/nested.mech").expect("a text");
     let choice = Choice { mechanism: Some("nested".to_owned()), set: set.to_vec(), ..Choice::default() };
-    let checked = Parsed::of("nested.mech", &text).check(&choice, &Memory::default());
+    let checked = Parsed::new("nested.mech", &text).check(&choice, &Memory::default());
     let (compiled, messages) = checked.compile(Redundant::Refused, &Cancel::default());
     compiled.unwrap_or_else(|| panic!("{:?} {messages:?}", checked.diagnostics()))
 }
 
 /// Whether each row that is printed when these are set has the bits of `mechc run`.
 fn holds(set: &[(&str, &str, f64)], largest_straight: usize) {
-    let options = RustOptions { with_sensitivities: true, largest_straight, ..RustOptions::of("nested.mech") };
+    let options = RustOptions { with_sensitivities: true, largest_straight, ..RustOptions::new("nested.mech") };
     let module = compiled(&[]).rust(&options).0.expect("a module");
     let mut sets = String::new();
     for (_, path, value) in set {

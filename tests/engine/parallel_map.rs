@@ -2,7 +2,7 @@
 
 #![cfg(feature = "threads")]
 
-use mechc_parallel::Crew;
+use mechc_parallel::ParallelMap;
 use std::collections::BTreeSet;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -26,7 +26,7 @@ fn pieces_come_in_order_whatever_they_take() {
             });
             Some(piece * piece)
         };
-        let found: Vec<u64> = Crew::new(jobs, 3..100, move || work).collect();
+        let found: Vec<u64> = ParallelMap::new(jobs, 3..100, move || work).collect();
         assert_eq!(found, (3..100).map(|piece| piece * piece).collect::<Vec<_>>(), "{jobs}");
     }
 }
@@ -34,7 +34,7 @@ fn pieces_come_in_order_whatever_they_take() {
 #[test]
 fn nothing_comes_behind_what_was_not_made() {
     for jobs in [1, 3] {
-        let mut crew = Crew::new(jobs, 0..100, || |piece| (piece < 20).then_some(piece));
+        let mut crew = ParallelMap::new(jobs, 0..100, || |piece| (piece < 20).then_some(piece));
         assert_eq!(crew.by_ref().count(), 20);
         assert_eq!(crew.next(), None);
     }
@@ -51,7 +51,7 @@ fn few_pieces_are_done_ahead() {
                 Some(piece)
             }
         };
-        let mut crew = Crew::new(jobs, 0..1_000_000, start);
+        let mut crew = ParallelMap::new(jobs, 0..1_000_000, start);
         let begun_are = |count: usize| {
             // who asks for what is there does nothing
             let by_others = |_| begun.recv_timeout(PATIENCE).is_ok_and(|by| by != asker);
@@ -68,7 +68,7 @@ fn few_pieces_are_done_ahead() {
 
 /// Two threads, whose other one holds the first of some pieces until somebody says so, or is gone; and what is asked of that thread.
 struct Held {
-    crew: Crew<u64>,
+    crew: ParallelMap<u64>,
     go: Sender<()>,
     /// The pieces that the other thread begins from then on.
     begun: Receiver<u64>,
@@ -91,7 +91,7 @@ impl Held {
                 Some(piece)
             }
         };
-        let crew = Crew::new(2, 0..count, start);
+        let crew = ParallelMap::new(2, 0..count, start);
         assert_eq!(begun.recv_timeout(PATIENCE), Ok(0));
         Held { crew, go, begun }
     }
@@ -128,7 +128,7 @@ fn each_thread_has_memory_of_its_own() {
                 Some((of, done))
             }
         };
-        let made: Vec<(usize, u64)> = Crew::new(jobs, 0..100, start).collect();
+        let made: Vec<(usize, u64)> = ParallelMap::new(jobs, 0..100, start).collect();
         assert_eq!(made.len(), 100);
         assert_eq!(made.iter().map(|(of, _)| *of).collect::<BTreeSet<_>>(), (0..jobs).collect());
         for of in 0..jobs {
@@ -146,7 +146,7 @@ fn there_are_no_more_threads_than_pieces() {
         count.fetch_add(1, Ordering::Relaxed);
         Some
     };
-    assert!(Crew::new(64, 5..8, start).eq(5..8));
+    assert!(ParallelMap::new(64, 5..8, start).eq(5..8));
     assert!(begun.load(Ordering::Relaxed) <= 3);
 }
 
@@ -199,7 +199,7 @@ fn that_another_thread_breaks_down_is_passed_on_where_its_piece_would_come() {
             Some(piece)
         }
     };
-    let mut crew = Crew::new(3, 0..100, start);
+    let mut crew = ParallelMap::new(3, 0..100, start);
     let first: BTreeSet<u64> = (0..2).filter_map(|_| begun.recv_timeout(PATIENCE).ok()).collect();
     assert_eq!(first, BTreeSet::from([0, 1]));
     // it breaks down before
@@ -217,7 +217,7 @@ fn who_asks_may_break_down_and_ask_again() {
     drop(go);
     assert_eq!(crew.next(), None);
 
-    let mut alone = Crew::<u64>::new(1, 0..100, || |_| panic!("broken alone"));
+    let mut alone = ParallelMap::<u64>::new(1, 0..100, || |_| panic!("broken alone"));
     assert_eq!(panic_message(|| alone.next()), Some("broken alone".to_owned()));
     assert_eq!(alone.next(), None);
 }

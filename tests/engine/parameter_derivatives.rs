@@ -13,7 +13,7 @@ use std::fs;
 const EXACT: f64 = 1e-9;
 
 fn compile(text: &str, choice: &Choice, redundant: Redundant) -> (Compiled, Outcome) {
-    let checked = Parsed::of("m.mech", text).check(choice, &Memory::default());
+    let checked = Parsed::new("m.mech", text).check(choice, &Memory::default());
     let reported: Vec<&str> = checked.diagnostics().iter().map(|message| message.message.as_str()).collect();
     assert!(checked.is_sound(), "{reported:?}");
     let (compiled, messages) = checked.compile(redundant, &Cancel::default());
@@ -157,7 +157,7 @@ fn samples_and_formulas_from_outside_are_shifted_too() {
         Choice { inputs: vec!["turn=0.4 + t/3".to_owned()], ..by(&["turn"]) },
     ];
     for choice in reported {
-        let checked = Parsed::of("m.mech", &text).check(&choice, &world);
+        let checked = Parsed::new("m.mech", &text).check(&choice, &world);
         let compiled = checked.compile(Redundant::Refused, &Cancel::default()).0.expect("it is determined");
         let (rows, _) = all_rows(&compiled, &Times::listed(0.0, vec![0.7]));
         let at = |name: &str| rows[0][compiled.columns().iter().position(|column| column == name).expect("a column")];
@@ -269,7 +269,7 @@ fn columns_that_are_asked_for_change_no_bit_of_the_others() {
         let text = fs::read_to_string(&path).expect("a text");
         let rows = |names: &[String]| {
             let choice = Choice { by: names.to_vec(), ..Choice::default() };
-            let checked = Parsed::of(&path, &text).check(&choice, &Disk::default());
+            let checked = Parsed::new(&path, &text).check(&choice, &Disk::default());
             let compiled = checked.compile(Redundant::Refused, &Cancel::default()).0.expect("it is determined");
             let times = compiled.times().expect("times");
             let params: Vec<String> = compiled.inside().0.system().params().iter().map(|p| p.name.clone()).collect();

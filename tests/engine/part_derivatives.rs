@@ -29,7 +29,7 @@ const LEVER: &str = "mechanism lever {
 
 fn compile(text: &str) -> Result<Compiled, Diagnostics> {
     let choice = Choice { mechanism: Some("whole".to_owned()), ..Choice::default() };
-    let checked = Parsed::of("m.mech", text).check(&choice, &Memory::default());
+    let checked = Parsed::new("m.mech", text).check(&choice, &Memory::default());
     if !checked.is_sound() {
         return Err(checked.diagnostics().clone());
     }

@@ -187,7 +187,7 @@ fn a_param_stands_for_itself_beside_the_function_of_its_name() {
 
 /// The start of the bodies of a mechanism whose poses are estimates of nothing: each body is held where it is drawn.
 fn poses(text: &str) -> Vec<String> {
-    let parsed = Parsed::of("poses", text);
+    let parsed = Parsed::new("poses", text);
     let checked = parsed.check(&Choice::default(), &Memory::default());
     let text = checked.model_text().unwrap_or_else(|| panic!("{:?}", checked.diagnostics()));
     text.lines().filter(|line| line.starts_with("body ")).map(str::to_owned).collect()
@@ -313,7 +313,7 @@ fn curves_circles_and_joints_take_points() {
 /// The first value of a measure, or what is said.
 fn with_settings(text: &str, set: &[&str]) -> Result<f64, String> {
     let choice = Choice { set: set.iter().map(|&set| set.to_owned()).collect(), ..Choice::default() };
-    let checked = Parsed::of("set.mech", text).check(&choice, &Memory::default());
+    let checked = Parsed::new("set.mech", text).check(&choice, &Memory::default());
     let messages = |diagnostics: &mechc::Diagnostics| {
         let texts = diagnostics.iter().map(|d| format!("{}: {}", d.code, d.message));
         texts.collect::<Vec<_>>().join("; ")
@@ -370,7 +370,7 @@ fn coordinates_are_parameters_of_emitted_code() {
         joint j: revolute(ground.B, b.O) driver d: rotation(j) = t measure across = x(ground.C) }";
     let (compiled, outcome) = compile("emitted", text);
     let compiled = compiled.unwrap_or_else(|| panic!("{}", outcome.text()));
-    let rust = compiled.rust(&RustOptions::of("a.mech")).0.expect("it starts");
+    let rust = compiled.rust(&RustOptions::new("a.mech")).0.expect("it starts");
     let fields: Vec<&str> = rust.lines().filter_map(|line| line.trim().strip_prefix("pub ")).collect();
     let fields: Vec<&str> = fields.iter().filter_map(|field| field.strip_suffix(": f64,")).collect();
     assert_eq!(fields[..4], ["a_x_2", "a_y", "c_y", "a_x"], "{rust}");

@@ -41,11 +41,11 @@ fn parts_are_what_they_are_alone() {
 fn composed_texts_are_formatted_to_what_they_mean() {
     for seed in 0..TEXTS {
         let text = composed(&bytes(seed)).text;
-        let parsed = Parsed::of("text", &text);
+        let parsed = Parsed::new("text", &text);
         let formatted = parsed.formatted().unwrap_or_else(|| panic!("{seed} is refused:\n{text}"));
         let equations = |text: &str| {
             let choice = Choice { mechanism: Some("whole".to_owned()), ..Choice::default() };
-            Parsed::of("text", text).check(&choice, &Memory::default()).equations_text()
+            Parsed::new("text", text).check(&choice, &Memory::default()).equations_text()
         };
         assert_eq!(equations(&formatted), equations(&text), "{seed}:\n{text}");
     }
@@ -54,7 +54,7 @@ fn composed_texts_are_formatted_to_what_they_mean() {
 /// What is said of a text that is too large: just that.
 fn too_large(text: &str) {
     let begun = Instant::now();
-    let checked = Parsed::of("text", text)
+    let checked = Parsed::new("text", text)
         .check(&Choice { mechanism: Some("top".to_owned()), ..Choice::default() }, &Memory::default());
     let reported: Vec<&str> = checked.diagnostics().iter().map(|message| message.code.as_str()).collect();
     assert!(!reported.is_empty() && reported.iter().all(|code| *code == "E0208"), "{reported:?}: {text}");

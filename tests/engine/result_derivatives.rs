@@ -9,7 +9,7 @@ use mechc_expr::math::{cos, sin};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 fn compile(text: &str, redundant: Redundant) -> Compiled {
-    let checked = Parsed::of("m.mech", text).check(&Choice::default(), &Memory::default());
+    let checked = Parsed::new("m.mech", text).check(&Choice::default(), &Memory::default());
     let reported: Vec<&str> = checked.diagnostics().iter().map(|message| message.message.as_str()).collect();
     assert!(checked.is_sound(), "{reported:?}");
     let (compiled, messages) = checked.compile(redundant, &Cancel::default());
@@ -231,7 +231,7 @@ mechanism m {
     result free = rms(der(y(right.arm.tip), right.turn))
 }";
     let to = 2.0;
-    let checked = Parsed::of("m.mech", text)
+    let checked = Parsed::new("m.mech", text)
         .check(&Choice { mechanism: Some("m".to_owned()), ..Choice::default() }, &Memory::default());
     let compiled = checked.compile(Redundant::Refused, &Cancel::default()).0.expect("it is determined");
     let names: Vec<String> = compiled.results().into_iter().map(|(name, _)| name).collect();
@@ -302,7 +302,7 @@ fn over_a_pole_there_is_no_number() {
     // in a part it is told whose it is
     let whole = parallelogram_of_names(ASKED_OF_PARALLELOGRAM) + "mechanism whole {\n    part p: m() at (0, 0, 0)\n}\n";
     let choice = Choice { mechanism: Some("whole".to_owned()), ..Choice::default() };
-    let checked = Parsed::of("m.mech", &whole).check(&choice, &Memory::default());
+    let checked = Parsed::new("m.mech", &whole).check(&choice, &Memory::default());
     let in_part = checked.compile(Redundant::Refused, &Cancel::default()).0.expect("it is determined");
     let notes = answers_of(&in_part, [2.0, 0.1], &options).notes;
     assert_eq!(notes.len(), 2);
@@ -338,6 +338,6 @@ fn a_single_time_has_its_value() {
 fn emitted_code_does_without_them() {
     let compiled = compile(&arm("result a = max(der(x(arm.tip), reach))"), Redundant::Refused);
     let plain = compile(&arm("result a = max(x(arm.tip))"), Redundant::Refused);
-    let rust = |compiled: &Compiled| compiled.rust(&RustOptions::of("m.mech")).0;
+    let rust = |compiled: &Compiled| compiled.rust(&RustOptions::new("m.mech")).0;
     assert!(rust(&compiled).is_some() && rust(&compiled) == rust(&plain));
 }

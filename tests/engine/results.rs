@@ -1026,7 +1026,7 @@ fn the_command_line_tells_results_and_writes_them() {
 fn names_in_results_have_their_meanings() {
     use mechc::{Category, Choice, Meaning, Memory, Parsed};
     let text = arm("1 rad/s * t", "param mean = 2 measure high = y(arm.tip) result r = mean(high) + max(high) * mean");
-    let checked = Parsed::of("m.mech", &text).check(&Choice::default(), &Memory::default());
+    let checked = Parsed::new("m.mech", &text).check(&Choice::default(), &Memory::default());
     assert!(checked.is_sound(), "{:?}", checked.diagnostics());
     let line = text.find("result r").expect("a result");
     let symbols = checked.symbols();

@@ -8,7 +8,7 @@ use mechc::{Cancel, Choice, Compiled, Diagnostics, Memory, Parsed, Redundant, Ru
 use std::f64::consts::{PI, TAU};
 
 fn compiled(text: &str) -> Compiled {
-    let checked = Parsed::of("drawn.mech", text).check(&Choice::default(), &Memory::default());
+    let checked = Parsed::new("drawn.mech", text).check(&Choice::default(), &Memory::default());
     assert!(checked.is_sound(), "{:?}\n{text}", checked.diagnostics());
     let (compiled, messages) = checked.compile(Redundant::Refused, &Cancel::default());
     compiled.unwrap_or_else(|| panic!("{messages:?}\n{text}"))

@@ -81,7 +81,7 @@ fn threads_and_shares_change_no_bit() {
 fn results_alone_are_those_beside_rows() {
     let subject = subject(FOUR_BAR, Choice { results: vec!["top = max(height)".to_owned()], ..Choice::default() });
     assert_eq!(
-        subject.compiled.results_of_variants().iter().map(|(name, unit)| format!("{name} {unit}")).collect::<Vec<_>>(),
+        subject.compiled.variant_results().iter().map(|(name, unit)| format!("{name} {unit}")).collect::<Vec<_>>(),
         ["swing rad", "pause 1", "top m"]
     );
     let variants = subject.variants(&vary(&["share=0..1:5"]));
@@ -130,7 +130,7 @@ fn variants_of_the_examples_are_what_they_are_alone() {
     let mut found = 0;
     for path in support::files("examples", "mech") {
         let text = std::fs::read_to_string(&path).expect("an example");
-        let own = Parsed::of("text.mech", text.as_str()).check(&Choice::default(), &Memory::default());
+        let own = Parsed::new("text.mech", text.as_str()).check(&Choice::default(), &Memory::default());
         // what uses other files is told so
         let Some(compiled) = own.compile(Redundant::Refused, &Cancel::default()).0 else { continue };
         let inside = compiled.inside().0;

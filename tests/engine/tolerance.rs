@@ -8,8 +8,8 @@ use crate::support;
 
 use assert_cmd::Command;
 use mechc::{
-    Affected, Cancel, Checked, Choice, Compiled, Parsed, Redundant, RunOptions, SweepOptions, Times, Tolerance,
-    Tolerancing, Verified,
+    Cancel, Checked, Choice, Compiled, CornerReport, OutputSensitivity, Parsed, Redundant, RunOptions, SweepOptions,
+    Times, Tolerance, Tolerancing,
 };
 use std::f64::consts::{FRAC_PI_2, TAU};
 use std::fmt::Write;
@@ -22,7 +22,7 @@ struct Subject {
 }
 
 fn subject_with(text: &str, choice: Choice) -> Subject {
-    let parsed = Parsed::of("text.mech", text);
+    let parsed = Parsed::new("text.mech", text);
     let choice = Choice { lead: true, ..choice };
     let checked = parsed.check(&choice, &WORLD);
     let (compiled, messages) = checked.compile(Redundant::Refused, &Cancel::default());
@@ -45,24 +45,24 @@ impl Subject {
         self.checked.tolerancing(&requested, &self.choice, &WORLD).map_err(reported)
     }
 
-    fn affected(&self, requested: &[&str]) -> (Vec<Tolerance>, Vec<Affected>) {
+    fn affected(&self, requested: &[&str]) -> (Vec<Tolerance>, Vec<OutputSensitivity>) {
         let of = self.tolerancing(requested).unwrap_or_else(|why| panic!("{why}"));
-        let affected = of.affected(&self.compiled, &SweepOptions::default()).map_err(reported);
+        let affected = of.sensitivities(&self.compiled, &SweepOptions::default()).map_err(reported);
         (of.tolerances().to_vec(), affected.unwrap_or_else(|why| panic!("{why}")))
     }
 
-    fn verified(&self, requested: &[&str]) -> (Vec<Tolerance>, Vec<Affected>, Verified) {
+    fn verified(&self, requested: &[&str]) -> (Vec<Tolerance>, Vec<OutputSensitivity>, CornerReport) {
         let of = self.tolerancing(requested).unwrap_or_else(|why| panic!("{why}"));
         let options = SweepOptions { jobs: Some(1), ..SweepOptions::default() };
-        let affected = of.affected(&self.compiled, &options).map_err(reported).expect("it runs");
+        let affected = of.sensitivities(&self.compiled, &options).map_err(reported).expect("it runs");
         let mut count = 0;
-        let verified = of.verified(&self.compiled, &affected, &options, |more| count += more);
+        let verified = of.verify(&self.compiled, &affected, &options, |more| count += more);
         assert_eq!(count, of.count(&affected), "as many as were told before");
         (of.tolerances().to_vec(), affected, verified.map_err(reported).expect("it runs"))
     }
 
     /// What is affected, as `run --lead --set` has it with a param of another value (SI); no numbers where it does not come to its end.
-    fn at(&self, affected: &[Affected], (name, value, unit): (&str, f64, &str)) -> Vec<f64> {
+    fn at(&self, affected: &[OutputSensitivity], (name, value, unit): (&str, f64, &str)) -> Vec<f64> {
         let mut choice = self.choice.clone();
         choice.set.push(format!("{name}={value}{unit}"));
         let nothing = vec![f64::NAN; affected.len()];
@@ -76,7 +76,7 @@ impl Subject {
         let rows = rows(&compiled, &Times::listed(from, times.clone())).0;
         let results = rows_and_results(&compiled);
         let mut results = results.into_iter();
-        let of = |of: &Affected| match of.at {
+        let of = |of: &OutputSensitivity| match of.at {
             None => results.next().unwrap_or(f64::NAN),
             Some(t) => {
                 let column = columns.iter().position(|column| *column == of.name).expect("a column");
@@ -88,7 +88,7 @@ impl Subject {
     }
 
     /// The derivatives of what is affected by a tolerance, by differences, and how far these are certain.
-    fn differences(&self, affected: &[Affected], of: &Tolerance) -> Vec<(f64, f64)> {
+    fn differences(&self, affected: &[OutputSensitivity], of: &Tolerance) -> Vec<(f64, f64)> {
         let unit = behind_a_number(&of.si);
         let step = 2e-3 * if of.nominal == 0.0 { 0.01 } else { of.nominal.abs() };
         let slopes = |h: f64| -> Vec<f64> {
@@ -240,7 +240,7 @@ fn derivatives_of_the_examples_are_those_of_differences() {
     let (mut all, mut known, mut texts) = (0, 0, 0);
     for path in support::files("examples", "mech") {
         let text = std::fs::read_to_string(&path).expect("an example");
-        let own = Parsed::of("text.mech", text.as_str()).check(&Choice::default(), &WORLD);
+        let own = Parsed::new("text.mech", text.as_str()).check(&Choice::default(), &WORLD);
         let Some(compiled) = own.compile(Redundant::Refused, &Cancel::default()).0 else { continue };
         let (system, _) = compiled.inside();
         let system = system.system();
@@ -492,7 +492,7 @@ fn ends_of_the_analysis_may_go_with_a_param() {
     let subject_of = subject(&text, &[]);
     let of = |options: &SweepOptions| -> Vec<Option<f64>> {
         let tolerancing = subject_of.tolerancing(&["p=0.01"]).expect("a tolerance");
-        let affected = tolerancing.affected(&subject_of.compiled, options).map_err(reported).expect("it runs");
+        let affected = tolerancing.sensitivities(&subject_of.compiled, options).map_err(reported).expect("it runs");
         affected.iter().map(|of| of.slopes[0]).collect()
     };
     // the mean of squares is 0.37 p², and that of t 0.55 p
@@ -501,7 +501,8 @@ fn ends_of_the_analysis_may_go_with_a_param() {
         near(found.expect("a derivative"), wanted);
     }
     // ends that are said beside the text stay
-    let times = mechc::AskedTimes { from: Some(0.08), to: Some(0.8), every: Some(0.1), ..mechc::AskedTimes::default() };
+    let times =
+        mechc::RequestedTimes { from: Some(0.08), to: Some(0.8), every: Some(0.1), ..mechc::RequestedTimes::default() };
     let stays = of(&SweepOptions { times, ..SweepOptions::default() });
     let wanted = [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.4, 0.0, 0.0];
     for (found, wanted) in stays.iter().zip(wanted) {
@@ -794,7 +795,7 @@ fn what_cannot_be_off_is_refused() {
     }
     let bare = self::subject(&arm("analysis from 0 to 1 every 0.1"), &[]);
     let tolerancing = bare.tolerancing(&["reach=1mm"]).expect("a tolerance");
-    let why = tolerancing.affected(&bare.compiled, &SweepOptions::default()).map(|_| ()).map_err(reported);
+    let why = tolerancing.sensitivities(&bare.compiled, &SweepOptions::default()).map(|_| ()).map_err(reported);
     assert_eq!(why, Err("there is no measure and no result that could be off".to_owned()));
     // signs and spaces as one writes them
     for requested in ["reach=±1mm", " reach = +/- 1 mm", "reach=+-1mm", "reach=-1mm..1mm", "reach=1e-3 m"] {

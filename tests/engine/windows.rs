@@ -221,7 +221,7 @@ fn by_p(p: f64, cases: &[(&str, Option<f64>)]) {
     let (requested, world) = (["p=0.01".to_owned()], Memory::default());
     let of = subject.checked.tolerancing(&requested, &subject.choice, &world);
     let of = of.unwrap_or_else(|(_, diagnostics)| panic!("{diagnostics:?}"));
-    let affected = of.affected(&subject.compiled, &SweepOptions::default());
+    let affected = of.sensitivities(&subject.compiled, &SweepOptions::default());
     let affected = affected.unwrap_or_else(|(_, diagnostics)| panic!("{diagnostics:?}"));
     let of_results = affected.iter().filter(|of| of.at.is_none());
     for (of, (formula, wanted)) in of_results.zip(cases) {

@@ -75,7 +75,7 @@ fn codes(declarations: &str) -> Vec<String> {
             {declarations}
         }}"
     );
-    let checked = Parsed::of("m.mech", &text).check(&Choice::default(), &Memory::default());
+    let checked = Parsed::new("m.mech", &text).check(&Choice::default(), &Memory::default());
     checked.diagnostics().iter().map(|message| message.code.as_str().to_owned()).collect()
 }
 

@@ -148,7 +148,7 @@ fn words_that_open_declarations_are_names_elsewhere() {
 #[test]
 fn emitted_code_stays_in_si_and_says_so() {
     let compiled = compiled("m", &arm("measure high = y(arm.tip) in mm measure path_x = t trace path = arm.tip"));
-    let (code, _) = compiled.rust(&mechc::RustOptions::of("m.mech"));
+    let (code, _) = compiled.rust(&mechc::RustOptions::new("m.mech"));
     let code = code.expect("it assembles");
     assert!(code.contains("/// `high`, in m; tables have it in mm, line 6\n    pub const HIGH: usize = 0;"), "{code}");
     assert!(code.contains("all in SI."));

@@ -91,10 +91,10 @@ const NAMES: [&str; 36] = [
 
 /// The names of a module, by what they are of: those of a structure, enumeration or list of constants are told apart.
 fn names(text: &str) -> Option<BTreeMap<(String, String), String>> {
-    let checked = Parsed::of("machine.mech", text)
+    let checked = Parsed::new("machine.mech", text)
         .check(&Choice { mechanism: Some("machine".to_owned()), ..Choice::default() }, &Memory::default());
     let compiled = checked.compile(Redundant::Refused, &Cancel::default()).0?;
-    let options = RustOptions { with_sensitivities: true, ..RustOptions::of("machine.mech") };
+    let options = RustOptions { with_sensitivities: true, ..RustOptions::new("machine.mech") };
     let module = compiled.rust(&options).0.expect("a module");
     let whole: Vec<&str> = module.lines().collect();
     let lines: Vec<&str> = whole.iter().map(|line| line.trim()).collect();

@@ -9,7 +9,7 @@ use std::path::Path;
 
 /// `(line, code)` of everything that is said of a text up to its check, whichever of its mechanisms it is said of.
 fn reported(text: &str) -> Vec<(usize, &'static str)> {
-    let parsed = Parsed::of("text.mech", text);
+    let parsed = Parsed::new("text.mech", text);
     let names: Vec<Option<String>> = parsed.mechanisms().map(|name| Some(name.to_owned())).collect();
     let mut places = BTreeSet::new();
     let mut list = Vec::new();

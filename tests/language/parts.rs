@@ -21,7 +21,7 @@ fn run(text: &str, file: &Path, mechanism: &str, times: Option<&Times>) -> Resul
     let choice = Choice { mechanism: Some(mechanism.to_owned()), ..Choice::default() };
     let mut sources = Sources::default();
     let id = sources.add("text", text);
-    let parsed = Parsed::of_source(sources, id, file);
+    let parsed = Parsed::from_source(sources, id, file);
     let checked = parsed.check(&choice, &Disk::default());
     let (compiled, messages) = checked.compile(Redundant::LeftOut, &Cancel::default());
     let reported = || {
@@ -193,7 +193,7 @@ fn a_part_is_what_it_is_alone_seen_from_its_own_ground() {
 /// What is said of the mechanism `whole` of a text, and its rows.
 fn messages(text: &str) -> (Vec<String>, Vec<Vec<f64>>) {
     let choice = Choice { mechanism: Some("whole".to_owned()), ..Choice::default() };
-    let checked = Parsed::of("text", text).check(&choice, &Disk::default());
+    let checked = Parsed::new("text", text).check(&choice, &Disk::default());
     let (compiled, of_proof) = checked.compile(Redundant::Refused, &Cancel::default());
     let mut all: Vec<String> = checked.diagnostics().iter().chain(of_proof.iter()).map(|d| d.message.clone()).collect();
     let Some(compiled) = compiled else { return (all, Vec::new()) };

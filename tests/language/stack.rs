@@ -76,7 +76,7 @@ fn checked(text: &str) -> (Option<Mechanism>, Vec<&'static str>) {
     let file = sources.add("chained", text);
     let parsed = syntax::parse(&sources, file);
     assert!(parsed.faults.is_empty());
-    let (model, messages) = check::check(&parsed.tree.mechanisms[0], &check::Surroundings::default(), &sources);
+    let (model, messages) = check::check(&parsed.tree.mechanisms[0], &check::CheckOptions::default(), &sources);
     (model, messages.iter().map(|one| one.code.as_str()).collect())
 }
 
@@ -126,7 +126,7 @@ fn any_number_of_levels_of_parts_is_told_with_a_small_stack() {
     let text = (0..4000).map(level).collect::<String>() + "mechanism m4000 { body b { point O = (0, 0) } }";
     let check = move || {
         let choice = Choice { mechanism: Some("m0".to_owned()), ..Choice::default() };
-        let checked = Parsed::of("levels", &text).check(&choice, &Memory::default());
+        let checked = Parsed::new("levels", &text).check(&choice, &Memory::default());
         checked.diagnostics().iter().map(|message| message.code.as_str()).collect::<Vec<_>>()
     };
     let reported =

@@ -127,7 +127,7 @@ fn with_some_params(text: &str, mechanism: usize, is_taken: impl Fn(usize) -> bo
 fn compile(path: &Path, text: &str, choice: &Choice) -> Option<Compiled> {
     let mut sources = mechc::Sources::default();
     let file = sources.add(path.display().to_string(), text);
-    let checked = Parsed::of_source(sources, file, path).check(choice, &Disk::default());
+    let checked = Parsed::from_source(sources, file, path).check(choice, &Disk::default());
     checked.compile(Redundant::Refused, &Cancel::default()).0
 }
 
@@ -152,7 +152,7 @@ fn setting(name: &str, value: f64, unit: &str) -> String {
 }
 
 /// A text with a parameter, or an input, to vary.
-struct Varied<'t> {
+struct SliderRange<'t> {
     path: &'t Path,
     text: &'t str,
     mechanism: &'t str,
@@ -162,7 +162,7 @@ struct Varied<'t> {
     is_input: bool,
 }
 
-impl Varied<'_> {
+impl SliderRange<'_> {
     fn choice(&self, by: &[&str]) -> Choice {
         let by = by.iter().map(|&name| name.to_owned()).collect();
         Choice { mechanism: Some(self.mechanism.to_owned()), by, ..Choice::default() }
@@ -236,7 +236,7 @@ struct Seen {
 }
 
 impl Seen {
-    fn take(&mut self, varied: &Varied<'_>) {
+    fn take(&mut self, varied: &SliderRange<'_>) {
         if let Some((cells, looked_at)) = varied.check() {
             (self.variables, self.cells, self.looked_at) =
                 (self.variables + 1, self.cells + cells, self.looked_at + looked_at);
@@ -268,9 +268,9 @@ fn first_order(path: &Path) {
     seen.is_enough();
 }
 
-fn varied_param<'t>(path: &'t Path, (text, mechanism): (&'t str, &'t str), param: &'t Param) -> Varied<'t> {
+fn varied_param<'t>(path: &'t Path, (text, mechanism): (&'t str, &'t str), param: &'t Param) -> SliderRange<'t> {
     let Param { name, value, .. } = param;
-    Varied { path, text, mechanism, name, value: *value, unit: param.unit(), is_input: false }
+    SliderRange { path, text, mechanism, name, value: *value, unit: param.unit(), is_input: false }
 }
 
 /// The text with measures that are places and angles of its bodies, differentiated by a name.
@@ -342,7 +342,7 @@ fn inputs(path: &Path) {
                 let is_there = text.split("mechanism ").any(|one| one.starts_with(&mechanism) && one.contains(input));
                 if is_there && compile(path, &text, &choice).is_some() {
                     let (mechanism, name) = (&mechanism, "zin");
-                    seen.take(&Varied {
+                    seen.take(&SliderRange {
                         path,
                         text: &text,
                         mechanism,

@@ -14,7 +14,7 @@ fn every_stage_is_as_in_its_snapshot(path: &Path) {
     let folder = path.parent().expect("a folder");
     let name = stem(folder);
     let text = fs::read_to_string(path).expect("a text");
-    let parsed = Parsed::of(&name, &text);
+    let parsed = Parsed::new(&name, &text);
     let checked = parsed.check(&Choice::default(), &Memory::default());
     assert!(checked.diagnostics().is_empty(), "{name}");
     let rows = run(&name, &text, Span::default()).expect_success();

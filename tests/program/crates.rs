@@ -20,7 +20,7 @@ struct Crate {
 fn emitted(path: &Path, text: &str) -> Crate {
     let name = path.file_name().expect("a name").to_string_lossy();
     let compiled = compile_number(path, text, 0).0.expect("determined");
-    let (files, _) = compiled.package("a_crate", &RustOptions::of(name));
+    let (files, _) = compiled.package("a_crate", &RustOptions::new(name));
     let files: BTreeMap<_, _> =
         files.expect("it assembles").into_iter().map(|CrateFile { path, text }| (path, text)).collect();
     let rows = table(&files["tests/reference.rs"]).chunks(compiled.columns().len()).map(<[f64]>::to_vec).collect();

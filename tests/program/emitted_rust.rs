@@ -41,7 +41,7 @@ fn nothing_in_a_module_can_panic() {
         let path = PathBuf::from(format!("tests/{file}.mech"));
         let name = path.file_stem().expect("a name").to_str().expect("a name");
         let emitted = Emitted::new(name.to_owned(), &path, 0).expect("determined");
-        let options = RustOptions { with_sensitivities: true, lanes: Some(2), ..RustOptions::of("machine.mech") };
+        let options = RustOptions { with_sensitivities: true, lanes: Some(2), ..RustOptions::new("machine.mech") };
         let all = emitted.compiled.rust(&options).0.expect("a module");
         for text in [all, emitted.text_of(None, 0)] {
             let object = object(folder.path(), name, &text, level);
@@ -98,7 +98,7 @@ fn what_is_generated_for_each_construct_is_as_a_reviewer_has_read_it() {
         let name = support::stem(&path);
         let emitted = Emitted::new(name.clone(), &path, 0).expect("determined");
         let with_motion = OF_MOTION.contains(&name.as_str());
-        let options = RustOptions { with_motion, ..RustOptions::of(format!("{name}.mech")) };
+        let options = RustOptions { with_motion, ..RustOptions::new(format!("{name}.mech")) };
         let text = emitted.compiled.rust(&options).0.expect("a module");
         let (generated, _) = text.split_once(GOES_ALONG).unwrap_or((&text, ""));
         support::golden::holds(path.with_extension("rs"), generated);

@@ -28,7 +28,7 @@ impl Crate {
         let path = Path::new(path);
         let text = fs::read_to_string(path).expect("a text");
         let compiled = compile_number(path, &text, 0).0.expect("determined");
-        let options = RustOptions { with_sensitivities: true, for_c: true, ..RustOptions::of("machine.mech") };
+        let options = RustOptions { with_sensitivities: true, for_c: true, ..RustOptions::new("machine.mech") };
         let folder = tempfile::tempdir().expect("a folder");
         let (files, diagnostics) = compiled.package(library, &options);
         for CrateFile { path, text } in files.unwrap_or_else(|| panic!("{diagnostics:?}")) {

@@ -3,7 +3,7 @@
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic)] // a test fails by panicking
 
 use mechc::{Checked, Choice, Color, Contents, Format, Memory, Parsed, Sources, Span, World, render};
-use mechc_lang::check::{KnownFile, Library, NotKnown};
+use mechc_lang::check::{Library, LibraryFile, LookupError};
 use mechc_syntax::ast::Name;
 use mechc_syntax::parse;
 use std::io;
@@ -93,7 +93,7 @@ fn a_file_is_read_once_whichever_paths_lead_to_it() {
 #[test]
 fn a_text_that_uses_nothing_reads_nothing() {
     let world = Counting(Memory::default(), Mutex::default());
-    assert!(Parsed::of("a.mech", &mechanism("a")).check(&Choice::default(), &world).is_sound());
+    assert!(Parsed::new("a.mech", &mechanism("a")).check(&Choice::default(), &world).is_sound());
     assert!(world.1.into_inner().expect("nobody panicked").is_empty());
 }
 
@@ -278,7 +278,7 @@ fn library(files: &[(&str, String, &[Option<usize>])]) -> (Library, Sources) {
     let known = files.iter().map(|(path, text, uses)| {
         let id = sources.add(*path, text);
         let read = Arc::new(parse(&sources, id));
-        KnownFile { id, path: PathBuf::from(path), read, uses: uses.to_vec() }
+        LibraryFile { id, path: PathBuf::from(path), read, uses: uses.to_vec() }
     });
     let known = known.collect();
     (Library::new(known), sources)
@@ -304,8 +304,8 @@ fn found((library, sources): &(Library, Sources), file: usize, path: &str) -> Re
     };
     match library.find(prefix.as_ref(), &last, sources) {
         Ok(known) => Ok(format!("{}:{}", known.file, library.tree(known).name.text)),
-        Err(NotKnown::Told(messages)) => Err(format!("{}; {}", messages.message, messages.help.join("; "))),
-        Err(NotKnown::Said) => Err(String::new()),
+        Err(LookupError::Told(messages)) => Err(format!("{}; {}", messages.message, messages.help.join("; "))),
+        Err(LookupError::Said) => Err(String::new()),
     }
 }
 

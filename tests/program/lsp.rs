@@ -13,7 +13,7 @@ mod writing;
 
 use client::Client;
 use mechc::Memory;
-use mechc_ide::lsp::Ended;
+use mechc_ide::lsp::SessionEnd;
 use serde_json::{Value, json};
 
 const URI: &str = "file:///work/slider_crank.mech";
@@ -161,12 +161,12 @@ fn sessions_go_as_the_protocol_says() {
     assert_eq!(client.request("shutdown", Value::Null), Value::Null);
     assert_eq!(client.refused("shutdown", Value::Null), INVALID_REQUEST);
     client.notify("exit", Value::Null);
-    assert_eq!(client.vanish(), Ended::Well);
+    assert_eq!(client.vanish(), SessionEnd::Well);
 }
 
 #[test]
 fn who_vanishes_ends_it() {
-    assert_eq!(pushed_to().vanish(), Ended::Early);
+    assert_eq!(pushed_to().vanish(), SessionEnd::Early);
 }
 
 /// A mechanism whose results are known behind its motion.
@@ -258,7 +258,7 @@ fn counted(uri: &str, text: &str, path: &std::path::Path) -> Vec<(String, String
             files = files.with(beside.display().to_string(), &text);
         }
     }
-    let systems = Parsed::of(&path.display().to_string(), text).check_each(&files);
+    let systems = Parsed::new(&path.display().to_string(), text).check_each(&files);
     let systems = systems.iter().map(|checked| checked.equations_text().expect("it is sound")).map(|text| {
         let numbers = text.lines().next().unwrap().rsplit_once(": ").unwrap().1.split(' ');
         let numbers: Vec<i64> = numbers.filter_map(|word| word.parse().ok()).collect();

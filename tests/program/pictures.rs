@@ -11,7 +11,7 @@ use crate::support::random::Random;
 use crate::support::{Disk, files, stem};
 use mechc::{
     Cancel, Checked, Choice, Code, Compiled, CurveTolerance, Diagnostic, Diagnostics, Parsed, Redundant, RunOptions,
-    Seen, Sources, Times,
+    Sources, Times, Visualization,
 };
 use mechc_draw::scene::{
     Anchor, Attachment, Catalogue, Look, Motion, Path as Drawn, Pen, Pose, Scene, Segment, Torque, Vector, catalogue,
@@ -29,25 +29,29 @@ use std::path::Path;
 fn compiled(path: &Path, text: &str) -> (Checked, Compiled) {
     let mut sources = Sources::default();
     let file = sources.add(path.display().to_string(), text);
-    let parsed = Parsed::of_source(sources, file, path);
+    let parsed = Parsed::from_source(sources, file, path);
     let checked = parsed.check(&Choice::default(), &Disk::default());
     let (compiled, reports) = checked.compile(Redundant::Refused, &Cancel::default());
     let compiled = compiled.unwrap_or_else(|| panic!("{}: {reports:?}", path.display()));
     (checked, compiled)
 }
 
-fn seen_as(path: &Path, text: &str, times: Option<Times>) -> Seen {
+fn seen_as(path: &Path, text: &str, times: Option<Times>) -> Visualization {
     let (checked, compiled) = compiled(path, text);
     let times = times.or_else(|| compiled.times()).expect("an analysis");
-    let (seen, reports) = checked.seen(&compiled, &times, &RunOptions::default(), 2000);
+    let (seen, reports) = checked.visualize(&compiled, &times, &RunOptions::default(), 2000);
     seen.unwrap_or_else(|| panic!("{}: {reports:?}", path.display()))
 }
 
 /// A motion that is refined until its curves are within a tolerance; with what is said of those that end early.
-fn refined(path: &Path, text: &str, tolerance: impl Fn(&Seen) -> CurveTolerance) -> (Seen, Diagnostics) {
+fn refined(
+    path: &Path,
+    text: &str,
+    tolerance: impl Fn(&Visualization) -> CurveTolerance,
+) -> (Visualization, Diagnostics) {
     let (checked, compiled) = compiled(path, text);
     let (times, options) = (compiled.times().expect("an analysis"), RunOptions::default());
-    let (seen, reports) = checked.seen(&compiled, &times, &options, 2000);
+    let (seen, reports) = checked.visualize(&compiled, &times, &options, 2000);
     let mut seen = seen.unwrap_or_else(|| panic!("{}: {reports:?}", path.display()));
     let tolerance = tolerance(&seen);
     let reports = checked.refine_motion(&compiled, &times, &options, &mut seen, &tolerance);
@@ -55,35 +59,35 @@ fn refined(path: &Path, text: &str, tolerance: impl Fn(&Seen) -> CurveTolerance)
 }
 
 /// A motion that is refined, all of whose curves are drawn to their ends.
-fn seen_within(path: &Path, text: &str, tolerance: impl Fn(&Seen) -> CurveTolerance) -> Seen {
+fn seen_within(path: &Path, text: &str, tolerance: impl Fn(&Visualization) -> CurveTolerance) -> Visualization {
     let (seen, reports) = refined(path, text, tolerance);
     assert!(reports.is_empty(), "{}: {reports:?}", path.display());
     seen
 }
 
 /// A text as it is cut at its own size.
-fn seen_to_cut(text: &str) -> Seen {
+fn seen_to_cut(text: &str) -> Visualization {
     seen_within(Path::new("test.mech"), text, |_| CurveTolerance::to_cut(1.0, Vec::new()))
 }
 
-fn seen_text(text: &str) -> Seen {
+fn seen_text(text: &str) -> Visualization {
     seen_as(Path::new("test.mech"), text, None)
 }
 
 /// What there is to see of a mechanism that has no motion, and all that is said of it.
-fn seen_at_rest(path: &str) -> (Seen, Vec<String>) {
+fn static_visualization(path: &str) -> (Visualization, Vec<String>) {
     let text = fs::read_to_string(path).expect("a mechanism");
     let mut sources = Sources::default();
     let file = sources.add(path, text);
-    let checked = Parsed::of_source(sources, file, Path::new(path)).check(&Choice::default(), &Disk::default());
+    let checked = Parsed::from_source(sources, file, Path::new(path)).check(&Choice::default(), &Disk::default());
     let options = RunOptions::default();
     let (compiled, mut reports) = checked.compile(Redundant::Refused, &Cancel::default());
     if let Some(compiled) = &compiled {
-        let (seen, why) = checked.seen(compiled, &compiled.times().expect("an analysis"), &options, 2000);
+        let (seen, why) = checked.visualize(compiled, &compiled.times().expect("an analysis"), &options, 2000);
         assert!(seen.is_none(), "{path} moves");
         reports = why;
     }
-    let seen = checked.seen_at_rest(compiled.as_ref(), (0.0, &options), &reports).expect("it is sound");
+    let seen = checked.static_visualization(compiled.as_ref(), (0.0, &options), &reports).expect("it is sound");
     let notes = |reports: &Diagnostic| if reports.code == Code::E0601 { reports.notes.clone() } else { Vec::new() };
     let message = |reports: &Diagnostic| format!("error[{}]: {}", reports.code, reports.message);
     let messages = reports.iter().flat_map(|reports| std::iter::once(message(reports)).chain(notes(reports))).collect();
@@ -91,7 +95,7 @@ fn seen_at_rest(path: &str) -> (Seen, Vec<String>) {
 }
 
 /// All examples, with their names.
-fn examples() -> Vec<(String, Seen)> {
+fn examples() -> Vec<(String, Visualization)> {
     let read = |path: std::path::PathBuf| {
         let text = fs::read_to_string(&path).expect("an example");
         (stem(&path), seen_as(&path, &text, None))
@@ -99,7 +103,7 @@ fn examples() -> Vec<(String, Seen)> {
     files("examples", "mech").into_iter().map(read).collect()
 }
 
-fn example(name: &str) -> Seen {
+fn example(name: &str) -> Visualization {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("examples/{name}.mech"));
     let text = fs::read_to_string(&path).expect("an example");
     seen_as(&path, &text, None)
@@ -174,7 +178,7 @@ impl<'f> Read<'f> {
 }
 
 /// The farthest that a pin of a moving picture is from its place, at random times (px).
-fn farthest_pin(name: &str, seen: &Seen, file: &str) -> f64 {
+fn farthest_pin(name: &str, seen: &Visualization, file: &str) -> f64 {
     let read = Read::of(file);
     let (mut random, mut poses, mut farthest) = (Random::new(7), Vec::new(), 0.0_f64);
     let (first, last) = (seen.motion.times[0], seen.motion.times[seen.motion.len() - 1]);
@@ -385,18 +389,18 @@ const HELD: &str = "mechanism held {
     analysis from 0 s to 0.2 s every 5 ms
 }";
 
-fn seen_with_forces(text: &str) -> Seen {
+fn seen_with_forces(text: &str) -> Visualization {
     let choice = Choice { pictures_forces: true, ..Choice::default() };
-    let checked = Parsed::of("test.mech", text).check(&choice, &Disk::default());
+    let checked = Parsed::new("test.mech", text).check(&choice, &Disk::default());
     let (compiled, reports) = checked.compile(Redundant::Refused, &Cancel::default());
     let compiled = compiled.unwrap_or_else(|| panic!("{reports:?} {:?}", checked.diagnostics()));
     let times = compiled.times().expect("an analysis");
-    let (seen, reports) = checked.seen(&compiled, &times, &RunOptions::default(), 2000);
+    let (seen, reports) = checked.visualize(&compiled, &times, &RunOptions::default(), 2000);
     seen.unwrap_or_else(|| panic!("{reports:?}"))
 }
 
 /// The torques of a mechanism in a row, with their names.
-fn torques(seen: &Seen, row: usize) -> Vec<(String, f64)> {
+fn torques(seen: &Visualization, row: usize) -> Vec<(String, f64)> {
     let named = |torque: &Torque| seen.scene.declarations[torque.declaration].name.clone();
     seen.scene.torques.iter().map(|torque| (named(torque), torque.value(&seen.motion, row))).collect()
 }
@@ -499,7 +503,7 @@ fn boxes(file: &str) -> Vec<(String, [Vector; 2])> {
 }
 
 /// A single moment of a motion.
-fn one_row(seen: &Seen, row: usize) -> Motion {
+fn one_row(seen: &Visualization, row: usize) -> Motion {
     seen.motion.moment(row)
 }
 
@@ -587,7 +591,7 @@ fn wheels_that_no_pitch_fits_have_no_teeth() {
             }}"
         ))
     };
-    let teeth = |seen: &Seen| {
+    let teeth = |seen: &Visualization| {
         let gears = seen.scene.nodes.iter().flat_map(|node| &node.shapes).filter(|shape| shape.look == Look::Gear);
         gears.map(|shape| shape.path.positions().len()).min().expect("a wheel")
     };
@@ -707,7 +711,7 @@ fn edges_are_known() {
 }
 
 /// All measures of what is seen, as the command line plots them.
-fn measures(seen: &Seen) -> Vec<Plot<'_>> {
+fn measures(seen: &Visualization) -> Vec<Plot<'_>> {
     let declared = seen.scene.declarations.iter().filter(|declaration| declaration.kind == "measure");
     let plot = |name: &str| {
         let at = seen.columns.iter().position(|column| column == name).expect("a column");
@@ -784,7 +788,7 @@ fn pictures_true_to_scale_are_in_millimetres_of_paper() {
 }
 
 /// Through the group around all, places are where the scale has them, to a tenth of a micrometre of paper.
-fn places_are_true(seen: &Seen, row: usize, options: &Options) {
+fn places_are_true(seen: &Visualization, row: usize, options: &Options) {
     let file = still(&seen.scene, &seen.motion, &one_row(seen, row), options);
     let (_, group) = file.split_once("<g transform=\"scale(").expect("a group");
     let each: f64 = group.split(')').next().expect("a scale").parse().expect("a number");
@@ -995,7 +999,7 @@ fn gallery() -> Vec<(String, String)> {
     for path in files("examples", "mech") {
         let name = stem(&path);
         let traced = TRACED.iter().find(|(example, _)| *example == name).map(|(_, path)| *path);
-        let anchor = |seen: &Seen| {
+        let anchor = |seen: &Visualization| {
             let point = seen.scene.point_named(traced?).expect("a point of the example");
             Some(Anchor { frame: point.frame, at: point.at })
         };
@@ -1035,8 +1039,8 @@ fn free(text: &str) -> Vec<Vec<(String, [f64; 3])>> {
     let mut sources = Sources::default();
     let file = sources.add("free.mech", text);
     let tree = syntax::parse(&sources, file).tree;
-    let (model, reports) = check::check(&tree.mechanisms[0], &check::Surroundings::default(), &sources);
-    let system = lower::lowered(&model.unwrap_or_else(|| panic!("{reports:?}")));
+    let (model, reports) = check::check(&tree.mechanisms[0], &check::CheckOptions::default(), &sources);
+    let system = lower::lower_model(&model.unwrap_or_else(|| panic!("{reports:?}")));
     let named = |FreeMotion { bodies }: FreeMotion| {
         bodies.into_iter().map(|(body, velocity)| (system.bodies()[body].name.clone(), velocity)).collect()
     };
@@ -1095,7 +1099,7 @@ fn free_motions_are_those_by_hand() {
 }
 
 /// The places of nodes that have a shape of some look, with their declarations.
-fn looking(seen: &Seen, look: Look) -> Vec<(&str, Vector)> {
+fn looking(seen: &Visualization, look: Look) -> Vec<(&str, Vector)> {
     let nodes = seen.scene.nodes.iter().filter(|node| node.shapes.iter().any(|shape| shape.look == look));
     let poses = seen.motion.poses(0);
     nodes
@@ -1105,7 +1109,7 @@ fn looking(seen: &Seen, look: Look) -> Vec<(&str, Vector)> {
 
 #[test]
 fn what_is_left_free_has_arrows() {
-    let (seen, reports) = seen_at_rest("tests/ui/ndof/three_cranks_without_driver.mech");
+    let (seen, reports) = static_visualization("tests/ui/ndof/three_cranks_without_driver.mech");
     assert!(reports[0].starts_with("error[E0503]"), "{reports:?}");
     let mut arrows = looking(&seen, Look::Free);
     arrows.sort_by(|a, b| a.0.cmp(b.0));
@@ -1124,7 +1128,7 @@ fn what_is_left_free_has_arrows() {
 
 #[test]
 fn what_cannot_be_assembled_is_open_where_it_is_said() {
-    let (seen, reports) = seen_at_rest("tests/ui/run/loop_that_never_closes.mech");
+    let (seen, reports) = static_visualization("tests/ui/run/loop_that_never_closes.mech");
     assert!(reports[0].ends_with("joint `swing` stays open by 8.88 mm"), "{reports:?}");
     let open = seen.scene.nodes.iter().filter(|node| node.shapes.iter().any(|shape| shape.look == Look::GapEnd));
     let [open] = open.collect::<Vec<_>>()[..] else { panic!("one joint is open") };
@@ -1141,7 +1145,7 @@ fn what_cannot_be_assembled_is_open_where_it_is_said() {
 #[test]
 fn lengths_that_are_blamed_stand_beside_what_is_red() {
     let path = "tests/ui/run/loop_that_never_closes.mech";
-    let (seen, reports) = seen_at_rest(path);
+    let (seen, reports) = static_visualization(path);
     let remarks: Vec<&str> = seen.scene.remarks.iter().map(|remark| remark.text.as_str()).collect();
     assert_eq!(remarks, ["100 mm: too long", "10 mm: too short", "70 mm: too short"]);
     assert_eq!(seen.scene.remarks[0].at, [0.05, 0.0], "the middle of the ground's length");
@@ -1180,14 +1184,14 @@ fn what_stops_is_shown_up_to_there() {
     assert!(farthest_pin("four_bar", &seen, &file) < 0.5);
 }
 
-fn stopped() -> Seen {
+fn stopped() -> Visualization {
     let path = Path::new("tests/ui/run/four_bar_into_lock_up.mech");
     seen_as(path, &fs::read_to_string(path).expect("a mechanism"), None)
 }
 
 #[test]
 fn messages_take_no_room_from_what_is_drawn() {
-    let (seen, reports) = seen_at_rest("tests/ui/run/loop_that_never_closes.mech");
+    let (seen, reports) = static_visualization("tests/ui/run/loop_that_never_closes.mech");
     for size in [None, Some([400.0, 300.0]), Some([1280.0, 720.0])] {
         let options = Options { said: reports.clone(), labels: true, size, ..Options::default() };
         let file = still(&seen.scene, &seen.motion, &seen.motion, &options);
@@ -1221,7 +1225,7 @@ fn goldens() -> Vec<(String, String)> {
     let pen = hoeken.scene.point_named("coupler.pen").expect("the pen");
     let pen = ("coupler.pen".to_owned(), Anchor { frame: pen.frame, at: pen.at });
     let of_broken = |path: &str| {
-        let (seen, reports) = seen_at_rest(path);
+        let (seen, reports) = static_visualization(path);
         still(&seen.scene, &seen.motion, &seen.motion, &Options { said: reports, ..Options::default() })
     };
     let stopped = stopped();

@@ -369,7 +369,7 @@ fn formulas_of_the_json_are_those_of_the_system() {
         for (condition, item) in system.conditions().iter().zip(list(&json, "conditions")) {
             same(&item["positive"], condition.positive);
         }
-        for (watch, item) in system.watches().iter().zip(list(&json, "watches")) {
+        for (watch, item) in system.monitors().iter().zip(list(&json, "watches")) {
             same(&item["value"], watch.value);
         }
         for (check, item) in system.checks().iter().zip(list(&json, "left_out")) {

@@ -2,7 +2,7 @@
 
 use mechc::{
     Cancel, Choice, Color, Compiled, Diagnostics, Format, Memory, Parsed, Redundant, RunOptions, RustOptions, Sources,
-    TableFormat, TableWriter, Times, imported, render,
+    TableFormat, TableWriter, Times, import_model, render,
 };
 
 /// A text that is nested as deeply as possible in one way.
@@ -129,7 +129,7 @@ fn foreign(formula: &str) -> String {
 /// Runs all stages on a text. Returns its diagnostics, or its table and the sizes of all other outputs.
 pub fn run_all_stages(deep: &Deep) -> Result<String, String> {
     let text = if deep.is_foreign { translated(deep)? } else { deep.text.clone() };
-    let parsed = Parsed::of(deep.name, &text);
+    let parsed = Parsed::new(deep.name, &text);
     let (made, sources) = ways(&parsed);
     made.map_err(|said| in_words(&said, &sources))
 }
@@ -141,7 +141,7 @@ fn in_words(said: &Diagnostics, sources: &Sources) -> String {
 fn translated(deep: &Deep) -> Result<String, String> {
     let mut sources = Sources::default();
     let file = sources.add(deep.name, deep.text.as_str());
-    let (text, said) = imported(file, None, &sources);
+    let (text, said) = import_model(file, None, &sources);
     text.ok_or_else(|| in_words(&said, &sources))
 }
 
@@ -153,7 +153,7 @@ fn ways(parsed: &Parsed) -> (Result<String, Diagnostics>, Sources) {
     };
     let (compiled, said) = checked.compile(Redundant::Refused, &Cancel::default());
     let Some(compiled) = compiled else { return (Err(said), sources) };
-    let (emitted, said) = compiled.rust(&RustOptions::of("deep"));
+    let (emitted, said) = compiled.rust(&RustOptions::new("deep"));
     let Some(emitted) = emitted else { return (Err(said), sources) };
     let (latex, json) = (compiled.latex("deep"), compiled.json("deep"));
     let formatted = parsed.formatted().unwrap_or_default();

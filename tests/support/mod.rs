@@ -102,12 +102,12 @@ impl Outcome {
 
 /// Checks and proves the first mechanism of a text, whose files are next to its name.
 pub fn compile(name: &str, text: &str) -> (Option<Compiled>, Outcome) {
-    compile_at(&Parsed::of(name, text), 0, Redundant::Refused, false, &Disk::default())
+    compile_at(&Parsed::new(name, text), 0, Redundant::Refused, false, &Disk::default())
 }
 
 /// Checks and proves the first mechanism of a text, without its redundant equations.
 pub fn compile_without_redundant(name: &str, text: &str) -> (Option<Compiled>, Outcome) {
-    compile_at(&Parsed::of(name, text), 0, Redundant::LeftOut, false, &Disk::default())
+    compile_at(&Parsed::new(name, text), 0, Redundant::LeftOut, false, &Disk::default())
 }
 
 /// Checks and proves a mechanism of a text in a file, by its number.
@@ -125,7 +125,7 @@ pub fn compile_with_forces(path: &Path, text: &str, number: usize) -> Option<Com
 fn parsed_in(path: &Path, text: &str) -> Parsed {
     let mut sources = Sources::default();
     let file = sources.add(path.display().to_string(), text);
-    Parsed::of_source(sources, file, path)
+    Parsed::from_source(sources, file, path)
 }
 
 /// Compiles the mechanism of a correct text.
@@ -163,13 +163,13 @@ pub fn run_number(path: &Path, text: &str, number: usize, span: Span) -> Outcome
 
 /// Returns the names of the mechanisms in a text.
 pub fn mechanisms(text: &str) -> Vec<String> {
-    Parsed::of("text", text).mechanisms().map(str::to_owned).collect()
+    Parsed::new("text", text).mechanisms().map(str::to_owned).collect()
 }
 
 /// Runs the first mechanism of a text over its analysis; the files of its tables are in a folder.
 pub fn run_in(folder: &Path, name: &str, text: &str, span: Span) -> Outcome {
     let disk = Disk(folder.to_owned());
-    analyse(compile_at(&Parsed::of(name, text), 0, Redundant::Refused, false, &disk), span)
+    analyse(compile_at(&Parsed::new(name, text), 0, Redundant::Refused, false, &disk), span)
 }
 
 /// Runs a compiled mechanism over its analysis.
@@ -204,7 +204,7 @@ pub fn follow(compiled: &Compiled, times: &Times, options: &RunOptions, outcome:
             Err(diagnostic) => why = Some(*diagnostic),
         }
     }
-    outcome.diagnostics.extend(run.take_remarks());
+    outcome.diagnostics.extend(run.take_warnings());
     outcome.diagnostics.extend(run.results().into_iter().flat_map(|answers| answers.notes));
     outcome.diagnostics.extend(why);
     true

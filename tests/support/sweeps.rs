@@ -17,7 +17,7 @@ pub struct Subject {
 
 /// Reads a text with a choice.
 pub fn subject(text: &str, choice: Choice) -> Subject {
-    let parsed = Parsed::of("text.mech", text);
+    let parsed = Parsed::new("text.mech", text);
     let choice = Choice { lead: true, ..choice };
     let checked = parsed.check(&choice, &Memory::default());
     let (compiled, said) = checked.compile(Redundant::Refused, &Cancel::default());

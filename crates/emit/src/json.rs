@@ -6,7 +6,7 @@
 use super::not_written;
 use mechc_expr::{ExprId, Printer, Symbol, Table};
 use mechc_ir::{
-    ConditionKind, ConstraintSystem, CoordinateKind, DeclarationKind, Mechanics, Owner, SparseRows, WatchKind,
+    ConditionKind, ConstraintSystem, CoordinateKind, DeclarationKind, Mechanics, MonitorKind, Owner, SparseRows,
 };
 use mechc_text::source::{Sources, Span};
 use serde_json::{Value, json};
@@ -81,7 +81,7 @@ fn roots(system: &ConstraintSystem, mechanics: Option<&Mechanics>) -> Vec<ExprId
         roots.extend(system.reactions().iter().map(|of| of.value));
     }
     roots.extend(system.conditions().iter().map(|condition| condition.positive));
-    roots.extend(system.watches().iter().map(|watch| watch.value));
+    roots.extend(system.monitors().iter().map(|watch| watch.value));
     roots.extend(system.checks().iter().map(|check| check.phi));
     roots.extend(system.graph().tables().iter().flat_map(|table| table.cells().chain(table.values.iter().copied())));
     roots
@@ -279,11 +279,11 @@ impl Writer<'_> {
     }
 
     fn watches(&self) -> Vec<Value> {
-        let watches = self.system.watches().iter().map(|watch| {
+        let watches = self.system.monitors().iter().map(|watch| {
             let kind = match watch.kind {
-                WatchKind::LineOfCenters => "line_of_centers",
-                WatchKind::Tangents => "tangents",
-                WatchKind::Curvature => "curvature",
+                MonitorKind::LineOfCenters => "line_of_centers",
+                MonitorKind::Tangents => "tangents",
+                MonitorKind::Curvature => "curvature",
             };
             json!({ "declaration": watch.declaration.index(), "kind": kind, "value": (self.text)(watch.value) })
         });

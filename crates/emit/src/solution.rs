@@ -10,7 +10,7 @@ use super::text::literal;
 use super::{EmittedMotion, TranslationUnit};
 use mechc_engine::solver::{Instruction, Segment, Solver};
 use mechc_ir::With;
-use mechc_ir::layout::{Holds, row_holds};
+use mechc_ir::layout::{ColumnContent, row_contents};
 use mechc_ir::program::{Column, Register};
 use mechc_ir::tolerances::solving::solver::LARGEST_MULTIPLIER;
 use rustc_hash::FxHashMap;
@@ -25,14 +25,14 @@ pub(super) struct Solution<'s> {
     /// Columns of what measures join that is no result, in order.
     pub joined: Vec<u32>,
     /// What the columns hold that operations leave values in.
-    holds: Vec<Holds>,
+    holds: Vec<ColumnContent>,
 }
 
 impl<'s> Solution<'s> {
     pub fn new(unit: &'s TranslationUnit<'s>, motion: &'s EmittedMotion, equations: &'s Equations<'s>) -> Solution<'s> {
         let joined = joined([Some(&motion.solver), motion.forced.as_ref()].into_iter().flatten());
         let mut solution =
-            Solution { unit, motion, equations, known: FxHashMap::default(), joined, holds: row_holds(unit.system) };
+            Solution { unit, motion, equations, known: FxHashMap::default(), joined, holds: row_contents(unit.system) };
         let instructions = || {
             let more = motion.sensitive.iter().chain(&motion.forced).flat_map(Solver::instructions);
             motion.solver.instructions().iter().chain(more)
@@ -236,9 +236,9 @@ impl<'s> Solution<'s> {
     }
 
     /// What a column holds.
-    fn holds(&self, column: u32) -> Holds {
+    fn holds(&self, column: u32) -> ColumnContent {
         debug_assert!((column as usize) < self.holds.len(), "column {column} is none of a row's");
-        self.holds.get(column as usize).copied().unwrap_or(Holds::Time)
+        self.holds.get(column as usize).copied().unwrap_or(ColumnContent::Time)
     }
 
     /// The place of a column among those that are joined.
@@ -268,11 +268,13 @@ impl<'s> Solution<'s> {
         let inputs = &self.unit.program.inputs;
         let place = |column: u32| match (self.joined(column), self.holds(column)) {
             (Some(place), _) => self.results() + place as u32,
-            (None, Holds::Slope { of, by: With::Input(input) }) => self.columns() + input as u32 * inputs.n + of as u32,
-            (None, Holds::Slope { of, by: With::Param(param) }) => {
+            (None, ColumnContent::Slope { of, by: With::Input(input) }) => {
+                self.columns() + input as u32 * inputs.n + of as u32
+            }
+            (None, ColumnContent::Slope { of, by: With::Param(param) }) => {
                 self.first_of_more() + param as u32 * inputs.n + of as u32
             }
-            (None, Holds::Reaction(k)) => self.first_of_more() + k as u32,
+            (None, ColumnContent::Reaction(k)) => self.first_of_more() + k as u32,
             (None, _) if column < self.motion.solver.layout().reactions => column,
             (None, _) => column - self.unit.system.reactions().len() as u32,
         };
@@ -375,20 +377,20 @@ impl Scene for SolverScene<'_> {
         }
         let held = self.solution.holds(column);
         match held {
-            Holds::Coordinate { index, order } => at(format!("at.{}[{index}]{}", ARRAYS[order], self.lane())),
-            Holds::Measure { order, .. } => {
+            ColumnContent::Coordinate { index, order } => at(format!("at.{}[{index}]{}", ARRAYS[order], self.lane())),
+            ColumnContent::Measure { order, .. } => {
                 let of = if self.has_lanes { "" } else { "measures." };
                 let place = column - self.solver.layout().measures[order];
                 at(format!("at.{of}{}[{place}]{}", ["values", "rates", "accelerations"][order], self.lane()))
             }
-            Holds::Slope { of, by: With::Input(input) } => at(format!("at.along.by_signal[{input}][{of}]")),
-            Holds::Slope { of, by: With::Param(param) } => Operand::of(format!("by[{param}][{of}]"), &["by"]),
-            Holds::Reaction(k) => Operand::of(format!("{FORCES}[{k}]"), &[FORCES]),
-            Holds::Time
-            | Holds::Slope { by: With::Time(_), .. }
-            | Holds::Appended(_)
-            | Holds::Varied
-            | Holds::Multiplier => {
+            ColumnContent::Slope { of, by: With::Input(input) } => at(format!("at.along.by_signal[{input}][{of}]")),
+            ColumnContent::Slope { of, by: With::Param(param) } => Operand::of(format!("by[{param}][{of}]"), &["by"]),
+            ColumnContent::Reaction(k) => Operand::of(format!("{FORCES}[{k}]"), &[FORCES]),
+            ColumnContent::Time
+            | ColumnContent::Slope { by: With::Time(_), .. }
+            | ColumnContent::DerivativeColumn(_)
+            | ColumnContent::Varied
+            | ColumnContent::Multiplier => {
                 debug_assert!(false, "no code has a place for {held:?}");
                 Operand::Number(f64::NAN)
             }
@@ -398,7 +400,7 @@ impl Scene for SolverScene<'_> {
     fn name(&self, column: u32) -> Option<String> {
         let names: &Names = self.solution.equations.names;
         match self.solution.holds(column) {
-            Holds::Coordinate { index, order } if order < 3 => {
+            ColumnContent::Coordinate { index, order } if order < 3 => {
                 Some(names.coordinate(order, index)).filter(|name| Names::is_telling(name))
             }
             _ => None,
@@ -415,7 +417,7 @@ impl Scene for SolverScene<'_> {
 
     fn stores(&self, column: u32) -> bool {
         // third derivatives are no results
-        let is_third = matches!(self.solution.holds(column), Holds::Coordinate { order: 3, .. });
+        let is_third = matches!(self.solution.holds(column), ColumnContent::Coordinate { order: 3, .. });
         !is_third || self.solution.joined(column).is_some()
     }
 

@@ -101,7 +101,7 @@ impl Graph {
     /// Returns the value of a formula whose symbols may be unknown (NaN); NaN if it depends on an unknown. Conditions are three-valued: a
     /// comparison with an operand that is unknown or not finite is unknown.
     #[must_use]
-    pub fn known_value(&self, root: ExprId, symbol: impl Fn(Symbol) -> f64) -> f64 {
+    pub fn value_if_known(&self, root: ExprId, symbol: impl Fn(Symbol) -> f64) -> f64 {
         self.value_by(root, |node, operand| {
             let holds = |id| match operand(id) {
                 value if value.is_nan() => None,

@@ -21,7 +21,7 @@ use expected::{Expected, expected};
 use mechc_pipeline::Checked;
 use mechc_syntax::ast::Mechanism;
 use mechc_text::vocabulary::{
-    FUNCTIONS, Group, JOINTS, KEYWORDS, Keyword, QUANTITIES, REDUCTIONS, ReductionWord, Role, Word, is_before_a_name,
+    FUNCTIONS, Group, JOINTS, KEYWORDS, Keyword, QUANTITIES, REDUCTIONS, ReductionWord, Role, Word, declares_name,
 };
 use mechc_text::world::{World, beside};
 use proposals::OtherDeclarations;
@@ -164,9 +164,7 @@ impl CompletionContext<'_> {
         let is_behind_colon = cursor.last() == Some(":");
         match (cursor.head(), cursor.last()) {
             // a new name is declared here
-            (head, Some(last)) if head == last && cursor.declaration().len() == 1 && is_before_a_name(head) => {
-                Vec::new()
-            }
+            (head, Some(last)) if head == last && cursor.declaration().len() == 1 && declares_name(head) => Vec::new(),
             ("analysis", Some("analysis")) => self.joining(),
             ("measure" | "trace" | "result", Some("in")) => units::printed(),
             ("joint", _) if is_behind_colon => self.joints(),

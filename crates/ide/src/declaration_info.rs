@@ -156,7 +156,7 @@ fn value_of_param(subject: &Subject<'_>) -> Option<String> {
     let symbols = subject.checked.symbols();
     let param = symbols.iter().find(|(_, name)| name.kind == NameKind::Param && name.name == subject.path);
     let Some((_, DeclaredName { span: name, .. })) = param else { return value_in_part(subject) };
-    let value = subject.checked.known().values.iter().find(|value| value.name == Some(*name))?;
+    let value = subject.checked.declaration_info().values.iter().find(|value| value.name == Some(*name))?;
     Some(match &value.amount {
         Amount::Point([x, y]) => format!("= ({}, {}) m, a point", short(*x), short(*y)),
         Amount::Number { si, dimension, is_angle, unit } => {
@@ -191,7 +191,7 @@ fn bound_in_part(subject: &Subject<'_>) -> Option<String> {
     let number = match &bound.value.bare().kind {
         ExprKind::Literal { value, unit: Some((unit, power)) } => Unit::named(&unit.text).map(|unit| {
             let dimension = unit.dimension.to_the(f64::from(*power));
-            let si = with_unit(unit.to_si(*value, *power), &si_unit(dimension, unit.is_of_angle()));
+            let si = with_unit(unit.to_si(*value, *power), &si_unit(dimension, unit.measures_angle()));
             format!("= {si}, {}", dimension.in_words())
         }),
         _ => None,

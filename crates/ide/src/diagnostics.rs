@@ -4,7 +4,7 @@ use super::location::{Change, FileRange};
 use super::snapshot::Snapshot;
 use mechc_pipeline::Checked;
 use mechc_text::cancel::Cancel;
-use mechc_text::diag::{Applies, Diagnostic, Diagnostics, Edit, Fix};
+use mechc_text::diag::{Applicability, Diagnostic, Diagnostics, Edit, Fix};
 use mechc_text::source::{FileId, Sources, Span};
 use std::ops::Range;
 use std::path::Path;
@@ -133,7 +133,7 @@ fn proposed(fix: &Fix, sources: &Sources) -> ProposedFix {
     let change = |edit: &Edit| Change { location: FileRange::from_span(edit.span, sources), text: edit.text.clone() };
     ProposedFix {
         message: fix.message.clone(),
-        is_certain: fix.applies == Applies::Always,
+        is_certain: fix.applies == Applicability::Always,
         changes: fix.edits.iter().map(change).collect(),
     }
 }

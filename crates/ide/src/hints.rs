@@ -2,7 +2,7 @@
 
 use super::numbers::{degrees, in_unit, short, si_unit, signed, with_unit};
 use super::snapshot::Snapshot;
-use mechc_lang::check::{Amount, Count, Index, KnownValue};
+use mechc_lang::check::{Amount, ConstantValue, DeclarationCount, Index};
 use mechc_pipeline::Checked;
 use mechc_text::vocabulary::Dimension;
 use std::ops::Range;
@@ -31,7 +31,7 @@ pub fn hints(snapshot: &Snapshot, path: &Path, range: &Range<u32>) -> Option<Vec
 }
 
 fn of_mechanism(checked: &Checked) -> Vec<Hint> {
-    let info = checked.known();
+    let info = checked.declaration_info();
     let name = checked.symbols().iter().next().map(|(_, mechanism)| mechanism.span.end);
     let mut hints: Vec<Hint> =
         info.freedom.zip(name).map(|(freedom, end)| of_freedom(freedom, end)).into_iter().collect();
@@ -51,8 +51,8 @@ fn of_freedom(freedom: i64, offset: u32) -> Hint {
     Hint { offset, label: format!("NDOF = {number}"), meaning }
 }
 
-fn of_count(count: &Count) -> Hint {
-    let Count { freedom, copies, .. } = *count;
+fn of_count(count: &DeclarationCount) -> Hint {
+    let DeclarationCount { freedom, copies, .. } = *count;
     let label = match copies {
         // copies of a part may differ in their numbers, and then only the total is shown
         Some(copies) if copies > 0 && freedom % copies.cast_signed() as i64 == 0 => {
@@ -80,7 +80,7 @@ fn of_index(index: &Index) -> Hint {
 }
 
 /// Returns a hint with the value of a formula; `None` if the formula is that value.
-fn of_value(value: &KnownValue) -> Option<Hint> {
+fn of_value(value: &ConstantValue) -> Option<Hint> {
     let label = match &value.amount {
         Amount::Point(_) if value.is_number => return None,
         Amount::Point([x, y]) => format!("= ({}, {}) m", short(*x), short(*y)),

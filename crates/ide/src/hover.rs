@@ -72,7 +72,7 @@ impl HoveredWord<'_> {
         let path = if is_written { written } else { names.join(".") };
         let declaration = match name.kind {
             NameKind::Mechanism => checked.interface(None, &name.name).map(|interface| interface.docs),
-            _ => checked.declared(&names).map(|declaration| declaration.docs),
+            _ => checked.find_declaration(&names).map(|declaration| declaration.docs),
         };
         let code = head(checked.sources().text(name.declaration), name.kind);
         let mut parts =
@@ -91,7 +91,7 @@ impl HoveredWord<'_> {
     fn in_part(&self, checked: &Checked) -> Option<String> {
         let path = path_at(self.text, self.word);
         let names: Vec<&str> = path.iter().map(|(name, _)| name.as_str()).collect();
-        let Declaration { kind, span, docs } = checked.declared(&names).filter(|_| names.len() > 1)?;
+        let Declaration { kind, span, docs } = checked.find_declaration(&names).filter(|_| names.len() > 1)?;
         let mut parts: Vec<String> = (!docs.is_empty()).then(|| docs.join("\n")).into_iter().collect();
         parts.push(head(checked.sources().text(span), kind));
         parts.push(format!("of `{}`", names[..names.len() - 1].join(".")));

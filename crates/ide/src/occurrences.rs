@@ -5,7 +5,7 @@
 
 use super::location::{FilePosition, FileRange};
 use super::snapshot::Snapshot;
-use mechc_lang::check::{KnownMechanism, Library, Meaning, name_of};
+use mechc_lang::check::{Library, LibraryMechanism, Meaning, name_of};
 use mechc_pipeline::Checked;
 use mechc_syntax::ast::{Expr, ExprKind, Item, ItemKind, Mechanism, MechanismName, Name, Part, TableRows};
 use mechc_text::source::{FileId, Span};
@@ -226,7 +226,7 @@ impl Walk<'_> {
 }
 
 /// Finds the mechanism that a part names.
-pub(super) fn find_mechanism(library: &Library, name: &MechanismName, checked: &Checked) -> Option<KnownMechanism> {
+pub(super) fn find_mechanism(library: &Library, name: &MechanismName, checked: &Checked) -> Option<LibraryMechanism> {
     library.find(name.prefix.as_ref(), &name.name, checked.sources()).ok()
 }
 

@@ -272,7 +272,7 @@ impl Snapshot {
     /// Returns whether any mechanism of a file can be proven.
     #[must_use]
     pub fn may_be_proven(&self, path: &Path) -> Option<bool> {
-        let may_be = |checked: &Checked| checked.is_sound() || checked.is_sound_but_for_outputs();
+        let may_be = |checked: &Checked| checked.is_sound() || checked.has_only_output_errors();
         Some(self.checked(path)?.mechanisms.iter().any(may_be))
     }
 
@@ -292,7 +292,7 @@ impl Snapshot {
         stages.proofs.get_or_compute(|| {
             self.unless_cancelled(())?;
             let prove = |checked: &Checked| {
-                let reduced = if checked.is_sound() { None } else { checked.without_wrong_outputs(&*self.buffers) };
+                let reduced = if checked.is_sound() { None } else { checked.without_faulty_outputs(&*self.buffers) };
                 prove(reduced.as_ref().unwrap_or(checked), &self.cancel)
             };
             self.unless_cancelled(checked.mechanisms.iter().map(prove).collect())
@@ -344,7 +344,7 @@ fn prove_standalone(checked: &Checked, cancel: &Cancel) -> Proof {
     proof.diagnostics.extend(refused.unwrap_or_default());
     let options = RunOptions { cancel: cancel.clone(), ..RunOptions::default() };
     let from = compiled.analysis().map_or(0.0, |[from, ..]| from);
-    let (assembly, diagnostics) = compiled.assembled(from, &options);
+    let (assembly, diagnostics) = compiled.assemble_at(from, &options);
     proof.diagnostics.extend(diagnostics);
     proof.assembly = assembly;
     proof.sources = compiled.sources().clone();
@@ -380,7 +380,7 @@ fn run(proof: &Proof, cancel: &Cancel) -> Option<MotionOutcome> {
         if let Err(why) = row {
             outcome.diagnostics.push(*why);
         }
-        outcome.diagnostics.extend(run.take_remarks());
+        outcome.diagnostics.extend(run.take_warnings());
     }
     let names = compiled.results();
     let answers = if cancel.is_cancelled() { None } else { run.results() }.unwrap_or_default();

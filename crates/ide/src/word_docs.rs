@@ -31,7 +31,7 @@ fn equations(word: &Word) -> Option<String> {
 fn in_si(word: &Word) -> Option<String> {
     let unit = Unit::named(word.name).filter(|_| word.category == Category::Unit)?;
     let si = match unit.dimension.unit() {
-        si if unit.is_of_angle() => {
+        si if unit.measures_angle() => {
             if si == "1" {
                 "rad".to_owned()
             } else {
@@ -47,6 +47,6 @@ fn in_si(word: &Word) -> Option<String> {
 fn derivatives(word: &Word) -> Option<String> {
     let function = Function::named(word.name).filter(|_| word.category == Category::Function)?;
     let is_unary = (function.least, function.most) == (1, 1);
-    let formula = Formula::of(&format!("{}(t)", word.name), &mut Sources::default()).ok().filter(|_| is_unary)?;
+    let formula = Formula::parse(&format!("{}(t)", word.name), &mut Sources::default()).ok().filter(|_| is_unary)?;
     Some(format!("With its derivatives:\n\n```mech\n{}\n```", formula.text().trim_end()))
 }

@@ -1,9 +1,9 @@
 //! Accessors of a system, and the few additions that are made after it has been built.
 
 use super::{
-    AskingPart, Axis, AxisId, Body, BodyId, Check, CheckSlopes, Circle, CircleId, Condition, ConstraintSystem,
-    Coordinate, Declaration, DeclarationId, Fit, Forces, IdVec, Input, Measure, OpenContact, Param, PartStart, Point,
-    PointId, Results, Rim, Row, SparseRows, Variable, Variations, Watch,
+    Axis, AxisId, Body, BodyId, Check, CheckSlopes, Circle, CircleId, Condition, ConstraintSystem, Coordinate,
+    Declaration, DeclarationId, DomainBoundary, Fit, Forces, IdVec, Input, Measure, Monitor, OpenContact, Param,
+    PartStart, PartWithDerivatives, Point, PointId, Results, Row, SparseRows, Variable, Variations,
 };
 use mechc_expr::{ExprId, Graph};
 use mechc_text::source::Span;
@@ -131,13 +131,13 @@ impl ConstraintSystem {
 
     /// Returns the quantities whose signs distinguish the branches of gears and contacts.
     #[must_use]
-    pub fn watches(&self) -> &[Watch] {
+    pub fn monitors(&self) -> &[Monitor] {
         &self.watches
     }
 
     /// Returns the boundaries of the domains of functions in the equations.
     #[must_use]
-    pub fn rims(&self) -> &[Rim] {
+    pub fn domain_boundaries(&self) -> &[DomainBoundary] {
         &self.rims
     }
 
@@ -161,8 +161,8 @@ impl ConstraintSystem {
 
     /// Returns the parts that request derivatives by their own equations.
     #[must_use]
-    pub fn asking_parts(&self) -> &[AskingPart] {
-        &self.asking_parts
+    pub fn parts_with_derivatives(&self) -> &[PartWithDerivatives] {
+        &self.parts_with_derivatives
     }
 
     /// Returns the characteristic length L (m): the size of the largest body.
@@ -179,7 +179,7 @@ impl ConstraintSystem {
 
     /// Returns the values of the parameters, in the order of their symbols.
     #[must_use]
-    pub fn values_of_params(&self) -> Vec<f64> {
+    pub fn param_values(&self) -> Vec<f64> {
         self.params.iter().map(|param| param.value).collect()
     }
 

@@ -1,8 +1,9 @@
 //! The parts that a constraint system is built from: the equations as lowering writes them, before anything is derived.
 
 use super::{
-    AskingPart, Body, BodyId, CheckSlopes, Condition, ConstraintSystem, Coordinate, Declaration, DeclarationId, Fit,
-    Forces, IdVec, Measure, OpenContact, Param, PartStart, Point, PointId, Results, Row, SparseRows, Variations, Watch,
+    Body, BodyId, CheckSlopes, Condition, ConstraintSystem, Coordinate, Declaration, DeclarationId, Fit, Forces, IdVec,
+    Measure, Monitor, OpenContact, Param, PartStart, PartWithDerivatives, Point, PointId, Results, Row, SparseRows,
+    Variations,
 };
 use mechc_expr::{ExprId, Graph, Symbol};
 use mechc_text::source::Span;
@@ -40,7 +41,7 @@ pub struct Written {
     /// Formulas that must stay positive along the motion.
     pub conditions: Vec<Condition>,
     /// Quantities whose signs distinguish the branches of gears and contacts.
-    pub watches: Vec<Watch>,
+    pub watches: Vec<Monitor>,
     /// Contacts whose start has no estimate; empty once the start has been searched for.
     pub open_contacts: Vec<OpenContact>,
     /// Center distances that gears and racks require but do not enforce.
@@ -48,7 +49,7 @@ pub struct Written {
     /// Sub-mechanisms with what is needed to assemble them separately.
     pub parts: Vec<PartStart>,
     /// Parts that request derivatives by their own equations.
-    pub asking_parts: Vec<AskingPart>,
+    pub parts_with_derivatives: Vec<PartWithDerivatives>,
     /// Characteristic length L (m): the size of the largest body.
     pub length: f64,
     /// The analysis of the file: first time, last time, step (s).
@@ -88,7 +89,7 @@ impl ConstraintSystem {
             open_contacts: written.open_contacts,
             fits: written.fits,
             parts: written.parts,
-            asking_parts: written.asking_parts,
+            parts_with_derivatives: written.parts_with_derivatives,
             length: written.length,
             analysis: written.analysis,
             analysis_formulas: None,

@@ -165,7 +165,7 @@ pub struct Declaration {
     /// Span of both sides of the equation.
     pub written: Option<Span>,
     /// True if formulas refer to the rotation or displacement of this joint.
-    pub is_spoken_of: bool,
+    pub is_referenced: bool,
 }
 
 /// A number to tabulate, with its time derivatives.

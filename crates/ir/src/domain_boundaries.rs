@@ -6,7 +6,7 @@ use rustc_hash::FxHashMap;
 
 /// A boundary of the domain of a function in the equations, at which a formula may end or have an edge.
 #[derive(Clone, Debug)]
-pub struct Rim {
+pub struct DomainBoundary {
     /// Event function, zero at the boundary: the radicand of a root, `1 − a²` for an arc sine, a denominator.
     pub gauge: ExprId,
     /// Time derivative of `gauge` along the motion; it changes sign where `gauge` only touches zero.
@@ -42,7 +42,7 @@ impl ConstraintSystem {
                 };
                 let index = *index_of.entry(gauge).or_insert_with(|| {
                     let slope = Self::time_derivatives(&mut self.graph, &[gauge], 1)[0];
-                    self.rims.push(Rim { gauge, slope, declarations: Vec::new() });
+                    self.rims.push(DomainBoundary { gauge, slope, declarations: Vec::new() });
                     self.rims.len() - 1
                 });
                 let declarations = &mut self.rims[index].declarations;

@@ -16,11 +16,11 @@ pub struct Forces {
     /// Columns of reactions and efforts of all joints, constraints and drivers, if requested.
     pub reactions: Vec<Reaction>,
     /// True if the reactions only serve pictures, and may be omitted where they are not determined.
-    pub are_pictured: bool,
+    pub only_for_drawing: bool,
     /// The loads.
     pub loads: Vec<LoadForce>,
     /// Normal forces of contacts.
-    pub presses: Vec<Press>,
+    pub presses: Vec<ContactForce>,
 }
 
 /// A load, as its formula gives it, before it is applied.
@@ -40,7 +40,7 @@ pub struct LoadForce {
 
 /// Normal force of a contact.
 #[derive(Clone, Copy, Debug)]
-pub struct Press {
+pub struct ContactForce {
     /// The contact.
     pub declaration: DeclarationId,
     /// Normal force (N), negative where the contact pulls. If the sides of the bodies are unknown, positive to the left of the tangent.
@@ -106,7 +106,7 @@ impl ConstraintSystem {
 
     /// Returns `p` of `Φ_qᵀ λ = p`, one entry per coordinate; empty if forces are not requested.
     #[must_use]
-    pub fn needed_forces(&self) -> &[ExprId] {
+    pub fn required_forces(&self) -> &[ExprId] {
         self.forces.as_ref().map_or(&[], |forces| &forces.needed)
     }
 
@@ -124,14 +124,14 @@ impl ConstraintSystem {
 
     /// Returns the normal forces of contacts; empty if forces are not requested.
     #[must_use]
-    pub fn presses(&self) -> &[Press] {
+    pub fn contact_forces(&self) -> &[ContactForce] {
         self.forces.as_ref().map_or(&[], |forces| &forces.presses)
     }
 
     /// Returns all formulas of columns, measures, results and contact forces that contain multipliers.
     #[must_use]
     pub fn formulas_with_forces(&self) -> Vec<ExprId> {
-        let columns = self.reactions().iter().map(|of| of.value).chain(self.presses().iter().map(|of| of.force));
+        let columns = self.reactions().iter().map(|of| of.value).chain(self.contact_forces().iter().map(|of| of.force));
         let results = self.results.reductions.iter().map(|of| of.of);
         let all = columns.chain(self.measures.iter().map(|of| of.value)).chain(results);
         all.filter(|&id| self.graph.dependence(id).on(Dependence::FORCES)).collect()
@@ -140,7 +140,7 @@ impl ConstraintSystem {
     /// Removes reactions that only serve pictures, and contact forces, unless `is_kept` returns true.
     pub fn retain_forces(&mut self, mut is_kept: impl FnMut(ExprId) -> bool) {
         if let Some(forces) = &mut self.forces {
-            forces.reactions.retain(|of| !forces.are_pictured || is_kept(of.value));
+            forces.reactions.retain(|of| !forces.only_for_drawing || is_kept(of.value));
             forces.presses.retain(|press| is_kept(press.force));
         }
     }
@@ -188,7 +188,7 @@ impl ConstraintSystem {
 
     /// Returns `p − Φ_qᵀ λ`, one entry per coordinate; empty unless forces are requested and varied.
     pub(super) fn open_forces(&mut self) -> Vec<ExprId> {
-        let mut open = self.needed_forces().to_vec();
+        let mut open = self.required_forces().to_vec();
         if open.is_empty() || self.variations.is_none() && self.results.variations.is_none() {
             return Vec::new();
         }

@@ -40,7 +40,7 @@ impl ConstraintSystem {
             open_contacts: Vec::new(),
             fits: self.fits.clone(),
             parts: Vec::new(),
-            asking_parts: Vec::new(),
+            parts_with_derivatives: Vec::new(),
             length: self.length,
             analysis: None,
         };

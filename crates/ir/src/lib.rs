@@ -50,19 +50,19 @@ pub use check_slopes::CheckSlopes;
 pub use declarations::{
     Body, Coordinate, CoordinateKind, Declaration, DeclarationKind, Input, Measure, Owner, Param, Units,
 };
-pub use domain_boundaries::Rim;
+pub use domain_boundaries::DomainBoundary;
 pub use features::{Axis, Circle, Point};
-pub use forces::{Forces, LoadForce, Mechanics, Press, Reaction};
+pub use forces::{ContactForce, Forces, LoadForce, Mechanics, Reaction};
 pub use homotopy::Homotopy;
 pub use ids::{AxisId, BodyId, CircleId, DeclarationId, IdVec, PointId};
 pub use mechc_text::vocabulary::JointKind;
-pub use monitors::{Check, Condition, ConditionKind, Fit, OpenContact, PartStart, Watch, WatchKind};
+pub use monitors::{Check, Condition, ConditionKind, Fit, Monitor, MonitorKind, OpenContact, PartStart};
 pub use results::{Outcome, Reduction, ReductionKind, Results};
 pub use right_sides::{RightSide, With};
 pub use rows::{Row, RowUnit};
-pub use scopes::{AskingPart, LEAF_ORDERS, Leaf, Scope, leaf};
+pub use scopes::{LEAF_ORDERS, Leaf, PartWithDerivatives, Scope, leaf};
 pub use sparse::SparseRows;
-pub use variations::{Appended, Variable, Variation, Variations};
+pub use variations::{DerivativeColumn, Variable, Variation, Variations};
 
 use mechc_expr::{Dependence, ExprId, Graph, Symbol, TIME_SIGNAL};
 use mechc_text::source::Span;
@@ -115,9 +115,9 @@ pub struct ConstraintSystem {
     /// Redundant equations, which are checked instead of solved.
     checks: Vec<Check>,
     /// Quantities whose signs distinguish the branches of gears and contacts.
-    watches: Vec<Watch>,
+    watches: Vec<Monitor>,
     /// Boundaries of the domains of functions in the equations.
-    rims: Vec<Rim>,
+    rims: Vec<DomainBoundary>,
     /// Contacts whose start has no estimate; empty once the start has been searched for.
     open_contacts: Vec<OpenContact>,
     /// Center distances that gears and racks require but do not enforce.
@@ -125,7 +125,7 @@ pub struct ConstraintSystem {
     /// Sub-mechanisms with what is needed to assemble them separately.
     parts: Vec<PartStart>,
     /// Parts that request derivatives with respect to their own equations alone.
-    asking_parts: Vec<AskingPart>,
+    parts_with_derivatives: Vec<PartWithDerivatives>,
     /// Characteristic length L (m): the size of the largest body.
     length: f64,
     /// The analysis of the file: first time, last time, step (s).

@@ -47,11 +47,11 @@ pub struct Check {
 
 /// A quantity that keeps its sign along one branch of the motion, and changes it on another.
 #[derive(Clone, Debug)]
-pub struct Watch {
+pub struct Monitor {
     /// The quantity.
     pub value: ExprId,
     /// Meaning of the quantity.
-    pub kind: WatchKind,
+    pub kind: MonitorKind,
     /// Scale for the value.
     pub scale: f64,
     /// Declaration of the joint.
@@ -60,7 +60,7 @@ pub struct Watch {
 
 /// Meanings of a monitored quantity.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum WatchKind {
+pub enum MonitorKind {
     /// Directed distance of the centers along the line of centers; it must stay positive.
     LineOfCenters,
     /// Component of one tangent at a contact along the other; zero where a tangent vanishes.

@@ -1,6 +1,6 @@
 //! The constraint system as readable text, for `Display` and messages.
 
-use super::{ConditionKind, ConstraintSystem, DeclarationKind, ReductionKind, WatchKind};
+use super::{ConditionKind, ConstraintSystem, DeclarationKind, MonitorKind, ReductionKind};
 use mechc_expr::{ExprId, Printer, Symbol, number};
 
 impl ConstraintSystem {
@@ -197,9 +197,9 @@ impl ConstraintSystem {
     fn watch_lines<'s>(&'s self, text: &'s dyn Fn(ExprId) -> String) -> impl Iterator<Item = (String, String)> + 's {
         self.watches.iter().map(|watch| {
             let rule = match watch.kind {
-                WatchKind::LineOfCenters => "> 0, along the line of centres",
-                WatchKind::Tangents => "keeps its sign: the tangents",
-                WatchKind::Curvature => "keeps its sign: the relative curvature",
+                MonitorKind::LineOfCenters => "> 0, along the line of centres",
+                MonitorKind::Tangents => "keeps its sign: the tangents",
+                MonitorKind::Curvature => "keeps its sign: the relative curvature",
             };
             (self.declarations[watch.declaration].name.clone(), format!("{} {rule}", text(watch.value)))
         })

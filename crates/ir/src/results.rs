@@ -14,7 +14,7 @@ pub struct Results {
     /// Variations in the formulas, those of the rows first; `None` if there are none.
     pub variations: Option<Box<Variations>>,
     /// By number of a variation: the condition that the left-out equations keep holding along it.
-    pub varied_where: Vec<(u32, ExprId)>,
+    pub variation_conditions: Vec<(u32, ExprId)>,
 }
 
 /// A result: one number for the whole analysis.
@@ -70,7 +70,7 @@ pub enum ReductionKind {
 impl ConstraintSystem {
     /// Returns the same equations with the variations that results need, and without measures and results; `None` if results need no variations.
     #[must_use]
-    pub fn for_variations_of_results(&self) -> Option<ConstraintSystem> {
+    pub fn with_result_variations(&self) -> Option<ConstraintSystem> {
         let variations = self.results.variations.clone()?;
         let (measures, results) = (Vec::new(), Results::default());
         let system = ConstraintSystem { variations: Some(variations), measures, results, ..self.clone() };

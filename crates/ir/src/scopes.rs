@@ -83,7 +83,7 @@ pub(super) fn without_leaves(graph: &mut Graph, leaves: &[Leaf], roots: &[ExprId
 
 /// A part whose text requests derivatives by its own equations.
 #[derive(Clone, Debug)]
-pub struct AskingPart {
+pub struct PartWithDerivatives {
     /// Its name.
     pub name: String,
     /// Names of the part and the parts around it, innermost first, with the spans of their declarations.

@@ -33,10 +33,10 @@ impl ConstraintSystem {
             .chain(self.checks.iter().map(|check| ("check", check.declaration)))
             .chain(self.watches.iter().map(|watch| ("watch", watch.declaration)))
             .chain(self.fits.iter().map(|fit| ("fit", fit.declaration)))
-            .chain(self.presses().iter().map(|press| ("press", press.declaration)))
+            .chain(self.contact_forces().iter().map(|press| ("press", press.declaration)))
             .chain(self.open_contacts.iter().map(|contact| ("contact", contact.declaration)))
             .chain(self.rims.iter().flat_map(|rim| &rim.declarations).map(|id| ("rim", *id)))
-            .chain(self.asking_parts.iter().flat_map(|part| &part.declarations).map(|id| ("part", *id)));
+            .chain(self.parts_with_derivatives.iter().flat_map(|part| &part.declarations).map(|id| ("part", *id)));
         for (what, declaration) in declarations {
             ensure(declaration.index() < self.declarations.len(), || format!("a {what} of no declaration"))?;
         }
@@ -59,7 +59,8 @@ impl ConstraintSystem {
             ensure(body.index() < self.bodies.len(), || "a point or part of no body".to_owned())?;
         }
         let columns = self.parts.iter().flat_map(|part| part.poses.clone().chain(part.own.clone()));
-        let requested = self.asking_parts.iter().flat_map(|part| &part.columns).map(|&column| column as usize);
+        let requested =
+            self.parts_with_derivatives.iter().flat_map(|part| &part.columns).map(|&column| column as usize);
         for column in columns.chain(requested) {
             ensure(column < self.coordinates.len(), || "a part with no such coordinate".to_owned())?;
         }
@@ -273,7 +274,8 @@ mod tests {
         Variations, With,
     };
     use crate::{
-        Body, Coordinate, Declaration, Measure, Outcome, Point, Rim, Units, Variable, Watch, WatchKind, Written,
+        Body, Coordinate, Declaration, DomainBoundary, Measure, Monitor, MonitorKind, Outcome, Point, Units, Variable,
+        Written,
     };
     use mechc_expr::{ExprId, Graph, Symbol, Unary};
     use mechc_text::source::{Sources, Span};
@@ -315,7 +317,7 @@ mod tests {
             circles: Vec::new(),
             at: None,
             written: None,
-            is_spoken_of: false,
+            is_referenced: false,
         };
         let revolute = DeclarationKind::Joint(JointKind::Revolute);
         let units = Units { si: "m".to_owned(), printed: ["m", "m/s", "m/s^2"].map(str::to_owned), scale: [1.0; 3] };
@@ -341,7 +343,7 @@ mod tests {
             open_contacts: Vec::new(),
             fits: Vec::new(),
             parts: Vec::new(),
-            asking_parts: Vec::new(),
+            parts_with_derivatives: Vec::new(),
             length: 1.0,
             analysis: None,
             graph,
@@ -404,7 +406,7 @@ mod tests {
         assert_eq!(fault, "Named(7) is of nothing");
         let fault = broken(|s| {
             let (gauge, slope) = (coordinate(s), coordinate(s));
-            s.rims.push(Rim { gauge, slope, declarations: Vec::new() });
+            s.rims.push(DomainBoundary { gauge, slope, declarations: Vec::new() });
         });
         assert!(fault.starts_with("Coordinate { index: 999"), "{fault}");
         let fault = broken(|s| {
@@ -416,7 +418,7 @@ mod tests {
         assert_eq!(fault, "Named(7) in results is of nothing");
         let fault = broken(|s| {
             let force = s.graph.symbol(Symbol::Multiplier(0));
-            s.watches.push(Watch { value: force, kind: WatchKind::Tangents, scale: 1.0, declaration: 0.into() });
+            s.watches.push(Monitor { value: force, kind: MonitorKind::Tangents, scale: 1.0, declaration: 0.into() });
         });
         assert_eq!(fault, "Multiplier(0) is of nothing", "no forces are requested");
     }

@@ -30,7 +30,7 @@ pub struct Variations {
     /// Inputs of these parts, by the number of their leaf symbol.
     pub leaves: Vec<Leaf>,
     /// Columns of derivatives, after all others of the table.
-    pub appended: Vec<Appended>,
+    pub appended: Vec<DerivativeColumn>,
 }
 
 /// An input or parameter that derivatives are taken with respect to.
@@ -66,7 +66,7 @@ pub struct Variation {
 
 /// A derivative with a column of its own.
 #[derive(Clone, Debug)]
-pub struct Appended {
+pub struct DerivativeColumn {
     /// Name of the column, such as `crank.x.d.by.turn`.
     pub name: String,
     /// Its value in SI.
@@ -332,7 +332,7 @@ impl ConstraintSystem {
 
     /// Returns the columns of derivatives, which follow all others of the table.
     #[must_use]
-    pub fn appended(&self) -> &[Appended] {
+    pub fn derivative_columns(&self) -> &[DerivativeColumn] {
         self.variations.as_ref().map_or(&[], |variations| &variations.appended)
     }
 
@@ -388,7 +388,7 @@ impl ConstraintSystem {
         let Some(mut variations) = self.results.variations.take() else { return };
         variations.keep(kept);
         let hold = self.where_checks_hold(&mut variations).into_iter().enumerate();
-        self.results.varied_where = hold.filter_map(|(number, hold)| Some((number as u32, hold?))).collect();
+        self.results.variation_conditions = hold.filter_map(|(number, hold)| Some((number as u32, hold?))).collect();
         self.results.variations = Some(variations);
     }
 

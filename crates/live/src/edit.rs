@@ -1,7 +1,7 @@
 //! Writes values of params into a text. Only the values change; units, spaces and comments stay.
 
 use super::requests::{ValueChange, WriteRequest};
-use mechc_pipeline::{Checked, Knob};
+use mechc_pipeline::{Checked, ParamControl};
 use mechc_text::source::Span;
 
 /// The maximum number of copies that a question lists by name.
@@ -21,7 +21,7 @@ pub(super) enum EditOutcome {
 /// Replaces values of params in the text of a mechanism. Units and the spaces before them stay as they are written.
 #[must_use]
 pub(super) fn apply_changes(checked: &Checked, write: &WriteRequest) -> EditOutcome {
-    let params = checked.knobs();
+    let params = checked.param_controls();
     let (mut edits, mut questions): (Vec<(Span, String)>, Vec<String>) = (Vec::new(), Vec::new());
     for change in &write.changes {
         let (param, span) = match find_value(checked, &params, change) {
@@ -61,13 +61,17 @@ pub(super) fn apply_changes(checked: &Checked, write: &WriteRequest) -> EditOutc
 }
 
 /// Finds the param to change and the span of its value in the file. Fails if the text there is not what the page shows.
-fn find_value<'k>(checked: &Checked, params: &'k [Knob], change: &ValueChange) -> Result<(&'k Knob, Span), String> {
+fn find_value<'k>(
+    checked: &Checked,
+    params: &'k [ParamControl],
+    change: &ValueChange,
+) -> Result<(&'k ParamControl, Span), String> {
     let ValueChange { name, old, .. } = change;
     let param = params
         .iter()
         .find(|param| param.name == *name)
         .ok_or_else(|| format!("there is no param `{name}` any more"))?;
-    let span = param.place.filter(|span| span.file == checked.file()).ok_or_else(|| {
+    let span = param.editable_span.filter(|span| span.file == checked.file()).ok_or_else(|| {
         let file = &checked.sources().get(checked.file()).name;
         format!("`{name}` has no value of its own in `{file}` that could be replaced")
     })?;
@@ -80,14 +84,14 @@ fn find_value<'k>(checked: &Checked, params: &'k [Knob], change: &ValueChange) -
 }
 
 /// Lists the params whose value is the same text as that of a param and that are not written too: those of other copies of a part.
-fn other_names_at(params: &[Knob], of: &Knob, write: &WriteRequest) -> String {
+fn other_names_at(params: &[ParamControl], of: &ParamControl, write: &WriteRequest) -> String {
     let is_changed = |name: &str| write.changes.iter().any(|change| change.name == name);
-    let is_other = |param: &&Knob| {
+    let is_other = |param: &&ParamControl| {
         let is_of_all = || params.iter().any(|copy| copy.of.as_deref() == Some(&param.name));
         let is_covered = is_changed(&param.name)
             || param.of.as_deref().is_some_and(is_changed)
             || param_name(param) == param_name(of);
-        param.place == of.place && !is_covered && !is_of_all()
+        param.editable_span == of.editable_span && !is_covered && !is_of_all()
     };
     let mut names: Vec<String> =
         params.iter().filter(is_other).map(|param| format!("`{}`", param_name(param))).collect();
@@ -99,13 +103,13 @@ fn other_names_at(params: &[Knob], of: &Knob, write: &WriteRequest) -> String {
 }
 
 /// Returns the name of the param, or of the point of which it is a coordinate.
-fn param_name(param: &Knob) -> &str {
+fn param_name(param: &ParamControl) -> &str {
     let point_name = || param.name.strip_suffix(".x").or_else(|| param.name.strip_suffix(".y"));
     point_name().filter(|_| param.is_half).unwrap_or(&param.name)
 }
 
 /// Formats both coordinates of a point, of which at least one is changed.
-fn format_point(params: &[Knob], of: &Knob, write: &WriteRequest) -> String {
+fn format_point(params: &[ParamControl], of: &ParamControl, write: &WriteRequest) -> String {
     let [x, y] = ["x", "y"].map(|axis| {
         let name = format!("{}.{axis}", param_name(of));
         let param = params.iter().find(|param| param.name == name).unwrap_or(of);
@@ -116,7 +120,7 @@ fn format_point(params: &[Knob], of: &Knob, write: &WriteRequest) -> String {
 }
 
 /// Formats a value in the unit of its param, with the spacing of the text.
-fn format_value(param: &Knob, here: &str, value: f64) -> String {
+fn format_value(param: &ParamControl, here: &str, value: f64) -> String {
     let number = number(value);
     let unit = &param.unit;
     if param.formula.is_none() && !unit.is_empty() {
@@ -153,7 +157,7 @@ mod tests {
 }";
 
     fn apply(changes: &[(&str, &str, f64)], is_confirmed: bool) -> EditOutcome {
-        let checked = Parsed::of("lever.mech", TEXT).check(&Choice::default(), &Memory::default());
+        let checked = Parsed::new("lever.mech", TEXT).check(&Choice::default(), &Memory::default());
         let change =
             |&(name, old, value): &(&str, &str, f64)| ValueChange { name: name.into(), old: old.into(), value };
         apply_changes(
@@ -211,7 +215,7 @@ mod tests {
 mechanism leg { param rod = 40 mm  ground { point O = (0, 0) }  body bar { point O = (0, 0)  point P = (rod, 0) } }";
         let apply = |changes: &[(&str, f64)], is_confirmed| {
             let choice = Choice { mechanism: Some("legs".to_owned()), ..Choice::default() };
-            let checked = Parsed::of("legs.mech", LEGS).check(&choice, &Memory::default());
+            let checked = Parsed::new("legs.mech", LEGS).check(&choice, &Memory::default());
             let changes =
                 changes.iter().map(|&(name, value)| ValueChange { name: name.into(), old: "40 mm".into(), value });
             apply_changes(&checked, &WriteRequest { version: 1, changes: changes.collect(), is_confirmed })

@@ -7,7 +7,7 @@ use super::page;
 use super::requests::{ManualInputs, MotionRequest, WriteRequest};
 use super::response::encode;
 use super::solution::{Solution, SolutionBuilder};
-use mechc_pipeline::{Choice, Knob, Parsed, Redundant, size_of_unit};
+use mechc_pipeline::{Choice, ParamControl, Parsed, Redundant, size_of_unit};
 use mechc_text::cancel::Cancel;
 use mechc_text::diag::Diagnostics;
 use mechc_text::source::{Sources, Span};
@@ -412,7 +412,7 @@ impl RequestContext<'_> {
     }
 
     /// Responds with the whole motion and the controls of the page.
-    fn motion(&self, of_texts: &Cancel, params: &[Knob]) -> Option<Response> {
+    fn motion(&self, of_texts: &Cancel, params: &[ParamControl]) -> Option<Response> {
         let RequestContext { baseline, solution, .. } = self;
         let mut motion = self.builder.motion(baseline, None, of_texts)?;
         if !Arc::ptr_eq(baseline, solution) {
@@ -446,11 +446,13 @@ impl RequestContext<'_> {
     }
 
     /// Returns the params that the page may set.
-    fn params_json(&self, params: &[Knob]) -> Value {
+    fn params_json(&self, params: &[ParamControl]) -> Value {
         let sources = &self.baseline.sources;
         let set = self.solution.params();
         let set: FxHashMap<&str, f64> = set.iter().map(|param| (param.name.as_str(), param.value)).collect();
-        let now = |param: &Knob| set.get(param.name.as_str()).filter(|_| param.formula.is_some() || param.of.is_some());
+        let now = |param: &ParamControl| {
+            set.get(param.name.as_str()).filter(|_| param.formula.is_some() || param.of.is_some())
+        };
         let mut sizes: FxHashMap<&str, f64> = FxHashMap::default();
         let is_here = |span: &Span| self.baseline.checked.as_ref().is_some_and(|checked| checked.file() == span.file);
         let params = params.iter().map(|param| {
@@ -461,11 +463,11 @@ impl RequestContext<'_> {
             json!({
                 "name": param.name, "unit": param.unit, "value": param.value, "formula": param.formula,
                 "si": sizes.entry(&param.unit).or_insert_with(|| size_of_unit(&param.unit)),
-                "dimension": param.dimension, "held": self.builder.command_setting(&param.name), "whole": !param.leads,
+                "dimension": param.dimension, "held": self.builder.command_setting(&param.name), "whole": !param.is_continuous,
                 "now": now(param),
                 "of": param.of,
-                "text": param.place.filter(is_here).map(|span| sources.text(span)),
-                "where": param.stands.filter(|_| param.place.is_none_or(|span| !is_here(&span))).map(line),
+                "text": param.editable_span.filter(is_here).map(|span| sources.text(span)),
+                "where": param.formula_span.filter(|_| param.editable_span.is_none_or(|span| !is_here(&span))).map(line),
             })
         });
         Value::Array(params.collect())

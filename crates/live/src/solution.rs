@@ -3,7 +3,10 @@
 use super::file_snapshot::FileSnapshot;
 use super::host::Host;
 use mechc_engine::analysis::Times;
-use mechc_pipeline::{Checked, Choice, Compiled, Crank, Jog, Knob, Parsed, Redundant, RunOptions, Seen, Stand};
+use mechc_pipeline::{
+    Checked, Choice, Compiled, Configuration, DragHandle, InputControl, ParamControl, Parsed, Redundant, RunOptions,
+    Visualization,
+};
 use mechc_text::cancel::Cancel;
 use mechc_text::diag::{Code, Color, Diagnostics, Format, render};
 use mechc_text::source::Sources;
@@ -25,12 +28,12 @@ pub(super) struct Solution {
     /// The motion, once it was requested.
     motion: Mutex<Option<Arc<Motion>>>,
     /// The configuration at the time at which inputs were last moved by hand.
-    configuration: Mutex<Option<Stand>>,
+    configuration: Mutex<Option<Configuration>>,
 }
 
 /// The motion of a mechanism, or its picture at rest if it does not move.
 pub(super) struct Motion {
-    pub visualization: Option<Seen>,
+    pub visualization: Option<Visualization>,
     /// The diagnostics of the mechanism and its motion.
     diagnostics: Diagnostics,
 }
@@ -51,19 +54,19 @@ impl Solution {
         rendered(motion.as_ref().map_or(&self.diagnostics, |motion| &motion.diagnostics), &self.sources)
     }
 
-    pub fn params(&self) -> Vec<Knob> {
-        self.checked.as_ref().map(Checked::knobs).unwrap_or_default()
+    pub fn params(&self) -> Vec<ParamControl> {
+        self.checked.as_ref().map(Checked::param_controls).unwrap_or_default()
     }
 
-    pub fn cranks(&self) -> Vec<Crank> {
+    pub fn cranks(&self) -> Vec<DragHandle> {
         let from = self.times.as_ref().map_or(0.0, Times::from);
-        self.compiled.as_ref().map(|compiled| compiled.cranks(from)).unwrap_or_default()
+        self.compiled.as_ref().map(|compiled| compiled.drag_handles(from)).unwrap_or_default()
     }
 
     /// Returns the inputs with their values at some times (s).
-    pub fn inputs(&self, times: &[f64]) -> Vec<Jog> {
+    pub fn inputs(&self, times: &[f64]) -> Vec<InputControl> {
         let both = self.checked.as_ref().zip(self.compiled.as_ref());
-        both.map(|(checked, compiled)| checked.jogs(compiled, times)).unwrap_or_default()
+        both.map(|(checked, compiled)| checked.input_controls(compiled, times)).unwrap_or_default()
     }
 }
 
@@ -96,8 +99,8 @@ impl SolutionBuilder<'_> {
     fn choice(&self, baseline: &Solution, set: &[(String, String)]) -> Choice {
         let params = baseline.params();
         let can_be_continued =
-            |(name, _): &(String, String)| params.iter().any(|param| param.name == *name && param.leads);
-        let is_continued = |param: &Knob| param.leads || self.command_setting(&param.name).is_none();
+            |(name, _): &(String, String)| params.iter().any(|param| param.name == *name && param.is_continuous);
+        let is_continued = |param: &ParamControl| param.is_continuous || self.command_setting(&param.name).is_none();
         let lead = set.iter().all(can_be_continued) && params.iter().all(is_continued);
         let mut choice = Choice { lead, ..self.choice.clone() };
         choice.set.extend(set.iter().map(|(name, formula)| format!("{name}={formula}")));
@@ -114,9 +117,9 @@ impl SolutionBuilder<'_> {
         self.choice.set.iter().rev().find(sets_it).map(String::as_str)
     }
 
-    fn options(&self, stand: Option<Stand>, cancel: &Cancel) -> RunOptions {
+    fn options(&self, stand: Option<Configuration>, cancel: &Cancel) -> RunOptions {
         let pass_bifurcations = self.pass_bifurcations;
-        RunOptions { pass_bifurcations, stand, cancel: cancel.clone(), ..RunOptions::default() }
+        RunOptions { pass_bifurcations, configuration: stand, cancel: cancel.clone(), ..RunOptions::default() }
     }
 
     fn solve(&self, choice: &Choice, cancel: &Cancel) -> Solution {
@@ -136,7 +139,12 @@ impl SolutionBuilder<'_> {
 
     /// Computes the motion of a solution; `None` if it is cancelled. Symbols and extent are those of the baseline, so that the picture
     /// does not jump while a param changes.
-    pub fn motion(&self, solution: &Solution, baseline: Option<&Seen>, cancel: &Cancel) -> Option<Arc<Motion>> {
+    pub fn motion(
+        &self,
+        solution: &Solution,
+        baseline: Option<&Visualization>,
+        cancel: &Cancel,
+    ) -> Option<Arc<Motion>> {
         if let Some(motion) = &*lock(&solution.motion) {
             return Some(Arc::clone(motion));
         }
@@ -145,13 +153,13 @@ impl SolutionBuilder<'_> {
         let visualization = solution.checked.as_ref().and_then(|checked| {
             let (compiled, times) = (solution.compiled.as_ref(), solution.times.as_ref());
             let moving = compiled.zip(times).and_then(|(compiled, times)| {
-                let (moving, more) = checked.seen_beside(compiled, times, &options, MAX_ROWS, baseline);
+                let (moving, more) = checked.visualization_like(compiled, times, &options, MAX_ROWS, baseline);
                 diagnostics.extend(more);
                 moving
             });
             let from = times.map_or(0.0, Times::from);
             let mut at_rest = || {
-                let mut still = checked.seen_at_rest(compiled, (from, &options), &diagnostics)?;
+                let mut still = checked.static_visualization(compiled, (from, &options), &diagnostics)?;
                 still.scene.extent = baseline.map_or(still.scene.extent, |baseline| baseline.scene.extent);
                 Some(still)
             };
@@ -162,10 +170,18 @@ impl SolutionBuilder<'_> {
     }
 
     /// Computes the picture at one time, which is quicker than the motion; `None` if the time is not reached or the work is cancelled.
-    pub fn preview(&self, solution: &Solution, baseline: &Seen, t: f64, cancel: &Cancel) -> Option<Seen> {
+    pub fn preview(
+        &self,
+        solution: &Solution,
+        baseline: &Visualization,
+        t: f64,
+        cancel: &Cancel,
+    ) -> Option<Visualization> {
         let (checked, compiled) = solution.checked.as_ref().zip(solution.compiled.as_ref())?;
         let from = solution.times.as_ref().map(Times::from).filter(|from| *from <= t)?;
-        checked.glimpse(compiled, [from, t], &self.options(None, cancel), baseline).filter(|_| !cancel.is_cancelled())
+        checked
+            .visualize_at(compiled, [from, t], &self.options(None, cancel), baseline)
+            .filter(|_| !cancel.is_cancelled())
     }
 
     /// Moves inputs by hand while time stands still, as far as they get; `None` if it is cancelled.
@@ -222,18 +238,24 @@ impl SolutionBuilder<'_> {
         compiled: &Compiled,
         t: f64,
         cancel: &Cancel,
-    ) -> Result<Stand, Diagnostics> {
+    ) -> Result<Configuration, Diagnostics> {
         let mut cached = lock(&solution.configuration);
         if let Some(configuration) = cached.as_ref().filter(|cached| cached.t.to_bits() == t.to_bits()) {
             return Ok(configuration.clone());
         }
-        let configuration = compiled.stand(t, &self.options(None, cancel))?;
+        let configuration = compiled.configuration_at(t, &self.options(None, cancel))?;
         *cached = Some(configuration.clone());
         Ok(configuration)
     }
 
     /// Computes the row with inputs overridden (by name, as `--input` takes them), if it is reached from a configuration.
-    fn row_with(&self, mut choice: Choice, start: &Stand, overrides: &[(&str, String)], cancel: &Cancel) -> RowAttempt {
+    fn row_with(
+        &self,
+        mut choice: Choice,
+        start: &Configuration,
+        overrides: &[(&str, String)],
+        cancel: &Cancel,
+    ) -> RowAttempt {
         let Ok(parsed) = self.parsed else { return RowAttempt::default() };
         let is_replaced = |input: &String| {
             input.split_once('=').is_some_and(|(name, _)| overrides.iter().any(|(moved, _)| *moved == name.trim()))
@@ -293,7 +315,7 @@ struct InputMove {
 }
 
 impl InputMove {
-    fn new(available: &[Jog], name: &str, to: f64) -> Option<InputMove> {
+    fn new(available: &[InputControl], name: &str, to: f64) -> Option<InputMove> {
         let input = available.iter().find(|input| input.name == name)?;
         Some(InputMove { name: input.name.clone(), unit: input.unit.clone(), range: [*input.values.first()?, to] })
     }

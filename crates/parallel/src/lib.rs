@@ -1,13 +1,13 @@
-//! Ordered parallel computation: results of numbered pieces ([`Crew`]), of pieces that arrive one after the other
-//! ([`Relay`]), and of ranges with borrowed data ([`in_shares`]).
+//! Ordered parallel computation: results of numbered pieces ([`ParallelMap`]), of pieces that arrive one after the other
+//! ([`OrderedPipeline`]), and of ranges with borrowed data ([`scoped_chunks`]).
 //!
 //! Without the feature `threads` the calling thread computes each piece when it is requested; the results are the same.
 
 mod ordered_pipeline;
 mod scoped_chunks;
 
-pub use ordered_pipeline::Relay;
-pub use scoped_chunks::in_shares;
+pub use ordered_pipeline::OrderedPipeline;
+pub use scoped_chunks::scoped_chunks;
 #[cfg(feature = "threads")]
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -25,7 +25,7 @@ const RESULTS_PER_THREAD: u64 = 2;
 
 /// Returns the number of threads that this machine runs at once.
 #[must_use]
-pub fn usual_jobs() -> usize {
+pub fn default_jobs() -> usize {
     #[cfg(feature = "threads")]
     let jobs = thread::available_parallelism().map_or(1, usize::from);
     #[cfg(not(feature = "threads"))]
@@ -34,7 +34,7 @@ pub fn usual_jobs() -> usize {
 }
 
 /// Iterator over the results of numbered pieces, in their order, which several threads compute ahead.
-pub struct Crew<T> {
+pub struct ParallelMap<T> {
     pieces: Range<u64>,
     /// The work of the calling thread.
     local_work: Work<T>,
@@ -42,11 +42,11 @@ pub struct Crew<T> {
     workers: Option<Workers<T>>,
 }
 
-impl<T: Send + 'static> Crew<T> {
+impl<T: Send + 'static> ParallelMap<T> {
     /// Starts work on `pieces` with at most `jobs` threads, the calling thread included: it computes a piece itself where it would wait for
     /// the others. Each thread calls `start` once for state of its own. The other threads begin at once.
     #[must_use]
-    pub fn new<W>(jobs: usize, pieces: Range<u64>, start: impl Fn() -> W + Send + Sync + 'static) -> Crew<T>
+    pub fn new<W>(jobs: usize, pieces: Range<u64>, start: impl Fn() -> W + Send + Sync + 'static) -> ParallelMap<T>
     where
         W: FnMut(u64) -> Option<T> + Send + 'static,
     {
@@ -57,7 +57,7 @@ impl<T: Send + 'static> Crew<T> {
         let workers = (jobs > 1).then(|| Workers::new(jobs, &pieces, start));
         #[cfg(not(feature = "threads"))]
         let _ = jobs;
-        Crew {
+        ParallelMap {
             pieces,
             local_work,
             #[cfg(feature = "threads")]
@@ -66,7 +66,7 @@ impl<T: Send + 'static> Crew<T> {
     }
 }
 
-impl<T> Crew<T> {
+impl<T> ParallelMap<T> {
     /// Ends the work: no thread begins another piece, and the iterator returns `None` from now on.
     pub fn end(&mut self) {
         self.pieces = 0..0;
@@ -85,7 +85,7 @@ impl<T> Crew<T> {
     }
 }
 
-impl<T> Iterator for Crew<T> {
+impl<T> Iterator for ParallelMap<T> {
     type Item = T;
 
     /// Returns the result of the next piece; `None` after the last piece, after the first piece without a result, and after a panic. A

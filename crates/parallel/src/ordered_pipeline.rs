@@ -16,7 +16,7 @@ type Work<P, T> = dyn Fn(P) -> T + Send + Sync;
 const PIECES_PER_THREAD: usize = 2;
 
 /// Processes pieces on several threads and returns the results in order of submission.
-pub struct Relay<P, T> {
+pub struct OrderedPipeline<P, T> {
     work: Arc<Work<P, T>>,
     /// The threads take turns, which keeps the results in order.
     #[cfg(feature = "threads")]
@@ -28,14 +28,14 @@ pub struct Relay<P, T> {
     returned: usize,
 }
 
-impl<P: Send + 'static, T: Send + 'static> Relay<P, T> {
+impl<P: Send + 'static, T: Send + 'static> OrderedPipeline<P, T> {
     /// Creates a pipeline with `jobs` threads. With one job the calling thread does the work.
     #[must_use]
-    pub fn new(jobs: usize, work: impl Fn(P) -> T + Send + Sync + 'static) -> Relay<P, T> {
+    pub fn new(jobs: usize, work: impl Fn(P) -> T + Send + Sync + 'static) -> OrderedPipeline<P, T> {
         let work: Arc<Work<P, T>> = Arc::new(work);
         #[cfg(not(feature = "threads"))]
         let _ = jobs;
-        Relay {
+        OrderedPipeline {
             #[cfg(feature = "threads")]
             workers: (0..jobs).filter(|_| jobs > 1).map_while(|_| Worker::new(&work)).collect(),
             work,
@@ -133,12 +133,12 @@ impl<P: Send + 'static, T: Send + 'static> Worker<P, T> {
 
 #[cfg(test)]
 mod tests {
-    use super::Relay;
+    use super::OrderedPipeline;
 
     #[test]
     fn results_come_in_order_of_submission() {
         for jobs in [1, 2, 5] {
-            let mut relay = Relay::new(jobs, |piece: u64| {
+            let mut relay = OrderedPipeline::new(jobs, |piece: u64| {
                 // later pieces take less time
                 (0..(100 - piece) * 1000).for_each(|k| {
                     std::hint::black_box(k);
@@ -155,7 +155,7 @@ mod tests {
     #[cfg(feature = "threads")]
     fn a_panic_continues_in_the_caller() {
         let outcome = std::panic::catch_unwind(|| {
-            let mut relay = Relay::new(2, |piece: u64| assert!(piece < 5, "broken"));
+            let mut relay = OrderedPipeline::new(2, |piece: u64| assert!(piece < 5, "broken"));
             (0..100).filter_map(|piece| relay.give(piece)).count()
         });
         assert!(outcome.is_err());

@@ -6,7 +6,7 @@ use std::thread;
 
 /// Splits `0..count` into at most `jobs` ranges and returns the results of `work` on them, in order. Each range has a thread of its own,
 /// the first one the calling thread.
-pub fn in_shares<T: Send>(jobs: usize, count: usize, work: impl Fn(Range<usize>) -> T + Sync) -> Vec<T> {
+pub fn scoped_chunks<T: Send>(jobs: usize, count: usize, work: impl Fn(Range<usize>) -> T + Sync) -> Vec<T> {
     let jobs = jobs.min(count);
     if jobs < 2 {
         return vec![work(0..count)];
@@ -32,13 +32,13 @@ pub fn in_shares<T: Send>(jobs: usize, count: usize, work: impl Fn(Range<usize>)
 
 #[cfg(test)]
 mod tests {
-    use super::in_shares;
+    use super::scoped_chunks;
 
     #[test]
     fn chunks_cover_all_pieces_in_order() {
         for jobs in [1, 2, 3, 8] {
             for count in [0, 1, 2, 7, 100] {
-                let all: Vec<usize> = in_shares(jobs, count, Vec::from_iter).concat();
+                let all: Vec<usize> = scoped_chunks(jobs, count, Vec::from_iter).concat();
                 assert_eq!(all, (0..count).collect::<Vec<_>>(), "{jobs} {count}");
             }
         }

@@ -3,17 +3,17 @@
 use crate::continuation::StartSolver;
 use crate::imports::{self, Imports};
 use crate::lowering::Rebuild;
-use crate::lowering::lowered;
+use crate::lowering::lower_model;
 use crate::option_reader::spaceless;
 use crate::part_backtrace::PartBacktrace;
 use crate::queries::QueryCache;
 use crate::{Compiled, Parsed, Redundant};
 use mechc_emit as emit;
-use mechc_lang::check::{self, Given, Library, Setting, Surroundings, Symbols, TableFiles, UNTIL};
+use mechc_lang::check::{self, CheckOptions, InputOverrides, Library, ParamOverride, Symbols, TableFiles, UNTIL};
 use mechc_lang::model::Mechanism;
 use mechc_syntax::{self as syntax, ast};
 use mechc_text::cancel::Cancel;
-use mechc_text::diag::{Applies, Code, Diagnostic, Diagnostics, Fix, nearest};
+use mechc_text::diag::{Applicability, Code, Diagnostic, Diagnostics, Fix, nearest};
 use mechc_text::source::{FileId, Sources, Span};
 use mechc_text::world::{self, World};
 use std::path::PathBuf;
@@ -38,7 +38,7 @@ pub struct Choice {
     /// Params that vary from run to run, set over those of `set`; messages name them so.
     pub varied: Vec<String>,
     /// Deviations of params that have tolerances, set as if they were values.
-    pub off: Vec<String>,
+    pub deviations: Vec<String>,
     /// Inputs: `NAME=FORMULA`, each name once.
     pub inputs: Vec<String>,
     /// A CSV file with samples of inputs.
@@ -80,7 +80,7 @@ pub struct Checked {
     /// True if it is continued from the values of its text to those that are set.
     is_continued: bool,
     /// The options of its check.
-    pub(crate) check_options: Arc<Surroundings>,
+    pub(crate) check_options: Arc<CheckOptions>,
     diagnostics: Arc<Diagnostics>,
     symbols: Arc<OnceLock<Symbols>>,
     pub(crate) query_cache: Arc<QueryCache>,
@@ -109,7 +109,7 @@ impl Parsed {
     pub fn certain_fixes(&self, world: &dyn World) -> Vec<Fix> {
         let certain = |diagnostics: &Diagnostics| -> Vec<Fix> {
             let fixes = diagnostics.iter().flat_map(|diagnostic| &diagnostic.fixes);
-            fixes.filter(|fix| fix.applies == Applies::Always).cloned().collect()
+            fixes.filter(|fix| fix.applies == Applicability::Always).cloned().collect()
         };
         let of_syntax = certain(self.faults());
         if !of_syntax.is_empty() {
@@ -172,7 +172,7 @@ impl Checked {
             (Ok(settings), Ok(given)) => {
                 let library = library.clone();
                 let Choice { reactions, pictures_forces, slopes, .. } = *choice;
-                let check_options = Surroundings {
+                let check_options = CheckOptions {
                     settings,
                     library,
                     files,
@@ -181,7 +181,7 @@ impl Checked {
                     slopes,
                     reactions,
                     pictures_forces,
-                    ..Surroundings::default()
+                    ..CheckOptions::default()
                 };
                 let parsed = parsed.with_sources(sources);
                 return Checked::with_check_options(parsed, index, check_options, is_continued, diagnostics);
@@ -194,7 +194,7 @@ impl Checked {
     pub(crate) fn with_check_options(
         parsed: Parsed,
         index: usize,
-        check_options: Surroundings,
+        check_options: CheckOptions,
         is_continued: bool,
         mut diagnostics: Diagnostics,
     ) -> Checked {
@@ -215,7 +215,7 @@ impl Checked {
     /// Returns the model with more params set, whose formulas are in `sources`.
     pub(crate) fn model_with(
         &self,
-        settings: impl IntoIterator<Item = Setting>,
+        settings: impl IntoIterator<Item = ParamOverride>,
         sources: &Sources,
     ) -> (Option<Mechanism>, Diagnostics) {
         let Some(tree) = self.tree() else { return (None, self.parsed.faults().clone()) };
@@ -230,7 +230,7 @@ impl Checked {
     }
 
     /// Checks the mechanism with more params set over those that are set already, to be continued to them. Their formulas are in `sources`.
-    pub(crate) fn continued_to(&self, settings: impl IntoIterator<Item = Setting>, sources: &Sources) -> Checked {
+    pub(crate) fn continued_to(&self, settings: impl IntoIterator<Item = ParamOverride>, sources: &Sources) -> Checked {
         let Some(index) = self.index else { return self.clone() };
         let mut check_options = (*self.check_options).clone();
         check_options.settings.extend(settings);
@@ -260,7 +260,7 @@ impl Checked {
         model: Option<Arc<Mechanism>>,
         mut diagnostics: Diagnostics,
     ) -> Checked {
-        diagnostics.sort_by_place();
+        diagnostics.sort_by_span();
         let (diagnostics, check_options, symbols) = (Arc::new(diagnostics), Arc::default(), Arc::default());
         let (start_solver, is_continued, query_cache) = Default::default();
         Checked {
@@ -367,13 +367,13 @@ impl Checked {
     /// Returns all equations with their derivatives as a text, even if the mechanism is not determined; `None` if it has errors.
     #[must_use]
     pub fn equations_text(&self) -> Option<String> {
-        self.model.as_ref().map(|model| lowered(model).to_string())
+        self.model.as_ref().map(|model| lower_model(model).to_string())
     }
 
     /// Returns the equations as LaTeX, even if the mechanism is not determined; `None` if it has errors. `file` is named in the output.
     #[must_use]
     pub fn latex(&self, file: &str) -> Option<String> {
-        let mut system = lowered(self.model.as_ref()?);
+        let mut system = lower_model(self.model.as_ref()?);
         let mechanics = system.mechanics();
         Some(emit::latex(&system, mechanics.as_ref(), false, file))
     }
@@ -381,7 +381,7 @@ impl Checked {
     /// Returns the constraint system as JSON, even if the mechanism is not determined; `None` if it has errors.
     #[must_use]
     pub fn json(&self, file: &str) -> Option<String> {
-        let mut system = lowered(self.model.as_ref()?);
+        let mut system = lower_model(self.model.as_ref()?);
         let mechanics = system.mechanics();
         Some(emit::json(&system, mechanics.as_ref(), false, self.sources(), file))
     }
@@ -418,13 +418,13 @@ impl Checked {
 
     fn compiled(&self, model: &Mechanism, redundant: Redundant, cancel: &Cancel) -> (Option<Compiled>, Diagnostics) {
         let (start_solver, backtrace) = (self.start_solver.clone(), PartBacktrace::new(model));
-        Compiled::new(self.sources().clone(), lowered(model), redundant, start_solver, backtrace, cancel)
+        Compiled::new(self.sources().clone(), lower_model(model), redundant, start_solver, backtrace, cancel)
     }
 
     /// Returns the model in which the given parts request derivatives by their own equations, though they move together with their surroundings.
     fn model_with_coupled(&self, coupled: Vec<String>) -> Option<Mechanism> {
         let tree = &self.parsed.tree().mechanisms[self.index?];
-        let check_options = Surroundings { coupled, ..(*self.check_options).clone() };
+        let check_options = CheckOptions { coupled, ..(*self.check_options).clone() };
         check::check(tree, &check_options, self.sources()).0
     }
 }
@@ -525,12 +525,12 @@ fn table_files<'t>(
     files
 }
 
-fn settings(choice: &Choice, sources: &mut Sources) -> Result<Vec<Setting>, Diagnostics> {
+fn settings(choice: &Choice, sources: &mut Sources) -> Result<Vec<ParamOverride>, Diagnostics> {
     let option = |option| NamedFormulas { option, example: "crank_length=60mm" };
     let mut formulas = option("--set").read(&choice.set, sources)?;
     formulas.extend(option(VARY).read(&choice.varied, sources)?);
-    formulas.extend(option(TOL).read(&choice.off, sources)?);
-    Ok(formulas.into_iter().map(|(path, value)| Setting { path, value }).collect())
+    formulas.extend(option(TOL).read(&choice.deviations, sources)?);
+    Ok(formulas.into_iter().map(|(path, value)| ParamOverride { path, value }).collect())
 }
 
 /// Returns the results that options add to those of the text.
@@ -564,14 +564,14 @@ fn until(condition: ast::Expr) -> ast::Item {
 }
 
 /// Returns the inputs that options give.
-fn given(choice: &Choice, world: &dyn World, sources: &mut Sources) -> Result<Given, Diagnostics> {
+fn given(choice: &Choice, world: &dyn World, sources: &mut Sources) -> Result<InputOverrides, Diagnostics> {
     let option = NamedFormulas { option: "--input", example: "turn='90 deg * t'" };
     let formulas = option.read(&choice.inputs, sources)?;
     let samples = match &choice.samples {
         None => None,
-        Some(path) => Some(world::rows_given(world, path, sources).map_err(|why| *why)?),
+        Some(path) => Some(world::read_rows(world, path, sources).map_err(|why| *why)?),
     };
-    Ok(Given { formulas, samples })
+    Ok(InputOverrides { formulas, samples })
 }
 
 /// An option that gives formulas to names, as `NAME=FORMULA`; `check` decides which names exist.

@@ -10,7 +10,7 @@ impl Compiled {
     ///
     /// # Errors
     /// No column matches one of them.
-    pub fn chosen_columns(&self, patterns: &[String]) -> Result<Vec<usize>, Box<Diagnostic>> {
+    pub fn select_columns(&self, patterns: &[String]) -> Result<Vec<usize>, Box<Diagnostic>> {
         select_columns(patterns, &self.columns())
     }
 }

@@ -4,7 +4,7 @@ use crate::angles::Angles;
 use crate::option_reader::{is_of_angles, number_and_unit, si_unit, written};
 use crate::queries::item_named;
 use crate::{Checked, Compiled, Formula};
-use mechc_engine::sweep::rounded;
+use mechc_engine::sweep::round_to_15_digits;
 use mechc_expr::{ExprId, Symbol};
 use mechc_ir::{ConstraintSystem, Input};
 use mechc_lang::check::{Amount, usual_unit_of_length};
@@ -16,7 +16,7 @@ use rustc_hash::FxHashMap;
 
 /// A control of a param, or of a coordinate of a param that is a point.
 #[derive(Clone, PartialEq, Debug)]
-pub struct Knob {
+pub struct ParamControl {
     /// Path of the param.
     pub name: String,
     /// Unit in which the param is written. If its formula is no single number: the unit of a param that the formula names, or SI. Empty for a pure
@@ -29,20 +29,20 @@ pub struct Knob {
     /// Formula of the text, if it is more than a number.
     pub formula: Option<String>,
     /// Span of the formula, if it can be replaced.
-    pub place: Option<Span>,
+    pub editable_span: Option<Span>,
     /// True if that formula gives the other coordinate of a point, too.
     pub is_half: bool,
     /// Span of the formula, if there is one.
-    pub stands: Option<Span>,
+    pub formula_span: Option<Span>,
     /// Path of the control of all copies, if this one is of a single copy of a part.
     pub of: Option<String>,
     /// True if continuation can change the value; counts of declarations jump.
-    pub leads: bool,
+    pub is_continuous: bool,
 }
 
 /// A control of an input.
 #[derive(Clone, PartialEq, Debug)]
-pub struct Jog {
+pub struct InputControl {
     /// Path of the input.
     pub name: String,
     /// SI unit; empty for a pure number.
@@ -61,11 +61,11 @@ impl Checked {
     /// Returns the controls of params in the order of the text, then those of parts. Copies of parts have a control of all copies, followed by
     /// one for each. Empty if the mechanism has errors.
     #[must_use]
-    pub fn knobs(&self) -> Vec<Knob> {
+    pub fn param_controls(&self) -> Vec<ParamControl> {
         let (Some(tree), Some(model)) = (self.tree(), self.model()) else { return Vec::new() };
         let usual = usual_unit_of_length(&tree.items).map(|unit| unit.word.name);
         let mut knobs = Vec::new();
-        for value in &self.known().values {
+        for value in &self.declaration_info().values {
             let declared = tree.items.iter().find_map(|item| match &item.kind {
                 ItemKind::Param { name, value: formula } if Some(name.span) == value.name => Some((name, formula)),
                 _ => None,
@@ -92,7 +92,7 @@ impl Checked {
                         // the origin has the usual unit of the text
                         let is_origin = unit.is_empty() && at.iter().all(|at| *at == 0.0);
                         let unit = usual.filter(|_| is_origin).map_or(unit, str::to_owned);
-                        knobs.push(Knob { unit, is_half: parts.is_none(), ..knob });
+                        knobs.push(ParamControl { unit, is_half: parts.is_none(), ..knob });
                     }
                 }
             }
@@ -105,7 +105,7 @@ impl Checked {
         knobs
     }
 
-    fn knob(&self, name: &str, formula: &Expr, si: f64, kind: &ValueKind, unit: Option<String>) -> Knob {
+    fn knob(&self, name: &str, formula: &Expr, si: f64, kind: &ValueKind, unit: Option<String>) -> ParamControl {
         let text = self.sources().text(formula.span);
         let place = Some(formula.span);
         let param = self.param_in_part(name);
@@ -116,17 +116,39 @@ impl Checked {
             let value = if self.is_set(&name) { in_unit(si, unit) } else { number };
             let (unit, leads) = (unit.to_owned(), param.is_some());
             let (formula, is_half, of) = (None, false, None);
-            return Knob { name, unit, dimension, value, formula, place, is_half, stands: place, of, leads };
+            return ParamControl {
+                name,
+                unit,
+                dimension,
+                value,
+                formula,
+                editable_span: place,
+                is_half,
+                formula_span: place,
+                of,
+                is_continuous: leads,
+            };
         }
         let unit =
             unit.or_else(|| kind.usual.map(str::to_owned)).unwrap_or_else(|| si_unit(kind.dimension, kind.is_angle));
         let value = in_unit(si, &unit);
         let (formula, is_half, of) = (Some(text.to_owned()), false, None);
-        Knob { name, unit, dimension, value, formula, place, is_half, stands: place, of, leads: true }
+        ParamControl {
+            name,
+            unit,
+            dimension,
+            value,
+            formula,
+            editable_span: place,
+            is_half,
+            formula_span: place,
+            of,
+            is_continuous: true,
+        }
     }
 
     /// Returns the control of a param of a part, in the unit in which its formula is written.
-    fn knob_of_part(&self, name: &str, si: f64, dimension: Dimension) -> Knob {
+    fn knob_of_part(&self, name: &str, si: f64, dimension: Dimension) -> ParamControl {
         let source = self.part_source(name);
         let text = source.as_ref().map(|source| self.sources().text(source.formula.span));
         let number = text.and_then(number_and_unit);
@@ -138,7 +160,18 @@ impl Checked {
         let stands = source.as_ref().map(|source| source.formula.span);
         let (is_half, is_bound) = source.map_or((false, true), |source| (source.is_half, source.is_bound));
         let (name, place, of) = (name.to_owned(), stands.filter(|_| !is_bound), None);
-        Knob { name, unit, dimension, value, formula, place, is_half, stands, of, leads: true }
+        ParamControl {
+            name,
+            unit,
+            dimension,
+            value,
+            formula,
+            editable_span: place,
+            is_half,
+            formula_span: stands,
+            of,
+            is_continuous: true,
+        }
     }
 
     /// Returns the formula of a param of a part: the binding where the part is declared, or the formula in its own mechanism.
@@ -194,8 +227,8 @@ struct ParamSource<'t> {
 }
 
 /// Adds a control of all copies before those of single copies.
-fn with_all_copies(knobs: Vec<Knob>) -> Vec<Knob> {
-    let mut all: Vec<(String, Vec<Knob>)> = Vec::new();
+fn with_all_copies(knobs: Vec<ParamControl>) -> Vec<ParamControl> {
+    let mut all: Vec<(String, Vec<ParamControl>)> = Vec::new();
     let mut indices: FxHashMap<String, usize> = FxHashMap::default();
     for knob in knobs {
         let name = without_copy_indices(&knob.name);
@@ -205,12 +238,13 @@ fn with_all_copies(knobs: Vec<Knob>) -> Vec<Knob> {
         }
         all[index].1.push(knob);
     }
-    let of_all = |(name, copies): (String, Vec<Knob>)| {
+    let of_all = |(name, copies): (String, Vec<ParamControl>)| {
         let are_copies = copies.len() > 1;
-        let first = copies.first().filter(|_| are_copies).map(|first| Knob { name: name.clone(), ..first.clone() });
+        let first =
+            copies.first().filter(|_| are_copies).map(|first| ParamControl { name: name.clone(), ..first.clone() });
         first
             .into_iter()
-            .chain(copies.into_iter().map(move |copy| Knob { of: are_copies.then(|| name.clone()), ..copy }))
+            .chain(copies.into_iter().map(move |copy| ParamControl { of: are_copies.then(|| name.clone()), ..copy }))
     };
     all.into_iter().flat_map(of_all).collect()
 }
@@ -232,7 +266,7 @@ struct ValueKind {
 fn unit_of_named(
     formula: &Expr,
     checked: &Checked,
-    knobs: &[Knob],
+    knobs: &[ParamControl],
     dimension: Dimension,
     is_angle: bool,
 ) -> Option<String> {
@@ -259,7 +293,7 @@ fn unit_of_literals(formula: &Expr, si: &str) -> Option<String> {
 
 /// Converts a value (SI) to a unit.
 fn in_unit(si: f64, unit: &str) -> f64 {
-    rounded(si / size_of_unit(unit))
+    round_to_15_digits(si / size_of_unit(unit))
 }
 
 /// Returns the SI value of one of a unit; NaN for what is no unit.
@@ -268,7 +302,7 @@ pub fn size_of_unit(unit: &str) -> f64 {
     if unit.is_empty() {
         return 1.0;
     }
-    let formula = Formula::of(&written(1.0, unit), &mut Sources::default());
+    let formula = Formula::parse(&written(1.0, unit), &mut Sources::default());
     formula.ok().and_then(|formula| formula.values(0.0).ok()).map_or(f64::NAN, |[value, ..]| value)
 }
 
@@ -286,7 +320,7 @@ fn coordinates(formula: &Expr) -> Option<&[Expr; 2]> {
 impl Checked {
     /// Returns the controls of inputs, with their values at some times (s).
     #[must_use]
-    pub fn jogs(&self, compiled: &Compiled, times: &[f64]) -> Vec<Jog> {
+    pub fn input_controls(&self, compiled: &Compiled, times: &[f64]) -> Vec<InputControl> {
         let system = compiled.system();
         let angles = Angles::new(self.library(), self.sources());
         let formula = |span: Span| {
@@ -310,7 +344,7 @@ impl Checked {
             let written = whole.or_else(|| unit_of_literals(formula?, &unit));
             // as the unit follows a number
             let si = unit.strip_prefix('1').unwrap_or(&unit);
-            Jog {
+            InputControl {
                 name: input.name.clone(),
                 written: written.unwrap_or_else(|| si.to_owned()),
                 dimension: if si == "rad" { String::new() } else { si.to_owned() },
@@ -376,9 +410,9 @@ mod tests {
             body bar { point O = (0, 0) point M = (half, 0) point P = P point Q = (rod, 0) }
             joint axle: revolute(ground.O, bar.O)
         }";
-        let checked = Parsed::of("legs.mech", text)
+        let checked = Parsed::new("legs.mech", text)
             .check(&Choice { mechanism: Some("legs".to_owned()), ..Choice::default() }, &Memory::default());
-        let knobs = checked.knobs();
+        let knobs = checked.param_controls();
         let controls: Vec<_> =
             knobs.iter().map(|k| (k.name.as_str(), k.value, k.unit.as_str(), k.of.as_deref())).collect();
         let of_copies = |name: &'static str, value, copies: [&'static str; 2]| {
@@ -395,7 +429,7 @@ mod tests {
         let expected: Vec<_> =
             std::iter::once(("speed", 60.0, "rpm", None)).chain(copies.concat()).chain(one).collect();
         assert_eq!(controls, expected);
-        let place = |name: &str| knobs.iter().find(|knob| knob.name == name).and_then(|knob| knob.place);
+        let place = |name: &str| knobs.iter().find(|knob| knob.name == name).and_then(|knob| knob.editable_span);
         let text_of = |name: &str| place(name).map(|place| checked.sources().text(place));
         assert_eq!(text_of("leg.rod"), Some("40 mm"));
         assert_eq!(text_of("one.P.x"), Some("0"));
@@ -419,9 +453,10 @@ mod tests {
             ground { point O = A }
             body bar[k in 0..count] at (0, 0, k * 1 deg) { point O = (half, 0) point P = (length, 0) }
         }";
-        let checked = Parsed::of("lever.mech", text).check(&Choice::default(), &Memory::default());
-        let knobs = checked.knobs();
-        let controls: Vec<_> = knobs.iter().map(|k| (k.name.as_str(), k.value, k.unit.as_str(), k.leads)).collect();
+        let checked = Parsed::new("lever.mech", text).check(&Choice::default(), &Memory::default());
+        let knobs = checked.param_controls();
+        let controls: Vec<_> =
+            knobs.iter().map(|k| (k.name.as_str(), k.value, k.unit.as_str(), k.is_continuous)).collect();
         assert_eq!(
             controls,
             [
@@ -437,7 +472,7 @@ mod tests {
             ]
         );
         assert_eq!(knobs[1].formula.as_deref(), Some("length / 2"));
-        let place = knobs[5].place.expect("a place");
+        let place = knobs[5].editable_span.expect("a place");
         assert_eq!(checked.sources().text(place), "10 mm");
     }
 
@@ -460,10 +495,10 @@ mod tests {
             driver piston: displacement(guide) = b + f
             analysis from 0 s to 1 s every 100 ms
         }";
-        let checked = Parsed::of("press.mech", text).check(&Choice::default(), &Memory::default());
+        let checked = Parsed::new("press.mech", text).check(&Choice::default(), &Memory::default());
         let (compiled, diagnostics) = checked.compile(Redundant::Refused, &Cancel::default());
         let compiled = compiled.unwrap_or_else(|| panic!("{diagnostics:?}"));
-        let jogs = checked.jogs(&compiled, &[0.0]);
+        let jogs = checked.input_controls(&compiled, &[0.0]);
         let controls: Vec<_> =
             jogs.iter().map(|jog| (jog.name.as_str(), jog.written.as_str(), jog.dimension.as_str())).collect();
         let expected = [("a", "deg", ""), ("b", "mm", "m"), ("c", "rad", ""), ("e", "deg/s", "/s"), ("f", "mm", "m")];

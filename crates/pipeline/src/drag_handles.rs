@@ -10,18 +10,18 @@ const LEAST_RATE: f64 = 1e-9;
 
 /// A body whose angle alone a driver sets.
 #[derive(Clone, PartialEq, Debug)]
-pub struct Crank {
+pub struct DragHandle {
     /// Index among the bodies.
     pub body: usize,
     /// The point at which it is joined to the ground (m).
     pub pivot: [f64; 2],
     /// The input of its driver; `None` if time alone turns it.
-    pub input: Option<Led>,
+    pub input: Option<TurningInput>,
 }
 
 /// An input that turns a body.
 #[derive(Clone, PartialEq, Debug)]
-pub struct Led {
+pub struct TurningInput {
     /// Path of the input.
     pub name: String,
     /// Derivative of the angle by the input at the first time [rad per SI unit of the input]: finite, and not 0.
@@ -31,7 +31,7 @@ pub struct Led {
 impl Compiled {
     /// Returns the bodies that can be turned by hand, at a time (s).
     #[must_use]
-    pub fn cranks(&self, t: f64) -> Vec<Crank> {
+    pub fn drag_handles(&self, t: f64) -> Vec<DragHandle> {
         let system = self.system();
         // the equations of the text have formulas of time in place of inputs
         let signals = self.with_signals();
@@ -51,7 +51,7 @@ struct Moment<'s> {
 
 impl Moment<'_> {
     /// Returns the body that the driver of a row turns.
-    fn crank(&self, row: usize) -> Option<Crank> {
+    fn crank(&self, row: usize) -> Option<DragHandle> {
         let system = self.system;
         let [(column, by_angle)] = system.phi_q().row(row) else { return None };
         let body = system.body_of(*column as usize)?;
@@ -66,13 +66,17 @@ impl Moment<'_> {
         let has_inputs = turning.peek().is_some();
         let input = turning.flatten().next();
         // a body that an input turns, but not at this time, is not turned by time either
-        (phi == *column as usize && has_inputs == input.is_some()).then_some(Crank { body: body.index(), pivot, input })
+        (phi == *column as usize && has_inputs == input.is_some()).then_some(DragHandle {
+            body: body.index(),
+            pivot,
+            input,
+        })
     }
 
     /// Returns the input if it changes the angle, by `−Φ_u` and `Φ_φ`.
-    fn turning_input(&self, slope: ExprId, by_angle: ExprId, input: &Input) -> Option<Led> {
+    fn turning_input(&self, slope: ExprId, by_angle: ExprId, input: &Input) -> Option<TurningInput> {
         let rate = self.value(slope) / self.value(by_angle);
-        (rate.is_finite() && rate.abs() > LEAST_RATE).then(|| Led { name: input.name.clone(), rate })
+        (rate.is_finite() && rate.abs() > LEAST_RATE).then(|| TurningInput { name: input.name.clone(), rate })
     }
 
     /// Evaluates a formula at that time, with estimates as coordinates.
@@ -113,13 +117,13 @@ fn pivot(system: &ConstraintSystem, joint: &Declaration, body: BodyId) -> Option
 
 #[cfg(test)]
 mod tests {
-    use super::Led;
+    use super::TurningInput;
     use crate::{Choice, Parsed, Redundant};
     use mechc_text::cancel::Cancel;
     use mechc_text::world::Memory;
 
     /// Returns the inputs that turn a disc whose driver names `axle`, or `back`, whose points are in reverse order.
-    fn inputs_of(driver: &str) -> Vec<Option<Led>> {
+    fn inputs_of(driver: &str) -> Vec<Option<TurningInput>> {
         let text = format!(
             "mechanism disc {{
     input turn = 60 deg + 1 rev/s * t
@@ -133,10 +137,10 @@ mod tests {
             if driver.contains("back") { "wheel.O, ground.O" } else { "ground.O, wheel.O" }
         )
         .replace("joint axle", if driver.contains("back") { "joint back" } else { "joint axle" });
-        let checked = Parsed::of("disc.mech", &text).check(&Choice::default(), &Memory::default());
+        let checked = Parsed::new("disc.mech", &text).check(&Choice::default(), &Memory::default());
         let (compiled, diagnostics) = checked.compile(Redundant::Refused, &Cancel::default());
         let compiled = compiled.unwrap_or_else(|| panic!("{driver}: {diagnostics:?}"));
-        compiled.cranks(0.0).into_iter().map(|crank| crank.input).collect()
+        compiled.drag_handles(0.0).into_iter().map(|crank| crank.input).collect()
     }
 
     #[test]

@@ -34,7 +34,7 @@ pub struct RustOptions {
 impl RustOptions {
     /// Returns the options of code with a motion and nothing else.
     #[must_use]
-    pub fn of(file: impl Into<String>) -> RustOptions {
+    pub fn new(file: impl Into<String>) -> RustOptions {
         let (with_motion, with_sensitivities, for_c) = (true, false, false);
         let (lanes, largest_straight) = (None, LARGEST_STRAIGHT);
         RustOptions { file: file.into(), with_motion, with_sensitivities, lanes, for_c, largest_straight }
@@ -110,7 +110,7 @@ impl Compiled {
             return Ok(None);
         }
         let compiled = self.signals(&Cancel::default())?;
-        Ok(compiled.map(|compiled| Signals { given: compiled.program().with_signals_given(), compiled }))
+        Ok(compiled.map(|compiled| Signals { given: compiled.program().with_signals_as_inputs(), compiled }))
     }
 
     fn unit<'u>(
@@ -231,7 +231,7 @@ impl Compiled {
             rows.push(last);
         }
         let forces = rows.iter_mut().map(|row: &mut Vec<f64>| row.drain(reactions.clone()).collect()).collect();
-        diagnostics.extend(run.take_remarks());
+        diagnostics.extend(run.take_warnings());
         diagnostics.extend(why);
         Ok(Reference { columns, rows, forces, steps: number - 1, every, stopped })
     }

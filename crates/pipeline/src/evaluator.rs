@@ -4,10 +4,10 @@
 use crate::batch::{BatchEvaluator, Query, QueryResult};
 use crate::continuation::{Continuation, Outcome};
 use crate::option_reader::unusable;
-use crate::{AskedTimes, Checked, Compiled, Redundant, RunOptions, Variants};
-use mechc_engine::analysis::{Answers, Asked, Times};
+use crate::{Checked, Compiled, Redundant, RequestedTimes, RunOptions, Variants};
+use mechc_engine::analysis::{Answers, ResultQuery, Times};
 use mechc_engine::sweep::{LANES, Levels, Points, Varying};
-use mechc_lang::check::{SetInputs, Surroundings};
+use mechc_lang::check::{CheckOptions, SettableInputs};
 use mechc_text::cancel::Cancel;
 use mechc_text::diag::{Code, Diagnostic, Diagnostics, readable};
 use mechc_text::source::Sources;
@@ -15,11 +15,11 @@ use std::sync::Arc;
 
 /// Options of an evaluator.
 #[derive(Clone, Debug)]
-pub struct Adjusting {
+pub struct EvaluatorOptions {
     /// Names of the inputs that queries set.
     pub inputs: Vec<String>,
     /// True if inputs may have accelerations; if not, accelerations of queries are ignored, and points can be evaluated in lanes.
-    pub bend: bool,
+    pub has_accelerations: bool,
     /// Names of the params that queries set.
     pub params: Vec<String>,
     /// The treatment of redundant equations.
@@ -30,11 +30,11 @@ pub struct Adjusting {
     pub pass_bifurcations: bool,
 }
 
-impl Default for Adjusting {
-    fn default() -> Adjusting {
+impl Default for EvaluatorOptions {
+    fn default() -> EvaluatorOptions {
         let RunOptions { tolerance, pass_bifurcations, .. } = RunOptions::default();
         let (inputs, bend, params, redundant) = Default::default();
-        Adjusting { inputs, bend, params, redundant, tolerance, pass_bifurcations }
+        EvaluatorOptions { inputs, has_accelerations: bend, params, redundant, tolerance, pass_bifurcations }
     }
 }
 
@@ -51,7 +51,7 @@ pub struct InputMotion {
 
 /// A point to evaluate.
 #[derive(Clone, PartialEq, Debug, Default)]
-pub struct AskedPlace {
+pub struct EvaluationPoint {
     /// Time (s); `None` for the first time of the analysis.
     pub t: Option<f64>,
     /// Motions of the inputs at that time.
@@ -63,7 +63,7 @@ pub struct AskedPlace {
 /// A mechanism that can be evaluated for many values of its inputs and params.
 ///
 /// ```
-/// use mechc::{Adjusting, AskedTimes, Cancel, Choice, Memory, Parsed, InputMotion};
+/// use mechc::{EvaluatorOptions, RequestedTimes, Cancel, Choice, Memory, Parsed, InputMotion};
 ///
 /// let text = "mechanism disc {
 ///      input turn = 90 deg/s * t
@@ -73,16 +73,16 @@ pub struct AskedPlace {
 ///      driver motor: rotation(axle) = turn
 ///  }";
 /// let checked = Parsed::of("disc.mech", text).check(&Choice::default(), &Memory::default());
-/// let adjusting = Adjusting { inputs: vec!["turn".to_owned()], ..Adjusting::default() };
+/// let adjusting = EvaluatorOptions { inputs: vec!["turn".to_owned()], ..EvaluatorOptions::default() };
 /// let disc = checked.adjustable(&adjusting, &Cancel::default()).expect("it is determined");
 /// let turn = InputMotion { value: 0.3, rate: 2.0, acceleration: 0.0 };
-/// let (once, mut row) = (AskedTimes { at: vec![0.0], ..AskedTimes::default() }, Vec::new());
+/// let (once, mut row) = (RequestedTimes { at: vec![0.0], ..RequestedTimes::default() }, Vec::new());
 /// let results = disc.follow(&[turn], &[], &once, &Cancel::default(), |values| row.extend_from_slice(values));
 /// assert!(results.is_ok());
 /// assert_eq!((row[3], row[6]), (0.3, 2.0));
 /// ```
 #[derive(Clone)]
-pub struct Adjustable(Arc<Shared>);
+pub struct MechanismEvaluator(Arc<Shared>);
 
 struct Shared {
     checked: Checked,
@@ -94,7 +94,7 @@ struct Shared {
     inputs: Vec<usize>,
     /// The params that queries set, if there are any.
     params: Option<Variants>,
-    adjusting: Adjusting,
+    adjusting: EvaluatorOptions,
     /// Number of columns.
     columns: usize,
     /// Evaluates points in lanes.
@@ -109,12 +109,16 @@ impl Checked {
     ///
     /// # Errors
     /// An input or param does not exist, or the mechanism is not determined; with the texts that the diagnostics point into.
-    pub fn adjustable(&self, adjusting: &Adjusting, cancel: &Cancel) -> Result<Adjustable, (Sources, Diagnostics)> {
+    pub fn evaluator(
+        &self,
+        adjusting: &EvaluatorOptions,
+        cancel: &Cancel,
+    ) -> Result<MechanismEvaluator, (Sources, Diagnostics)> {
         let with_sources = |why: Diagnostic| (self.sources().clone(), Diagnostics::from(why));
         let t = self.model().and_then(|model| model.analysis).map_or(0.0, |analysis| analysis.from);
-        let set_inputs = SetInputs { t, names: adjusting.inputs.clone(), bend: adjusting.bend };
+        let set_inputs = SettableInputs { t, names: adjusting.inputs.clone(), bend: adjusting.has_accelerations };
         let open = adjusting.params.clone();
-        let check_options = Surroundings { set_inputs: Some(set_inputs), open, ..(*self.check_options).clone() };
+        let check_options = CheckOptions { set_inputs: Some(set_inputs), open, ..(*self.check_options).clone() };
         let Some(index) = self.index else { return Err((self.sources().clone(), self.diagnostics().clone())) };
         let checked =
             Checked::with_check_options(self.parsed.clone(), index, check_options, false, Diagnostics::default());
@@ -124,8 +128,8 @@ impl Checked {
             return Err(refused(if checked.is_sound() { &diagnostics } else { checked.diagnostics() }));
         };
         let first_param = |name: &String| {
-            let is_named = |param: &&mechc_lang::model::Led| param.declared.name == *name;
-            model.led.iter().find(is_named).and_then(|param| param.param).map(|k| k as usize)
+            let is_named = |param: &&mechc_lang::model::ContinuedParam| param.declared.name == *name;
+            model.continued.iter().find(is_named).and_then(|param| param.param).map(|k| k as usize)
         };
         let unknown = |name: &String, what: &str| {
             let message = format!("there is no {what} `{name}` that could be adjusted");
@@ -144,13 +148,13 @@ impl Checked {
             });
         }
         let nominal = model.params.iter().map(|param| param.value).collect();
-        let batch = BatchEvaluator::new(model.led.iter().filter_map(|param| param.param).collect());
+        let batch = BatchEvaluator::new(model.continued.iter().filter_map(|param| param.param).collect());
         let params = self.params_to_adjust(&adjusting.params)?;
         let (source, redundant) = (checked.clone(), adjusting.redundant);
         let continuation = Continuation::new(move |options| source.nominal(redundant, options));
         let (adjusting, columns) = (adjusting.clone(), compiled.columns().len());
         let shared = Shared { checked, compiled, continuation, nominal, inputs, params, adjusting, columns, batch };
-        Ok(Adjustable(Arc::new(shared)))
+        Ok(MechanismEvaluator(Arc::new(shared)))
     }
 
     /// Returns the params of the given names, each of which takes a number in SI.
@@ -168,7 +172,7 @@ impl Checked {
     }
 }
 
-impl Adjustable {
+impl MechanismEvaluator {
     /// Returns the compiled mechanism: its columns, their units, the names of its results.
     #[must_use]
     pub fn compiled(&self) -> &Compiled {
@@ -186,7 +190,7 @@ impl Adjustable {
         &self,
         inputs: &[InputMotion],
         params: &[f64],
-        times: &AskedTimes,
+        times: &RequestedTimes,
         cancel: &Cancel,
         row: impl FnMut(&[f64]),
     ) -> Result<Answers, Box<Diagnostic>> {
@@ -196,15 +200,15 @@ impl Adjustable {
     }
 
     /// Evaluates `count` points, which `ask` writes. `receive` receives the row of each in their order, in SI and the order of the columns, with the
-    /// bits that [`Adjustable::follow`] gives; or why a point cannot be reached. Cancelling ends it.
-    pub fn at_each(
+    /// bits that [`MechanismEvaluator::follow`] gives; or why a point cannot be reached. Cancelling ends it.
+    pub fn evaluate_each(
         &self,
         count: usize,
-        mut ask: impl FnMut(usize, &mut AskedPlace),
+        mut ask: impl FnMut(usize, &mut EvaluationPoint),
         cancel: &Cancel,
         mut receive: impl FnMut(Result<&[f64], Box<Diagnostic>>),
     ) {
-        let (mut point, mut last, mut row) = (AskedPlace::default(), None, Vec::new());
+        let (mut point, mut last, mut row) = (EvaluationPoint::default(), None, Vec::new());
         let (shared, options) = (&*self.0, self.0.options(cancel));
         for first in (0..count).step_by(LANES) {
             let mut query = |index| {
@@ -234,7 +238,7 @@ type Values = (Vec<f64>, Option<[f64; 3]>);
 
 impl Shared {
     fn options(&self, cancel: &Cancel) -> RunOptions {
-        let Adjusting { tolerance, pass_bifurcations, .. } = self.adjusting;
+        let EvaluatorOptions { tolerance, pass_bifurcations, .. } = self.adjusting;
         RunOptions { tolerance, pass_bifurcations, cancel: cancel.clone(), ..RunOptions::default() }
     }
 
@@ -242,14 +246,14 @@ impl Shared {
     fn query(&self, mut values: Vec<f64>, times: Times, inputs: &[InputMotion]) -> Query {
         for (&first, &InputMotion { value, rate, acceleration }) in self.inputs.iter().zip(inputs) {
             let motion = [value, times.from(), rate, acceleration];
-            let count = if self.adjusting.bend { 4 } else { 3 };
+            let count = if self.adjusting.has_accelerations { 4 } else { 3 };
             values[first..first + count].copy_from_slice(&motion[..count]);
         }
         Query { values, times }
     }
 
     /// Returns the query of a point.
-    fn query_at(&self, point: &AskedPlace, last: &mut LastParams) -> QueryResult {
+    fn query_at(&self, point: &EvaluationPoint, last: &mut LastParams) -> QueryResult {
         let is_equal = |params: &[f64]| {
             params.iter().map(|value| value.to_bits()).eq(point.params.iter().map(|value| value.to_bits()))
         };
@@ -267,7 +271,7 @@ impl Shared {
         }
         // inputs have their values at that time only
         let from = (!point.inputs.is_empty()).then_some(at);
-        let times = AskedTimes { from, at: vec![at], ..AskedTimes::default() }.over(*analysis)?.times()?;
+        let times = RequestedTimes { from, at: vec![at], ..RequestedTimes::default() }.over(*analysis)?.times()?;
         Ok(self.query(values.clone(), times, &point.inputs))
     }
 
@@ -304,7 +308,7 @@ impl Shared {
                 Err(stop) => return Err(Box::new(stop.explain(motion.system()))),
             }
         }
-        Ok(results.and_then(Asked::answer).unwrap_or_default())
+        Ok(results.and_then(ResultQuery::answer).unwrap_or_default())
     }
 
     /// Returns the values of all params of the model (SI), inputs at their nominal values, and first time, last time and step of the analysis (s).

@@ -13,14 +13,14 @@ const MAX_ROUNDS: usize = 4;
 impl Checked {
     /// Returns whether all errors in its text, in any mechanism, are in measures, traces, results and the analysis.
     #[must_use]
-    pub fn is_sound_but_for_outputs(&self) -> bool {
+    pub fn has_only_output_errors(&self) -> bool {
         self.faulty_outputs().is_some()
     }
 
     /// Returns the mechanism without faulty outputs and those that depend on them; all spans stay as they are. `None` if there are other errors, or
     /// none.
     #[must_use]
-    pub fn without_wrong_outputs(&self, world: &dyn World) -> Option<Checked> {
+    pub fn without_faulty_outputs(&self, world: &dyn World) -> Option<Checked> {
         let index = self.index?;
         let (mut checked, mut faulty) = (self.clone(), self.faulty_outputs()?);
         for _ in 0..MAX_ROUNDS {
@@ -105,9 +105,9 @@ mod tests {
     fn remainder(more: &str) -> Option<String> {
         let text = DISC.replace("MORE", more);
         let world = Memory::default();
-        let checked = Parsed::of("disc.mech", &text).check(&Choice::default(), &world);
-        let remainder = checked.without_wrong_outputs(&world);
-        assert!(remainder.is_none() || checked.is_sound_but_for_outputs());
+        let checked = Parsed::new("disc.mech", &text).check(&Choice::default(), &world);
+        let remainder = checked.without_faulty_outputs(&world);
+        assert!(remainder.is_none() || checked.has_only_output_errors());
         remainder.map(|remainder| {
             remainder
                 .sources()

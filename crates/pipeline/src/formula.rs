@@ -35,7 +35,7 @@ impl Formula {
     ///
     /// # Errors
     /// The text does not follow the grammar, or has no meaning.
-    pub fn of(text: &str, sources: &mut Sources) -> Result<Formula, Diagnostics> {
+    pub fn parse(text: &str, sources: &mut Sources) -> Result<Formula, Diagnostics> {
         let file = sources.add_option("EXPR", text);
         let tree = syntax::parse_expression(sources, file)?;
         let FormulaOfTime { mut graph, value, dimension, conditions, remarks } =

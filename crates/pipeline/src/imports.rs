@@ -1,9 +1,9 @@
 //! Files that a text imports by `use`: each is read once, however many files use it and by whichever path.
 
 use crate::Parsed;
-use mechc_lang::check::{self, KnownFile, Library};
+use mechc_lang::check::{self, Library, LibraryFile};
 use mechc_syntax::{self as syntax, ast};
-use mechc_text::diag::{Applies, Code, Diagnostic, Diagnostics, Fix, nearest};
+use mechc_text::diag::{Applicability, Code, Diagnostic, Diagnostics, Fix, nearest};
 use mechc_text::source::Sources;
 use mechc_text::world::{self, World};
 use rustc_hash::FxHashMap;
@@ -22,7 +22,8 @@ pub(crate) struct Imports {
 
 /// Reads all files that a text uses, directly or through others.
 pub(crate) fn read(parsed: &Parsed, world: &dyn World) -> Imports {
-    let root = KnownFile { id: parsed.file(), path: parsed.path().to_owned(), read: parsed.shared(), uses: Vec::new() };
+    let root =
+        LibraryFile { id: parsed.file(), path: parsed.path().to_owned(), read: parsed.shared(), uses: Vec::new() };
     let mut reading = ImportReader {
         world,
         sources: parsed.sources().clone(),
@@ -52,7 +53,7 @@ impl Parsed {
 
 /// Returns the paths of all files that the texts of a library name: `use`d texts, and tables of all mechanisms.
 pub(crate) fn named_files(library: &Library) -> Vec<PathBuf> {
-    let paths = |file: &KnownFile| {
+    let paths = |file: &LibraryFile| {
         let user = file.path.to_string_lossy().into_owned();
         names_of_files(&file.read.tree).map(|name| world::beside(&user, &name.text)).collect::<Vec<_>>()
     };
@@ -73,7 +74,7 @@ struct ImportReader<'w> {
     sources: Sources,
     /// For the identity of each file, its index in `files`, or why it cannot be read.
     numbers: FxHashMap<PathBuf, Result<usize, Box<Diagnostic>>>,
-    files: Vec<KnownFile>,
+    files: Vec<LibraryFile>,
     diagnostics: Diagnostics,
 }
 
@@ -87,7 +88,7 @@ impl ImportReader<'_> {
 
     /// Returns the index of the file that a text names; reads it at the first time.
     fn number(&mut self, user: &str, named: &ast::Name) -> Option<usize> {
-        let path = world::normalised(&world::beside(user, &named.text));
+        let path = world::normalize_path(&world::beside(user, &named.text));
         // a path back to the current folder normalises to nothing, and is valid
         let path = if path.as_os_str().is_empty() && !named.text.is_empty() { PathBuf::from(".") } else { path };
         let identity = self.world.identity(&path);
@@ -114,7 +115,7 @@ impl ImportReader<'_> {
         }
         self.diagnostics.extend(read.faults.clone());
         self.diagnostics.extend(check::check_file(&read.tree));
-        self.files.push(KnownFile { id, path: path.to_owned(), read, uses: Vec::new() });
+        self.files.push(LibraryFile { id, path: path.to_owned(), read, uses: Vec::new() });
         Ok(self.files.len() - 1)
     }
 }
@@ -138,7 +139,7 @@ pub(crate) fn at_use(why: &Diagnostic, named: &ast::Name, path: &Path, world: &d
             let folder = named.text.rfind('/').map_or("", |end| &named.text[..=end]);
             let path = format!("\"{folder}{name}\"");
             let message = format!("was `{folder}{name}` meant?");
-            diagnostic.fix(Fix::replace(named.span, path, message, Applies::Probably))
+            diagnostic.fix(Fix::replace(named.span, path, message, Applicability::Probably))
         }
     }
 }

@@ -5,17 +5,17 @@ use mechc_expr::{ExprId, Symbol};
 use mechc_lang::model::{Frame, Joint, JointKind, Mechanism, Placement, Point};
 
 /// A mechanism in its initial pose.
-pub struct Drawn {
+pub struct InitialPose {
     /// Named points.
-    pub points: Vec<DrawnPoint>,
+    pub points: Vec<InitialPoint>,
     /// Joints whose position is one number.
-    pub joints: Vec<DrawnJoint>,
+    pub joints: Vec<InitialJoint>,
     /// Name of each body, with its angle (rad).
     pub angles: Vec<(String, f64)>,
 }
 
 /// A point of a body or of the ground.
-pub struct DrawnPoint {
+pub struct InitialPoint {
     /// Path of the body.
     pub body: String,
     /// Name of the point.
@@ -25,7 +25,7 @@ pub struct DrawnPoint {
 }
 
 /// A joint whose position is one number.
-pub struct DrawnJoint {
+pub struct InitialJoint {
     /// Path of the joint.
     pub name: String,
     /// The quantity: `rotation` or `displacement`.
@@ -37,12 +37,12 @@ pub struct DrawnJoint {
 impl Checked {
     /// Returns the initial pose; `None` if the mechanism has errors. A number that is unknown before the motion is NaN.
     #[must_use]
-    pub fn drawn(&self) -> Option<Drawn> {
+    pub fn initial_pose(&self) -> Option<InitialPose> {
         Some(drawn(self.model()?))
     }
 }
 
-fn drawn(model: &Mechanism) -> Drawn {
+fn drawn(model: &Mechanism) -> InitialPose {
     let mut graph = model.graph.clone();
     let mut place = |frame: Frame| model.drawn(&mut graph, &mut |_, e| e, None, frame);
     let placed_points: Vec<_> = model.points.iter().map(|point| (point, place(point.frame))).collect();
@@ -81,13 +81,13 @@ fn drawn(model: &Mechanism) -> Drawn {
     };
     let point = |((point, _), at): (&(&Point, Placement), &[ExprId; 2])| {
         let body = model.frame_name(point.frame).to_owned();
-        Some(DrawnPoint { body, name: point.name.clone()?, at: at.map(value) })
+        Some(InitialPoint { body, name: point.name.clone()?, at: at.map(value) })
     };
     let joint = |joint: &Joint| {
         let (quantity, value) = position(joint.kind)?;
-        Some(DrawnJoint { name: joint.declared.name.clone(), quantity, value })
+        Some(InitialJoint { name: joint.declared.name.clone(), quantity, value })
     };
-    Drawn {
+    InitialPose {
         points: placed_points.iter().zip(&points).filter_map(point).collect(),
         joints: model.joints.iter().filter_map(joint).collect(),
         angles: placed_bodies

@@ -71,7 +71,7 @@ impl OptionReader<'_> {
     pub fn check_with(&self, name: &str, formula: &str) -> SourcedResult<Checked> {
         let set = vec![format!("{name}={formula}")];
         let choice = match self.option {
-            TOL => Choice { off: set, ..self.choice.clone() },
+            TOL => Choice { deviations: set, ..self.choice.clone() },
             _ => Choice { varied: set, ..self.choice.clone() },
         };
         let checked = self.parsed.check(&choice, self.world);
@@ -111,7 +111,7 @@ impl OptionReader<'_> {
     /// Returns the value of a formula (SI) and its dimension, if it has one.
     pub fn value(&self, formula: &str) -> SourcedResult<(f64, Option<Dimension>)> {
         let mut sources = self.checked.sources().clone();
-        let value = Formula::of(formula, &mut sources).and_then(|formula| {
+        let value = Formula::parse(formula, &mut sources).and_then(|formula| {
             let [value, ..] = formula.values(0.0).map_err(|why| *why)?;
             Ok((value, formula.known_dimension()))
         });

@@ -12,7 +12,7 @@ pub struct RunOptions {
     /// True if a motion continues beyond bifurcations, along the smooth branch, with a warning each time.
     pub pass_bifurcations: bool,
     /// The configuration from which given inputs are reached; `None` for the start of the mechanism itself.
-    pub stand: Option<Stand>,
+    pub configuration: Option<Configuration>,
     /// The vector instructions of the solver; they change no bit.
     pub vectors: Vectors,
     /// Cancels the run.
@@ -21,7 +21,7 @@ pub struct RunOptions {
 
 /// The configuration of a mechanism at a time.
 #[derive(Clone, PartialEq, Debug)]
-pub struct Stand {
+pub struct Configuration {
     /// Time (s).
     pub t: f64,
     /// Coordinates [m, rad].
@@ -33,7 +33,7 @@ impl Default for RunOptions {
         RunOptions {
             tolerance: TOLERANCE,
             pass_bifurcations: false,
-            stand: None,
+            configuration: None,
             vectors: Vectors::default(),
             cancel: Cancel::default(),
         }

@@ -11,7 +11,7 @@ use mechc_text::source::Sources;
 
 /// A param or an input that an option can set.
 #[derive(Clone, PartialEq, Debug)]
-pub struct Settable {
+pub struct SettableParam {
     /// Path: `crank_length`, `A.x`, `leg[1].la`.
     pub name: String,
     /// SI unit of its values, as a formula has it; empty for a pure number.
@@ -22,7 +22,7 @@ pub struct Settable {
     pub(crate) dimension: Dimension,
 }
 
-impl Settable {
+impl SettableParam {
     /// Evaluates a formula (SI) that an option gives; messages call it `what` and the name of the param.
     ///
     /// # Errors
@@ -35,20 +35,20 @@ impl Settable {
 
     /// Returns its time derivative of an order, as something to be set.
     #[must_use]
-    pub fn by_time(&self, order: u32) -> Settable {
+    pub fn by_time(&self, order: u32) -> SettableParam {
         let per = if order == 1 { "s".to_owned() } else { format!("s^{order}") };
         let dimension = self.dimension.over(Dimension::TIME.to_the(f64::from(order)));
-        Settable { name: self.name.clone(), unit: format!("{}/{per}", self.unit), value: 0.0, dimension }
+        SettableParam { name: self.name.clone(), unit: format!("{}/{per}", self.unit), value: 0.0, dimension }
     }
 }
 
 impl Checked {
     /// Returns the params, in the order of the text, then those of parts; empty if the mechanism has errors.
     #[must_use]
-    pub fn settable_params(&self) -> Vec<Settable> {
+    pub fn settable_params(&self) -> Vec<SettableParam> {
         let (Some(tree), Some(model)) = (self.tree(), self.model()) else { return Vec::new() };
-        let mut params: Vec<Settable> = Vec::new();
-        for declared_value in &self.known().values {
+        let mut params: Vec<SettableParam> = Vec::new();
+        for declared_value in &self.declaration_info().values {
             let declared = tree.items.iter().find_map(|item| match &item.kind {
                 ItemKind::Param { name, value } if Some(name.span) == declared_value.name => {
                     Some((&name.text, value.span))
@@ -60,11 +60,11 @@ impl Checked {
             match &declared_value.amount {
                 Amount::Number { si, dimension, is_angle: is_angle_value, .. } => {
                     let unit = si_unit(*dimension, is_angle || *is_angle_value);
-                    params.push(Settable { name: name.clone(), unit, value: *si, dimension: *dimension });
+                    params.push(SettableParam { name: name.clone(), unit, value: *si, dimension: *dimension });
                 }
                 Amount::Point(at) => params.extend(["x", "y"].into_iter().zip(at).map(|(axis, &value)| {
                     let (name, unit) = (format!("{name}.{axis}"), "m".to_owned());
-                    Settable { name, unit, value, dimension: Dimension::LENGTH }
+                    SettableParam { name, unit, value, dimension: Dimension::LENGTH }
                 })),
             }
         }
@@ -76,7 +76,12 @@ impl Checked {
                 Some(listed) => listed.value = param.value,
                 None if name.contains('.') => {
                     let unit = si_unit(param.dimension, false);
-                    params.push(Settable { name: name.clone(), unit, value: param.value, dimension: param.dimension });
+                    params.push(SettableParam {
+                        name: name.clone(),
+                        unit,
+                        value: param.value,
+                        dimension: param.dimension,
+                    });
                 }
                 None => {}
             }
@@ -86,12 +91,12 @@ impl Checked {
 
     /// Returns the inputs of the compiled mechanism.
     #[must_use]
-    pub fn settable_inputs(&self, compiled: &Compiled) -> Vec<Settable> {
+    pub fn settable_inputs(&self, compiled: &Compiled) -> Vec<SettableParam> {
         let first = compiled.analysis().map_or(0.0, |[from, ..]| from);
-        let jogs = self.jogs(compiled, &[first]).into_iter();
+        let jogs = self.input_controls(compiled, &[first]).into_iter();
         jogs.map(|jog| {
             let dimension = dimension_of(&jog.unit);
-            Settable { name: jog.name, unit: jog.unit, value: jog.values[0], dimension }
+            SettableParam { name: jog.name, unit: jog.unit, value: jog.values[0], dimension }
         })
         .collect()
     }
@@ -100,7 +105,7 @@ impl Checked {
 /// Returns the dimension of a unit; that of a pure number if there is none.
 fn dimension_of(unit: &str) -> Dimension {
     let one = if unit.starts_with('/') { format!("1{unit}") } else { format!("1 {unit}") };
-    let formula = Formula::of(&one, &mut Sources::default());
+    let formula = Formula::parse(&one, &mut Sources::default());
     formula.ok().and_then(|formula| formula.known_dimension()).unwrap_or(Dimension::PURE)
 }
 
@@ -120,12 +125,12 @@ mod tests {
             joint guide: translational(ground.way, block.way)
             driver motor: displacement(guide) = slide + 0 * length
         }";
-        let checked = Parsed::of("lever.mech", text).check(&Choice::default(), &Memory::default());
+        let checked = Parsed::new("lever.mech", text).check(&Choice::default(), &Memory::default());
         let compiled = checked.compile(Redundant::Refused, &Cancel::default()).0.expect("it is determined");
         let (params, inputs) = (checked.settable_params(), checked.settable_inputs(&compiled));
         let rate = inputs[0].by_time(1);
         assert_eq!(rate.unit, "m/s");
-        let read = |param: &super::Settable, text: &str| {
+        let read = |param: &super::SettableParam, text: &str| {
             let mut sources = mechc_text::source::Sources::default();
             let first_message = |diagnostics: mechc_text::diag::Diagnostics| {
                 diagnostics.iter().next().map_or(String::new(), |first| first.message.clone())
@@ -161,9 +166,9 @@ mod tests {
             driver motor[k in 0..count]: rotation(pin[k]) = turn + k * lean
             analysis from 1 s to 2 s every 1 s
         }";
-        let checked = Parsed::of("lever.mech", text).check(&Choice::default(), &Memory::default());
+        let checked = Parsed::new("lever.mech", text).check(&Choice::default(), &Memory::default());
         let compiled = checked.compile(Redundant::Refused, &Cancel::default()).0.expect("it is determined");
-        let described = |params: Vec<super::Settable>| -> Vec<String> {
+        let described = |params: Vec<super::SettableParam>| -> Vec<String> {
             params.into_iter().map(|param| format!("{} = {:.3} {}", param.name, param.value, param.unit)).collect()
         };
         assert_eq!(

@@ -26,10 +26,10 @@ pub struct Parsed {
 impl Parsed {
     /// Reads a text; `name` is its name in messages, and the path to which paths in it are relative.
     #[must_use]
-    pub fn of(name: &str, text: &str) -> Parsed {
+    pub fn new(name: &str, text: &str) -> Parsed {
         let mut sources = Sources::default();
         let file = sources.add(name, text);
-        Parsed::of_source(sources, file, Path::new(name))
+        Parsed::from_source(sources, file, Path::new(name))
     }
 
     /// Reads a file.
@@ -39,14 +39,14 @@ impl Parsed {
     pub fn read(path: &Path, world: &dyn World) -> Result<Parsed, (Sources, Diagnostics)> {
         let mut sources = Sources::default();
         match world::text_of(world, path, &mut sources) {
-            Ok(file) => Ok(Parsed::of_source(sources, file, path)),
+            Ok(file) => Ok(Parsed::from_source(sources, file, path)),
             Err(why) => Err((sources, (*why).into())),
         }
     }
 
     /// Reads one of several texts; paths in it are relative to `path`.
     #[must_use]
-    pub fn of_source(sources: Sources, file: FileId, path: &Path) -> Parsed {
+    pub fn from_source(sources: Sources, file: FileId, path: &Path) -> Parsed {
         let read = Arc::new(unless_too_large(&sources, file, || syntax::parse(&sources, file)));
         Parsed { sources, file, path: path.into(), read }
     }
@@ -57,8 +57,8 @@ impl Parsed {
         let current = self.sources.get(self.file);
         let mut sources = Sources::default();
         let file = sources.add(&current.name, text);
-        let reread = || syntax::reread(&self.read, &current.text, &sources, file);
-        let read = Arc::new(unless_too_large(&sources, file, reread));
+        let reparse = || syntax::reparse(&self.read, &current.text, &sources, file);
+        let read = Arc::new(unless_too_large(&sources, file, reparse));
         Parsed { sources, file, path: Arc::clone(&self.path), read }
     }
 

@@ -1,10 +1,10 @@
 //! Queries of editors about one declaration of a mechanism that was checked or compiled.
 
-use crate::lowering::lowered;
+use crate::lowering::lower_model;
 use crate::{Assembly, Checked, Compiled};
 use mechc_expr::Symbol;
 use mechc_ir::ConstraintSystem;
-use mechc_lang::check::{self, Known, NameKind};
+use mechc_lang::check::{self, DeclarationInfo, NameKind};
 use mechc_lang::model::Dimension;
 use mechc_syntax::ast::{self, Feature, FeatureKind, Item, ItemKind, Mechanism, MechanismName};
 use mechc_text::source::Span;
@@ -14,7 +14,7 @@ use std::sync::OnceLock;
 #[derive(Debug, Default)]
 pub(crate) struct QueryCache {
     /// Facts about its declarations.
-    pub facts: OnceLock<Known>,
+    pub facts: OnceLock<DeclarationInfo>,
     /// Its equations; `None` inside if it has errors.
     pub lowered: OnceLock<Option<ConstraintSystem>>,
 }
@@ -44,7 +44,7 @@ pub struct Interface {
 impl Checked {
     /// Returns facts about its declarations and the values of its params, as far as the text gives them, even if it has errors.
     #[must_use]
-    pub fn known(&self) -> &Known {
+    pub fn declaration_info(&self) -> &DeclarationInfo {
         self.query_cache.facts.get_or_init(|| {
             self.tree().map(|tree| check::known(tree, &self.check_options, self.sources())).unwrap_or_default()
         })
@@ -52,7 +52,7 @@ impl Checked {
 
     /// Returns the declaration of a path without indices of copies: `crank`, `crank.pin`, `front.crank.pin`.
     #[must_use]
-    pub fn declared(&self, path: &[&str]) -> Option<Declaration> {
+    pub fn find_declaration(&self, path: &[&str]) -> Option<Declaration> {
         let mut tree = self.tree()?;
         let mut names = path.iter();
         loop {
@@ -89,7 +89,7 @@ impl Checked {
     /// errors.
     #[must_use]
     pub fn equations_of(&self, name: &str) -> Option<String> {
-        let lowered = self.query_cache.lowered.get_or_init(|| self.model.as_ref().map(|model| lowered(model)));
+        let lowered = self.query_cache.lowered.get_or_init(|| self.model.as_ref().map(|model| lower_model(model)));
         lowered.as_ref()?.equations_of(name)
     }
 

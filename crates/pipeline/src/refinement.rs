@@ -9,7 +9,7 @@
 //! too many rows before that, lines end there, and a warning reports it.
 
 use crate::options::RunOptions;
-use crate::visualization::Seen;
+use crate::visualization::Visualization;
 use crate::{Checked, Compiled};
 use mechc_draw::scene::{
     Anchor, DrawnLine, Gaps, Motion, Pen, RETRACE_TOLERANCE, Track, Vector, bounds, distance, is_finite, length,
@@ -24,7 +24,7 @@ pub struct CurveTolerance {
     /// Points whose lines are drawn in addition to the traces of the text.
     pub pens: Vec<Pen>,
     /// Tolerance of lines (m).
-    pub off: f64,
+    pub tolerance: f64,
     /// Columns that are plotted.
     pub columns: Vec<String>,
     /// True if bodies are shown at all times, so that the motion is refined to its end even if no line needs that.
@@ -36,17 +36,17 @@ pub struct CurveTolerance {
 impl CurveTolerance {
     /// Returns the tolerance of a moving picture of a visualization.
     #[must_use]
-    pub fn of_picture(visualization: &Seen, pens: Vec<Pen>) -> CurveTolerance {
+    pub fn of_picture(visualization: &Visualization, pens: Vec<Pen>) -> CurveTolerance {
         let [low, high] = visualization.scene.extent;
         let off = PICTURE_TOLERANCE * distance(low, high);
-        CurveTolerance { pens, off, columns: Vec::new(), is_animated: true, most_rows: MAX_ROWS }
+        CurveTolerance { pens, tolerance: off, columns: Vec::new(), is_animated: true, most_rows: MAX_ROWS }
     }
 
     /// Returns the tolerance of cut lines, where a length of 1 becomes `scale`.
     #[must_use]
     pub fn to_cut(scale: f64, pens: Vec<Pen>) -> CurveTolerance {
         let off = CUT_TOLERANCE / scale.max(1.0);
-        CurveTolerance { pens, off, columns: Vec::new(), is_animated: false, most_rows: MAX_ROWS }
+        CurveTolerance { pens, tolerance: off, columns: Vec::new(), is_animated: false, most_rows: MAX_ROWS }
     }
 }
 
@@ -118,7 +118,7 @@ impl Checked {
         compiled: &Compiled,
         times: &Times,
         options: &RunOptions,
-        visualization: &mut Seen,
+        visualization: &mut Visualization,
         tolerance: &CurveTolerance,
     ) -> Diagnostics {
         let mut diagnostics = Diagnostics::default();
@@ -144,7 +144,7 @@ impl Checked {
     }
 }
 
-impl Seen {
+impl Visualization {
     /// Warns of a curve that ends at a time (s) before the motion does.
     fn early_end(&self, subject: &Subject, t: f64, most: usize) -> Diagnostic {
         let scene = &self.scene;
@@ -180,7 +180,7 @@ struct Refinement<'s> {
     started: Started,
     pass_bifurcations: bool,
     times: &'s Times,
-    visualization: &'s Seen,
+    visualization: &'s Visualization,
     tolerance: &'s CurveTolerance,
 }
 
@@ -199,7 +199,7 @@ impl StepEnds {
     /// Reads at least as many steps ahead as have passed, so that the total work of all passes is a small multiple of the motion.
     fn look_ahead(&mut self, least: usize) {
         while !self.is_complete && self.upcoming.len() < self.passed.max(least) {
-            match self.steps.next_stretch() {
+            match self.steps.next_segment() {
                 Ok(Some(stretch)) => self.upcoming.push(stretch.to.t),
                 _ => self.is_complete = true,
             }
@@ -233,7 +233,7 @@ impl Refinement<'_> {
             let before = before_window.and_then(|motion| motion.times.last().copied());
             steps.look_ahead(first_rows / ROWS_OF_A_STEP);
             let mut window = self.at(self.times_of_window(&steps, before));
-            window.set_whole_span(self.span());
+            window.set_total_duration(self.span());
             let Some(&end) = window.times.last() else { break true };
             let mut curves = self.curves(&window, [&window, &self.rows_behind(end)]);
             for (curve, before) in curves.iter_mut().zip(refined.iter().flat_map(|refined| &refined.curves)) {
@@ -258,7 +258,7 @@ impl Refinement<'_> {
         let refined = refined?;
         let end = refined.motion.times.last().copied()?;
         let cut_off = if is_complete { Vec::new() } else { self.cut_off(&refined, end) };
-        Some((refined.into_motion(&self.rows_behind(end), self.tolerance.off), (cut_off, end)))
+        Some((refined.into_motion(&self.rows_behind(end), self.tolerance.tolerance), (cut_off, end)))
     }
 
     /// Returns whether only lines are drawn, which may repeat themselves.
@@ -373,7 +373,8 @@ impl Refinement<'_> {
                     (FAR_SIZES * near.max(size), near.min(size))
                 }
             };
-            let tolerance = self.tolerance.off.min(PICTURE_TOLERANCE * extent).max(MIN_OF_SIZE * extent.max(size));
+            let tolerance =
+                self.tolerance.tolerance.min(PICTURE_TOLERANCE * extent).max(MIN_OF_SIZE * extent.max(size));
             TrackedCurve {
                 subject: Subject::Line(pen.clone()),
                 track,
@@ -382,7 +383,7 @@ impl Refinement<'_> {
             }
         };
         let column_curve = |name: &String| {
-            let track = window.track_of_column(name);
+            let track = window.column_track(name);
             let mut values: Vec<f64> = points(&track).into_iter().map(|[value, _]| value).collect();
             values.sort_by(f64::total_cmp);
             let at = |part: usize| values.get(part * values.len().saturating_sub(1) / 10).copied().unwrap_or(0.0);
@@ -442,7 +443,7 @@ impl Refinement<'_> {
         while !is_last {
             let mut rows = Vec::new();
             while !is_last && rows.len() < COMPARE_BATCH {
-                match steps.next_stretch() {
+                match steps.next_segment() {
                     Ok(Some(stretch)) if stretch.to.t > from => {
                         rows.extend(stretch.middle.iter().chain([&stretch.to]).map(|state| started.row_of(state)));
                     }

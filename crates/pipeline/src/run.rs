@@ -1,10 +1,13 @@
 //! The last stage: a motion in progress, row by row. Knows where a mechanism starts; the steps are the engine's.
 
 use crate::Compiled;
-use crate::continuation::{CompiledSystem, ContinuationOrigin, ContinuedStart, InitialGuess};
-use crate::options::{RunOptions, Stand};
+use crate::continuation::{ContinuationOrigin, ContinuedStart, InitialGuess};
+use crate::options::{Configuration, RunOptions};
 use crate::part_backtrace::PartBacktrace;
-use mechc_engine::analysis::{self, Answers, Asked, Follower, Horizon, Solving, Started, Stop, Times, Unassembled};
+use mechc_engine::analysis::{
+    self, Answers, Follower, Horizon, ResultQuery, Solving, Started, Stop, Times, Unassembled,
+};
+use mechc_engine::sweep::CompiledSystem;
 use mechc_ir::layout::{ColumnUnit, RowLayout};
 use mechc_ir::structure::Determined;
 use mechc_text::cancel::Cancel;
@@ -56,7 +59,7 @@ pub struct Run {
     has_ended: bool,
     stopped_at: Option<f64>,
     /// The query that results are computed from; `None` if there are none.
-    result_query: Option<Asked>,
+    result_query: Option<ResultQuery>,
     results: usize,
     backtrace: PartBacktrace,
 }
@@ -109,7 +112,7 @@ impl Compiled {
     /// assert_eq!(assembly.expect("it assembles").coordinates[2].1, std::f64::consts::FRAC_PI_2);
     /// ```
     #[must_use]
-    pub fn assembled(&self, t: f64, options: &RunOptions) -> (Option<Assembly>, Diagnostics) {
+    pub fn assemble_at(&self, t: f64, options: &RunOptions) -> (Option<Assembly>, Diagnostics) {
         let horizon = Horizon::of_analysis(self.analysis()).beginning(t);
         let (started, report) = self.started(horizon, options, Solving::With(None));
         let mut diagnostics = report.diagnostics;
@@ -135,12 +138,12 @@ impl Compiled {
     ///
     /// # Errors
     /// The motion does not get there.
-    pub fn stand(&self, t: f64, options: &RunOptions) -> Result<Stand, Diagnostics> {
+    pub fn configuration_at(&self, t: f64, options: &RunOptions) -> Result<Configuration, Diagnostics> {
         let from = self.analysis().map_or(t, |[from, ..]| from.min(t));
         let (run, diagnostics) = self.run(&self.one_time(from, t), options);
         let layout = RowLayout::new(self.system());
         match run.and_then(|mut run| run.next()) {
-            Some(Ok(row)) => Ok(Stand { t, q: layout.position(&row).to_vec() }),
+            Some(Ok(row)) => Ok(Configuration { t, q: layout.position(&row).to_vec() }),
             Some(Err(why)) => Err((*why).into()),
             None => Err(diagnostics),
         }
@@ -216,7 +219,7 @@ impl Compiled {
     /// Returns the start, as far as continuations decide it, with their diagnostics: to params that are set, to given inputs, and of parts.
     fn initial_guess(&self, horizon: Horizon, options: &RunOptions) -> (StartStage, StartReport) {
         let has_given_inputs = self.start_solver().is_some_and(|(start_solver, _)| start_solver.has_given_inputs);
-        let stand = options.stand.as_ref().filter(|_| has_given_inputs);
+        let stand = options.configuration.as_ref().filter(|_| has_given_inputs);
         let (origin, mut report) = match (stand, self.continuation()) {
             // a configuration that is handed in was reached with the params that are set
             (Some(stand), _) => (ContinuationOrigin::Configuration(stand.t, stand.q.clone()), StartReport::default()),
@@ -394,7 +397,7 @@ impl Run {
     }
 
     /// Returns the warnings and notes of the rows so far, and forgets them.
-    pub fn take_remarks(&mut self) -> Diagnostics {
+    pub fn take_warnings(&mut self) -> Diagnostics {
         let warnings = self.motion.take_warnings();
         let mut diagnostics = Diagnostics::default();
         diagnostics.extend(warnings.iter().map(|warning| warning.explain(self.determined.system())));
@@ -427,7 +430,7 @@ mod tests {
 
     fn compiled(cancel: &Cancel) -> Option<Compiled> {
         let text = include_str!("../../../examples/hoeken.mech");
-        let checked = Parsed::of("hoeken.mech", text).check(&Choice::default(), &Memory::default());
+        let checked = Parsed::new("hoeken.mech", text).check(&Choice::default(), &Memory::default());
         checked.compile(Redundant::Refused, cancel).0
     }
 

@@ -6,7 +6,7 @@ use crate::option_reader::{
     written,
 };
 use crate::{Checked, Choice};
-use mechc_engine::sweep::{evenly, rounded};
+use mechc_engine::sweep::{linspace_value, round_to_15_digits};
 use mechc_lang::check::Amount;
 use mechc_lang::model::Dimension;
 use mechc_text::diag::{Diagnostic, Diagnostics};
@@ -25,7 +25,7 @@ const EXAMPLE: &str = "as in `--vary rod_length=120mm..180mm:13`";
 
 /// A param with the values of its slider.
 #[derive(Clone, PartialEq, Debug)]
-pub struct Varied {
+pub struct SliderRange {
     /// Path of the param.
     pub name: String,
     /// Unit of the values; `1` for a pure number.
@@ -37,7 +37,7 @@ pub struct Varied {
     /// Index of the value nearest to the nominal one.
     pub nearest: usize,
     /// The nominal value in that unit, if it is known and none of the values.
-    pub own: Option<f64>,
+    pub nominal: Option<f64>,
 }
 
 /// A `NAME=A..B:N` argument.
@@ -52,7 +52,12 @@ impl Checked {
     ///
     /// # Errors
     /// A param cannot vary as specified; with the texts that the diagnostics point into.
-    pub fn varied(&self, arguments: &[String], choice: &Choice, world: &dyn World) -> SourcedResult<Vec<Varied>> {
+    pub fn slider_ranges(
+        &self,
+        arguments: &[String],
+        choice: &Choice,
+        world: &dyn World,
+    ) -> SourcedResult<Vec<SliderRange>> {
         let with_sources = |why: Box<Diagnostic>| (self.sources().clone(), Diagnostics::from(*why));
         let requests = read_requests(arguments).map_err(with_sources)?;
         refuse_duplicates(requests.iter().map(|request| &request.name), choice).map_err(with_sources)?;
@@ -100,7 +105,7 @@ impl SliderRequest {
 }
 
 impl OptionReader<'_> {
-    fn slider_range(&self, request: &SliderRequest) -> SourcedResult<Varied> {
+    fn slider_range(&self, request: &SliderRequest) -> SourcedResult<SliderRange> {
         let SliderRequest { name, ends: [first, last], count } = request;
         let [(low, a, _), (high, b, _)] = [self.number(name, first)?, self.number(name, last)?];
         let (at_ends, si) = ([low, high], [a, b]);
@@ -121,16 +126,17 @@ impl OptionReader<'_> {
             self.nominal_value(name).map(|value| ends[0] + (value - si[0]) / (si[1] - si[0]) * (ends[1] - ends[0]));
         let nearest = own.map_or(0, |own| nearest(&values, own));
         let step = (values[1] - values[0]).abs();
-        let own = own.filter(|own| own.is_finite() && (own - values[nearest]).abs() > EQUAL * step).map(rounded);
+        let own =
+            own.filter(|own| own.is_finite() && (own - values[nearest]).abs() > EQUAL * step).map(round_to_15_digits);
         let unit = if unit.is_empty() || unit.starts_with('/') { format!("1{unit}") } else { unit };
-        Ok(Varied { name: name.clone(), unit, values, settings, nearest, own })
+        Ok(SliderRange { name: name.clone(), unit, values, settings, nearest, nominal: own })
     }
 
     /// Returns the nominal value (SI), if it is known.
     fn nominal_value(&self, name: &str) -> Option<f64> {
         let written = || {
             let is_param = |name_at| self.checked.sources().text(name_at) == name;
-            let value = self.checked.known().values.iter().find(|value| value.name.is_some_and(is_param))?;
+            let value = self.checked.declaration_info().values.iter().find(|value| value.name.is_some_and(is_param))?;
             match value.amount {
                 Amount::Number { si, .. } => Some(si),
                 Amount::Point(_) => None,
@@ -155,7 +161,7 @@ fn same_unit(first: &str, last: &str) -> Option<([f64; 2], String)> {
 /// Returns values spread evenly from end to end, rising.
 fn grid(ends: [f64; 2], count: usize) -> Vec<f64> {
     let count = count as u64;
-    let mut values: Vec<f64> = (0..count).map(|k| evenly(ends, k, count)).collect();
+    let mut values: Vec<f64> = (0..count).map(|k| linspace_value(ends, k, count)).collect();
     if ends[0] > ends[1] {
         values.reverse();
     }
@@ -178,7 +184,7 @@ fn too_near(name: &str, first: &str, last: &str) -> Diagnostic {
 
 #[cfg(test)]
 mod tests {
-    use super::{Varied, grid, number_and_unit};
+    use super::{SliderRange, grid, number_and_unit};
     use crate::{Choice, Parsed};
     use mechc_text::world::Memory;
 
@@ -192,16 +198,16 @@ mod tests {
         body bar[k in 0..count] at (0, 0, k * 1 deg) { point O = (offset, 0) point P = (length, 0) }
     }";
 
-    fn varied(arguments: &[&str], set: &[&str]) -> Result<Vec<Varied>, Vec<String>> {
+    fn varied(arguments: &[&str], set: &[&str]) -> Result<Vec<SliderRange>, Vec<String>> {
         let owned = |texts: &[&str]| texts.iter().map(|text| (*text).to_owned()).collect::<Vec<_>>();
         let (world, choice) = (Memory::default(), Choice { set: owned(set), ..Choice::default() });
-        let checked = Parsed::of("lever.mech", LEVER).check(&choice, &world);
+        let checked = Parsed::new("lever.mech", LEVER).check(&choice, &world);
         checked
-            .varied(&owned(arguments), &choice, &world)
+            .slider_ranges(&owned(arguments), &choice, &world)
             .map_err(|(_, diagnostics)| diagnostics.iter().map(|diagnostic| diagnostic.message.clone()).collect())
     }
 
-    fn one(argument: &str) -> Varied {
+    fn one(argument: &str) -> SliderRange {
         varied(&[argument], &[]).expect("it can vary").remove(0)
     }
 
@@ -211,7 +217,7 @@ mod tests {
         assert_eq!((length.name.as_str(), length.unit.as_str()), ("length", "mm"));
         assert_eq!(length.values, [40.0, 45.0, 50.0, 55.0, 60.0]);
         assert_eq!(length.settings[1], "length=45 mm");
-        assert_eq!((length.nearest, length.own), (2, None));
+        assert_eq!((length.nearest, length.nominal), (2, None));
         assert_eq!(grid([0.1, 0.3], 3), [0.1, 0.2, 0.3]);
         assert_eq!(grid([3.0, -1.0], 3), [-1.0, 1.0, 3.0]);
     }
@@ -234,9 +240,9 @@ mod tests {
     #[test]
     fn the_nominal_value_is_one_of_the_values_or_kept() {
         let between = one("length=40mm..60mm:4");
-        assert_eq!((between.nearest, between.own), (1, Some(50.0)));
+        assert_eq!((between.nearest, between.nominal), (1, Some(50.0)));
         let following = one("offset=10mm..20mm:3");
-        assert_eq!((following.nearest, following.own), (0, Some(12.5)));
+        assert_eq!((following.nearest, following.nominal), (0, Some(12.5)));
         assert_eq!(one("speed=1rpm..2rpm:2").nearest, 1);
     }
 

@@ -19,7 +19,7 @@ pub fn seconds(option: &str, text: &str, sources: &mut Sources) -> Result<f64, D
 
 /// First time, last time and step (s), as far as they are given; and single times.
 #[derive(Clone, PartialEq, Debug, Default)]
-pub struct AskedTimes {
+pub struct RequestedTimes {
     /// First time.
     pub from: Option<f64>,
     /// Last time.
@@ -30,35 +30,35 @@ pub struct AskedTimes {
     pub at: Vec<f64>,
 }
 
-impl AskedTimes {
+impl RequestedTimes {
     /// Reads the values of the options `--from`, `--to`, `--every` and `--at`: numbers of seconds, or formulas with units.
     ///
     /// # Errors
     /// A value is no time.
-    pub fn of(
+    pub fn from_options(
         [from, to, every]: [&Option<String>; 3],
         at: &[String],
         sources: &mut Sources,
-    ) -> Result<AskedTimes, Diagnostics> {
+    ) -> Result<RequestedTimes, Diagnostics> {
         let mut time = |option: &str, text: &String| seconds(option, text, sources);
         let mut given = |option: &str, text: &Option<String>| text.as_ref().map(|text| time(option, text)).transpose();
         let [from, to, every] = [given("--from", from)?, given("--to", to)?, given("--every", every)?];
         let at = at.iter().map(|text| time("--at", text)).collect::<Result<_, _>>()?;
-        Ok(AskedTimes { from, to, every, at })
+        Ok(RequestedTimes { from, to, every, at })
     }
 
     /// Completes the times by those of the text's analysis: first time, last time and step (s).
     ///
     /// # Errors
     /// The step is not positive.
-    pub fn over(&self, analysis: Option<[f64; 3]>) -> Result<AskedTimes, Box<Diagnostic>> {
+    pub fn over(&self, analysis: Option<[f64; 3]>) -> Result<RequestedTimes, Box<Diagnostic>> {
         let from = self.from.or(analysis.map(|[from, ..]| from));
         let to = self.to.or(analysis.map(|[_, to, _]| to));
         let every = self.every.or(analysis.map(|[.., every]| every));
         if let Some(step) = every.filter(|step| *step <= 0.0) {
             return Err(Box::new(unusable(format!("the step must be positive, it is {} s", readable(step)))));
         }
-        Ok(AskedTimes { from, to, every, at: self.at.clone() })
+        Ok(RequestedTimes { from, to, every, at: self.at.clone() })
     }
 
     /// Returns the single times if there are any, else those of the interval.
@@ -75,7 +75,7 @@ impl AskedTimes {
     /// Returns all times of the interval if it is given, else the single times.
     ///
     /// # Errors
-    /// See [`AskedTimes::times`].
+    /// See [`RequestedTimes::times`].
     pub fn whole(&self) -> Result<Times, Box<Diagnostic>> {
         let has_interval = self.from.is_some() && self.to.is_some() && self.every.is_some();
         match self.listed()? {

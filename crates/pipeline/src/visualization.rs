@@ -1,6 +1,6 @@
 //! Visualizations of a mechanism: its scene, its motion as a table, its diagnostics. The only source of what is drawn.
 
-use crate::lowering::lowered;
+use crate::lowering::lower_model;
 use crate::options::RunOptions;
 use crate::run::Run;
 use crate::{Checked, Compiled};
@@ -17,7 +17,7 @@ use rustc_hash::FxHashMap;
 
 /// All that can be drawn and plotted of a mechanism.
 #[derive(Clone, Debug)]
-pub struct Seen {
+pub struct Visualization {
     /// The scene, at any moment.
     pub scene: Scene,
     /// Poses and rows (SI) of the motion; the poses of the text if there is no row.
@@ -33,17 +33,17 @@ pub struct Seen {
     /// Why the motion stopped before its last time, if it did.
     pub stopped: Option<Diagnostic>,
     /// Other diagnostics: why there is no motion, or warnings of it.
-    pub said: Diagnostics,
+    pub diagnostics: Diagnostics,
     /// Name, printed unit and value (SI) of each result; empty if only some times were requested.
     pub results: Vec<(String, ColumnUnit, Option<f64>)>,
     /// The texts of its declarations, its own first.
     pub texts: Vec<FileId>,
 }
 
-impl Seen {
+impl Visualization {
     /// Returns all diagnostics, the reason why the motion stopped first.
     pub fn messages(&self) -> impl Iterator<Item = &Diagnostic> {
-        self.stopped.iter().chain(self.said.iter())
+        self.stopped.iter().chain(self.diagnostics.iter())
     }
 }
 
@@ -61,26 +61,26 @@ impl Checked {
     /// Runs the mechanism and draws it. A motion of more rows than `most` keeps some, evenly spread, and the last. Returns the diagnostics of the
     /// run, too; `None` if the mechanism cannot be assembled.
     #[must_use]
-    pub fn seen(
+    pub fn visualize(
         &self,
         compiled: &Compiled,
         times: &Times,
         options: &RunOptions,
         most: usize,
-    ) -> (Option<Seen>, Diagnostics) {
-        self.seen_beside(compiled, times, options, most, None)
+    ) -> (Option<Visualization>, Diagnostics) {
+        self.visualization_like(compiled, times, options, most, None)
     }
 
     /// Runs the mechanism and draws it with the extent and the symbol size of a visualization before it, if there was one.
     #[must_use]
-    pub fn seen_beside(
+    pub fn visualization_like(
         &self,
         compiled: &Compiled,
         times: &Times,
         options: &RunOptions,
         most: usize,
-        before: Option<&Seen>,
-    ) -> (Option<Seen>, Diagnostics) {
+        before: Option<&Visualization>,
+    ) -> (Option<Visualization>, Diagnostics) {
         let Some(model) = self.model() else { return (None, Diagnostics::default()) };
         let (run, mut diagnostics) = compiled.run(times, options);
         let Some(run) = run else { return (None, diagnostics) };
@@ -93,7 +93,7 @@ impl Checked {
             Motion::of_rows(&compiled.columns_of_poses(), &columns, run_rows.kept, run_rows.edges)
         };
         let mut scene = match before.filter(|_| !motion.rows().is_empty()) {
-            Some(before) => Scene::with_symbols(model, &motion, before.scene.unit),
+            Some(before) => Scene::with_symbol_size(model, &motion, before.scene.unit),
             None => Scene::of(model, &motion),
         };
         self.widen_spans(&mut scene);
@@ -107,19 +107,33 @@ impl Checked {
         let (all_rows, stopped, texts) = (run_rows.all, run_rows.stopped, self.texts());
         let kinds = layout::columns(compiled.system()).into_iter().map(|column| column.kind).collect();
         let said = diagnostics.clone();
-        (Some(Seen { scene, motion, columns, units, kinds, all_rows, stopped, said, results, texts }), diagnostics)
+        (
+            Some(Visualization {
+                scene,
+                motion,
+                columns,
+                units,
+                kinds,
+                all_rows,
+                stopped,
+                diagnostics: said,
+                results,
+                texts,
+            }),
+            diagnostics,
+        )
     }
 
     /// Draws a single time `t` (s) of a motion that is followed from the time `from`, with guides and slots as long as in the visualization
     /// `before`, which may have other params. `None` if the motion does not get there.
     #[must_use]
-    pub fn glimpse(
+    pub fn visualize_at(
         &self,
         compiled: &Compiled,
         [from, t]: [f64; 2],
         options: &RunOptions,
-        before: &Seen,
-    ) -> Option<Seen> {
+        before: &Visualization,
+    ) -> Option<Visualization> {
         let model = self.model()?;
         let (run, _) = compiled.run(&compiled.one_time(from, t), options);
         let row = run?.next()?.ok()?;
@@ -127,28 +141,39 @@ impl Checked {
         if motion.frames() != before.motion.frames() {
             return None;
         }
-        let mut scene = Scene::with_symbols(model, &before.motion, before.scene.unit);
+        let mut scene = Scene::with_symbol_size(model, &before.motion, before.scene.unit);
         self.widen_spans(&mut scene);
         scene.extent = before.scene.extent;
         let (columns, units, kinds) = (before.columns.clone(), before.units.clone(), before.kinds.clone());
         let (stopped, diagnostics, results, texts) = (None, Diagnostics::default(), Vec::new(), before.texts.clone());
-        Some(Seen { scene, motion, columns, units, kinds, all_rows: 1, stopped, said: diagnostics, results, texts })
+        Some(Visualization {
+            scene,
+            motion,
+            columns,
+            units,
+            kinds,
+            all_rows: 1,
+            stopped,
+            diagnostics: diagnostics,
+            results,
+            texts,
+        })
     }
 
     /// Draws the motion of a visualization anew, with symbols of a size (m); `None` if the mechanism has errors.
     #[must_use]
-    pub fn drawn_with_symbols(&self, seen: &Seen, unit: f64) -> Option<Scene> {
+    pub fn scene_with_symbols(&self, seen: &Visualization, unit: f64) -> Option<Scene> {
         let model = self.model()?;
-        Some(self.finished(Scene::with_symbols(model, &seen.motion, unit), seen))
+        Some(self.finished(Scene::with_symbol_size(model, &seen.motion, unit), seen))
     }
 
     /// Draws the motion of a visualization anew; `None` if the mechanism has errors.
-    pub(crate) fn redrawn(&self, seen: &Seen) -> Option<Scene> {
+    pub(crate) fn redrawn(&self, seen: &Visualization) -> Option<Scene> {
         let model = self.model()?;
         Some(self.finished(Scene::of(model, &seen.motion), seen))
     }
 
-    fn finished(&self, mut scene: Scene, seen: &Seen) -> Scene {
+    fn finished(&self, mut scene: Scene, seen: &Visualization) -> Scene {
         self.widen_spans(&mut scene);
         if let Some(model) = self.model() {
             highlight_stop(&mut scene, model, &seen.motion, seen.stopped.as_ref());
@@ -159,14 +184,14 @@ impl Checked {
     /// Draws a mechanism without motion, with its diagnostics. If it is not determined, it has the poses of the text and its free motions as
     /// arrows. If it cannot be assembled at a time (s), it is as near to that as it gets, with gaps. `None` if it has errors.
     #[must_use]
-    pub fn seen_at_rest(
+    pub fn static_visualization(
         &self,
         compiled: Option<&Compiled>,
         (t, options): (f64, &RunOptions),
         diagnostics: &Diagnostics,
-    ) -> Option<Seen> {
+    ) -> Option<Visualization> {
         let model = self.model()?;
-        let lowered = if compiled.is_none() { Some(lowered(model)) } else { None };
+        let lowered = if compiled.is_none() { Some(lower_model(model)) } else { None };
         let system = compiled.map(Compiled::system).or(lowered.as_ref())?;
         let nearest = compiled.and_then(|compiled| compiled.nearest(t, options));
         let joints = if nearest.is_some() { Joints::Open } else { Joints::Drawn };
@@ -193,7 +218,7 @@ impl Checked {
         named.sort_unstable();
         named.dedup();
         let faults = Faults { named, free, joints, lengths };
-        scene.show_faults(model, &motion, &faults);
+        scene.add_fault_marks(model, &motion, &faults);
         let results = layout::results(system).into_iter().map(|(name, unit)| (name, unit, None)).collect();
         let (mut columns, mut units, mut kinds) = (Vec::new(), Vec::new(), Vec::new());
         for Column { name, unit, kind } in layout::columns(system) {
@@ -201,7 +226,7 @@ impl Checked {
             units.push(unit);
             kinds.push(kind);
         }
-        Some(Seen {
+        Some(Visualization {
             scene,
             motion,
             columns,
@@ -209,7 +234,7 @@ impl Checked {
             kinds,
             all_rows: 0,
             stopped: None,
-            said: diagnostics.clone(),
+            diagnostics: diagnostics.clone(),
             results,
             texts: self.texts(),
         })
@@ -284,7 +309,7 @@ fn rows(mut run: Run, most: usize) -> Rows {
         rows.push(last);
     }
     let answers = run.results().unwrap_or_default();
-    let mut diagnostics = run.take_remarks();
+    let mut diagnostics = run.take_warnings();
     diagnostics.extend(answers.notes);
     let (first, end) = (rows.first().map_or(0.0, |row| row[0]), rows.last().map_or(0.0, |row| row[0]));
     let edges = run.edges().into_iter().filter(|edge| first < *edge && *edge < end).collect();
@@ -310,7 +335,7 @@ fn of_frames(motion: &FreeMotion) -> Vec<(usize, Pose)> {
 fn highlight_stop(scene: &mut Scene, model: &Mechanism, motion: &Motion, stopped: Option<&Diagnostic>) {
     if let Some(why) = stopped {
         let faults = Faults { named: named_declarations(scene, std::iter::once(why)), ..Faults::default() };
-        scene.show_faults(model, motion, &faults);
+        scene.add_fault_marks(model, motion, &faults);
     }
 }
 

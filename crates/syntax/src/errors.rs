@@ -4,7 +4,7 @@ use super::fixits::{Fault, FixIt};
 use super::foreign_syntax::{Correction, Foreign};
 use super::grammar::Rule;
 use super::tokens::tokens;
-use mechc_text::diag::{Applies, Code, Diagnostic, Edit, Fix};
+use mechc_text::diag::{Applicability, Code, Diagnostic, Edit, Fix};
 use mechc_text::source::{FileId, Source, Span};
 use pest::error::{Error, ErrorVariant};
 use std::ops::Range;
@@ -51,7 +51,7 @@ pub fn unit_power(span: Span, literal: Span, text: &str) -> Diagnostic {
     misplaced(span, "the power of a unit is a whole number", "after a unit this is the unit's power").fix(Fix {
         message: format!("to raise the whole quantity, write `({text})^…`"),
         edits: vec![before, behind],
-        applies: Applies::Probably,
+        applies: Applicability::Probably,
     })
 }
 
@@ -61,7 +61,7 @@ pub fn chained_comparison(span: Span, middle: Span, text: &str) -> Diagnostic {
         middle,
         format!(" and {text}"),
         "join two comparisons with `and`: `a < b and b < c`",
-        Applies::Probably,
+        Applicability::Probably,
     ))
 }
 
@@ -109,7 +109,12 @@ pub fn keyword_as_name(mut fault: Diagnostic, word: &str, instead: Option<&str>)
 
 /// Reports `body ground { … }`; the span covers the text before `ground`.
 pub fn ground_as_body(fault: Diagnostic, before: Span) -> Diagnostic {
-    fault.instead(Fix::replace(before, "", "the ground is no body: it is declared `ground { … }`", Applies::Always))
+    fault.instead(Fix::replace(
+        before,
+        "",
+        "the ground is no body: it is declared `ground { … }`",
+        Applicability::Always,
+    ))
 }
 
 /// Reports a name that is too long for messages.
@@ -249,7 +254,7 @@ fn other_bracket(error: &Error<Rule>, text: &str, found: &Range<usize>, file: Fi
     Some(match partner(text, at) {
         Some(end) => {
             let edits = [(at, "("), (end, ")")].map(|(at, text)| Edit { span: span(at), text: text.to_owned() });
-            fault.fix(Fix { message: words.to_owned(), edits: edits.into(), applies: Applies::Always })
+            fault.fix(Fix { message: words.to_owned(), edits: edits.into(), applies: Applicability::Always })
         }
         None => fault.help(words),
     })
@@ -298,7 +303,7 @@ fn comparison_for_equation(error: &Error<Rule>, text: &str, offset: usize, file:
     let span = Span { file, start: at.start as u32, end: at.end() as u32 };
     let fault = misplaced(span, &format!("expected `=`, found `{}`", at.text), "this compares");
     Some(match at.text {
-        "==" => fault.fix(Fix::replace(span, "=", "an equation is written with one `=`", Applies::Always)),
+        "==" => fault.fix(Fix::replace(span, "=", "an equation is written with one `=`", Applicability::Always)),
         _ => fault.help(format!(
             "a {} is an equation, which holds all the time; how near a limit is can be seen in a `measure`",
             before[start].text

@@ -10,7 +10,7 @@ mod windows;
 
 use super::grammar::Rule;
 use super::tokens::{Token, begins_declaration, next_token, tokens};
-use mechc_text::diag::{Applies, Edit, Fix, nearest};
+use mechc_text::diag::{Applicability, Edit, Fix, nearest};
 use mechc_text::source::{FileId, Span};
 use mechc_text::vocabulary::{
     KEYWORDS, Keyword, Place, Role, Synonym, Unit, is_declaration, is_feature, is_one_argument_function,
@@ -63,7 +63,7 @@ impl Fault<'_> {
         Span { file: self.file, start: range.start as u32, end: range.end as u32 }
     }
 
-    fn replaced(&self, range: Range<usize>, by: &str, words: &str, applies: Applies) -> FixIt {
+    fn replaced(&self, range: Range<usize>, by: &str, words: &str, applies: Applicability) -> FixIt {
         FixIt::Fix(Fix::replace(self.span(range), by, words, applies))
     }
 
@@ -116,7 +116,7 @@ impl Fault<'_> {
         let words = "the `}` of the body or ground before it is missing";
         match self.brace_before() {
             Some(edit) => {
-                Some(FixIt::Fix(Fix { message: words.to_owned(), edits: vec![edit], applies: Applies::Always }))
+                Some(FixIt::Fix(Fix { message: words.to_owned(), edits: vec![edit], applies: Applicability::Always }))
             }
             None => Some(FixIt::words(words)),
         }
@@ -175,7 +175,7 @@ impl Fault<'_> {
             return Some(FixIt::words("a `,` is missing, or an operator: a product is written with `*`"));
         }
         Some(self.number_before_factor().unwrap_or_else(|| {
-            self.replaced(self.at..self.at, "* ", "a product is written with `*`", Applies::Probably)
+            self.replaced(self.at..self.at, "* ", "a product is written with `*`", Applicability::Probably)
         }))
     }
 
@@ -189,7 +189,7 @@ impl Fault<'_> {
             FixIt::Fix(Fix {
                 message: format!("a product is written with `*`: `{number} * {factor} * {found}`"),
                 edits: vec![insert(start), insert(self.at)],
-                applies: Applies::Probably,
+                applies: Applicability::Probably,
             })
         })
     }
@@ -198,7 +198,7 @@ impl Fault<'_> {
     fn number_before_call(&self) -> Option<FixIt> {
         let (number, start) = self.number_before_the_word()?;
         let words = format!("a product is written with `*`: `{number} * {}(…)`", self.word_before());
-        (self.found == "(").then(|| self.replaced(start..start, "* ", &words, Applies::Probably))
+        (self.found == "(").then(|| self.replaced(start..start, "* ", &words, Applicability::Probably))
     }
 
     /// Returns the number before the word that ends before the fault, and where that word begins.
@@ -222,7 +222,7 @@ impl Fault<'_> {
             return FixIt::Words(words);
         }
         let text = format!("({argument})");
-        FixIt::Fix(Fix::replace(self.span(self.before().len()..end), text, words, Applies::Probably))
+        FixIt::Fix(Fix::replace(self.span(self.before().len()..end), text, words, Applicability::Probably))
     }
 
     /// Returns whether one of these keywords is expected.

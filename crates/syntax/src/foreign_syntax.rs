@@ -11,7 +11,7 @@ mod separators;
 use super::grammar::Rule;
 use super::tokens::{Token, begins_declaration, tokens};
 use heads::is_dash;
-use mechc_text::diag::{Applies, Edit, Fix};
+use mechc_text::diag::{Applicability, Edit, Fix};
 use mechc_text::source::{FileId, Span};
 use mechc_text::vocabulary::{Dimension, Keyword, Place, QuantityWord, Role, Synonym, Unit};
 use std::ops::Range;
@@ -139,7 +139,7 @@ impl<'a> Foreign<'a> {
     }
 
     fn change(message: String, edits: Vec<Edit>) -> Correction {
-        Correction::Change(Fix { message, edits, applies: Applies::Probably })
+        Correction::Change(Fix { message, edits, applies: Applicability::Probably })
     }
 
     /// Returns the end of the words after the fault.

@@ -28,6 +28,6 @@ mod trivia;
 pub use build::{is_name, normalized};
 pub use depth::DEEPEST;
 pub use format::{format, formatted};
-pub use parse::{ParsedText, parse, parse_declaration, parse_expression, reread};
+pub use parse::{ParsedText, parse, parse_declaration, parse_expression, reparse};
 pub use tokens::{Token, begins_declaration, keywords_in, tokens};
 pub use trivia::{Comment, Trivia};

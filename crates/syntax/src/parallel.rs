@@ -8,7 +8,7 @@ use super::build::{Head, Piece, docs_above};
 use super::depth::STACK;
 use super::grammar::Rule;
 use super::tokens::next_token;
-use mechc_parallel::{in_shares, usual_jobs};
+use mechc_parallel::{default_jobs, scoped_chunks};
 use mechc_text::source::{FileId, Source, Span};
 use mechc_text::vocabulary::is_declaration;
 use std::ops::Range;
@@ -39,7 +39,7 @@ pub(super) fn parse_parallel(source: &Source, file: FileId) -> Option<File> {
         })?;
         Some(share)
     };
-    let shares = in_shares(usual_jobs().min(MOST_JOBS), cuts.pieces.len(), read);
+    let shares = scoped_chunks(default_jobs().min(MOST_JOBS), cuts.pieces.len(), read);
     let mut shares = shares.into_iter().collect::<Option<Vec<_>>>()?.into_iter();
     let mut all = shares.next()?;
     for share in shares {

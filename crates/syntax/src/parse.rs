@@ -42,7 +42,7 @@ pub fn parse(sources: &Sources, file: FileId) -> ParsedText {
 
 /// Parses an edited file with the help of its previous tree; the result is that of [`parse`].
 #[must_use]
-pub fn reread(old: &ParsedText, old_text: &str, sources: &Sources, file: FileId) -> ParsedText {
+pub fn reparse(old: &ParsedText, old_text: &str, sources: &Sources, file: FileId) -> ParsedText {
     let source = sources.get(file);
     let (tree, faults) = stacker::maybe_grow(STACK, STACK, || {
         by_declarations(source, file, Some(PreviousTree::new(&old.tree, [old_text, &source.text], file)))
@@ -55,7 +55,7 @@ fn with_all(sources: &Sources, file: FileId, tree: File, mut faults: Diagnostics
     if tree.mechanisms.is_empty() && faults.is_empty() {
         faults.push(errors::no_mechanism(sources.end_of(file)));
     }
-    faults.sort_by_place();
+    faults.sort_by_span();
     ParsedText { tree, trivia: trivia::of(&sources.get(file).text, file), faults }
 }
 

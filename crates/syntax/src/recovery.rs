@@ -12,7 +12,7 @@ use super::reuse::PreviousTree;
 use super::sync_points::SyncPoints;
 use mechc_text::diag::{Diagnostic, Diagnostics};
 use mechc_text::source::{FileId, Source, Span};
-use mechc_text::vocabulary::{KindOfName, another_name};
+use mechc_text::vocabulary::{SubstituteKind, substitute_name};
 use pest::iterators::Pair;
 use rustc_hash::FxHashSet;
 use std::convert::Infallible;
@@ -457,7 +457,7 @@ impl Recovery<'_> {
         } else if let Some((word, keyword)) = self.sync.word_as_name(at) {
             let is_free = |name: &str| !self.sync.has_word(name);
             let instead =
-                if self.may_suggest() { another_name(word, KindOfName::behind(keyword), is_free) } else { None };
+                if self.may_suggest() { substitute_name(word, SubstituteKind::behind(keyword), is_free) } else { None };
             *fault = errors::keyword_as_name(*fault, word, instead);
         }
         // a word that ends one declaration and begins none is met twice

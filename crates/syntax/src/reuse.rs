@@ -105,7 +105,7 @@ fn ends_in_common(old: &[u8], new: &[u8]) -> (usize, usize) {
 #[cfg(test)]
 mod tests {
     use super::ends_in_common;
-    use crate::{parse, reread};
+    use crate::{parse, reparse};
     use mechc_text::source::Sources;
 
     const TEXTS: [&str; 6] = [
@@ -188,9 +188,9 @@ mod tests {
                     if next(&mut state).is_multiple_of(8) { original.to_owned() } else { edited(&text, &mut state) };
                 let mut sources = Sources::default();
                 let file = sources.add("text.mech", new.as_str());
-                let (reread, fresh) = (reread(&old, &text, &sources, file), parse(&sources, file));
-                assert_eq!(reread, fresh, "from\n{text}\nto\n{new}");
-                (old, text) = (reread, new);
+                let (reparse, fresh) = (reparse(&old, &text, &sources, file), parse(&sources, file));
+                assert_eq!(reparse, fresh, "from\n{text}\nto\n{new}");
+                (old, text) = (reparse, new);
             }
         }
     }
@@ -204,8 +204,8 @@ mod tests {
             for cut in (0..original.len()).filter(|&at| original.is_char_boundary(at)).step_by(7) {
                 let mut sources = Sources::default();
                 let file = sources.add("text.mech", &original[..cut]);
-                let (reread, fresh) = (reread(&old, original, &sources, file), parse(&sources, file));
-                assert_eq!(reread, fresh, "{}", &original[..cut]);
+                let (reparse, fresh) = (reparse(&old, original, &sources, file), parse(&sources, file));
+                assert_eq!(reparse, fresh, "{}", &original[..cut]);
             }
         }
     }

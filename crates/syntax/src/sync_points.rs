@@ -3,7 +3,7 @@
 use super::foreign_syntax::hyphenated_at;
 use super::tokens::{Token, tokens};
 use mechc_text::diag::nearest;
-use mechc_text::vocabulary::{JointWord, Keyword, Place, Role, Synonym, is_before_a_name, is_ground};
+use mechc_text::vocabulary::{JointWord, Keyword, Place, Role, Synonym, declares_name, is_ground};
 use rustc_hash::FxHashSet;
 use std::ops::Range;
 
@@ -37,7 +37,7 @@ impl<'a> SyncPoints<'a> {
         for (token, role) in tokens.iter().zip(&roles) {
             is_name = takes_name && !is_name;
             names.push(is_name);
-            takes_name = role.is_some_and(begins) && is_before_a_name(token.text);
+            takes_name = role.is_some_and(begins) && declares_name(token.text);
         }
         let declared = tokens.iter().zip(&names).filter(|(_, is_name)| **is_name);
         let hyphenated = declared.filter_map(|(token, _)| hyphenated_at(text, token.start)).collect();
@@ -288,7 +288,7 @@ fn begins(role: Role) -> bool {
 
 /// Returns whether a word that may begin a declaration does so at a token: a name stands behind it with its definition, or the line begins here.
 fn opens(text: &str, tokens: &[Token<'_>], roles: &[Option<Role>], k: usize) -> bool {
-    if !is_before_a_name(tokens[k].text) {
+    if !declares_name(tokens[k].text) {
         return opens_with_a_formula(text, tokens, roles, k);
     }
     let word = |k: usize| tokens.get(k).map_or("", |token| token.text);

@@ -62,7 +62,7 @@ pub trait World: Send + Sync {
 
     /// Returns the identity of a file: two paths with equal identities are one file, which is read once.
     fn identity(&self, path: &Path) -> PathBuf {
-        normalised(path)
+        normalize_path(path)
     }
 }
 
@@ -131,7 +131,7 @@ pub fn text_of(world: &dyn World, path: &Path, sources: &mut Sources) -> Result<
 ///
 /// # Errors
 /// If it cannot be read or is not UTF-8.
-pub fn rows_given(world: &dyn World, path: &Path, sources: &mut Sources) -> Result<FileId, Box<Diagnostic>> {
+pub fn read_rows(world: &dyn World, path: &Path, sources: &mut Sources) -> Result<FileId, Box<Diagnostic>> {
     let shown = world.shown(path);
     let contents = world.given(path).map_err(|error| Box::new(cannot_read(&shown, &error)))?;
     take_in(&shown, &with_line_feeds(&contents.bytes), sources)
@@ -168,16 +168,16 @@ pub fn beside(path: &str, named: &str) -> PathBuf {
 
 /// Removes `.` from a path, and `..` together with the folder before it.
 #[must_use]
-pub fn normalised(path: &Path) -> PathBuf {
-    let mut normalised = PathBuf::new();
+pub fn normalize_path(path: &Path) -> PathBuf {
+    let mut normalize_path = PathBuf::new();
     for part in path.components() {
-        match (part, normalised.components().next_back()) {
+        match (part, normalize_path.components().next_back()) {
             (Component::CurDir, _) | (Component::ParentDir, Some(Component::RootDir | Component::Prefix(_))) => {}
-            (Component::ParentDir, Some(Component::Normal(_))) => drop(normalised.pop()),
-            _ => normalised.push(part),
+            (Component::ParentDir, Some(Component::Normal(_))) => drop(normalize_path.pop()),
+            _ => normalize_path.push(part),
         }
     }
-    normalised
+    normalize_path
 }
 
 /// Returns the error for a file that cannot be read; an empty name is one that is missing.

@@ -77,7 +77,7 @@ fn refuse_wrong_options(
     let (file, _) = files::read_to_replace(&input.file, &mut reporter.sources)?;
     let interval = &arguments.interval;
     input::requested_times(interval, &[], None, &mut reporter.sources)?;
-    let parsed = Parsed::of_source(reporter.sources.clone(), file, input::path(input));
+    let parsed = Parsed::from_source(reporter.sources.clone(), file, input::path(input));
     let checked = parsed.check(&input::choice(input), &Disk);
     if parsed.mechanisms().len() > 0 && concerns_options(checked.diagnostics(), checked.sources()) {
         reporter.sources = checked.sources().clone();

@@ -21,7 +21,7 @@ use mechc_draw::view::svg::{self, Options, Plot};
 use mechc_engine::analysis::Times;
 use mechc_ir::layout::{ColumnKind, ColumnUnit};
 use mechc_live::page;
-use mechc_pipeline::{Checked, Choice, Compiled, CurveTolerance, RunOptions, Seen};
+use mechc_pipeline::{Checked, Choice, Compiled, CurveTolerance, RunOptions, Visualization};
 use mechc_text::diag::{Diagnostic, Diagnostics};
 use std::mem::ManuallyDrop;
 use std::path::Path;
@@ -69,7 +69,7 @@ pub(super) fn view(arguments: &ViewArguments, reporter: &mut Reporter) -> Result
     let (listed, whole) = (requested.listed()?, requested.whole()?);
     let file = target.open(reporter)?;
     let max_rows = if target.frames.is_some() { usize::MAX } else { MAX_ROWS };
-    let mut visualization = match checked.seen(&compiled, &whole, &options, max_rows) {
+    let mut visualization = match checked.visualize(&compiled, &whole, &options, max_rows) {
         (None, diagnostics) => {
             return target.write_at_rest(file, &checked, Some(&compiled), whole.from(), diagnostics, reporter);
         }
@@ -93,7 +93,7 @@ pub(super) fn view(arguments: &ViewArguments, reporter: &mut Reporter) -> Result
     };
     if stopped.is_none() && visualization.stopped.take().is_some() {
         // the motion stops after the requested moments, so nothing in the picture is marked
-        visualization.scene.name_nothing();
+        visualization.scene.clear_highlights();
     }
     let svg_options = overlays::svg_options(arguments, &visualization)?;
     let drawing = Drawing { visualization: &visualization, moments: moments.as_ref(), options: &svg_options };
@@ -137,7 +137,7 @@ impl Target<'_> {
     }
 
     /// Returns the curves to draw and their tolerance.
-    fn tolerance(&self, visualization: &Seen) -> Result<CurveTolerance, Failure> {
+    fn tolerance(&self, visualization: &Visualization) -> Result<CurveTolerance, Failure> {
         let ViewArguments { scale, trace, .. } = self.arguments;
         let pens = trace.iter().map(|path| Ok(Pen::Point(overlays::trace(&visualization.scene, path)?.1)));
         let pens = pens.collect::<Result<_, Failure>>()?;
@@ -150,7 +150,7 @@ impl Target<'_> {
     }
 
     /// Removes all but the body of `--body`; returns whether the option is given.
-    fn isolate_body(&self, visualization: &mut Seen) -> Result<bool, Failure> {
+    fn isolate_body(&self, visualization: &mut Visualization) -> Result<bool, Failure> {
         let Some(body) = &self.arguments.body else { return Ok(false) };
         let frame = overlays::frame(&visualization.scene, body)?;
         (visualization.scene, visualization.motion) = visualization.scene.alone(frame);
@@ -184,7 +184,7 @@ impl Target<'_> {
         if let Some(why) = why {
             let help = "name a `.svg` or `.html` file to see what is the matter with it";
             diagnostics.push(unusable(format!("{}: {why}", self.not_written())).help(help));
-        } else if let Some(mut still) = checked.seen_at_rest(compiled, (t, self.run_options), &diagnostics) {
+        } else if let Some(mut still) = checked.static_visualization(compiled, (t, self.run_options), &diagnostics) {
             self.isolate_body(&mut still)?;
             let options = overlays::svg_options(self.arguments, &still)?;
             self.write(file, &Drawing { visualization: &still, moments: None, options: &options }, reporter)?;
@@ -195,7 +195,7 @@ impl Target<'_> {
 
 /// The visualization to draw, the moments to show, and the options.
 struct Drawing<'d> {
-    visualization: &'d Seen,
+    visualization: &'d Visualization,
     moments: Option<&'d Motion>,
     options: &'d Options,
 }
@@ -203,7 +203,7 @@ struct Drawing<'d> {
 impl Drawing<'_> {
     fn text(&self, form: Form, reporter: &Reporter) -> Result<String, Failure> {
         let Drawing { visualization, moments, options } = *self;
-        let Seen { scene, motion, .. } = visualization;
+        let Visualization { scene, motion, .. } = visualization;
         match (form, moments) {
             (Form::Page, _) => Ok(page::render(visualization, &reporter.sources)),
             (Form::Plots, _) => self.plots(),
@@ -221,7 +221,7 @@ impl Drawing<'_> {
 
     /// Draws plots of all measures, followed by efforts, reactions and loads if these are requested.
     fn plots<'s>(&'s self) -> Result<String, Failure> {
-        let Seen { scene, motion, .. } = self.visualization;
+        let Visualization { scene, motion, .. } = self.visualization;
         let times = motion.times_between(POINTS_PER_ROW);
         let plot = |(name, unit): (&'s String, &'s ColumnUnit)| Plot {
             name,
@@ -238,7 +238,7 @@ impl Drawing<'_> {
 
     /// Writes a picture of each row, each whole or not at all; none is written if one of them would overwrite an input.
     fn write_frames(&self, frames: &Frames, reporter: &Reporter) -> Result<(), Failure> {
-        let Seen { scene, motion, .. } = self.visualization;
+        let Visualization { scene, motion, .. } = self.visualization;
         let moments = self.moments.unwrap_or(motion);
         let protected = reporter.protected();
         for row in 0..moments.len() {
@@ -257,8 +257,8 @@ impl Drawing<'_> {
 }
 
 /// Returns the columns to plot with their units: all measures, and the requested forces.
-fn plotted_columns(visualization: &Seen) -> impl Iterator<Item = (&String, &ColumnUnit)> {
-    let Seen { scene, columns, units, kinds, .. } = visualization;
+fn plotted_columns(visualization: &Visualization) -> impl Iterator<Item = (&String, &ColumnUnit)> {
+    let Visualization { scene, columns, units, kinds, .. } = visualization;
     let measures = scene.declarations.iter().filter(|declaration| declaration.kind == "measure");
     let named = move |name: &String| columns.iter().zip(units).find(|(column, _)| *column == name);
     let measures = measures.filter_map(move |measure| named(&measure.name));
@@ -272,13 +272,13 @@ fn moments(
     compiled: &Compiled,
     times: &Times,
     options: &RunOptions,
-    visualization: &Seen,
+    visualization: &Visualization,
 ) -> Result<(Motion, Option<Diagnostic>), Failure> {
     // warnings were printed for the whole motion already
     let (found, diagnostics) = checked.moments(compiled, times, options);
     let Some((mut motion, stopped)) = found else { return Err(diagnostics.into()) };
     if stopped.is_some() && motion.times.last() < visualization.motion.times.last() {
-        motion.append_last(&visualization.motion);
+        motion.append_last_row(&visualization.motion);
     }
     Ok((motion, stopped))
 }

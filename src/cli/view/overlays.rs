@@ -4,11 +4,11 @@ use crate::cli::arguments::{ThemeChoice, ViewArguments};
 use crate::cli::failure::{Failure, unusable};
 use mechc_draw::scene::{Anchor, Scene};
 use mechc_draw::view::svg::{Options, Theme};
-use mechc_pipeline::Seen;
+use mechc_pipeline::Visualization;
 use mechc_text::diag::{Code, Diagnostic, nearest};
 
 /// Returns the options of an SVG.
-pub(super) fn svg_options(arguments: &ViewArguments, visualization: &Seen) -> Result<Options, Failure> {
+pub(super) fn svg_options(arguments: &ViewArguments, visualization: &Visualization) -> Result<Options, Failure> {
     let scene = &visualization.scene;
     let theme = match arguments.theme {
         ThemeChoice::Auto => Theme::Auto,

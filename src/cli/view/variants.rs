@@ -11,7 +11,7 @@ use mechc_draw::scene::{Motion, Pose, bounds};
 use mechc_draw::view::page::{LONGEST, Variant, Vary};
 use mechc_engine::analysis::Times;
 use mechc_live::page;
-use mechc_pipeline::{Checked, Choice, Compiled, Parsed, RunOptions, Seen, Varied};
+use mechc_pipeline::{Checked, Choice, Compiled, Parsed, RunOptions, SliderRange, Visualization};
 use mechc_text::diag::{Diagnostic, Diagnostics};
 use mechc_text::source::Sources;
 use std::mem::ManuallyDrop;
@@ -23,7 +23,7 @@ pub(super) fn view(arguments: &ViewArguments, output: &str, reporter: &mut Repor
     let (parsed, world) = (input::parsed(&arguments.input, reporter)?, CachedDisk::default());
     let choice = Choice { pictures_forces: true, ..input::choice(&arguments.input) };
     let nominal = input::checked_in(&parsed, &choice, &world, reporter)?;
-    let varied = nominal.varied(&arguments.vary, &choice, &world).map_err(|(sources, diagnostics)| {
+    let varied = nominal.slider_ranges(&arguments.vary, &choice, &world).map_err(|(sources, diagnostics)| {
         reporter.sources = sources;
         diagnostics
     })?;
@@ -49,7 +49,7 @@ pub(super) fn view(arguments: &ViewArguments, output: &str, reporter: &mut Repor
 
 /// A solved variant.
 struct SolvedVariant {
-    visualization: Seen,
+    visualization: Visualization,
     /// The reason why its motion is missing or incomplete, with the texts that this refers to.
     stopped: Option<(Sources, Diagnostics)>,
 }
@@ -57,7 +57,7 @@ struct SolvedVariant {
 /// The outcome of solving a variant.
 struct Attempt {
     checked: ManuallyDrop<Checked>,
-    visualization: Option<Seen>,
+    visualization: Option<Visualization>,
     diagnostics: Diagnostics,
 }
 
@@ -67,7 +67,7 @@ struct VariantSolver<'s> {
     parsed: &'s Parsed,
     choice: &'s Choice,
     world: &'s CachedDisk,
-    varied: &'s [Varied],
+    varied: &'s [SliderRange],
 }
 
 impl VariantSolver<'_> {
@@ -78,7 +78,7 @@ impl VariantSolver<'_> {
     /// Returns the index of each param's value in a variant; the last param varies fastest.
     fn value_indices(&self, variant: usize) -> Vec<usize> {
         let mut rest = variant;
-        let index = |varied: &Varied| {
+        let index = |varied: &SliderRange| {
             let index = rest % varied.values.len();
             rest /= varied.values.len();
             index
@@ -151,12 +151,13 @@ impl VariantSolver<'_> {
             },
         };
         let moving = times.as_ref().and_then(|(compiled, times)| {
-            let (moving, more) = checked.seen(compiled, times, &options, max_rows);
+            let (moving, more) = checked.visualize(compiled, times, &options, max_rows);
             diagnostics.extend(more);
             moving
         });
         let from = times.as_ref().map_or(0.0, |(_, times)| times.from());
-        let visualization = moving.or_else(|| checked.seen_at_rest(compiled.as_ref(), (from, &options), &diagnostics));
+        let visualization =
+            moving.or_else(|| checked.static_visualization(compiled.as_ref(), (from, &options), &diagnostics));
         Attempt { checked, visualization, diagnostics }
     }
 
@@ -172,8 +173,8 @@ impl VariantSolver<'_> {
     }
 
     fn page(&self, variants: &[SolvedVariant], first: usize, sources: &Sources) -> Result<String, Failure> {
-        let vary = |varied: &Varied| {
-            let Varied { name, unit, values, nearest, own, .. } = varied.clone();
+        let vary = |varied: &SliderRange| {
+            let SliderRange { name, unit, values, nearest, nominal: own, .. } = varied.clone();
             Vary { name, unit, values, nearest, own }
         };
         let shown: Vec<Variant> = variants.iter().map(|solved| page::variant(&solved.visualization)).collect();
@@ -218,7 +219,7 @@ impl VariantSolver<'_> {
 }
 
 /// Returns whether there is a motion, complete or not.
-fn has_motion(visualization: &Seen) -> bool {
+fn has_motion(visualization: &Visualization) -> bool {
     !visualization.motion.rows().is_empty()
 }
 
@@ -231,7 +232,7 @@ fn errors_of(diagnostics: &Diagnostics) -> Diagnostics {
 }
 
 /// Returns the empty visualization of an unsound variant, which shows only its text and diagnostics.
-fn without_picture(diagnostics: Diagnostics, template: &Seen) -> Seen {
+fn without_picture(diagnostics: Diagnostics, template: &Visualization) -> Visualization {
     let mut scene = template.scene.clone();
     scene.frames.truncate(1);
     scene.points.clear();
@@ -242,7 +243,7 @@ fn without_picture(diagnostics: Diagnostics, template: &Seen) -> Seen {
     scene.named.clear();
     let motion = Motion::still(vec![Pose::default()]);
     let results = template.results.iter().map(|(name, unit, _)| (name.clone(), unit.clone(), None)).collect();
-    Seen { scene, motion, all_rows: 0, stopped: None, said: diagnostics, results, ..template.clone() }
+    Visualization { scene, motion, all_rows: 0, stopped: None, diagnostics: diagnostics, results, ..template.clone() }
 }
 
 /// Gives all variants the same size of symbols and a common extent, so that the picture does not jump when a slider moves.
@@ -257,7 +258,7 @@ fn unify_scenes(all: Vec<(ManuallyDrop<Checked>, SolvedVariant)>) -> Vec<SolvedV
     let redrawn = |(checked, mut solved): (ManuallyDrop<Checked>, SolvedVariant)| {
         let visualization = &solved.visualization;
         let scene = unit.filter(|_| has_motion(visualization));
-        let scene = scene.and_then(|unit| checked.drawn_with_symbols(visualization, unit));
+        let scene = scene.and_then(|unit| checked.scene_with_symbols(visualization, unit));
         solved.visualization.scene = scene.unwrap_or(solved.visualization.scene);
         solved
     };

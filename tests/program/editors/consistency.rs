@@ -130,7 +130,7 @@ fn every_snippet_follows_the_grammar() {
             "mass" => format!("mechanism a {{ body b {{ {body} }} }}"),
             _ => format!("mechanism a {{ {body} }}"),
         };
-        let parsed = Parsed::of(name, &text);
+        let parsed = Parsed::new(name, &text);
         assert!(parsed.faults().is_empty(), "{name}: {text}");
         if name == "fourbar" {
             let checked = parsed.check(&Choice::default(), &Memory::default());

@@ -2,7 +2,7 @@
 
 use lsp_server::{Connection, Message, Notification, Request, Response};
 use mechc::{Memory, World};
-use mechc_ide::lsp::{Ended, Log, serve};
+use mechc_ide::lsp::{Log, SessionEnd, serve};
 use serde_json::{Value, json};
 use std::collections::{BTreeMap, VecDeque};
 use std::sync::Arc;
@@ -14,7 +14,7 @@ const PATIENCE: Duration = Duration::from_secs(20);
 
 pub struct Client {
     connection: Connection,
-    server: JoinHandle<Ended>,
+    server: JoinHandle<SessionEnd>,
     next_id: i32,
     /// What came while something else was waited for.
     waiting: VecDeque<Message>,
@@ -173,11 +173,11 @@ impl Client {
     pub fn end(mut self) {
         assert_eq!(self.request("shutdown", Value::Null), Value::Null);
         self.notify("exit", Value::Null);
-        assert_eq!(self.server.join().expect("it does not panic"), Ended::Well, "it ended in order");
+        assert_eq!(self.server.join().expect("it does not panic"), SessionEnd::Well, "it ended in order");
     }
 
     /// Goes without a word; what the server takes that for.
-    pub fn vanish(self) -> Ended {
+    pub fn vanish(self) -> SessionEnd {
         drop(self.connection);
         self.server.join().expect("it does not panic")
     }

@@ -256,7 +256,7 @@ fn turning(turns: u32) -> String {
 }
 
 /// The lines of a layer.
-fn lines_of(seen: &mechc::Seen, layer: &str) -> Vec<Polyline> {
+fn lines_of(seen: &mechc::Visualization, layer: &str) -> Vec<Polyline> {
     let file = dxf::written(&seen.scene, &seen.motion, seen.motion.poses(0), &[], 1.0).expect("a trace");
     read_dxf(&file).0.into_iter().filter(|(known, ..)| known == layer).collect()
 }
@@ -424,7 +424,7 @@ fn pictures_show_the_same_lines_however_few_rows_there_are() {
 
 #[test]
 fn poles_squash_no_plot() {
-    let wanted = |seen: &mechc::Seen| CurveTolerance {
+    let wanted = |seen: &mechc::Visualization| CurveTolerance {
         columns: vec!["pole".to_owned()],
         ..CurveTolerance::of_picture(seen, Vec::new())
     };

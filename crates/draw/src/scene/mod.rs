@@ -99,12 +99,12 @@ impl Scene {
 
     /// Builds the scene with symbols of size `unit` (m) instead of one that fits the motion.
     #[must_use]
-    pub fn with_symbols(model: &Mechanism, motion: &Motion, unit: f64) -> Scene {
+    pub fn with_symbol_size(model: &Mechanism, motion: &Motion, unit: f64) -> Scene {
         builder::build(model, motion, Some(unit))
     }
 
     /// Adds the marks of faults, at the first row of the motion.
-    pub fn show_faults(&mut self, model: &Mechanism, motion: &Motion, faults: &Faults) {
+    pub fn add_fault_marks(&mut self, model: &Mechanism, motion: &Motion, faults: &Faults) {
         fault_marks::add(self, model, motion, faults);
     }
 
@@ -174,7 +174,7 @@ impl Scene {
     }
 
     /// Removes the marks and highlights of messages.
-    pub fn name_nothing(&mut self) {
+    pub fn clear_highlights(&mut self) {
         self.named.clear();
         self.remarks.clear();
         self.nodes.retain(|node| node.shapes.iter().any(|shape| shape.look != Look::Named));

@@ -151,7 +151,7 @@ impl Motion {
     }
 
     /// Appends the last row of another motion with the same frames and columns.
-    pub fn append_last(&mut self, other: &Motion) {
+    pub fn append_last_row(&mut self, other: &Motion) {
         let Some(last) = other.len().checked_sub(1) else { return };
         self.times.push(other.times[last]);
         self.poses.extend_from_slice(other.poses(last));
@@ -195,7 +195,7 @@ impl Motion {
     }
 
     /// Sets the duration (s) of the whole motion, of which this is a part.
-    pub fn set_whole_span(&mut self, span: f64) {
+    pub fn set_total_duration(&mut self, span: f64) {
         self.short = SHORT_INTERVAL * span;
     }
 
@@ -329,7 +329,7 @@ fn taylor([pose, rate, acceleration]: [Pose; 3], h: f64) -> [Pose; 2] {
 fn quintic(from: [Pose; 3], to: [Pose; 3], h: f64, part: f64) -> [Pose; 2] {
     let coordinate = |of: fn(&Pose) -> f64| {
         let [from, to] = [&from, &to].map(|end| end.each_ref().map(of));
-        let [value, slope, _] = math::value_and_slopes(&math::quintic(from, to, h), part);
+        let [value, slope, _] = math::value_and_derivatives(&math::quintic(from, to, h), part);
         [value, slope / h]
     };
     let parts = [coordinate(|pose| pose.at[0]), coordinate(|pose| pose.at[1]), coordinate(|pose| pose.phi)];

@@ -75,7 +75,7 @@ fn between([from, to]: [[f64; 3]; 2], h: f64, part: f64) -> [f64; 2] {
         [true, false] => math::cubic([a, slope_a], [b, slope_b], h),
         [false, _] => math::parabola([a, (b - a) / h, 0.0], h),
     };
-    let [value, slope, _] = math::value_and_slopes(&curve, part);
+    let [value, slope, _] = math::value_and_derivatives(&curve, part);
     [value, slope / h]
 }
 
@@ -219,7 +219,7 @@ impl Motion {
 
     /// Returns the track of a column, whose x coordinate is the column's value.
     #[must_use]
-    pub fn track_of_column(&self, name: &str) -> Track {
+    pub fn column_track(&self, name: &str) -> Track {
         let columns = Some([self.derivatives(name), [None; 3]]);
         Track { frame: 0, pose: Pose::default(), columns, is_mirrored: false }
     }
@@ -239,7 +239,7 @@ impl Motion {
     /// gap.
     #[must_use]
     pub fn column_at(&self, name: &str, times: &[f64]) -> Vec<f64> {
-        let track = self.track_of_column(name);
+        let track = self.column_track(name);
         let gaps = self.gaps(&track);
         let value = |t: &f64| {
             let row = self.row_at(*t);

@@ -65,7 +65,7 @@ impl Writer<'_> {
     /// Whether loads hold third derivatives of the coordinates.
     fn forces_hold_jerk(&self) -> bool {
         let (system, is_third) = (self.unit.system, |of: Dependence| of.highest_order() == Some(3));
-        system.needed_forces().iter().any(|&of| is_third(system.graph().dependence(of)))
+        system.required_forces().iter().any(|&of| is_third(system.graph().dependence(of)))
     }
 
     /// What multipliers exert; nothing where no columns are made of that.

@@ -5,7 +5,7 @@ use crate::equations::{Given, Wanted};
 use crate::print::{Head, Page};
 use crate::solution::Solution;
 use crate::text::{constant, literal};
-use mechc_ir::program::{PlacedRim, Register};
+use mechc_ir::program::{BoundaryRegisters, Register};
 
 impl Writer<'_> {
     /// The branches of formulas.
@@ -100,7 +100,7 @@ impl Writer<'_> {
     /// Whether anything must hold beside the equations.
     pub fn has_checks(&self) -> bool {
         let is_left_out = !self.unit.system.checks().is_empty();
-        let is_watched = !self.unit.system.watches().is_empty();
+        let is_watched = !self.unit.system.monitors().is_empty();
         self.has_sides() || is_left_out || is_watched || self.has_rims() || !self.open_conditions().is_empty()
     }
 
@@ -146,7 +146,7 @@ impl Writer<'_> {
         self.rims().next().is_some()
     }
 
-    pub fn rims(&self) -> impl Iterator<Item = &PlacedRim> {
+    pub fn rims(&self) -> impl Iterator<Item = &BoundaryRegisters> {
         let is_led = self.equations.is_led;
         self.unit.program.outputs.rims.iter().filter(move |rim| rim.on_time && !is_led)
     }

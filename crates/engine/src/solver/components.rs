@@ -31,7 +31,7 @@ impl ComponentOutputs {
             let measure = &system.measures()[k];
             [Some(measure.value), measure.first, measure.second].into_iter().flatten()
         });
-        reactions.chain(measures).chain(self.appended.iter().map(|&k| system.appended()[k].value)).collect()
+        reactions.chain(measures).chain(self.appended.iter().map(|&k| system.derivative_columns()[k].value)).collect()
     }
 }
 
@@ -54,7 +54,7 @@ impl Partition {
             }
         }
         // a load on one component may depend on coordinates of another
-        for (&block, &needed) in block_of_column.iter().zip(system.needed_forces()) {
+        for (&block, &needed) in block_of_column.iter().zip(system.required_forces()) {
             for symbol in system.graph().symbols(needed) {
                 if let Symbol::Coordinate { index, .. } = symbol {
                     join(block, block_of_column[index as usize]);
@@ -88,7 +88,7 @@ impl Partition {
             let formulas = [Some(measure.value), measure.first, measure.second];
             outputs[self.component_of(system, formulas.into_iter().flatten())].measures.push(k);
         }
-        for (k, column) in system.appended().iter().enumerate() {
+        for (k, column) in system.derivative_columns().iter().enumerate() {
             outputs[self.component_of(system, [column.value])].appended.push(k);
         }
         outputs

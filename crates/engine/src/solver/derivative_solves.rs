@@ -5,7 +5,7 @@ use super::build::Builder;
 use super::elimination::Factors;
 use super::tape::Value;
 use mechc_ir::With;
-use mechc_ir::program::{PlacedSide, Register};
+use mechc_ir::program::{Register, RightSideRegisters};
 use mechc_ir::structure::Block;
 
 impl<V: Values> Builder<'_, V> {
@@ -14,7 +14,7 @@ impl<V: Values> Builder<'_, V> {
         let program = self.program;
         let (outputs, inputs) = (&program.outputs, &program.inputs);
         let mut others = 0;
-        for PlacedSide { with, entries } in &outputs.right_sides {
+        for RightSideRegisters { with, entries } in &outputs.right_sides {
             // code needs third derivatives in its measures only
             let is_of_measures = *with == With::Time(3) && self.is_for_code();
             let stored = if is_of_measures { Stored::Shared } else { Stored::All };

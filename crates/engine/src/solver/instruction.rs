@@ -1,6 +1,6 @@
 //! Instructions of a solver: the operations of a program, with inputs, outputs and checks.
 
-use mechc_ir::program::{Column, Few, Op, Register};
+use mechc_ir::program::{Column, Op, Register, RegisterList};
 
 /// An instruction, executed in every lane.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -72,16 +72,16 @@ impl Instruction {
 
     /// Returns the registers that the instruction reads.
     #[must_use]
-    pub fn reads(self) -> Few<5> {
-        let mut reads = Few::default();
+    pub fn reads(self) -> RegisterList<5> {
+        let mut reads = RegisterList::default();
         let _ = self.renumbered(|register| reads.note(register), |register| register);
         reads
     }
 
     /// Returns the registers that the instruction writes.
     #[must_use]
-    pub fn writes(self) -> Few<2> {
-        let mut writes = Few::default();
+    pub fn writes(self) -> RegisterList<2> {
+        let mut writes = RegisterList::default();
         let _ = self.renumbered(|register| register, |register| writes.note(register));
         writes
     }

@@ -1,6 +1,6 @@
 //! The predictor of Newton: the curve through the ends of a step, corrected by the step before.
 
-use mechc_expr::math::{along, value_and_slopes};
+use mechc_expr::math::{along, value_and_derivatives};
 
 /// The difference between the curve through the ends of two steps and the one through the ends of the later step: `(x (1 − x))³` times a parabola,
 /// with `x` the fraction of the later step.
@@ -25,7 +25,7 @@ impl Bend {
     pub fn new(curve: &[f64; 6], [value, slope, curvature]: [f64; 3], back: f64) -> Bend {
         let x = -back;
         // the value that the curve misses there, and the factor (x (1 − x))³, each with two derivatives
-        let on_curve = value_and_slopes(curve, x);
+        let on_curve = value_and_derivatives(curve, x);
         let missing = [value - on_curve[0], slope - on_curve[1], curvature - on_curve[2]];
         let (u, du) = (x * (1.0 - x), 1.0 - 2.0 * x);
         let factor = [u * u * u, 3.0 * u * u * du, 6.0 * u * (du * du - u)];

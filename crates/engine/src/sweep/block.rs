@@ -1,7 +1,7 @@
 //! A block of consecutive variants of a sweep, column by column, and its table.
 
 use super::batch::RowBuffer;
-use super::column_buffer::{Numbers, Spare};
+use super::column_buffer::{BufferPool, Numbers};
 use mechc_ir::layout::ColumnUnit;
 use mechc_text::diag::Code;
 use std::sync::Arc;
@@ -37,7 +37,7 @@ impl Status {
 
 /// One variant that was computed alone.
 #[derive(Clone, PartialEq, Debug)]
-pub struct OneVariant {
+pub struct VariantOutcome {
     /// Its outcome.
     pub status: Status,
     /// The time at which it stopped (s); NaN if it did not stop or has no such time.
@@ -92,7 +92,7 @@ impl Swept {
     }
 
     /// Removes the rows behind the first `before` ones, and returns them by column.
-    pub fn take_room(&mut self, before: usize) -> Vec<Vec<f64>> {
+    pub fn take_rows_from(&mut self, before: usize) -> Vec<Vec<f64>> {
         let take = |column: &mut Numbers| {
             let taken = column[before..].to_vec();
             column.truncate(before);
@@ -103,7 +103,7 @@ impl Swept {
 
     /// Adds the next `count` variants of a batch, whose `rows` rows each are in the columns already. `params` holds their params, variant after
     /// variant.
-    pub fn push_abreast(&mut self, (count, rows): (usize, usize), params: &[f64]) {
+    pub fn push_batch(&mut self, (count, rows): (usize, usize), params: &[f64]) {
         self.statuses.resize(self.statuses.len() + count, Status::Ok);
         self.stopped.resize(self.stopped.len() + count, f64::NAN);
         self.lengths.resize(self.lengths.len() + count, if self.columns.is_empty() { 0 } else { rows });
@@ -115,7 +115,7 @@ impl Swept {
     }
 
     /// Adds the results of the next variant of a batch.
-    pub fn push_results_abreast(&mut self, results: &[f64]) {
+    pub fn push_batch_results(&mut self, results: &[f64]) {
         self.push_results(results);
         self.answered += 1;
     }
@@ -131,14 +131,14 @@ impl Swept {
     }
 
     /// Takes memory for `rows` rows in all from a pool.
-    pub fn reserve(&mut self, rows: usize, pool: &Arc<Spare>) {
+    pub fn reserve(&mut self, rows: usize, pool: &Arc<BufferPool>) {
         for (number, column) in self.columns.iter_mut().enumerate() {
             *column = Numbers::with_capacity(rows, pool, number);
         }
     }
 
     /// Adds the next variant, computed alone.
-    pub fn push(&mut self, params: &[f64], variant: &OneVariant) {
+    pub fn push(&mut self, params: &[f64], variant: &VariantOutcome) {
         self.statuses.push(variant.status);
         self.stopped.push(variant.stopped);
         self.params.iter_mut().zip(params).for_each(|(column, value)| column.push(*value));

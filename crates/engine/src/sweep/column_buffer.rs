@@ -1,6 +1,6 @@
 //! Columns of numbers, in memory that is reused from block to block.
 
-use mechc_expr::math::{WIDE, to_next_line};
+use mechc_expr::math::{WIDE, numbers_to_cache_line};
 use std::collections::BTreeMap;
 use std::fmt;
 use std::ops::{Deref, DerefMut};
@@ -9,7 +9,7 @@ use std::sync::{Arc, Mutex, PoisonError, Weak};
 /// A pool of memory for columns. Reused memory need not be cleared. It returns to the same column, which often repeats the numbers of the block
 /// before, so that they need not be written again.
 #[derive(Debug)]
-pub struct Spare {
+pub struct BufferPool {
     /// Unused memory, by column.
     free: Mutex<BTreeMap<usize, Vec<Memory>>>,
     /// The largest number of entries of each column.
@@ -26,11 +26,11 @@ struct Memory {
     period: Option<usize>,
 }
 
-impl Spare {
+impl BufferPool {
     /// Creates an empty pool that keeps at most `limit` pieces of memory for each column.
     #[must_use]
-    pub fn new(limit: usize) -> Spare {
-        Spare { free: Mutex::default(), limit }
+    pub fn new(limit: usize) -> BufferPool {
+        BufferPool { free: Mutex::default(), limit }
     }
 
     /// Takes memory for `capacity` numbers of a column.
@@ -58,16 +58,16 @@ pub struct Numbers {
     memory: Memory,
     count: usize,
     /// The pool that receives the memory on drop, as that of `column`.
-    pool: Weak<Spare>,
+    pool: Weak<BufferPool>,
     column: usize,
 }
 
 impl Numbers {
     /// Creates an empty column with memory for `capacity` numbers from a pool. `column` is its index there.
     #[must_use]
-    pub fn with_capacity(capacity: usize, pool: &Arc<Spare>, column: usize) -> Numbers {
+    pub fn with_capacity(capacity: usize, pool: &Arc<BufferPool>, column: usize) -> Numbers {
         let mut memory = pool.take(capacity + WIDE, column);
-        let begin = to_next_line(memory.numbers.as_ptr());
+        let begin = numbers_to_cache_line(memory.numbers.as_ptr());
         if begin != memory.begin {
             (memory.begin, memory.period) = (begin, None);
         }
@@ -181,12 +181,12 @@ impl fmt::Debug for Numbers {
 
 #[cfg(test)]
 mod tests {
-    use super::{Numbers, Spare};
+    use super::{BufferPool, Numbers};
     use std::sync::Arc;
 
     #[test]
     fn reused_memory_holds_the_latest_numbers() {
-        let pool = Arc::new(Spare::new(3));
+        let pool = Arc::new(BufferPool::new(3));
         let kept = || -> Vec<usize> { pool.free.lock().expect("unlocked").values().map(Vec::len).collect() };
         for round in 0..3 {
             let mut numbers = Numbers::with_capacity(20, &pool, 0);
@@ -218,7 +218,7 @@ mod tests {
 
     #[test]
     fn period_is_valid_until_numbers_may_have_changed() {
-        let pool = Arc::new(Spare::new(2));
+        let pool = Arc::new(BufferPool::new(2));
         let period = |numbers: &Numbers| numbers.memory.period;
         for (number, pattern) in [&[0.0][..], &[2.5], &[1.0, -0.0, 3.0], &[1.0, 0.0, 3.0], &[7.0; 3]].iter().enumerate()
         {

@@ -1,7 +1,7 @@
 //! Continuation from the nominal parameters of a mechanism, those of its text, to those of a variant, along the branch. A variant's start
 //! depends on its own parameters alone, not on the other variants of a sweep.
 
-use crate::analysis::{self, Horizon, LeadOptions, Solving, Started, Stop, Unassembled, Warning};
+use crate::analysis::{self, ContinuationOptions, Horizon, Solving, Started, Stop, Unassembled, Warning};
 use crate::solver::Solver;
 use mechc_ir::ConstraintSystem;
 use mechc_ir::program::Program;
@@ -9,8 +9,23 @@ use mechc_ir::structure::Determined;
 use mechc_text::cancel::Cancel;
 use std::sync::Arc;
 
-/// A determined system with its operations.
-pub type CompiledSystem = (Arc<Determined>, Arc<Program>);
+/// A constraint system that is proved determined, with its operations.
+#[derive(Clone)]
+pub struct CompiledSystem {
+    /// The system.
+    pub determined: Arc<Determined>,
+    /// Its operations.
+    pub program: Arc<Program>,
+}
+
+impl CompiledSystem {
+    /// Returns a system with its operations.
+    #[must_use]
+    pub fn new(determined: Determined) -> CompiledSystem {
+        let program = Arc::new(Program::new(determined.system()));
+        CompiledSystem { determined: Arc::new(determined), program }
+    }
+}
 
 /// A position, with the solver for rows from there on.
 #[derive(Clone)]
@@ -36,7 +51,7 @@ pub struct ContinuationBase {
     nominal_params: Vec<f64>,
     /// The position with the nominal parameters, at the nominal first time.
     nominal: Configuration,
-    /// The system on a path, with further parameters for the path's end (`lower::lower_on_its_way`), and where all paths begin.
+    /// The system on a path, with further parameters for the path's end (`lower::lower_continuation`), and where all paths begin.
     path_system: CompiledSystem,
     path_start: Configuration,
     /// The parameters that a path may change, as indices.
@@ -45,11 +60,11 @@ pub struct ContinuationBase {
     time_varies: bool,
     /// True if the equations are smooth all along every path.
     is_smooth: bool,
-    options: LeadOptions,
+    options: ContinuationOptions,
 }
 
 /// A variant at the end of its continuation.
-pub struct Arrived {
+pub struct ContinuedVariant {
     /// The variant, ready to be followed.
     pub started: Started,
     /// The bifurcations on the path, at fractions of it from 0 to 1.
@@ -77,10 +92,11 @@ impl ContinuationBase {
         started: &Started,
         path_system: CompiledSystem,
         (continued_params, time_varies): (Vec<u32>, bool),
-        options: LeadOptions,
+        options: ContinuationOptions,
     ) -> Result<ContinuationBase, Box<Stop>> {
-        let (nominal_params, nominal) = (compiled.0.system().values_of_params(), Configuration::from_started(started));
-        let path_start = analysis::before_ways(&path_system.0, &path_system.1, &nominal.q, &options)?;
+        let (nominal_params, nominal) =
+            (compiled.determined.system().param_values(), Configuration::from_started(started));
+        let path_start = analysis::start_of_paths(&path_system.determined, &path_system.program, &nominal.q, &options)?;
         let (is_smooth, path_start) = (path_start.is_plain(), Configuration::from_started(&path_start));
         Ok(ContinuationBase {
             compiled,
@@ -108,13 +124,13 @@ impl ContinuationBase {
     /// Returns the equations along a path, whose stops and warnings speak of them.
     #[must_use]
     pub fn path_system(&self) -> &ConstraintSystem {
-        self.path_system.0.system()
+        self.path_system.determined.system()
     }
 
     /// Returns the system with other parameters (SI, all of them).
     #[must_use]
     pub fn variant(&self, values: &[f64]) -> Arc<Determined> {
-        Arc::new(self.compiled.0.with_values(values))
+        Arc::new(self.compiled.determined.with_values(values))
     }
 
     /// Continues to a variant and starts it for `horizon`.
@@ -126,23 +142,23 @@ impl ContinuationBase {
         variant: Arc<Determined>,
         horizon: Horizon,
         cancel: &Cancel,
-    ) -> Result<Arrived, ContinuationError> {
-        let LeadOptions { tolerance, t: nominal_time, pass_bifurcations, .. } = self.options;
-        let (q, passed) = self.continue_to(&variant.system().values_of_params(), horizon.from, cancel)?;
+    ) -> Result<ContinuedVariant, ContinuationError> {
+        let ContinuationOptions { tolerance, t: nominal_time, pass_bifurcations, .. } = self.options;
+        let (q, passed) = self.continue_to(&variant.system().param_values(), horizon.from, cancel)?;
         let is_at_start_time = self.time_varies || horizon.from.total_cmp(&nominal_time).is_eq();
-        let program = Arc::clone(&self.compiled.1);
+        let program = Arc::clone(&self.compiled.program);
         let cancel = cancel.clone();
         let unassembled = Unassembled { determined: variant, program, horizon, tolerance, pass_bifurcations, cancel };
         let solving = Solving::With(self.nominal.solver.clone());
         if is_at_start_time {
             let started = unassembled.assemble_at(&q, solving).map_err(ContinuationError::AtTarget)?;
-            return Ok(Arrived { started, passed, passed_before_start: Vec::new() });
+            return Ok(ContinuedVariant { started, passed, passed_before_start: Vec::new() });
         }
         let begun = Unassembled { horizon: horizon.beginning(nominal_time), ..unassembled.clone() };
         let begun = begun.assemble_at(&q, solving);
         let followed = begun.and_then(|begun| analysis::follow_to(&unassembled, (begun, nominal_time)));
         let (started, passed_before_start) = followed.map_err(ContinuationError::AtTarget)?;
-        Ok(Arrived { started, passed, passed_before_start })
+        Ok(ContinuedVariant { started, passed, passed_before_start })
     }
 
     /// Follows the path to other parameters (SI) and a first time `t` (s); returns the coordinates at its end and the bifurcations on it.
@@ -159,9 +175,10 @@ impl ContinuationBase {
         let ends = self.continued_params.iter().map(|&k| values[k as usize]);
         let times = self.time_varies.then_some([self.options.t, t]).into_iter().flatten();
         let path_params: Vec<f64> = self.nominal_params.iter().copied().chain(ends).chain(times).collect();
-        let determined = Arc::new(self.path_system.0.with_values(&path_params));
-        let options = LeadOptions { cancel: cancel.clone(), ..self.options.clone() };
-        let path = analysis::lead_again(&determined, &self.path_system.1, self.path_start.to_shared(), &options);
+        let determined = Arc::new(self.path_system.determined.with_values(&path_params));
+        let options = ContinuationOptions { cancel: cancel.clone(), ..self.options.clone() };
+        let path =
+            analysis::continue_from(&determined, &self.path_system.program, self.path_start.to_shared(), &options);
         let mut path = path.map_err(|stop| ContinuationError::OnPath(Box::new(Stop { t: 0.0, ..*stop })))?;
         match (path.reached.pop(), path.stopped) {
             (Some(q), _) => Ok((q, path.passed)),

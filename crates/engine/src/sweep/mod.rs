@@ -8,13 +8,13 @@ mod continuation;
 mod points;
 mod sobol;
 
-pub use batch::{LANES, Team, Together, WantedOfEach};
-pub use block::{OneVariant, Status, Swept, SweptColumn};
-pub use column_buffer::{Numbers, Spare};
-pub use continuation::Arrived;
-pub use points::{Levels, MOST_OF_SOBOL, Method, Points, Sampling, Varying};
+pub use batch::{BatchContext, BatchRequest, BatchRunner, LANES};
+pub use block::{Status, Swept, SweptColumn, VariantOutcome};
+pub use column_buffer::{BufferPool, Numbers};
+pub use continuation::ContinuedVariant;
+pub use points::{Levels, MAX_SOBOL_DIMENSIONS, Method, Points, Sampling, Varying};
 
 // the names by which other crates use these
-pub use batch::{CHUNK as PART, PerLane as Each, RowBuffer as Room};
-pub use continuation::{CompiledSystem as Whole, ContinuationBase as Base, ContinuationError as Lost};
-pub use points::{linspace_value as evenly, round_to_15_digits as rounded};
+pub use batch::{CHUNK, PerLane, RowBuffer};
+pub use continuation::{CompiledSystem, ContinuationBase, ContinuationError};
+pub use points::{linspace_value, round_to_15_digits};

@@ -15,7 +15,7 @@ pub enum Method {
 }
 
 /// The largest number of params in a sample by Sobol's sequence.
-pub const MOST_OF_SOBOL: usize = sobol::MAX_DIMENSIONS;
+pub const MAX_SOBOL_DIMENSIONS: usize = sobol::MAX_DIMENSIONS;
 
 /// An axis of a sweep: values that some params take together (SI).
 #[derive(Clone, PartialEq, Debug)]

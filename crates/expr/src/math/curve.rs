@@ -41,7 +41,7 @@ pub fn along(curve: &[f64; 6], x: f64) -> f64 {
 
 /// Returns value, first and second derivative of a curve with respect to `x`.
 #[must_use]
-pub fn value_and_slopes(curve: &[f64; 6], x: f64) -> [f64; 3] {
+pub fn value_and_derivatives(curve: &[f64; 6], x: f64) -> [f64; 3] {
     let [_, c1, c2, c3, c4, c5] = *curve;
     let slope = c1 + x * (2.0 * c2 + x * (3.0 * c3 + x * (4.0 * c4 + x * 5.0 * c5)));
     let curvature = 2.0 * c2 + x * (6.0 * c3 + x * (12.0 * c4 + x * 20.0 * c5));

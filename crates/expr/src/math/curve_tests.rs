@@ -1,6 +1,6 @@
 //! Tests of the curves between the ends of a step. They stand apart from code that may be emitted.
 
-use super::curve::{about, along, farthest, parabola, predicted, quintic, value_and_slopes};
+use super::curve::{about, along, farthest, parabola, predicted, quintic, value_and_derivatives};
 
 #[test]
 fn a_quintic_has_value_slope_and_curvature_of_both_ends() {
@@ -10,7 +10,7 @@ fn a_quintic_has_value_slope_and_curvature_of_both_ends() {
     for x in [0.0, 0.25, 0.5, 1.0] {
         let expected = end(1.0 + 2.0 * x)[0];
         assert!((along(&curve, x) - expected).abs() < 1e-11 * expected, "{x}");
-        let [value, slope, curvature] = value_and_slopes(&curve, x);
+        let [value, slope, curvature] = value_and_derivatives(&curve, x);
         // derivatives by the fraction of a step of length 2
         let found = [value, slope / 2.0, curvature / 4.0];
         let is_met =

@@ -14,7 +14,7 @@ pub fn weigh(nodes: &[f64], t: f64, weights: &mut [[f64; 3]]) {
 }
 
 /// Computes the weights without second derivatives: `L² (1 − 2 s d)` for the value, `L² d` for the slope and 0; see [`weigh`].
-pub fn weigh_slopes(nodes: &[f64], t: f64, weights: &mut [[f64; 3]]) {
+pub fn slope_weights(nodes: &[f64], t: f64, weights: &mut [[f64; 3]]) {
     for (k, (&node, weights)) in nodes.iter().zip(weights).enumerate() {
         let (d, [lagrange, s, _]) = (t - node, lagrange_polynomial(nodes, k, t));
         let square = lagrange * lagrange;
@@ -36,7 +36,7 @@ fn lagrange_polynomial(nodes: &[f64], k: usize, t: f64) -> [f64; 3] {
 
 #[cfg(test)]
 mod tests {
-    use super::{weigh, weigh_slopes};
+    use super::{slope_weights, weigh};
 
     /// Returns a polynomial of some degree with its first and second derivative.
     fn polynomial(degree: u32, t: f64) -> [f64; 3] {
@@ -60,7 +60,7 @@ mod tests {
         }
         for (nodes, t) in [(&[0.3][..], 0.7), (&[0.0, -0.4], 0.3), (&[0.1, -0.2, -0.3, -0.45], 0.22)] {
             let mut weights = [[0.0; 3]; 4];
-            weigh_slopes(nodes, t, &mut weights);
+            slope_weights(nodes, t, &mut weights);
             check_polynomial(nodes, t, 2, &weights);
         }
     }

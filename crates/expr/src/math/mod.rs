@@ -17,15 +17,15 @@ mod sin_cos_lanes;
 mod vectors;
 
 pub use curve::{
-    about, along, between, cubic, farthest, integral_of_quintic, parabola, predicted, quintic, value_and_slopes,
+    about, along, between, cubic, farthest, integral_of_quintic, parabola, predicted, quintic, value_and_derivatives,
 };
-pub use hermite_weights::{weigh, weigh_slopes};
+pub use hermite_weights::{slope_weights, weigh};
 pub use mechc_runtime::neighbours::bisect;
 pub use mechc_runtime::sine_and_cosine::{A_MILLION, sin_cos};
 pub use mechc_runtime::{blocks, grid, hermite, neighbours};
-pub use search::{GOLDEN, GoldenSection, Halving, boundary, close_in, median};
+pub use search::{GOLDEN, GoldenSection, Halving, boundary, enclose_root, median};
 pub use sin_cos_lanes::sin_cos_lanes;
-pub use vectors::{Vectors, WIDE, to_next_line};
+pub use vectors::{Vectors, WIDE, numbers_to_cache_line};
 
 /// Returns the largest power of two that is not above a positive number.
 #[must_use]

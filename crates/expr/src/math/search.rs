@@ -18,7 +18,7 @@ pub fn boundary(low: f64, high: f64, mut is_beyond: impl FnMut(f64) -> bool) -> 
 /// the start of the search. Each start is a position with its distance from the crossing. `look` returns whether a position is behind the
 /// crossing, and its distance: any measure that vanishes at the crossing, or NaN if unknown. `None` from `look` ends the search.
 /// Source: the Illinois method, M. Dowell and P. Jarratt, *A modified regula falsi method*, BIT 11, 1971.
-pub fn close_in(
+pub fn enclose_root(
     [mut before, mut behind]: [[f64; 2]; 2],
     grid: f64,
     mut look: impl FnMut(f64) -> Option<(bool, f64)>,

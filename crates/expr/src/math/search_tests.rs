@@ -1,7 +1,7 @@
 //! Tests of bisection, secants, golden section and halving. They stand apart from code that may be emitted.
 
 use super::neighbours::{bisect, shortly_after};
-use super::search::{GoldenSection, Halving, boundary, close_in};
+use super::search::{GoldenSection, Halving, boundary, enclose_root};
 use std::convert::Infallible;
 
 #[test]
@@ -45,7 +45,7 @@ fn secants_close_in_on_neighbours() {
             }
         };
         let ends = ends.map(|x| [x, f(x).abs()]);
-        let found = close_in(ends, 0.0, |x| {
+        let found = enclose_root(ends, 0.0, |x| {
             looks += 1;
             Some((is_behind(x), f(x).abs()))
         });
@@ -55,10 +55,10 @@ fn secants_close_in_on_neighbours() {
     }
     for ends in [[0.0, 1.0], [0.3, 7.0], [-0.1, 0.6]] {
         let ends = ends.map(|x| [x, f64::abs(x - 0.51)]);
-        let coarse = close_in(ends, 0.25, |x| Some((x >= 0.51, (x - 0.51).abs()))).unwrap_or_default();
+        let coarse = enclose_root(ends, 0.25, |x| Some((x >= 0.51, (x - 0.51).abs()))).unwrap_or_default();
         assert_eq!(coarse.to_vec(), [0.5, f64::min(0.75, ends[1][0])], "{ends:?}");
     }
-    assert!(close_in([[0.0, 1.0], [1.0, 1.0]], 0.0, |_| None).is_none());
+    assert!(enclose_root([[0.0, 1.0], [1.0, 1.0]], 0.0, |_| None).is_none());
 }
 
 #[test]

@@ -62,7 +62,7 @@ pub const WIDE: usize = 8;
 
 /// Returns the number of `f64` from an address to the next cache line. Writing whole cache lines is faster.
 #[must_use]
-pub fn to_next_line(address: *const f64) -> usize {
+pub fn numbers_to_cache_line(address: *const f64) -> usize {
     address.align_offset(WIDE * size_of::<f64>()) % WIDE
 }
 

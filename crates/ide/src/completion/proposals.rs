@@ -5,7 +5,7 @@ use super::item::{CompletionItem, CompletionItemKind, Template};
 use crate::location::FilePosition;
 use crate::snapshot::Snapshot;
 use mechc_lang::check::name_of;
-use mechc_pipeline::{Checked, Drawn};
+use mechc_pipeline::{Checked, InitialPose};
 use mechc_syntax::ast::{ItemKind as Declared, Mechanism};
 use mechc_text::vocabulary::KEYWORDS;
 use std::f64::consts::PI;
@@ -57,7 +57,7 @@ impl OtherDeclarations {
 
     /// Returns pairs of coincident points that no joint connects, such as `crank.B` and `coupler.B`.
     pub fn coincident_points(&self) -> Vec<[String; 2]> {
-        self.with(|checked| Some(coincident_points(&checked.drawn()?, checked.tree()?))).unwrap_or_default()
+        self.with(|checked| Some(coincident_points(&checked.initial_pose()?, checked.tree()?))).unwrap_or_default()
     }
 
     /// Returns quantities that could be driven, each with a formula that starts at its drawn value.
@@ -70,7 +70,7 @@ impl OtherDeclarations {
     }
 }
 
-fn coincident_points(drawn: &Drawn, tree: &Mechanism) -> Vec<[String; 2]> {
+fn coincident_points(drawn: &InitialPose, tree: &Mechanism) -> Vec<[String; 2]> {
     let points: Vec<_> = drawn.points.iter().filter(|point| point.at.iter().all(|x| x.is_finite())).collect();
     let largest = |k: usize| points.iter().map(|point| point.at[k]).fold(f64::NEG_INFINITY, f64::max);
     let least = |k: usize| points.iter().map(|point| point.at[k]).fold(f64::INFINITY, f64::min);
@@ -109,13 +109,13 @@ pub(crate) fn free_quantities(snapshot: &Snapshot, position: &FilePosition) -> O
         .iter()
         .position(|one| one.span().is_some_and(|span| (span.start..=span.end).contains(&position.offset)))?;
     let (checked, proofs) = (file.mechanisms.get(at)?, snapshot.proofs(&position.path)?);
-    let drawn = checked.drawn()?;
+    let drawn = checked.initial_pose()?;
     let driven = proofs.get(at)?.diagnostics.iter().flat_map(|diagnostic| &diagnostic.drives);
     Some(driven.map(|driven| (driven.clone(), formula(&drawn, driven))).collect())
 }
 
 /// Returns a formula of time that starts at the drawn value of a quantity.
-fn formula(drawn: &Drawn, driven: &str) -> String {
+fn formula(drawn: &InitialPose, driven: &str) -> String {
     let (quantity, of) = driven.trim_end_matches(')').split_once('(').unwrap_or_default();
     let point = |k: usize| {
         drawn.points.iter().find(|point| format!("{}.{}", point.body, point.name) == of).map(|point| point.at[k])

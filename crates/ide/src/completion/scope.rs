@@ -6,7 +6,7 @@ use super::expected::Expected;
 use super::item::{CompletionItem, CompletionItemKind, Template};
 use crate::lexical::matches_letters;
 use crate::occurrences::{find_mechanism, item_named};
-use mechc_lang::check::{KnownMechanism, NameKind, name_of};
+use mechc_lang::check::{LibraryMechanism, NameKind, name_of};
 use mechc_pipeline::Checked;
 use mechc_syntax::ast::{ExprKind, Feature, Item as Declaration, ItemKind as Declared, Mechanism, MechanismName, Name};
 use mechc_text::source::Span;
@@ -365,12 +365,12 @@ fn with_indices(item: &Declaration, name: &str) -> String {
 }
 
 /// Returns all mechanisms that can be parts in the text, each with its prefix.
-fn all_mechanisms(checked: &Checked) -> impl Iterator<Item = (Option<&str>, KnownMechanism)> {
+fn all_mechanisms(checked: &Checked) -> impl Iterator<Item = (Option<&str>, LibraryMechanism)> {
     let files = checked.library().files();
     let this_file = files.first();
     let of = move |file: usize| {
         let count = files.get(file).map_or(0, |file| file.read.tree.mechanisms.len());
-        (0..count).map(move |number| KnownMechanism { file, number })
+        (0..count).map(move |number| LibraryMechanism { file, number })
     };
     let used = this_file.into_iter().flat_map(|file| file.read.tree.uses.iter().zip(&file.uses));
     let used =
@@ -389,7 +389,7 @@ pub(super) fn mechanisms(checked: &Checked, prefix: Option<&str>) -> Vec<Complet
     let this = checked.tree().map(|tree| tree.name.span);
     let library = checked.library();
     let others = all_mechanisms(checked).filter(|(_, id)| Some(library.tree(*id).name.span) != this);
-    let item = |(before, id): (Option<&str>, KnownMechanism)| {
+    let item = |(before, id): (Option<&str>, LibraryMechanism)| {
         let tree = library.tree(id);
         let label = match before.filter(|_| prefix.is_none()) {
             Some(before) => format!("{before}.{}", tree.name.text),

@@ -25,7 +25,7 @@ mod transport;
 mod uri;
 
 pub use log::Log;
-pub use server::{Ended, serve};
+pub use server::{SessionEnd, serve};
 
 use mechc_text::world::World;
 use std::sync::Arc;
@@ -38,11 +38,11 @@ pub fn methods() -> impl Iterator<Item = &'static str> {
 
 /// Serves a client on standard input and output until it ends the session or disappears.
 #[must_use]
-pub fn serve_pipe(world: Arc<dyn World>, log: Log) -> Ended {
+pub fn serve_pipe(world: Arc<dyn World>, log: Log) -> SessionEnd {
     let (connection, transport) = transport::standard();
     let ended = serve(connection, world, log);
     // after the client's process has ended, a pipe that others hold open would block the writer for ever
-    if ended != Ended::Left {
+    if ended != SessionEnd::Left {
         transport.finish();
     }
     ended

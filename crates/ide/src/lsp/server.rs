@@ -46,7 +46,7 @@ const IDLE: Duration = Duration::from_secs(3600);
 
 /// The way in which a session ended.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Ended {
+pub enum SessionEnd {
     /// The client sent `shutdown` and `exit`, as the protocol requires.
     Well,
     /// The input ended without `shutdown`.
@@ -59,7 +59,7 @@ pub enum Ended {
 
 /// Serves a client until it ends the session or disappears.
 #[must_use]
-pub fn serve(connection: Connection, world: Arc<dyn World>, log: Log) -> Ended {
+pub fn serve(connection: Connection, world: Arc<dyn World>, log: Log) -> SessionEnd {
     let Connection { sender, receiver } = connection;
     let (task_sender, tasks) = unbounded();
     let snapshot = Snapshot::new(world);
@@ -168,7 +168,7 @@ pub(super) struct Server {
 }
 
 impl Server {
-    fn run(&mut self, receiver: &Receiver<Message>, tasks: &Receiver<Task>, events: &Receiver<Event>) -> Ended {
+    fn run(&mut self, receiver: &Receiver<Message>, tasks: &Receiver<Task>, events: &Receiver<Event>) -> SessionEnd {
         loop {
             select! {
                 recv(receiver) -> message => match message {
@@ -179,7 +179,7 @@ impl Server {
                             Message::Request(request) => self.handle_request(request),
                             Message::Response(response) => self.finish_edit(response),
                             Message::Notification(notification) if notification.method == "exit" => {
-                                return if self.state == State::ShutDown { Ended::Well } else { self.ended_early() };
+                                return if self.state == State::ShutDown { SessionEnd::Well } else { self.ended_early() };
                             }
                             Message::Notification(notification) => self.handle_notification(notification),
                         }
@@ -190,15 +190,15 @@ impl Server {
                 default(self.next_wakeup()) => {}
             }
             if self.parent.as_ref().is_some_and(Parent::has_ended) {
-                return Ended::Left;
+                return SessionEnd::Left;
             }
             self.cancel_long_motions();
             self.start_due_motions();
         }
     }
 
-    fn ended_early(&self) -> Ended {
-        if self.state == State::New { Ended::Unbegun } else { Ended::Early }
+    fn ended_early(&self) -> SessionEnd {
+        if self.state == State::New { SessionEnd::Unbegun } else { SessionEnd::Early }
     }
 
     fn send(&self, message: impl Into<Message>) {

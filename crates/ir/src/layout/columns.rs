@@ -1,6 +1,6 @@
 //! The columns of the table for display.
 
-use super::rows::{Holds, holds};
+use super::rows::{ColumnContent, holds};
 use crate::{ConstraintSystem, Coordinate, Outcome, Owner, Units};
 
 /// A column of the table.
@@ -96,27 +96,27 @@ pub fn columns(system: &ConstraintSystem) -> Vec<Column> {
 }
 
 /// Returns the column of the table with a content; `None` if the table does not show it.
-fn column(system: &ConstraintSystem, holds: Holds) -> Option<Column> {
+fn column(system: &ConstraintSystem, holds: ColumnContent) -> Option<Column> {
     Some(match holds {
-        Holds::Time => Column { name: "t".to_owned(), unit: ColumnUnit::si("s"), kind: ColumnKind::Time },
-        Holds::Coordinate { index, order } => coordinate_column(&system.coordinates()[index], order),
-        Holds::Reaction(index) => {
+        ColumnContent::Time => Column { name: "t".to_owned(), unit: ColumnUnit::si("s"), kind: ColumnKind::Time },
+        ColumnContent::Coordinate { index, order } => coordinate_column(&system.coordinates()[index], order),
+        ColumnContent::Reaction(index) => {
             let of = &system.reactions()[index];
             let unit = ColumnUnit::si(of.unit.clone());
             Column { name: of.name.clone(), unit, kind: ColumnKind::Reaction }
         }
-        Holds::Measure { index, order } => {
+        ColumnContent::Measure { index, order } => {
             let measure = &system.measures()[index];
             let name = measure.name.clone() + ENDINGS[order].0;
             let kind = if order == 0 { ColumnKind::Measure } else { ColumnKind::Rate };
             Column { name, unit: ColumnUnit::from_units(&measure.units, order), kind }
         }
-        Holds::Appended(index) => {
-            let of = &system.appended()[index];
+        ColumnContent::DerivativeColumn(index) => {
+            let of = &system.derivative_columns()[index];
             let unit = ColumnUnit::new(of.unit.clone(), of.scale);
             Column { name: of.name.clone(), unit, kind: ColumnKind::Variation }
         }
-        Holds::Slope { .. } | Holds::Varied | Holds::Multiplier => return None,
+        ColumnContent::Slope { .. } | ColumnContent::Varied | ColumnContent::Multiplier => return None,
     })
 }
 

@@ -7,4 +7,4 @@ mod columns;
 mod rows;
 
 pub use columns::{Column, ColumnKind, ColumnUnit, columns, results};
-pub use rows::{Holds, RowLayout, holds, row_holds};
+pub use rows::{ColumnContent, RowLayout, holds, row_contents};

@@ -16,7 +16,7 @@ enum Section {
     /// The measures that have a time derivative of the given order.
     Measures(usize),
     /// Derivatives with columns of their own.
-    Appended,
+    DerivativeColumn,
     /// Derivatives of `q` with respect to each input, then each parameter.
     Slopes,
     /// The variations: `q`, `q̇` and `q̈` of each, one after the other.
@@ -35,7 +35,7 @@ const PRINTED: [Section; 9] = [
     Section::Measures(1),
     Section::Coordinates(2),
     Section::Measures(2),
-    Section::Appended,
+    Section::DerivativeColumn,
 ];
 
 /// Sections that only measures need, after the table.
@@ -43,7 +43,7 @@ const UNPRINTED: [Section; 4] = [Section::Coordinates(3), Section::Slopes, Secti
 
 /// Content of a column.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Holds {
+pub enum ColumnContent {
     /// Time.
     Time,
     /// A coordinate, differentiated `order` times with respect to time.
@@ -63,7 +63,7 @@ pub enum Holds {
         order: usize,
     },
     /// A derivative with a column of its own, by its number.
-    Appended(usize),
+    DerivativeColumn(usize),
     /// A derivative of a coordinate with respect to an input or a parameter.
     Slope {
         /// Number of the coordinate.
@@ -79,13 +79,13 @@ pub enum Holds {
 
 /// Returns the contents of the table's columns, in order.
 #[must_use]
-pub fn holds(system: &ConstraintSystem) -> Vec<Holds> {
+pub fn holds(system: &ConstraintSystem) -> Vec<ColumnContent> {
     PRINTED.into_iter().flat_map(|section| section.holds(system)).collect()
 }
 
 /// Returns the contents of all columns of a row, in order: those of the table, then those that only the solver uses.
 #[must_use]
-pub fn row_holds(system: &ConstraintSystem) -> Vec<Holds> {
+pub fn row_contents(system: &ConstraintSystem) -> Vec<ColumnContent> {
     PRINTED.into_iter().chain(UNPRINTED).flat_map(|section| section.holds(system)).collect()
 }
 
@@ -104,31 +104,33 @@ impl Section {
             Section::Coordinates(_) => n,
             Section::Reactions => system.reactions().len(),
             Section::Measures(order) => measures_with(system, order).count(),
-            Section::Appended => system.appended().len(),
+            Section::DerivativeColumn => system.derivative_columns().len(),
             Section::Slopes => n * system.slopes().len(),
             Section::Varied => 3 * n * system.variations().len(),
-            Section::Multipliers => system.needed_forces().len() * (1 + system.variations().len()),
+            Section::Multipliers => system.required_forces().len() * (1 + system.variations().len()),
         }
     }
 
-    fn holds(self, system: &ConstraintSystem) -> Vec<Holds> {
+    fn holds(self, system: &ConstraintSystem) -> Vec<ColumnContent> {
         match self {
-            Section::Time => vec![Holds::Time],
+            Section::Time => vec![ColumnContent::Time],
             Section::Coordinates(3) if system.jerk().is_none() => Vec::new(),
             Section::Coordinates(order) => {
-                (0..system.coordinates().len()).map(|index| Holds::Coordinate { index, order }).collect()
+                (0..system.coordinates().len()).map(|index| ColumnContent::Coordinate { index, order }).collect()
             }
-            Section::Reactions => (0..system.reactions().len()).map(Holds::Reaction).collect(),
+            Section::Reactions => (0..system.reactions().len()).map(ColumnContent::Reaction).collect(),
             Section::Measures(order) => {
-                measures_with(system, order).map(|index| Holds::Measure { index, order }).collect()
+                measures_with(system, order).map(|index| ColumnContent::Measure { index, order }).collect()
             }
-            Section::Appended => (0..system.appended().len()).map(Holds::Appended).collect(),
+            Section::DerivativeColumn => {
+                (0..system.derivative_columns().len()).map(ColumnContent::DerivativeColumn).collect()
+            }
             Section::Slopes => {
-                let of_each = |by| (0..system.coordinates().len()).map(move |of| Holds::Slope { of, by });
+                let of_each = |by| (0..system.coordinates().len()).map(move |of| ColumnContent::Slope { of, by });
                 system.slopes().into_iter().flat_map(of_each).collect()
             }
-            Section::Varied => vec![Holds::Varied; self.length(system)],
-            Section::Multipliers => vec![Holds::Multiplier; self.length(system)],
+            Section::Varied => vec![ColumnContent::Varied; self.length(system)],
+            Section::Multipliers => vec![ColumnContent::Multiplier; self.length(system)],
         }
     }
 }
@@ -187,7 +189,7 @@ impl RowLayout {
                 Section::Coordinates(order) => layout.coordinates[order] = first,
                 Section::Reactions => layout.reactions = first,
                 Section::Measures(order) => layout.measures[order] = first,
-                Section::Appended => layout.appended = first,
+                Section::DerivativeColumn => layout.appended = first,
                 Section::Slopes => layout.slopes = first,
                 Section::Varied => layout.varied = first,
                 Section::Multipliers => layout.multipliers = first,

@@ -1,8 +1,8 @@
 //! Compilation of a constraint system to operations.
 
 use super::{
-    CheckSlopeRegisters, Inputs, Op, Outputs, PlacedRim, PlacedSide, Program, Register, STAGES, Stage, Switch,
-    TableLayout,
+    BoundaryRegisters, CheckSlopeRegisters, Inputs, Op, Outputs, Program, Register, RightSideRegisters, STAGES, Stage,
+    Switch, TableLayout,
 };
 use crate::{self as ir, ConstraintSystem, RightSide, With};
 use mechc_expr::{Binary, Comparison, Dependence, ExprId, Graph, Node, Symbol, TIME_SIGNAL, TableId, Unary};
@@ -38,14 +38,14 @@ impl Program {
             phi_q: layout.emit_all(Stage::Position, system.phi_q().entries().iter().map(|&(_, id)| id)),
             conditions: layout.emit_all(Stage::Position, system.conditions().iter().map(|c| c.positive)),
             checks: layout.emit_all(Stage::Position, system.checks().iter().map(|c| c.phi)),
-            watches: layout.emit_all(Stage::Position, system.watches().iter().map(|w| w.value)),
+            watches: layout.emit_all(Stage::Position, system.monitors().iter().map(|w| w.value)),
             ..Outputs::default()
         };
         outputs.terms =
             system.rows().iter().map(|row| layout.emit_all(Stage::Position, system.graph().terms(row.phi))).collect();
         let (at_position, comparisons) = (layout.register_of.clone(), layout.comparisons.clone());
         outputs.right_sides = layout.right_sides(system);
-        outputs.forces = layout.emit_all(Stage::Forces, system.needed_forces().iter().copied());
+        outputs.forces = layout.emit_all(Stage::Forces, system.required_forces().iter().copied());
         let mut varied = |list: &[ExprId]| layout.emit_all(Stage::Variation, list.iter().copied());
         let slopes = system.check_slopes();
         outputs.check_slopes = CheckSlopeRegisters {
@@ -66,10 +66,11 @@ impl Program {
         outputs.measures = layout.emit_all(Stage::Measures, system.measures().iter().map(|m| m.value));
         outputs.measures_d = layout.emit_all(Stage::Measures, system.measures().iter().filter_map(|m| m.first));
         outputs.measures_dd = layout.emit_all(Stage::Measures, system.measures().iter().filter_map(|m| m.second));
-        outputs.appended = layout.emit_all(Stage::Measures, system.appended().iter().map(|column| column.value));
+        outputs.appended =
+            layout.emit_all(Stage::Measures, system.derivative_columns().iter().map(|column| column.value));
         // boundaries are evaluated after time and position alone
         (layout.register_of, layout.comparisons) = (at_position, comparisons);
-        outputs.rims = system.rims().iter().map(|rim| layout.rim(rim)).collect();
+        outputs.rims = system.domain_boundaries().iter().map(|rim| layout.rim(rim)).collect();
         layout.finish(outputs)
     }
 }
@@ -153,13 +154,13 @@ impl<'s> Layout<'s> {
     }
 
     /// Lays out all right sides, in the order of their stages.
-    fn right_sides(&mut self, system: &ConstraintSystem) -> Vec<PlacedSide> {
+    fn right_sides(&mut self, system: &ConstraintSystem) -> Vec<RightSideRegisters> {
         let mut sides: Vec<(Stage, &RightSide)> =
             system.right_sides().iter().map(|side| (stage_of(side.with), side)).collect();
         sides.sort_by_key(|(stage, side)| (*stage, side.with));
-        let mut placed: Vec<PlacedSide> = Vec::with_capacity(sides.len());
+        let mut placed: Vec<RightSideRegisters> = Vec::with_capacity(sides.len());
         for (stage, RightSide { with, entries }) in sides {
-            placed.push(PlacedSide { with: *with, entries: self.emit_all(stage, entries.iter().copied()) });
+            placed.push(RightSideRegisters { with: *with, entries: self.emit_all(stage, entries.iter().copied()) });
         }
         placed.sort_by_key(|side| side.with);
         placed
@@ -198,11 +199,11 @@ impl<'s> Layout<'s> {
         }
     }
 
-    fn rim(&mut self, rim: &ir::Rim) -> PlacedRim {
+    fn rim(&mut self, rim: &ir::DomainBoundary) -> BoundaryRegisters {
         let moves = self.graph.dependence(rim.gauge).highest_order().is_some();
         let terms = self.emit_all(Stage::Rims, self.graph.terms(rim.gauge));
         let registers = self.emit_all(Stage::Rims, [rim.gauge, rim.slope]);
-        PlacedRim { gauge: registers[0], slope: registers[1], terms, on_time: !moves }
+        BoundaryRegisters { gauge: registers[0], slope: registers[1], terms, on_time: !moves }
     }
 
     /// Returns the stage in which a node is computed when stage `needed_in` needs it first.

@@ -9,12 +9,12 @@ use mechc_expr::{Binary, Comparison, Unary, binary_value, compare, piece, unary_
 pub struct Registers {
     values: Vec<f64>,
     /// Switches that keep their results.
-    frozen: Frozen,
+    frozen: FrozenSwitches,
 }
 
 /// Selection of the switches that keep their results instead of following their formulas.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
-pub struct Frozen {
+pub struct FrozenSwitches {
     /// True for the switches that depend on time alone.
     pub time: bool,
     /// True for all other switches.
@@ -29,7 +29,7 @@ impl Registers {
     }
 
     /// Freezes the selected switches from now on; all others follow their formulas.
-    pub fn freeze(&mut self, frozen: Frozen) {
+    pub fn freeze(&mut self, frozen: FrozenSwitches) {
         self.frozen = frozen;
     }
 
@@ -48,7 +48,7 @@ impl Program {
     /// Creates the registers with constants and parameters, and runs the prologue.
     #[must_use]
     pub fn start(&self, params: &[f64]) -> Registers {
-        let mut registers = Registers { values: vec![0.0; self.registers()], frozen: Frozen::default() };
+        let mut registers = Registers { values: vec![0.0; self.registers()], frozen: FrozenSwitches::default() };
         for &(register, value) in &self.constants {
             registers.set(register, value);
         }
@@ -119,7 +119,7 @@ impl Program {
 
 impl Program {
     /// Runs some operations of a stage whose switches are never frozen.
-    pub fn run_only(&self, operations: &[Op], registers: &mut Registers) {
+    pub fn run_operations(&self, operations: &[Op], registers: &mut Registers) {
         let mut numbers = Numbers { tables: &self.tables, v: registers.values.as_mut_slice() };
         for op in operations {
             op.run(&mut numbers);

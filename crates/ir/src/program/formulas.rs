@@ -11,13 +11,13 @@ impl Program {
     /// evaluates them in [`Stage::Measures`], and their registers.
     #[must_use]
     pub fn of_formulas(graph: &Graph, counts: [usize; 4], roots: &[ExprId]) -> (Program, Vec<Register>) {
-        let (program, registers, _) = Program::of_formulas_and_nodes(graph, counts, roots);
+        let (program, registers, _) = Program::from_formulas_with_nodes(graph, counts, roots);
         (program, registers)
     }
 
     /// Compiles formulas as [`Program::of_formulas`] does; also returns the node of each register that the formulas depend on.
     #[must_use]
-    pub fn of_formulas_and_nodes(
+    pub fn from_formulas_with_nodes(
         graph: &Graph,
         counts: [usize; 4],
         roots: &[ExprId],

@@ -51,7 +51,7 @@ impl Enclosure {
 
     /// Creates the enclosure of registers that depend on time alone.
     #[must_use]
-    pub fn of_registers(program: &Program, registers: &Registers, roots: &[Register]) -> Enclosure {
+    pub fn for_registers(program: &Program, registers: &Registers, roots: &[Register]) -> Enclosure {
         Enclosure {
             operations: backward_slice(program, roots, &[Stage::Time]),
             switches: Vec::new(),
@@ -72,7 +72,7 @@ impl Enclosure {
             if on_time { &[Stage::Rims, Stage::Time] } else { &[Stage::Rims, Stage::Position, Stage::Time] };
         Enclosure {
             operations: backward_slice(program, &roots, stages),
-            ..Enclosure::of_registers(program, registers, &[])
+            ..Enclosure::for_registers(program, registers, &[])
         }
     }
 

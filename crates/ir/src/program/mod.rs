@@ -22,11 +22,11 @@ mod range_bounds;
 mod tables;
 mod time_terms;
 
-pub use evaluate::{Frozen, Registers, truth};
+pub use evaluate::{FrozenSwitches, Registers, truth};
 pub use interval_eval::Enclosure;
 pub use lanes::{LaneMachine, LaneValues};
-pub use op::{Few, Machine, Op};
-pub use range_bounds::{Hold, Range, Ranges};
+pub use op::{Machine, Op, RegisterList};
+pub use range_bounds::{Range, Ranges, Restriction};
 pub use time_terms::Signal;
 
 use crate::With;
@@ -213,7 +213,7 @@ pub struct Outputs {
     /// `Φ_q`, in the order of the entries of its pattern.
     pub phi_q: Vec<Register>,
     /// Right sides of the differentiated equations, in the order of [`With`].
-    pub right_sides: Vec<PlacedSide>,
+    pub right_sides: Vec<RightSideRegisters>,
     /// `p` of `Φ_qᵀ λ = p`, `n`; empty if forces are not requested.
     pub forces: Vec<Register>,
     /// Right sides of each variation of `q`, `q̇` and `q̈`, `n` each.
@@ -241,14 +241,14 @@ pub struct Outputs {
     /// Quantities that keep their signs along a branch.
     pub watches: Vec<Register>,
     /// Domain boundaries.
-    pub rims: Vec<PlacedRim>,
+    pub rims: Vec<BoundaryRegisters>,
     /// Terms of the sum of each row, which scale its rounding.
     pub terms: Vec<Vec<Register>>,
 }
 
 /// Registers of a right side.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub struct PlacedSide {
+pub struct RightSideRegisters {
     /// Variable of differentiation.
     pub with: With,
     /// Entries, `n`.
@@ -310,7 +310,7 @@ impl Outputs {
 
 /// Registers of a domain boundary.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub struct PlacedRim {
+pub struct BoundaryRegisters {
     /// The event function.
     pub gauge: Register,
     /// Its time derivative.
@@ -352,7 +352,7 @@ pub struct Switch {
 impl Program {
     /// Returns the program with signals as inputs: without the operations that compute them from the text's formulas. Registers keep their indices.
     #[must_use]
-    pub fn with_signals_given(&self) -> Program {
+    pub fn with_signals_as_inputs(&self) -> Program {
         let signals = self.inputs.all_signals();
         let mut is_read = vec![false; self.registers];
         self.outputs.all(|register| is_read[register as usize] = true);

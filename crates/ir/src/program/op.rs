@@ -415,16 +415,16 @@ impl Op {
 
     /// Returns the registers that it reads, without table columns.
     #[must_use]
-    pub fn reads(self) -> Few<5> {
-        let mut reads = Few::default();
+    pub fn reads(self) -> RegisterList<5> {
+        let mut reads = RegisterList::default();
         let _ = self.renumbered(|register| reads.note(register), |register| register);
         reads
     }
 
     /// Returns the registers that it writes.
     #[must_use]
-    pub fn writes(self) -> Few<2> {
-        let mut writes = Few::default();
+    pub fn writes(self) -> RegisterList<2> {
+        let mut writes = RegisterList::default();
         let _ = self.renumbered(|register| register, |register| writes.note(register));
         writes
     }
@@ -496,18 +496,18 @@ impl Op {
 
 /// Up to `N` registers.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub struct Few<const N: usize> {
+pub struct RegisterList<const N: usize> {
     registers: [Register; N],
     count: usize,
 }
 
-impl<const N: usize> Default for Few<N> {
-    fn default() -> Few<N> {
-        Few { registers: [0; N], count: 0 }
+impl<const N: usize> Default for RegisterList<N> {
+    fn default() -> RegisterList<N> {
+        RegisterList { registers: [0; N], count: 0 }
     }
 }
 
-impl<const N: usize> Few<N> {
+impl<const N: usize> RegisterList<N> {
     /// Adds a register and returns it.
     pub fn note(&mut self, register: Register) -> Register {
         self.registers[self.count] = register;
@@ -516,7 +516,7 @@ impl<const N: usize> Few<N> {
     }
 }
 
-impl<const N: usize> std::ops::Deref for Few<N> {
+impl<const N: usize> std::ops::Deref for RegisterList<N> {
     type Target = [Register];
 
     fn deref(&self) -> &[Register] {
@@ -524,7 +524,7 @@ impl<const N: usize> std::ops::Deref for Few<N> {
     }
 }
 
-impl<const N: usize> IntoIterator for Few<N> {
+impl<const N: usize> IntoIterator for RegisterList<N> {
     type Item = Register;
     type IntoIter = std::iter::Take<std::array::IntoIter<Register, N>>;
 

@@ -27,7 +27,7 @@ pub struct Range {
 
 /// A restriction of a register's interval that the caller has proved.
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub enum Hold {
+pub enum Restriction {
     /// The register keeps one value: the result of a switch.
     At(f64),
     /// The register stays above zero.
@@ -36,14 +36,14 @@ pub enum Hold {
     Below,
 }
 
-impl Hold {
+impl Restriction {
     fn restrict(self, interval: Interval) -> Interval {
         match self {
-            Hold::At(value) => Interval { low: value, high: value },
-            Hold::Above => {
+            Restriction::At(value) => Interval { low: value, high: value },
+            Restriction::Above => {
                 Interval { low: interval.low.max(f64::MIN_POSITIVE), high: interval.high.max(f64::MIN_POSITIVE) }
             }
-            Hold::Below => {
+            Restriction::Below => {
                 Interval { low: interval.low.min(-f64::MIN_POSITIVE), high: interval.high.min(-f64::MIN_POSITIVE) }
             }
         }
@@ -89,7 +89,7 @@ pub struct Ranges {
     is_frozen: bool,
     values: Vec<Interval>,
     /// Restrictions by register, and the restricted registers.
-    holds: Vec<Option<Hold>>,
+    holds: Vec<Option<Restriction>>,
     held: Vec<Register>,
     /// By register: true if the formula of the last [`Ranges::find_live`] depends on it.
     is_live: Vec<bool>,
@@ -166,7 +166,7 @@ impl Ranges {
     }
 
     /// Restricts a register until [`Ranges::release`].
-    pub fn hold(&mut self, register: Register, hold: Hold) {
+    pub fn hold(&mut self, register: Register, hold: Restriction) {
         let at = register as usize;
         // an input is not computed, so it is restricted at once
         self.values[at] = hold.restrict(self.values[at]);

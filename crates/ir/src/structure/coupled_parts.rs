@@ -2,7 +2,7 @@
 //! its surroundings.
 
 use super::{Determined, errors, matching};
-use crate::{AskingPart, SparseRows};
+use crate::{PartWithDerivatives, SparseRows};
 use mechc_expr::Symbol;
 use mechc_text::diag::Diagnostics;
 
@@ -14,7 +14,7 @@ impl Determined {
     pub fn coupled_parts(&self) -> Result<Vec<String>, Diagnostics> {
         let mut diagnostics = Diagnostics::default();
         let (mut coupled, mut reported) = (Vec::new(), Vec::new());
-        for part in self.system.asking_parts() {
+        for part in self.system.parts_with_derivatives() {
             // a fault that all copies of a part share is reported once
             if reported.contains(&part.places.as_slice()) {
                 continue;
@@ -39,7 +39,7 @@ impl Determined {
 
     /// Returns the numbers of equations and coordinates of a part, if it is not determined alone. A left-out equation counts where the
     /// others suffice.
-    fn counts_alone(&self, part: &AskingPart) -> Option<[usize; 2]> {
+    fn counts_alone(&self, part: &PartWithDerivatives) -> Option<[usize; 2]> {
         let rows = self.rows_of(part);
         // where inputs are scope, the scope has the coordinates that the rows contain then
         let scope = self.system.scopes().iter().find(|scope| scope.name == part.name);
@@ -54,7 +54,7 @@ impl Determined {
         (!is_alone).then_some([rows.len(), part.columns.len()])
     }
 
-    fn is_coupled(&self, part: &AskingPart) -> bool {
+    fn is_coupled(&self, part: &PartWithDerivatives) -> bool {
         let is_local_row =
             |row: &u32| part.declarations.binary_search(&self.system.rows()[*row as usize].declaration).is_ok();
         let is_local = |column: &u32| part.columns.binary_search(column).is_ok();
@@ -71,7 +71,7 @@ impl Determined {
             .any(|block| !(block.columns.iter().all(is_local) && block.rows.iter().all(is_local_row)))
     }
 
-    fn rows_of(&self, part: &AskingPart) -> Vec<u32> {
+    fn rows_of(&self, part: &PartWithDerivatives) -> Vec<u32> {
         let is_local = |row: &usize| part.declarations.binary_search(&self.system.rows()[*row].declaration).is_ok();
         (0..self.system.rows().len()).filter(is_local).map(|row| row as u32).collect()
     }

@@ -3,8 +3,8 @@
 use super::Subsystem;
 use super::count::table;
 use crate::{
-    AskingPart, ConstraintSystem, CoordinateKind, Declaration, DeclarationId, DeclarationKind, JointKind, Owner,
-    PointId,
+    ConstraintSystem, CoordinateKind, Declaration, DeclarationId, DeclarationKind, JointKind, Owner,
+    PartWithDerivatives, PointId,
 };
 use mechc_text::diag::{Code, Diagnostic};
 use rustc_hash::FxHashMap;
@@ -177,7 +177,7 @@ fn with_data(
 }
 
 /// Reports a part that requests derivatives by its own equations, which do not determine it.
-pub fn not_determined_alone(part: &AskingPart, rows: usize, columns: usize) -> Diagnostic {
+pub fn not_determined_alone(part: &PartWithDerivatives, rows: usize, columns: usize) -> Diagnostic {
     let message =
         format!("there is no derivative by the own equations of part `{}`, which is not determined alone", part.name);
     let counts = format!("with its inputs held it has {columns} coordinates and {rows} equations of its own");
@@ -189,7 +189,7 @@ pub fn not_determined_alone(part: &AskingPart, rows: usize, columns: usize) -> D
 }
 
 /// Reports a coupled part in a mechanism with left-out equations.
-pub fn coupled_without_equations(part: &AskingPart) -> Diagnostic {
+pub fn coupled_without_equations(part: &PartWithDerivatives) -> Diagnostic {
     let message = format!(
         "there is no derivative by the own equations of part `{}`, which moves together with what is around it",
         part.name
@@ -200,7 +200,7 @@ pub fn coupled_without_equations(part: &AskingPart) -> Diagnostic {
 }
 
 /// Reports the derivative of a force in a coupled part: its surroundings share the force, and its own equations do not contain them.
-pub fn force_of_coupled(part: &AskingPart) -> Diagnostic {
+pub fn force_of_coupled(part: &PartWithDerivatives) -> Diagnostic {
     let message = format!(
         "no force has a derivative by the own equations of part `{}`, which moves together with what is around it",
         part.name
@@ -215,7 +215,7 @@ pub fn force_of_coupled(part: &AskingPart) -> Diagnostic {
 }
 
 /// Adds the spans where a part requests derivatives, and those where the part is used.
-fn at_requests(mut diagnostic: Diagnostic, part: &AskingPart) -> Diagnostic {
+fn at_requests(mut diagnostic: Diagnostic, part: &PartWithDerivatives) -> Diagnostic {
     for (k, span) in part.places.iter().take(LISTED).enumerate() {
         let text = "by the equations of this mechanism alone";
         diagnostic = if k == 0 { diagnostic.at(*span, text) } else { diagnostic.also(*span, "and here") };
@@ -223,7 +223,7 @@ fn at_requests(mut diagnostic: Diagnostic, part: &AskingPart) -> Diagnostic {
     used_at(diagnostic, part)
 }
 
-fn used_at(mut diagnostic: Diagnostic, part: &AskingPart) -> Diagnostic {
+fn used_at(mut diagnostic: Diagnostic, part: &PartWithDerivatives) -> Diagnostic {
     for (name, span) in &part.used_at {
         diagnostic = diagnostic.in_part(name, *span);
     }

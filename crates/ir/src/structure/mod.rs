@@ -74,7 +74,7 @@ impl Determined {
 
     /// Returns the same mechanism with other rows of the full system left out; `None` if the remaining rows do not determine it.
     #[must_use]
-    pub fn leaving_out(&self, left_out: &[usize]) -> Option<Determined> {
+    pub fn with_rows_dropped(&self, left_out: &[usize]) -> Option<Determined> {
         Determined::without(self.whole().clone(), left_out.to_vec()).ok()
     }
 
@@ -113,8 +113,8 @@ impl Determined {
 
     /// Returns the same system with the variations that results need; `None` if results need no variations.
     #[must_use]
-    pub fn for_variations_of_results(&self) -> Option<Determined> {
-        let system = self.system.for_variations_of_results()?;
+    pub fn with_result_variations(&self) -> Option<Determined> {
+        let system = self.system.with_result_variations()?;
         Some(Determined { system, blocks: self.blocks.clone(), full: None })
     }
 

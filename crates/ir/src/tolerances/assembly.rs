@@ -113,7 +113,7 @@ pub mod drive {
 /// Continuation of inputs from nominal to given values (`crates/engine/src/analysis/follow/lead.rs`).
 pub mod lead {
     /// Distance before and behind a kink at which the mechanism is examined, as a part of the path.
-    pub const BESIDE_A_KINK: f64 = 1e-9;
+    pub const KINK_OFFSET: f64 = 1e-9;
     /// Largest difference of the positions before and behind a kink, scaled.
     pub const KINK: f64 = 1e-6;
     /// Maximum number of kinks on one path.

@@ -18,7 +18,7 @@ pub mod steps;
 pub const TOLERANCE: f64 = 1e-12;
 
 /// Default span (s): examined if no analysis is given, and the unit of steps and speeds if the span is 0.
-pub const UNTOLD_SPAN: f64 = 1.0;
+pub const DEFAULT_SPAN: f64 = 1.0;
 
 /// Jumps: differences between both sides of a time.
 pub mod jumps {

@@ -166,7 +166,7 @@ pub mod quadrature {
     pub const STEEPEST: f64 = 0.95;
     /// Largest distance from a pole, as a part of the span, at which a formula is a single power of the distance: halving the distance
     /// changes the growth factor, which is at least `LEAST_GROWTH`, by at most `ALIKE`. At smaller distances the rounding of times shows.
-    pub const BESIDE_POLE: f64 = 1e-8;
+    pub const POLE_DISTANCE: f64 = 1e-8;
     /// Two growth factors that differ by at most this belong to one power.
     pub const ALIKE: f64 = 1e-5;
     /// Smallest growth factor at a pole when the distance is halved.
@@ -200,7 +200,7 @@ pub mod loads {
     /// Rounding of a load between states, in multiples of its rounding at states.
     pub const ROUNDINGS: f64 = 4.0;
     /// Largest amplification of the uncertainty of a load by a formula.
-    pub const UNTOLD: f64 = 1e200;
+    pub const MAX_AMPLIFICATION: f64 = 1e200;
 }
 
 /// Second derivatives between states, and rounding of values (`crates/engine/src/analysis/results/curve.rs`).

@@ -11,7 +11,7 @@ pub mod reasons {
     /// Largest distance of a fold, as a part of the span.
     pub const NEAR_FOLD: f64 = 1e-5;
     /// A formula has reached the end of a function's domain, or a pole, if at most this part of its terms is left.
-    pub const AT_HAND: f64 = 1e-6;
+    pub const VANISHED: f64 = 1e-6;
     /// Smallest motion that is reported, as a part of the largest.
     pub const SEEN: f64 = 1e-3;
     /// A formula that ends is the explanation if it does so within this many of the last steps.

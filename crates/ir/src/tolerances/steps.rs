@@ -62,7 +62,7 @@ pub mod interval_eval {
 /// Signals: values that depend on time alone (`crates/engine/src/analysis/follow/edges/signals.rs`).
 pub mod signals {
     /// Largest effect on the mechanism, scaled, by which a signal may leave its values at the ends of a part of a step.
-    pub const UNSEEN: f64 = 0.03;
+    pub const NEGLIGIBLE_MOTION: f64 = 0.03;
     /// Smallest part that is examined, as a part of the step.
     pub const FINEST: f64 = 1e-6;
     /// Maximum number of parts.

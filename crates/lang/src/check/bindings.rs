@@ -2,7 +2,7 @@
 
 use super::entity::Entity;
 use super::formula::{Context, Dim, Value};
-use super::formula_scope::{DrawnPoint, FormulaSite};
+use super::formula_scope::{FormulaSite, InitialPoint};
 use super::suggest::lost_rate;
 use super::{Checker, errors, point_kinds};
 use crate::model::Dimension;
@@ -17,7 +17,7 @@ pub(super) enum BoundValue {
     /// A number, and whether its dimension is checked.
     Number(Value, bool),
     /// A point.
-    Point(DrawnPoint),
+    Point(InitialPoint),
     /// A coordinate of a point, and whether its dimension is checked.
     Coordinate(usize, Value, bool),
 }
@@ -162,7 +162,7 @@ impl<'a> Checker<'a> {
     }
 
     /// Returns a point with the bindings of it or of its coordinates.
-    pub(super) fn point_with_binding(&mut self, name: &Name, mut point: DrawnPoint) -> Option<DrawnPoint> {
+    pub(super) fn point_with_binding(&mut self, name: &Name, mut point: InitialPoint) -> Option<InitialPoint> {
         for k in 0..self.bound.params.len() {
             let BoundParam { name: bound_name, bound, span } = self.bound.params[k];
             if bound_name != name.text {
@@ -199,7 +199,7 @@ impl<'a> Checker<'a> {
     pub(super) fn bound_numbers(&self) -> Vec<(String, ExprId)> {
         let numbers = |bound: &BoundParam<'_>| match bound.bound {
             BoundValue::Number(value, _) => vec![(bound.name.to_owned(), value.id)],
-            BoundValue::Point(DrawnPoint { at: [x, y], .. }) => {
+            BoundValue::Point(InitialPoint { at: [x, y], .. }) => {
                 vec![(format!("{}.x", bound.name), x), (format!("{}.y", bound.name), y)]
             }
             BoundValue::Coordinate(axis, value, _) => vec![(format!("{}.{}", bound.name, ["x", "y"][axis]), value.id)],

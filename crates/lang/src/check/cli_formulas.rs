@@ -1,8 +1,8 @@
 //! Formulas of the command line, which name nothing of a file.
 
 use super::formula::Context;
-use super::{Checker, Surroundings};
-use crate::model::{Condition, DecidedBy, Dimension};
+use super::{CheckOptions, Checker};
+use crate::model::{Condition, Dimension, GuardKind};
 use mechc_expr::{ExprId, Graph};
 use mechc_syntax::ast::{self, Expr, Name};
 use mechc_text::diag::Diagnostics;
@@ -21,7 +21,7 @@ pub fn constant(formula: &Expr, place: &str, expected: Dimension, sources: &Sour
 /// # Errors
 /// The diagnostics of the formula.
 pub fn amount(formula: &Expr, place: &str, expected: Dimension, sources: &Sources) -> Result<f64, Diagnostics> {
-    evaluate(formula, sources, |checker| checker.judged_constant(formula, place, expected, DecidedBy::Value, true))
+    evaluate(formula, sources, |checker| checker.judged_constant(formula, place, expected, GuardKind::Value, true))
 }
 
 fn evaluate(
@@ -30,7 +30,7 @@ fn evaluate(
     read: impl FnOnce(&mut Checker<'_>) -> Option<(ExprId, f64)>,
 ) -> Result<f64, Diagnostics> {
     let tree = empty_mechanism(formula.span);
-    let options = Surroundings::default();
+    let options = CheckOptions::default();
     let mut checker = Checker::new(&tree, &options, sources);
     match read(&mut checker) {
         Some((_, value)) if !checker.diagnostics.has_errors() => Ok(value),
@@ -59,13 +59,13 @@ pub struct FormulaOfTime {
 /// The diagnostics of the formula.
 pub fn formula_of_time(formula: &Expr, sources: &Sources) -> Result<FormulaOfTime, Diagnostics> {
     let tree = empty_mechanism(formula.span);
-    let options = Surroundings::default();
+    let options = CheckOptions::default();
     let mut checker = Checker::new(&tree, &options, sources);
     let judged = checker.is_dimensional(formula);
     let context = Context { judged, time: true, names: false, ..Context::constant("a formula of time") };
     let value = checker.formula(formula, &context);
     let Checker { mut diagnostics, model, .. } = checker;
-    diagnostics.sort_by_place();
+    diagnostics.sort_by_span();
     match value {
         Some(value) if !diagnostics.has_errors() => Ok(FormulaOfTime {
             graph: model.graph,

@@ -1,7 +1,7 @@
 //! Values of constant formulas, and the graph's named symbols.
 
 use super::Checker;
-use crate::model::{DecidedBy, Named};
+use crate::model::{GuardKind, Named};
 use mechc_expr::{Dependence, ExprId, Symbol};
 
 impl Checker<'_> {
@@ -25,14 +25,14 @@ impl Checker<'_> {
 
     /// Returns the value of a constant formula on which a decision depends.
     pub(super) fn constant_value(&mut self, id: ExprId) -> Option<f64> {
-        self.decided(id, DecidedBy::Value)
+        self.decided(id, GuardKind::Value)
     }
 
     /// Returns the value of a constant formula of which one property decides.
-    pub(super) fn decided(&mut self, id: ExprId, by: DecidedBy) -> Option<f64> {
+    pub(super) fn decided(&mut self, id: ExprId, by: GuardKind) -> Option<f64> {
         let value = self.number_of(id);
         if value.is_some() {
-            self.model.decided.push((id, by));
+            self.model.guards.push((id, by));
         }
         value
     }

@@ -7,13 +7,13 @@
 use super::formula::Value;
 use super::overrides::override_matches;
 use super::{Checker, errors};
-use crate::model::{Condition, Declared, Dimension, Led};
+use crate::model::{Condition, ContinuedParam, Declared, Dimension};
 use mechc_expr::{ExprId, Symbol};
 use mechc_syntax::ast::Name;
 
 /// The target of a continuation.
 #[derive(Clone, Debug, Default)]
-pub struct Lead {
+pub struct ContinuationPath {
     /// The first and the last time (s).
     pub times: [f64; 2],
     /// The inputs with a numeric target (SI), by their names. The target of other inputs is their value at the last time.
@@ -32,7 +32,7 @@ impl Checker<'_> {
     /// Returns time as formulas use it (s).
     pub(super) fn time(&mut self) -> ExprId {
         let time = self.model.graph.symbol(Symbol::Time);
-        let Some(Lead { times, .. }) = &self.options.lead else { return time };
+        let Some(ContinuationPath { times, .. }) = &self.options.continuation else { return time };
         self.path_line(*times)
     }
 
@@ -44,7 +44,7 @@ impl Checker<'_> {
         given: Option<Value>,
         needs: &ConditionMarks,
     ) -> Option<Value> {
-        let Some(target) = &self.options.lead else { return given };
+        let Some(target) = &self.options.continuation else { return given };
         // The conditions are checked at both ends and do not apply in between.
         let of_given = self.model.conditions.split_off(needs.after_nominal);
         let of_nominal = self.model.conditions.split_off(needs.before);
@@ -60,7 +60,7 @@ impl Checker<'_> {
             return None;
         }
         let dimension = given.dim.settled();
-        self.model.led.push(Led { declared, param: None, line, dimension });
+        self.model.continued.push(ContinuedParam { declared, param: None, line, dimension });
         Some(Value { id: self.path_line(line), ..given })
     }
 
@@ -76,12 +76,12 @@ impl Checker<'_> {
     /// Records the next parameter of the model as one that may change after the check; `nominal` is its value (SI).
     pub(super) fn record_open_param(&mut self, declared: &Declared, nominal: f64, dimension: Dimension) {
         let param = Some(self.model.params.len() as u32);
-        self.model.led.push(Led { declared: declared.clone(), param, line: [nominal; 2], dimension });
+        self.model.continued.push(ContinuedParam { declared: declared.clone(), param, line: [nominal; 2], dimension });
     }
 
     /// Removes the outputs and forces from a model of a continuation.
     pub(super) fn strip_outputs(&mut self) {
-        if self.options.lead.is_some() {
+        if self.options.continuation.is_some() {
             self.model.strip_outputs();
         }
     }

@@ -3,12 +3,12 @@
 
 use super::entity::Entity;
 use super::formula::{Context, Dim};
-use super::formula_scope::DrawnPoint;
+use super::formula_scope::InitialPoint;
 use super::free_names::name_of;
 use super::instance::Instance;
 use super::instantiation::{definitions_of, instance_of};
 use super::params::ParamState;
-use super::{Checker, Surroundings};
+use super::{CheckOptions, Checker};
 use crate::model::{CompoundUnit, Named};
 use mechc_expr::{ExprId, Printer, Symbol};
 use mechc_syntax::ast::{Expr, ExprKind, IndexRange, Item, ItemKind, Mechanism};
@@ -23,11 +23,11 @@ const LARGEST_WRITTEN: u64 = 150;
 
 /// Information on a mechanism's declarations.
 #[derive(Clone, Debug, Default)]
-pub struct Known {
+pub struct DeclarationInfo {
     /// Coordinates minus equations; `None` if a broken declaration may contribute some.
     pub freedom: Option<i64>,
     /// The contribution of each declaration that contributes, in the order of the text.
-    pub counts: Vec<Count>,
+    pub counts: Vec<DeclarationCount>,
     /// The indices of repeated declarations.
     pub indices: Vec<Index>,
     /// The values of params and of the angles of poses.
@@ -36,7 +36,7 @@ pub struct Known {
 
 /// The coordinates and equations that a declaration contributes.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub struct Count {
+pub struct DeclarationCount {
     /// The location of the declaration.
     pub declaration: Span,
     /// The location of its name.
@@ -93,7 +93,7 @@ pub enum Amount {
 
 /// Returns information on the declarations of a mechanism.
 #[must_use]
-pub fn known(tree: &Mechanism, options: &Surroundings, sources: &Sources) -> Known {
+pub fn known(tree: &Mechanism, options: &CheckOptions, sources: &Sources) -> DeclarationInfo {
     let (instance, _) = instance_of(tree, options, sources);
     let mut counter = Counter { sources, totals: FxHashMap::default() };
     let freedom = counter.total(&instance);
@@ -103,11 +103,11 @@ pub fn known(tree: &Mechanism, options: &Surroundings, sources: &Sources) -> Kno
     let mut checker = Checker::new(&definitions, options, sources);
     checker.collect(&definitions);
     checker.definitions();
-    let mut values = checker.values_of_params();
+    let mut values = checker.param_values();
     values.extend(tree.items.iter().filter_map(|item| checker.angle_of_pose(item)));
     values.sort_by_key(|value| value.formula);
     let indices = tree.items.iter().flat_map(|item| indices(item, &instance)).collect();
-    Known { freedom, counts, indices, values }
+    DeclarationInfo { freedom, counts, indices, values }
 }
 
 /// Sums the coordinates minus the equations of declarations.
@@ -178,7 +178,7 @@ fn has_no_freedom(item: &Item, text: &Mechanism, sources: &Sources) -> bool {
     }
 }
 
-fn count(item: &Item, &(freedom, copies): &Copies) -> Option<Count> {
+fn count(item: &Item, &(freedom, copies): &Copies) -> Option<DeclarationCount> {
     let brings = matches!(
         item.kind,
         ItemKind::Body { .. } | ItemKind::Joint { .. } | ItemKind::Equation { .. } | ItemKind::Part(_)
@@ -186,7 +186,7 @@ fn count(item: &Item, &(freedom, copies): &Copies) -> Option<Count> {
     let copies = (!item.ranges.is_empty()).then_some(copies);
     let is_body = matches!(item.kind, ItemKind::Body { .. });
     let name = name_of(item).filter(|_| brings)?.span;
-    Some(Count { declaration: item.span, name, is_body, freedom: freedom?, copies })
+    Some(DeclarationCount { declaration: item.span, name, is_body, freedom: freedom?, copies })
 }
 
 /// Returns the indices of a repeated declaration, each with its least and greatest value.
@@ -205,7 +205,7 @@ fn indices(item: &Item, instance: &Instance<'_>) -> Vec<Index> {
 }
 
 impl Checker<'_> {
-    fn values_of_params(&mut self) -> Vec<Value> {
+    fn param_values(&mut self) -> Vec<Value> {
         let values = (0..self.params.len()).filter_map(|k| {
             let param = self.params[k];
             let (name, formula) = param.written?;
@@ -216,7 +216,7 @@ impl Checker<'_> {
     }
 
     fn amount_of_param(&mut self, param: &ParamState<'_>, formula: &Expr) -> Option<Amount> {
-        if let Some(DrawnPoint { at: [x, y], .. }) = param.drawn {
+        if let Some(InitialPoint { at: [x, y], .. }) = param.drawn {
             return Some(Amount::Point([self.constant_value(x)?, self.constant_value(y)?]));
         }
         let value = param.value?;
@@ -289,7 +289,7 @@ fn unit_in(formula: &Expr, expected: Dimension, is_declared: impl Fn(&str) -> bo
 
 /// Returns the first two derivatives of a `fn` by its argument as text; `None` if it cannot be read or they are too long.
 #[must_use]
-pub fn slopes(tree: &Mechanism, function: &str, options: &Surroundings, sources: &Sources) -> Option<[String; 2]> {
+pub fn slopes(tree: &Mechanism, function: &str, options: &CheckOptions, sources: &Sources) -> Option<[String; 2]> {
     let definitions = definitions_of(tree);
     let mut checker = Checker::new(&definitions, options, sources);
     checker.collect(&definitions);

@@ -8,7 +8,7 @@ use super::variables;
 use crate::model::{Dimension, Units};
 use mechc_syntax::ast::{Expr, ExprKind, Factor, Name, WrittenUnit};
 use mechc_text::diag::Diagnostic;
-use mechc_text::vocabulary::{CompoundUnit, Constant, StandsFor, Unit};
+use mechc_text::vocabulary::{CompoundUnit, Constant, NamedConstant, Unit};
 
 impl Checker<'_> {
     /// Returns the unit of a product. Names that are not units are reported.
@@ -118,7 +118,7 @@ impl Checker<'_> {
             Some(Entity::Result(k)) => self.result_state(k).map_or(0, |result| result.angle),
             Some(_) => 0,
             None => match Constant::named(&name.text) {
-                Some(Constant { stands_for: StandsFor::Number(_), .. }) => 1,
+                Some(Constant { stands_for: NamedConstant::Number(_), .. }) => 1,
                 Some(_) => 0,
                 None => Unit::named(&name.text).map_or(0, angle_power_of),
             },
@@ -136,5 +136,5 @@ pub(super) fn determined_dimension(value: Value) -> Option<Dimension> {
 }
 
 fn angle_power_of(unit: &Unit) -> i32 {
-    i32::from(unit.is_of_angle())
+    i32::from(unit.measures_angle())
 }

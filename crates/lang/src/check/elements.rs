@@ -4,7 +4,7 @@ use super::display_units::determined_dimension;
 use super::formula::{Context, Dim, Value};
 use super::{Checker, errors};
 use crate::model::{
-    Analysis, Condition, ConditionKind, DecidedBy, Declared, Dimension, Equation, EquationForm, Measure, Named,
+    Analysis, Condition, ConditionKind, Declared, Dimension, Equation, EquationForm, GuardKind, Measure, Named,
     PointId, Quantity, Trace, Units,
 };
 use mechc_expr::{Dependence, ExprId, Symbol};
@@ -256,7 +256,7 @@ impl Checker<'_> {
         right: &Expr,
         distance: ExprId,
     ) -> Option<(EquationForm, Dim)> {
-        match self.decided(distance, DecidedBy::Sign) {
+        match self.decided(distance, GuardKind::Sign) {
             Some(value) if value <= 0.0 => {
                 self.report(errors::not_positive_length("a distance", right.span, value));
                 return None;

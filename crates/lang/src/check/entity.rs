@@ -1,6 +1,6 @@
 //! Entities: what the names of a mechanism stand for.
 
-use mechc_text::vocabulary::KindOfName;
+use mechc_text::vocabulary::SubstituteKind;
 
 /// The entity of a name, with its position among those of its kind in the text.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
@@ -45,18 +45,18 @@ impl Entity {
     }
 
     /// Returns the kind for which another name is suggested.
-    pub fn kind_of_name(self) -> KindOfName {
+    pub fn kind_of_name(self) -> SubstituteKind {
         match self {
             Entity::Param(_)
             | Entity::Input(_)
             | Entity::Measure(_)
             | Entity::Trace
             | Entity::Result(_)
-            | Entity::Broken => KindOfName::Value,
-            Entity::Function(_) | Entity::Table(_) => KindOfName::Function,
-            Entity::Body(_) | Entity::Part(_) | Entity::Ground => KindOfName::Body,
-            Entity::Joint(_) => KindOfName::Joint,
-            Entity::Equation(_) | Entity::Load => KindOfName::Equation,
+            | Entity::Broken => SubstituteKind::Value,
+            Entity::Function(_) | Entity::Table(_) => SubstituteKind::Function,
+            Entity::Body(_) | Entity::Part(_) | Entity::Ground => SubstituteKind::Body,
+            Entity::Joint(_) => SubstituteKind::Joint,
+            Entity::Equation(_) | Entity::Load => SubstituteKind::Equation,
         }
     }
 }

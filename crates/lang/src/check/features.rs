@@ -2,11 +2,11 @@
 
 use super::entity::Entity;
 use super::formula::{Context, Value};
-use super::formula_scope::{DrawnPoint, FormulaSite};
+use super::formula_scope::{FormulaSite, InitialPoint};
 use super::names::Space;
 use super::point_kinds::{self, Expected, coordinate};
 use super::{Checker, errors};
-use crate::model::{Axis, AxisId, Body, CircleId, CurveId, DecidedBy, Dimension, Frame, Point, PointId};
+use crate::model::{Axis, AxisId, Body, CircleId, CurveId, Dimension, Frame, GuardKind, Point, PointId};
 use mechc_expr::ExprId;
 use mechc_syntax::ast::{self, DrawnPose, Expr, ExprKind, FeatureKind, Item, ItemKind, Name};
 use mechc_text::source::Span;
@@ -158,7 +158,7 @@ impl<'a> Checker<'a> {
                 Some(at) => checker.place_of(at, "point", "a point", None),
                 None => checker.point_of_the_mechanism(name),
             });
-            let point = drawn.map(|DrawnPoint { at, dimensional }| {
+            let point = drawn.map(|InitialPoint { at, dimensional }| {
                 let point = Point { frame, name: Some(name.text.clone()), span: name.span, at };
                 let id = self.model.add_point(point);
                 self.common.dimensional_points.extend(dimensional.then_some(id));
@@ -266,7 +266,7 @@ impl<'a> Checker<'a> {
     }
 
     fn not_zero(&mut self, direction: [ExprId; 2], span: Span) -> Option<[ExprId; 2]> {
-        let [x, y] = direction.map(|id| self.decided(id, DecidedBy::Sign));
+        let [x, y] = direction.map(|id| self.decided(id, GuardKind::Sign));
         if x? == 0.0 && y? == 0.0 {
             self.report(errors::zero_direction(span));
             return None;
@@ -313,7 +313,7 @@ impl<'a> Checker<'a> {
     /// Evaluates a constant angle, with a warning if it was probably intended in degrees.
     pub(super) fn angle(&mut self, e: &Expr, place: &str) -> Option<ExprId> {
         self.warn_of_degrees_in(e);
-        let (id, _) = self.constant_by(e, place, Dimension::PURE, DecidedBy::Finite)?;
+        let (id, _) = self.constant_by(e, place, Dimension::PURE, GuardKind::Finite)?;
         Some(id)
     }
 

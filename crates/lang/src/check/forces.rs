@@ -8,7 +8,7 @@ use super::formula::{Context, Dim, Value};
 use super::formula_scope::FormulaSite;
 use super::suggest::lost_rate::Part;
 use crate::model::{
-    BodyId, DecidedBy, Declared, Dimension, EquationId, Force, Frame, JointId, Load, Mass, Named, Point, PointId,
+    BodyId, Declared, Dimension, EquationId, Force, Frame, GuardKind, JointId, Load, Mass, Named, Point, PointId,
     Quantity,
 };
 use mechc_expr::{ExprId, Symbol};
@@ -54,7 +54,7 @@ impl<'a> Checker<'a> {
         let Some(e) = e else { return Some(self.model.graph.constant(0.0)) };
         let place = format!("what stands behind `{keyword}`");
         let (id, value) = self.at_site(FormulaSite::Inside(frame), None, |checker| {
-            checker.constant_by(e, &place, expected, DecidedBy::Sign)
+            checker.constant_by(e, &place, expected, GuardKind::Sign)
         })?;
         if value < 0.0 {
             self.report(errors::negative_mass(e.span, value, expected));

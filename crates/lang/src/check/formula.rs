@@ -10,11 +10,11 @@ use super::entity::Entity;
 use super::errors;
 use super::point_kinds::Expected;
 use super::suggest::lost_rate::Part;
-use crate::model::{DecidedBy, Dimension, Named};
+use crate::model::{Dimension, GuardKind, Named};
 use mechc_expr::{Dependence, ExprId, Symbol};
 use mechc_syntax::ast::{Expr, ExprKind, Factor, ItemKind, Name, PathSegment, Sign};
 use mechc_text::source::Span;
-use mechc_text::vocabulary::{Constant, QuantityWord, StandsFor, Unit, is_called};
+use mechc_text::vocabulary::{Constant, NamedConstant, QuantityWord, Unit, is_called};
 
 /// The identity of a dimension in a cache.
 pub(super) type DimKey = (bool, bool, [u64; 3]);
@@ -232,7 +232,7 @@ impl Checker<'_> {
 
     /// Reports a constant that is not finite, where it arises.
     pub(super) fn finite(&mut self, span: Span, value: Value) -> Option<Value> {
-        match self.decided(value.id, DecidedBy::Finite) {
+        match self.decided(value.id, GuardKind::Finite) {
             Some(number) if !number.is_finite() && !self.branch.is_untaken => {
                 self.report(errors::not_finite(span, number));
                 None
@@ -278,9 +278,9 @@ impl Checker<'_> {
         match resolve_bare_name(&name.text, argument, self.space.get(&name.text)) {
             BareName::Argument => return context.argument.map(|(_, value)| value),
             BareName::Constant(constant) => match constant.stands_for {
-                StandsFor::Time => return self.time_named(name, context),
-                StandsFor::Number(number) => return Some(self.pure(number)),
-                StandsFor::Ground => {}
+                NamedConstant::Time => return self.time_named(name, context),
+                NamedConstant::Number(number) => return Some(self.pure(number)),
+                NamedConstant::Ground => {}
             },
             // `10 mm/s` in a text with `param s`.
             BareName::Declared(_) if self.is_reserved_but_declared(name) => return None,
@@ -587,7 +587,7 @@ impl Checker<'_> {
 
     /// Evaluates a constant of a given dimension. Returns its expression and value.
     pub(super) fn constant(&mut self, e: &Expr, place: &str, expected: Dimension) -> Option<(ExprId, f64)> {
-        self.constant_by(e, place, expected, DecidedBy::Value)
+        self.constant_by(e, place, expected, GuardKind::Value)
     }
 
     /// Evaluates a constant of which one property decides.
@@ -596,7 +596,7 @@ impl Checker<'_> {
         e: &Expr,
         place: &str,
         expected: Dimension,
-        by: DecidedBy,
+        by: GuardKind,
     ) -> Option<(ExprId, f64)> {
         let judged = self.is_dimensional(e);
         self.judged_constant(e, place, expected, by, judged)
@@ -608,7 +608,7 @@ impl Checker<'_> {
         e: &Expr,
         place: &str,
         expected: Dimension,
-        by: DecidedBy,
+        by: GuardKind,
         judged: bool,
     ) -> Option<(ExprId, f64)> {
         let context = Context { judged, ..Context::constant(place) };

@@ -9,7 +9,7 @@ pub(super) type Position = [ExprId; 2];
 
 /// A named point in the drawing.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct DrawnPoint {
+pub(super) struct InitialPoint {
     pub at: Position,
     /// True if its formula holds a unit, directly or through names.
     pub dimensional: bool,

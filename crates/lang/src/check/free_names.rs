@@ -3,7 +3,7 @@
 use super::point_kinds::coordinate;
 use mechc_syntax::ast::{Expr, ExprKind, Item, ItemKind, Mechanism, Name};
 use mechc_text::source::Span;
-use mechc_text::vocabulary::{Constant, StandsFor, Unit, gives_way, is_called};
+use mechc_text::vocabulary::{Constant, NamedConstant, Unit, gives_way, is_called};
 
 /// Returns the uses of a function's or curve's argument in its formula.
 pub(super) fn uses_of_argument(argument: &Name, formula: &Expr) -> Vec<Span> {
@@ -20,7 +20,7 @@ pub(super) fn uses_of_argument(argument: &Name, formula: &Expr) -> Vec<Span> {
 pub(super) fn uses_in(mechanism: &Mechanism, declared: &Name, is_called: bool) -> Vec<Span> {
     // A lone `t` may also be the time.
     let is_time =
-        Constant::named(&declared.text).is_some_and(|constant| matches!(constant.stands_for, StandsFor::Time));
+        Constant::named(&declared.text).is_some_and(|constant| matches!(constant.stands_for, NamedConstant::Time));
     let mut open: Vec<&Expr> = mechanism.items.iter().flat_map(Item::formulas).collect();
     let (mut uses, mut units) = (Vec::new(), Vec::new());
     while let Some(e) = open.pop() {

@@ -14,14 +14,14 @@ use mechc_text::source::{FileId, Span};
 
 /// The overrides of inputs.
 #[derive(Clone, Debug, Default)]
-pub struct Given {
+pub struct InputOverrides {
     /// The names of inputs with their formulas, over params, functions, tables and time.
     pub formulas: Vec<(String, Expr)>,
     /// A file of samples.
     pub samples: Option<FileId>,
 }
 
-impl Given {
+impl InputOverrides {
     /// Returns whether there are no overrides.
     #[must_use]
     pub fn is_empty(&self) -> bool {

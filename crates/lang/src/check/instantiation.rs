@@ -5,9 +5,9 @@ use super::bindings::BoundParam;
 use super::errors;
 use super::free_names::{indices, name_of, visit_free_names};
 use super::instance::Instance;
-use super::library::{Library, NotKnown};
+use super::library::{Library, LookupError};
 use super::repetition::{Expander, MOST, Numbers, broken, named, needs_expansion};
-use super::{Checker, Surroundings};
+use super::{CheckOptions, Checker};
 use mechc_syntax::ast::{self, Expr, Item, ItemKind, Mechanism, MechanismName};
 use mechc_text::diag::Diagnostics;
 use mechc_text::source::Sources;
@@ -21,7 +21,7 @@ const DEEPEST: usize = 32;
 /// Returns the instance of a mechanism that is checked on its own, and the diagnostics of its ranges and parts.
 pub(super) fn instance_of<'t>(
     tree: &'t Mechanism,
-    options: &'t Surroundings,
+    options: &'t CheckOptions,
     sources: &Sources,
 ) -> (Rc<Instance<'t>>, Diagnostics) {
     let mut builder = Builder {
@@ -54,7 +54,7 @@ struct RepetitionOutline {
 
 struct Builder<'t, 's> {
     library: &'t Library,
-    options: &'s Surroundings,
+    options: &'s CheckOptions,
     sources: &'s Sources,
     /// The outlines, by the text of a mechanism.
     outlines: FxHashMap<*const Mechanism, RepetitionOutline>,
@@ -139,7 +139,7 @@ impl<'t> Builder<'t, '_> {
         Instance { mechanism: tree, written: Some(found), parts, part_named, paths, deciding, copies, count }
     }
 
-    fn find(&self, name: &MechanismName) -> Result<&'t Mechanism, NotKnown> {
+    fn find(&self, name: &MechanismName) -> Result<&'t Mechanism, LookupError> {
         let found = self.library.find(name.prefix.as_ref(), &name.name, self.sources)?;
         Ok(self.library.tree(found))
     }
@@ -148,8 +148,8 @@ impl<'t> Builder<'t, '_> {
     fn mechanism_of(&mut self, part: &'t ast::Part) -> Option<&'t Mechanism> {
         let mechanism = match self.find(&part.mechanism) {
             Ok(mechanism) => mechanism,
-            Err(NotKnown::Said) => return None,
-            Err(NotKnown::Told(why)) => {
+            Err(LookupError::Said) => return None,
+            Err(LookupError::Told(why)) => {
                 self.diagnostics.push(*why);
                 return None;
             }
@@ -182,7 +182,7 @@ impl<'t> Builder<'t, '_> {
         let name = named(&part.name, numbers).text;
         let before = self.diagnostics.len();
         let instance = self.instance(mechanism, &format!("{path}{name}."), &bound);
-        self.diagnostics.in_part_from(before, &format!("{path}{name}"), part.name.span);
+        self.diagnostics.annotate_part(before, &format!("{path}{name}"), part.name.span);
         Some(instance)
     }
 

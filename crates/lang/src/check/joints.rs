@@ -1,7 +1,7 @@
 //! Joints: their arguments, and what the drawn poses must determine.
 
 use super::{Checker, errors};
-use crate::model::{BodyId, CircleId, DecidedBy, Dimension, Frame, Joint, JointId, JointKind, PointId, Side};
+use crate::model::{BodyId, CircleId, Dimension, Frame, GuardKind, Joint, JointId, JointKind, PointId, Side};
 use mechc_expr::ExprId;
 use mechc_syntax::ast::{Expr, ExprKind, ItemKind, Name};
 use mechc_text::source::Span;
@@ -110,7 +110,7 @@ impl Checker<'_> {
             ("revolute_translational", [p, a, offset]) => {
                 let (p, a) = (self.point(p), self.axis(a));
                 let place = "the offset from the axis";
-                let offset = self.constant_by(offset, place, Dimension::LENGTH, DecidedBy::Finite);
+                let offset = self.constant_by(offset, place, Dimension::LENGTH, GuardKind::Finite);
                 JointKind::RevoluteTranslational(p?, a?, offset?.0)
             }
             _ => return self.wrong_count(kind, span, arguments.len()),
@@ -158,7 +158,7 @@ impl Checker<'_> {
     }
 
     fn positive_length(&mut self, e: &Expr, what: &str) -> Option<ExprId> {
-        let (id, value) = self.constant_by(e, what, Dimension::LENGTH, DecidedBy::Sign)?;
+        let (id, value) = self.constant_by(e, what, Dimension::LENGTH, GuardKind::Sign)?;
         if value <= 0.0 {
             self.report(errors::not_positive_length(what, e.span, value));
             return None;
@@ -179,7 +179,7 @@ impl Checker<'_> {
             self.report(errors::side_without_phase(&name.text, e.span));
             return None;
         }
-        self.constant_by(e, "the phase", Dimension::LENGTH, DecidedBy::Finite).map(|(id, _)| id)
+        self.constant_by(e, "the phase", Dimension::LENGTH, GuardKind::Finite).map(|(id, _)| id)
     }
 
     fn side(&mut self, e: &Expr) -> Option<Side> {

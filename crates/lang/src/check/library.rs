@@ -14,12 +14,12 @@ use std::sync::Arc;
 /// A text with all files that it uses directly or indirectly, each once.
 #[derive(Clone, Debug, Default)]
 pub struct Library {
-    files: Arc<[KnownFile]>,
+    files: Arc<[LibraryFile]>,
 }
 
 /// A file of a [`Library`].
 #[derive(Clone, Debug)]
-pub struct KnownFile {
+pub struct LibraryFile {
     /// The id of its text.
     pub id: FileId,
     /// Its path, to which the paths that it names are relative; empty for standard input.
@@ -32,7 +32,7 @@ pub struct KnownFile {
 
 /// A mechanism of a [`Library`].
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
-pub struct KnownMechanism {
+pub struct LibraryMechanism {
     /// The number of its file.
     pub file: usize,
     /// Its number in that file.
@@ -41,7 +41,7 @@ pub struct KnownMechanism {
 
 /// The reason why a name stands for no mechanism.
 #[derive(Clone, Debug)]
-pub enum NotKnown {
+pub enum LookupError {
     /// The diagnostic of the name.
     Told(Box<Diagnostic>),
     /// The name may be one of a file that could not be read, which has been reported.
@@ -51,19 +51,19 @@ pub enum NotKnown {
 impl Library {
     /// Returns a library of files, the first of which is the text. Numbers in `uses` must be valid, one for each `use` of the file's text.
     #[must_use]
-    pub fn new(files: Vec<KnownFile>) -> Library {
+    pub fn new(files: Vec<LibraryFile>) -> Library {
         Library { files: files.into() }
     }
 
     /// Returns all files; the first is the text itself.
     #[must_use]
-    pub fn files(&self) -> &[KnownFile] {
+    pub fn files(&self) -> &[LibraryFile] {
         &self.files
     }
 
     /// Returns the tree of a mechanism.
     #[must_use]
-    pub fn tree(&self, mechanism: KnownMechanism) -> &Mechanism {
+    pub fn tree(&self, mechanism: LibraryMechanism) -> &Mechanism {
         &self.files[mechanism.file].read.tree.mechanisms[mechanism.number]
     }
 
@@ -84,31 +84,31 @@ impl Library {
     ///
     /// # Errors
     /// The diagnostic of an unknown name, with a suggestion.
-    pub fn find(&self, prefix: Option<&Name>, name: &Name, sources: &Sources) -> Result<KnownMechanism, NotKnown> {
-        let Some(at) = self.number_of(name.span.file) else { return Err(NotKnown::Said) };
+    pub fn find(&self, prefix: Option<&Name>, name: &Name, sources: &Sources) -> Result<LibraryMechanism, LookupError> {
+        let Some(at) = self.number_of(name.span.file) else { return Err(LookupError::Said) };
         let file = &self.files[at];
         let local = if prefix.is_none() { mechanism_of(file, &name.text) } else { None };
         if let Some(number) = local {
-            return Ok(KnownMechanism { file: at, number });
+            return Ok(LibraryMechanism { file: at, number });
         }
         let expected =
             |used: &UsedFile| used.prefix.as_ref().map(|prefix| &prefix.text) == prefix.map(|expected| &expected.text);
         let uses = || file.read.tree.uses.iter().zip(&file.uses).filter(|(used, _)| expected(used));
         for &number in uses().filter_map(|(_, number)| number.as_ref()) {
             if let Some(found) = mechanism_of(&self.files[number], &name.text) {
-                return Ok(KnownMechanism { file: number, number: found });
+                return Ok(LibraryMechanism { file: number, number: found });
             }
         }
-        let is_whole = |file: &KnownFile| file.read.faults.is_empty();
+        let is_whole = |file: &LibraryFile| file.read.faults.is_empty();
         let all_are_read = uses().all(|(_, number)| number.is_some_and(|number| is_whole(&self.files[number])));
         if !is_whole(file) || !all_are_read {
-            return Err(NotKnown::Said);
+            return Err(LookupError::Said);
         }
         let diagnostic = match prefix.filter(|_| uses().next().is_none()) {
             Some(prefix) => errors::no_prefix(prefix, &prefixes(file)),
             None => self.no_mechanism(at, prefix, name, sources),
         };
-        Err(NotKnown::Told(Box::new(diagnostic)))
+        Err(LookupError::Told(Box::new(diagnostic)))
     }
 
     /// Returns the first file with a mechanism of a name.
@@ -164,7 +164,7 @@ impl Library {
     }
 
     /// Reports mechanisms of two files with one name and no prefix.
-    fn duplicate_names(&self, file: &KnownFile, sources: &Sources) -> Vec<Diagnostic> {
+    fn duplicate_names(&self, file: &LibraryFile, sources: &Sources) -> Vec<Diagnostic> {
         let user = self.number_of(file.id).unwrap_or_default();
         let mut first: FxHashMap<&str, (usize, Span)> = FxHashMap::default();
         for mechanism in file.read.tree.mechanisms.iter().filter(|mechanism| !mechanism.name.text.is_empty()) {
@@ -217,20 +217,20 @@ impl Library {
     }
 }
 
-fn names(file: &KnownFile) -> impl Iterator<Item = &str> {
+fn names(file: &LibraryFile) -> impl Iterator<Item = &str> {
     let names = file.read.tree.mechanisms.iter().map(|mechanism| mechanism.name.text.as_str());
     names.filter(|name| !name.is_empty())
 }
 
-fn mechanism_of(file: &KnownFile, name: &str) -> Option<usize> {
+fn mechanism_of(file: &LibraryFile, name: &str) -> Option<usize> {
     file.read.tree.mechanisms.iter().position(|mechanism| mechanism.name.text == name && !name.is_empty())
 }
 
-fn prefixes(file: &KnownFile) -> Vec<&Name> {
+fn prefixes(file: &LibraryFile) -> Vec<&Name> {
     file.read.tree.uses.iter().filter_map(|used| used.prefix.as_ref()).collect()
 }
 
-fn prefixes_that_stand_twice(file: &KnownFile) -> Vec<Diagnostic> {
+fn prefixes_that_stand_twice(file: &LibraryFile) -> Vec<Diagnostic> {
     let mut first: FxHashMap<&str, Span> = FxHashMap::default();
     let duplicate = |prefix: &Name, first: Span| (first != prefix.span).then(|| errors::second_prefix(prefix, first));
     let all = prefixes(file);
@@ -238,7 +238,7 @@ fn prefixes_that_stand_twice(file: &KnownFile) -> Vec<Diagnostic> {
 }
 
 /// Returns a free prefix for the mechanisms of a file, made of its name.
-fn free_prefix(path: &Path, user: &KnownFile) -> String {
+fn free_prefix(path: &Path, user: &LibraryFile) -> String {
     let stem = path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
     let mut name: String = stem.chars().map(|c| if c.is_alphanumeric() { c } else { '_' }).collect();
     let taken = prefixes(user);

@@ -56,15 +56,15 @@ mod tables;
 mod variables;
 
 pub use cli_formulas::{FormulaOfTime, amount, constant, formula_of_time};
-pub use continuation::Lead;
-pub use declaration_info::{Amount, Count, Index, Known, Value as KnownValue, known, slopes};
+pub use continuation::ContinuationPath;
+pub use declaration_info::{Amount, DeclarationCount, DeclarationInfo, Index, Value as ConstantValue, known, slopes};
 pub use free_names::name_of;
-pub use inputs::Given;
-pub use library::{KnownFile, KnownMechanism, Library, NotKnown};
-pub use options::{Setting, Surroundings};
+pub use inputs::InputOverrides;
+pub use library::{Library, LibraryFile, LibraryMechanism, LookupError};
+pub use options::{CheckOptions, ParamOverride};
 pub use results::UNTIL;
 pub use samples::{Column, variants};
-pub use settable_inputs::SetInputs;
+pub use settable_inputs::SettableInputs;
 pub use suggest::missing_unit::usual_unit_of_length;
 pub use symbols::{DeclaredName, Meaning, NameId, NameKind, Symbols, Use};
 pub use tables::TableFiles;
@@ -112,7 +112,7 @@ pub fn check_file(file: &ast::File) -> Diagnostics {
 
 /// Checks a mechanism. Returns its model if it has no errors, and all diagnostics.
 #[must_use]
-pub fn check(tree: &ast::Mechanism, options: &Surroundings, sources: &Sources) -> (Option<Mechanism>, Diagnostics) {
+pub fn check(tree: &ast::Mechanism, options: &CheckOptions, sources: &Sources) -> (Option<Mechanism>, Diagnostics) {
     let (instance, reported) = instantiation::instance_of(tree, options, sources);
     let mut checker = Checker::from_instance(&instance, options, sources, "", &[]);
     checker.bind_numbers(&options.bound);
@@ -126,9 +126,9 @@ pub fn check(tree: &ast::Mechanism, options: &Surroundings, sources: &Sources) -
         [of_text(0), of_text(1)]
     });
     if instance.is_expanded() {
-        diagnostics.tell_once();
+        diagnostics.dedup_by_span();
     }
-    diagnostics.sort_by_place();
+    diagnostics.sort_by_span();
     let diagnostics = suggest::names::merge_unknown_names(diagnostics);
     let sound = !diagnostics.has_errors() && !has_broken(instance.tree());
     (sound.then_some(model), diagnostics)
@@ -155,7 +155,7 @@ fn has_broken(tree: &ast::Mechanism) -> bool {
 /// Checks one mechanism, or one part of it.
 struct Checker<'a> {
     tree: &'a ast::Mechanism,
-    options: &'a Surroundings,
+    options: &'a CheckOptions,
     sources: &'a Sources,
     diagnostics: Diagnostics,
     model: Mechanism,
@@ -205,7 +205,7 @@ struct Checker<'a> {
 }
 
 impl<'a> Checker<'a> {
-    fn new(tree: &'a ast::Mechanism, options: &'a Surroundings, sources: &'a Sources) -> Checker<'a> {
+    fn new(tree: &'a ast::Mechanism, options: &'a CheckOptions, sources: &'a Sources) -> Checker<'a> {
         Checker {
             tree,
             options,
@@ -286,7 +286,7 @@ impl<'a> Checker<'a> {
     fn report(&mut self, diagnostic: Diagnostic) {
         let diagnostic = match self.calls.caller {
             // A formula is judged where it is called.
-            Some(caller) => diagnostic.raised_by(caller, "brought in here"),
+            Some(caller) => diagnostic.caused_by(caller, "brought in here"),
             None => diagnostic,
         };
         let parts = self.address.used_at.iter();

@@ -5,7 +5,7 @@ use super::free_names::{uses_in, uses_of_argument};
 use super::{Checker, MOST_SUGGESTIONS, errors};
 use mechc_syntax::ast::{Expr, ExprKind, FeatureKind, ItemKind, Mechanism, Name};
 use mechc_text::source::Span;
-use mechc_text::vocabulary::{Dimension, KindOfName, Unit, another_name, gives_way, is_called, is_taken};
+use mechc_text::vocabulary::{Dimension, SubstituteKind, Unit, gives_way, is_called, is_taken, substitute_name};
 use rustc_hash::{FxHashMap, FxHashSet};
 
 /// The number of named declarations of each kind.
@@ -124,7 +124,9 @@ impl Checker<'_> {
             if is_reserved {
                 let uses = uses_in(mechanism, name, callable);
                 let kind = match &item.kind {
-                    ItemKind::Param { value, .. } => KindOfName::of_value(value.parts().find_map(dimension_written)),
+                    ItemKind::Param { value, .. } => {
+                        SubstituteKind::of_value(value.parts().find_map(dimension_written))
+                    }
                     _ => entity.kind_of_name(),
                 };
                 self.report_reserved(name, kind, &uses);
@@ -154,10 +156,10 @@ impl Checker<'_> {
     }
 
     /// Reports a name of the language, with a suggestion of a free name.
-    fn report_reserved(&mut self, name: &Name, kind: KindOfName, uses: &[Span]) {
+    fn report_reserved(&mut self, name: &Name, kind: SubstituteKind, uses: &[Span]) {
         let is_worth_it = self.diagnostics.len() <= MOST_SUGGESTIONS;
         let words = is_worth_it.then(|| words_of(self.sources.text(self.tree.span)));
-        let instead = words.and_then(|words| another_name(&name.text, kind, |name| !words.contains(name)));
+        let instead = words.and_then(|words| substitute_name(&name.text, kind, |name| !words.contains(name)));
         self.report(errors::reserved(name, instead, uses));
     }
 
@@ -204,7 +206,7 @@ impl Checker<'_> {
     fn argument_name(&mut self, argument: &Name, formula: &Expr) {
         let uses = || uses_of_argument(argument, formula);
         if is_taken(&argument.text) {
-            self.report_reserved(argument, KindOfName::Argument, &uses());
+            self.report_reserved(argument, SubstituteKind::Argument, &uses());
         } else if let Some(declared) = self.space.span(&argument.text) {
             let is_unique_index = |name: &&str| !is_taken(name) && self.space.get(name).is_none();
             let free = ["u", "v", "w", "x", "y", "z"].into_iter().find(is_unique_index);

@@ -1,23 +1,23 @@
 //! The options of a check.
 
-use super::{Given, Lead, Library, SetInputs, TableFiles};
+use super::{ContinuationPath, InputOverrides, Library, SettableInputs, TableFiles};
 use mechc_syntax::ast::Expr;
 
 /// The options of a check, and the files that the text names.
 #[derive(Clone, Debug, Default)]
-pub struct Surroundings {
+pub struct CheckOptions {
     /// Overrides of parameters.
-    pub settings: Vec<Setting>,
+    pub settings: Vec<ParamOverride>,
     /// The mechanisms of all files that the text uses.
     pub library: Library,
     /// The texts of the files that tables name.
     pub files: TableFiles,
     /// Overrides of inputs.
-    pub given: Given,
+    pub given: InputOverrides,
     /// For a part that is checked on its own: the values of its bound params (SI).
     pub bound: Vec<(String, f64)>,
     /// The target of a continuation, if the model is one of a continuation.
-    pub lead: Option<Lead>,
+    pub continuation: Option<ContinuationPath>,
     /// The paths of parameters that may change after the check. They become symbols even if their formulas depend on others, and the model
     /// lists them.
     pub open: Vec<String>,
@@ -33,14 +33,14 @@ pub struct Surroundings {
     /// True if inputs stay signals in the model, and are not replaced by their formulas.
     pub has_signals: bool,
     /// Inputs that become settable numbers.
-    pub set_inputs: Option<SetInputs>,
+    pub set_inputs: Option<SettableInputs>,
     /// The paths of parts whose derivatives use only their own equations, although they move together with their surroundings.
     pub coupled: Vec<String>,
 }
 
 /// The override of a parameter: `--set crank_length=60mm`.
 #[derive(Clone, Debug)]
-pub struct Setting {
+pub struct ParamOverride {
     /// The path of the parameter, or of a coordinate of a point. Without an index it names all copies.
     pub path: String,
     /// The formula, which names nothing of the file.

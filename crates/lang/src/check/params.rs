@@ -1,11 +1,11 @@
 //! Params: the numbers and points of a text, with their overrides.
 
 use super::formula::{Context, Dim, Value};
-use super::formula_scope::DrawnPoint;
+use super::formula_scope::InitialPoint;
 use super::overrides::override_matches;
-use super::{Checker, Setting, errors};
+use super::{Checker, ParamOverride, errors};
 use crate::check::suggest::lost_rate;
-use crate::model::{DecidedBy, Declared, Dimension, Param};
+use crate::model::{Declared, Dimension, GuardKind, Param};
 use mechc_expr::Symbol;
 use mechc_syntax::ast::{Expr, Name};
 
@@ -17,7 +17,7 @@ pub(super) struct ParamState<'a> {
     /// `None` before evaluation, if it is broken, and if it is a point.
     pub value: Option<Value>,
     /// The value of a point.
-    pub drawn: Option<DrawnPoint>,
+    pub drawn: Option<InitialPoint>,
     /// The exponent of angles in it.
     pub angle: i32,
     /// True if it is given in a unit of angle.
@@ -89,34 +89,35 @@ impl<'a> Checker<'a> {
     }
 
     /// Evaluates a parameter that is a point. Each independent coordinate becomes a parameter of the model.
-    fn point_of_param(&mut self, name: &Name, docs: &[String], formula: &Expr) -> Option<DrawnPoint> {
-        let DrawnPoint { mut at, mut dimensional } = self.point_formula(formula, &Context::constant("a parameter"))?;
+    fn point_of_param(&mut self, name: &Name, docs: &[String], formula: &Expr) -> Option<InitialPoint> {
+        let InitialPoint { mut at, mut dimensional } =
+            self.point_formula(formula, &Context::constant("a parameter"))?;
         if self.bound_param(name).is_some() {
-            DrawnPoint { at, dimensional } = self.point_with_binding(name, DrawnPoint { at, dimensional })?;
+            InitialPoint { at, dimensional } = self.point_with_binding(name, InitialPoint { at, dimensional })?;
         }
         for (coordinate, setting) in self.settings_of(name) {
-            let given = self.point_given(name, coordinate, setting, DrawnPoint { at, dimensional })?;
+            let given = self.point_given(name, coordinate, setting, InitialPoint { at, dimensional })?;
             (at, dimensional) = (given.at, given.dimensional);
         }
         let mut coordinate = |k: usize, axis: &str| {
             let declared = Declared { name: format!("{}{}.{axis}", self.address.path, name.text), span: name.span };
             // A zero loses its sign, which would count in a direction.
-            let is_zero = self.decided(at[k], DecidedBy::Sign) == Some(0.0);
+            let is_zero = self.decided(at[k], GuardKind::Sign) == Some(0.0);
             let id = if is_zero && !self.follows(at[k]) { self.model.graph.constant(0.0) } else { at[k] };
             self.settable(declared, &name.text, docs, Value { id, dim: Dim::LENGTH })
         };
         let (x, y) = (coordinate(0, "x")?, coordinate(1, "y")?);
-        Some(DrawnPoint { at: [x.id, y.id], dimensional })
+        Some(InitialPoint { at: [x.id, y.id], dimensional })
     }
 
     /// Returns the overrides of a param, or of one of its coordinates, in their order.
-    pub(super) fn settings_of(&self, name: &Name) -> Vec<(Option<usize>, &'a Setting)> {
+    pub(super) fn settings_of(&self, name: &Name) -> Vec<(Option<usize>, &'a ParamOverride)> {
         if self.options.settings.is_empty() {
             return Vec::new();
         }
         let full = format!("{}{}", self.address.path, name.text);
         let is_point = self.is_point_name(&name.text);
-        let of = |setting: &'a Setting| {
+        let of = |setting: &'a ParamOverride| {
             if override_matches(&full, &setting.path) {
                 return Some((None, setting));
             }
@@ -131,9 +132,9 @@ impl<'a> Checker<'a> {
         &mut self,
         name: &Name,
         coordinate: Option<usize>,
-        setting: &Setting,
-        before: DrawnPoint,
-    ) -> Option<DrawnPoint> {
+        setting: &ParamOverride,
+        before: InitialPoint,
+    ) -> Option<InitialPoint> {
         let judged = before.dimensional;
         let context = Context { names: false, judged, ..Context::constant("a parameter") };
         let Some(k) = coordinate else {
@@ -155,7 +156,7 @@ impl<'a> Checker<'a> {
         )?;
         let mut at = before.at;
         at[k] = value.id;
-        Some(DrawnPoint { at, dimensional: judged })
+        Some(InitialPoint { at, dimensional: judged })
     }
 
     fn param_value(&mut self, formula: &Expr, context: Context<'_>) -> Option<Value> {

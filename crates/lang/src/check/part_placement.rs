@@ -102,9 +102,9 @@ impl Checker<'_> {
     pub(super) fn drawn_from(&mut self, seer: Frame, frame: Frame, [x, y]: Position) -> Option<Position> {
         if frame == seer {
             // The text of a mirrored part uses its own handedness.
-            let is_turned_over =
+            let is_mirrored_in_parent =
                 self.model.is_mirrored(self.model.part_of(frame)) != self.model.is_mirrored(self.address.part);
-            return Some([x, if is_turned_over { self.model.graph.neg(y) } else { y }]);
+            return Some([x, if is_mirrored_in_parent { self.model.graph.neg(y) } else { y }]);
         }
         let place = self.drawn_place(frame, [x, y])?;
         if seer == self.address.ground {

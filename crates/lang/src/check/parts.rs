@@ -4,7 +4,7 @@ use super::features::Feature;
 use super::instance::Instance;
 use super::names::Space;
 use super::variables::Variables;
-use super::{Checker, Surroundings};
+use super::{CheckOptions, Checker};
 use crate::model::{EquationId, Frame, Named, NamedId, Part, PartId, PointId};
 use mechc_syntax::ast::{self, ItemKind};
 use mechc_text::source::{Sources, Span};
@@ -55,7 +55,7 @@ impl<'a> Checker<'a> {
     /// Returns the checker of a mechanism with those of all its parts, each with its path and locations.
     pub(super) fn from_instance(
         instance: &'a Instance<'a>,
-        options: &'a Surroundings,
+        options: &'a CheckOptions,
         sources: &'a Sources,
         path: &str,
         used_at: &[(String, Span)],
@@ -123,7 +123,7 @@ impl<'a> Checker<'a> {
         }
         let zero = self.model.graph.constant(0.0);
         let declared = self.declared(&written.name);
-        let is_turned_over = written.mirrored.is_some();
+        let is_mirrored_in_parent = written.mirrored.is_some();
         let text = self.parts[part].tree.name.span;
         let id = self.model.add_part(Part {
             text,
@@ -134,8 +134,8 @@ impl<'a> Checker<'a> {
             within: self.address.part,
             mount: self.address.ground,
             pose: [zero; 3],
-            is_turned_over,
-            is_mirrored: self.model.is_mirrored(self.address.part) != is_turned_over,
+            is_mirrored_in_parent,
+            is_mirrored: self.model.is_mirrored(self.address.part) != is_mirrored_in_parent,
         });
         self.in_part(part, |child| {
             child.address.part = Some(id);

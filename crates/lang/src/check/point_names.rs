@@ -2,7 +2,7 @@
 
 use super::entity::Entity;
 use super::features::Feature;
-use super::formula_scope::{DrawnPoint, FormulaScope, FormulaSite};
+use super::formula_scope::{FormulaScope, FormulaSite, InitialPoint};
 use super::names::{BrokenName, Space};
 use super::point_kinds::{self, Expected, coordinate};
 use super::{Checker, errors};
@@ -22,7 +22,7 @@ pub(super) enum BodyPoint {
 
 /// The entity of a name or `body.feature` where a point is expected.
 pub(super) enum PointLookup {
-    Point(DrawnPoint),
+    Point(InitialPoint),
     /// A broken declaration, which has been reported.
     Broken,
     /// Not a point.
@@ -151,7 +151,7 @@ impl<'a> Checker<'a> {
     }
 
     /// Evaluates a lone `point A`.
-    pub(super) fn point_of_the_mechanism(&mut self, name: &Name) -> Option<DrawnPoint> {
+    pub(super) fn point_of_the_mechanism(&mut self, name: &Name) -> Option<InitialPoint> {
         match self.lookup_point(name, Expected::Point) {
             PointLookup::Point(drawn) => Some(drawn),
             PointLookup::Broken => None,
@@ -181,7 +181,7 @@ impl<'a> Checker<'a> {
                 BodyPoint::Broken => PointLookup::Broken,
                 BodyPoint::Point(point) => {
                     let (at, dimensional) = (self.model[point].at, self.common.dimensional_points.contains(&point));
-                    PointLookup::Point(DrawnPoint { at, dimensional })
+                    PointLookup::Point(InitialPoint { at, dimensional })
                 }
             };
         }

@@ -4,12 +4,12 @@
 //! allowed, at their drawn positions.
 
 use super::formula::{Context, Dim, Value};
-use super::formula_scope::{DrawnPoint, FormulaSite, Position};
+use super::formula_scope::{FormulaSite, InitialPoint, Position};
 use super::point_kinds::{Expected, coordinate};
 use super::point_names::PointLookup;
 use super::{Checker, errors};
 use crate::check::suggest::edits;
-use crate::model::{DecidedBy, Dimension, Frame};
+use crate::model::{Dimension, Frame, GuardKind};
 use mechc_expr::{Binary, Comparison, ExprId, Graph, Node, Unary};
 use mechc_syntax::ast::{Expr, ExprKind, Factor, Name, Sign, Window};
 use mechc_text::source::Span;
@@ -29,12 +29,12 @@ enum Scaled {
 
 impl Checker<'_> {
     /// Evaluates a whole formula of points, judged on its own.
-    pub(super) fn point_formula(&mut self, e: &Expr, context: &Context<'_>) -> Option<DrawnPoint> {
+    pub(super) fn point_formula(&mut self, e: &Expr, context: &Context<'_>) -> Option<InitialPoint> {
         let argument = context.argument.map(|(name, _)| name);
         let dimensional = context.judged || self.holds_dimension(argument, e, Expected::Point);
         self.calls.visited = 0;
         let at = self.point_at(e, &Context { judged: dimensional, ..*context })?;
-        Some(DrawnPoint { at, dimensional })
+        Some(InitialPoint { at, dimensional })
     }
 
     /// Evaluates a formula of points within another one; `None` if it is broken, which has been reported.
@@ -318,7 +318,7 @@ impl Checker<'_> {
 
     /// Returns the angle of the vector between two points, in (−π, π].
     pub(super) fn direction_of_vector(&mut self, offset: Position, what: &str, span: Span) -> Option<ExprId> {
-        let [dx, dy] = offset.map(|id| self.decided(id, DecidedBy::Sign));
+        let [dx, dy] = offset.map(|id| self.decided(id, GuardKind::Sign));
         if dx == Some(0.0) && dy == Some(0.0) && !self.branch.is_untaken {
             self.report(errors::points_coincide(what, span));
             return None;

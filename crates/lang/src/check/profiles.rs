@@ -2,7 +2,7 @@
 
 use super::features::Feature;
 use super::formula::{Context, Dim, Value};
-use super::formula_scope::{DrawnPoint, FormulaSite};
+use super::formula_scope::{FormulaSite, InitialPoint};
 use super::{Checker, errors};
 use crate::check::suggest::edits;
 use crate::model::{Circle, CircleId, Curve, CurveId, Frame, Named, Profile};
@@ -129,14 +129,14 @@ impl<'a> Checker<'a> {
         what: &str,
         place: &'static str,
         argument: Option<(&str, Value)>,
-    ) -> Option<DrawnPoint> {
+    ) -> Option<InitialPoint> {
         match &e.kind {
             ExprKind::Tuple(parts) => {
                 if let [x, y] = parts.as_slice() {
                     let name = argument.map(|(name, _)| name);
                     let context = Context { argument, ..self.pair_context([x, y], place, name) };
                     let at = self.lengths_in([x, y], &context)?;
-                    Some(DrawnPoint { at, dimensional: context.judged })
+                    Some(InitialPoint { at, dimensional: context.judged })
                 } else {
                     let word = Keyword::named(what).map(|keyword| &keyword.word);
                     let diagnostic = errors::argument_count(what, word, e.span, "two lengths", parts.len());

@@ -5,7 +5,7 @@ use super::elements::measure_context;
 use super::entity::Entity;
 use super::formula::{Context, Dim, Value};
 use super::{Checker, errors};
-use crate::model::{DecidedBy, Dimension, Named, Outcome, Reduction, ReductionKind, Units};
+use crate::model::{Dimension, GuardKind, Named, Outcome, Reduction, ReductionKind, Units};
 use mechc_expr::{ExprId, Symbol};
 use mechc_syntax::ast::{Expr, ItemKind, Name, Window, WrittenUnit};
 use mechc_text::vocabulary::ReductionWord;
@@ -39,7 +39,7 @@ impl Checker<'_> {
     /// Evaluates and lists the results. They follow all that rows need.
     pub(super) fn results(&mut self) {
         self.model.named_before_results = self.model.named.len();
-        if self.options.lead.is_none() {
+        if self.options.continuation.is_none() {
             self.result_values();
             self.list_results();
         }
@@ -206,7 +206,7 @@ impl Checker<'_> {
         let bounds = [from?, to?];
         if let [Some(from), Some(to)] = bounds {
             let length = self.model.graph.sub(to, from);
-            let is_negative = self.decided(length, DecidedBy::Sign).is_some_and(|length| length < 0.0);
+            let is_negative = self.decided(length, GuardKind::Sign).is_some_and(|length| length < 0.0);
             let times = [self.number_of(from), self.number_of(to)];
             if let ([Some(from), Some(to)], true, false) = (times, is_negative, self.branch.is_untaken) {
                 self.report(errors::window_ends_early(word, window.span, [from, to]));

@@ -218,7 +218,7 @@ impl ColumnHeader<'_> {
     fn column(&self, values: Vec<f64>) -> Column {
         let (name, span, dimension) = (self.path(), self.span, self.unit.as_ref().map(CompoundUnit::dimension));
         let mut units = self.unit.iter().flat_map(CompoundUnit::factors);
-        let is_of_angles = units.any(|(unit, _)| unit.is_of_angle());
+        let is_of_angles = units.any(|(unit, _)| unit.measures_angle());
         Column { name, span, dimension, is_of_angles, values }
     }
 

@@ -7,13 +7,13 @@
 
 use super::formula::Value;
 use super::{Checker, errors};
-use crate::model::{Declared, Dimension, Led, Param};
+use crate::model::{ContinuedParam, Declared, Dimension, Param};
 use mechc_expr::{ExprId, Symbol};
 use mechc_syntax::ast::Name;
 
 /// The inputs that become settable.
 #[derive(Clone, Debug, Default)]
-pub struct SetInputs {
+pub struct SettableInputs {
     /// The time at which they start with the text's values (s).
     pub t: f64,
     /// Their names, prefixed with those of their parts.
@@ -27,7 +27,7 @@ impl Checker<'_> {
     /// `before`, are dropped.
     pub(super) fn set_input(&mut self, name: &Name, nominal: Value, before: usize) -> Option<Value> {
         let declared = self.declared(name);
-        let Some(SetInputs { t, bend, .. }) =
+        let Some(SettableInputs { t, bend, .. }) =
             self.options.set_inputs.as_ref().filter(|set| set.names.contains(&declared.name))
         else {
             return Some(nominal);
@@ -53,7 +53,12 @@ impl Checker<'_> {
         let first = self.model.params.len() as u32;
         let per = |order: i32| dimension.over(Dimension::TIME.to_the(f64::from(order)));
         for (param, value, dimension) in [(first, value, dimension), (first + 1, t, Dimension::TIME)] {
-            self.model.led.push(Led { declared: declared.clone(), param: Some(param), line: [value; 2], dimension });
+            self.model.continued.push(ContinuedParam {
+                declared: declared.clone(),
+                param: Some(param),
+                line: [value; 2],
+                dimension,
+            });
         }
         let params = [(value, dimension), (t, Dimension::TIME), (0.0, per(1)), (0.0, per(2))];
         for (value, dimension) in params.into_iter().take(if bends { 4 } else { 3 }) {

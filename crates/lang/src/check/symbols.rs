@@ -11,7 +11,7 @@ use mechc_syntax::ast::{
 use mechc_syntax::keywords_in;
 use mechc_text::source::{FileId, Span};
 use mechc_text::vocabulary::{
-    Constant, Function, JointWord, Keyword, QuantityWord, ReductionWord, Role, StandsFor, Unit, Word,
+    Constant, Function, JointWord, Keyword, NamedConstant, QuantityWord, ReductionWord, Role, Unit, Word,
 };
 use rustc_hash::{FxHashMap, FxHashSet};
 
@@ -507,7 +507,7 @@ impl Walk<'_> {
         let argument = scope.argument.map(|(argument, _)| argument);
         match resolve_bare_name(&name.text, argument, self.names.get(&name.text).copied()) {
             BareName::Argument => scope.argument.into_iter().for_each(|(_, id)| self.declared(name, id)),
-            BareName::Constant(Constant { stands_for: StandsFor::Ground, .. }) if self.ground.is_some() => {
+            BareName::Constant(Constant { stands_for: NamedConstant::Ground, .. }) if self.ground.is_some() => {
                 self.ground.into_iter().for_each(|id| self.declared(name, id));
             }
             BareName::Constant(constant) => self.word(name, &constant.word),

@@ -4,19 +4,20 @@ use super::Lowering;
 use super::frames::Vector;
 use crate::model::{JointId, JointKind, Named, Profile};
 use mechc_expr::{ExprId, Symbol, Unary};
-use mechc_ir::Press;
+use mechc_ir::ContactForce;
 use mechc_ir::tolerances::contacts::{CLOSED, PLACES};
 use std::f64::consts::PI;
 
 impl Lowering<'_> {
     /// Returns the normal forces of all contacts.
-    pub(super) fn contact_forces(&mut self) -> Vec<Press> {
+    pub(super) fn contact_forces(&mut self) -> Vec<ContactForce> {
         let mut presses = Vec::new();
         for id in self.model.joint_ids() {
             if self.model[id].kind.plain().has_contact() {
                 let on_second = self.reaction_on_second(id);
                 let force = self.relative_to(None, |l| l.contact_force(id, on_second));
-                let press = |(force, is_sided)| Press { declaration: super::joint_declaration(id), force, is_sided };
+                let press =
+                    |(force, is_sided)| ContactForce { declaration: super::joint_declaration(id), force, is_sided };
                 presses.extend(force.map(press));
             }
         }

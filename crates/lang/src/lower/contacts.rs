@@ -4,7 +4,7 @@ use super::frames::Vector;
 use super::{Entry, Lowering, entries};
 use crate::model::{AxisId, Joint, Named, PointId, Profile};
 use mechc_expr::{ExprId, Node, Symbol, Unary};
-use mechc_ir::{Coordinate, CoordinateKind, OpenContact, Owner, RowUnit, Watch, WatchKind};
+use mechc_ir::{Coordinate, CoordinateKind, Monitor, MonitorKind, OpenContact, Owner, RowUnit};
 use rustc_hash::FxHashMap;
 
 /// A point of a profile at one argument, in its body's frame.
@@ -30,8 +30,8 @@ impl Lowering<'_> {
     }
 
     /// Adds a monitor to the joint that is being lowered: a value that keeps its sign along a branch.
-    pub(super) fn add_monitor(&mut self, value: ExprId, kind: WatchKind, scale: f64) {
-        self.watches.push(Watch { value, kind, scale, declaration: self.declarations.next_id() });
+    pub(super) fn add_monitor(&mut self, value: ExprId, kind: MonitorKind, scale: f64) {
+        self.watches.push(Monitor { value, kind, scale, declaration: self.declarations.next_id() });
     }
 
     /// Returns the rows of a point follower: `r_j + A_j k(u) − r_i^P`.
@@ -59,14 +59,14 @@ impl Lowering<'_> {
         let rows = vec![(x, RowUnit::LENGTH), (y, RowUnit::LENGTH), (parallel, RowUnit::AREA)];
         let together = self.dot(s, t);
         let scale = self.size(frames[0]) * self.size(frames[1]);
-        self.add_monitor(together, WatchKind::Tangents, scale);
+        self.add_monitor(together, MonitorKind::Tangents, scale);
         // Along the contact dw = du (sᵀt)/(tᵀt); the tangents separate at the rate of the relative curvature.
         let (bend_k, bend_m) = (self.transform_vector(frames[0], k.bend), self.transform_vector(frames[1], m.bend));
         let (of_k, of_m) = (self.left_of(bend_k, t), self.left_of(s, bend_m));
         let square = self.dot(t, t);
         let (of_k, of_m) = (self.graph.mul(of_k, square), self.graph.mul(of_m, together));
         let curvature = self.graph.add(of_k, of_m);
-        self.add_monitor(curvature, WatchKind::Curvature, scale * scale);
+        self.add_monitor(curvature, MonitorKind::Curvature, scale * scale);
         self.record_open_arguments(&[(u, first), (w, second)], first_condition);
         rows
     }
@@ -84,9 +84,9 @@ impl Lowering<'_> {
         let rows = entries(RowUnit::LENGTH, [self.left_of(v, d), self.left_of(v, tangent)]);
         let along = self.dot(v, tangent);
         let scale = self.size(frame);
-        self.add_monitor(along, WatchKind::Tangents, scale);
+        self.add_monitor(along, MonitorKind::Tangents, scale);
         let curvature = self.left_of(v, bend);
-        self.add_monitor(curvature, WatchKind::Curvature, scale);
+        self.add_monitor(curvature, MonitorKind::Curvature, scale);
         self.record_open_arguments(&[(u, profile)], first_condition);
         rows
     }

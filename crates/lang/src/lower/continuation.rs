@@ -9,18 +9,18 @@ use rustc_hash::FxHashMap;
 
 /// Time during a continuation.
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub enum Clock {
+pub enum TimeOnPath {
     /// Time is constant (s).
     Still(f64),
     /// Time moves too.
-    Goes,
+    Moving,
 }
 
 /// Returns the equations of a continuation. Time is replaced by the path parameter: at 0 the continued parameters have their nominal
 /// values, at 1 those of the target. For each of them one parameter is appended to those of the model, its target value; if time moves, two
 /// more, its first and last value.
 #[must_use]
-pub fn lower_on_its_way(model: &Mechanism, clock: Clock) -> ConstraintSystem {
+pub fn lower_continuation(model: &Mechanism, clock: TimeOnPath) -> ConstraintSystem {
     let mut model = model.clone();
     model.strip_outputs();
     model.by.clear();
@@ -38,7 +38,7 @@ pub fn lower_on_its_way(model: &Mechanism, clock: Clock) -> ConstraintSystem {
 
 /// The appended parameters, which are ends of lines.
 struct PathLines {
-    clock: Clock,
+    clock: TimeOnPath,
     /// The number of the target value of each continued parameter.
     ends: FxHashMap<u32, u32>,
     /// The numbers of the first and the last time.
@@ -47,17 +47,17 @@ struct PathLines {
 
 impl PathLines {
     /// Appends the parameters.
-    fn append(model: &Mechanism, clock: Clock, params: &mut Vec<Param>) -> PathLines {
+    fn append(model: &Mechanism, clock: TimeOnPath, params: &mut Vec<Param>) -> PathLines {
         let span = model.declared.span;
         let mut add = |name: &str, value: f64, dimension: Dimension| {
             params.push(Param { name: format!("{name} on the way"), part: 0, value, dimension, span });
             params.len() as u32 - 1
         };
-        let continued = model.led.iter().filter_map(|led| Some((led.param?, led)));
+        let continued = model.continued.iter().filter_map(|led| Some((led.param?, led)));
         let ends = continued.map(|(param, led)| (param, add(&led.declared.name, led.line[1], led.dimension))).collect();
         let times = match clock {
-            Clock::Still(_) => [0; 2],
-            Clock::Goes => ["the first time", "the last time"].map(|name| add(name, 0.0, Dimension::TIME)),
+            TimeOnPath::Still(_) => [0; 2],
+            TimeOnPath::Moving => ["the first time", "the last time"].map(|name| add(name, 0.0, Dimension::TIME)),
         };
         PathLines { clock, ends, times }
     }
@@ -67,8 +67,8 @@ impl PathLines {
         written.substitute(|graph, symbol| match symbol {
             Symbol::Param(from) if self.ends.contains_key(&from) => line(graph, [from, self.ends[&from]]),
             Symbol::Time => match self.clock {
-                Clock::Still(t) => graph.constant(t),
-                Clock::Goes => line(graph, self.times),
+                TimeOnPath::Still(t) => graph.constant(t),
+                TimeOnPath::Moving => line(graph, self.times),
             },
             other => graph.symbol(other),
         });

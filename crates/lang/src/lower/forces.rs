@@ -58,13 +58,13 @@ impl Lowering<'_> {
         for load in &model.loads {
             self.add_load(load, &mut needed);
         }
-        let are_pictured = model.draws_forces() && !model.reactions;
-        let mut reactions = if model.reactions || are_pictured { self.reactions() } else { Vec::new() };
+        let only_for_drawing = model.draws_forces() && !model.reactions;
+        let mut reactions = if model.reactions || only_for_drawing { self.reactions() } else { Vec::new() };
         if model.draws_forces() {
             reactions.extend(model.loads.iter().map(|load| self.load_column(load)));
         }
         let loads = model.loads.iter().map(|load| self.load_force(load)).collect();
-        Some(Forces { needed, reactions, are_pictured, loads, presses: self.contact_forces() })
+        Some(Forces { needed, reactions, only_for_drawing, loads, presses: self.contact_forces() })
     }
 
     /// Returns a load as the system has it.

@@ -4,7 +4,7 @@ use super::frames::Vector;
 use super::{Entry, Lowering, entries};
 use crate::model::{AxisId, CircleId, Joint, Side};
 use mechc_expr::{Binary, ExprId, Unary};
-use mechc_ir::{CoordinateKind, Fit, RowUnit, WatchKind};
+use mechc_ir::{CoordinateKind, Fit, MonitorKind, RowUnit};
 
 impl Lowering<'_> {
     /// Returns the rows of a gear: `[−dx sin θ + dy cos θ, R_i(φ_i − θ) ± R_j(φ_j − θ) − κ]`, θ the direction of the line of centres.
@@ -31,7 +31,7 @@ impl Lowering<'_> {
         // The first row also holds at θ + π, which this sign excludes.
         let along = self.dot(line, [dx, dy]);
         let scale = circles.map(|circle| self.size(self.model[circle].frame));
-        self.add_monitor(along, WatchKind::LineOfCenters, f64::max(scale[0], scale[1]));
+        self.add_monitor(along, MonitorKind::LineOfCenters, f64::max(scale[0], scale[1]));
         let radii = circles.map(|circle| self.radius(circle));
         let wanted = if internal {
             let difference = self.graph.sub(radii[0], radii[1]);

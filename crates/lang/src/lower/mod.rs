@@ -27,12 +27,12 @@ mod velocities;
 use crate::model::{
     self, BodyId, ConditionKind, EquationForm, Frame, JointId, Mechanism, Named, PartId, Placement, PointId, Quantity,
 };
-pub use continuation::{Clock, lower_on_its_way};
+pub use continuation::{TimeOnPath, lower_continuation};
 use mechc_expr::{Comparison, Dependence, ExprId, Graph, Symbol, TIME_SIGNAL};
 use mechc_ir::tolerances::scales::size::FAR_FRAME;
 use mechc_ir::{
     self as ir, Body, Condition, ConstraintSystem, Coordinate, CoordinateKind, Declaration, DeclarationId,
-    DeclarationKind, Fit, Forces, IdVec, Measure, OpenContact, Owner, Param, Row, RowUnit, Units, Variations, Watch,
+    DeclarationKind, Fit, Forces, IdVec, Measure, Monitor, OpenContact, Owner, Param, Row, RowUnit, Units, Variations,
     Written,
 };
 use numbering::Numbering;
@@ -138,7 +138,7 @@ struct Lowering<'m> {
     reactions: FxHashMap<JointId, forces::Reaction>,
     conditions: Vec<Condition>,
     condition_formulas: FxHashSet<ExprId>,
-    watches: Vec<Watch>,
+    watches: Vec<Monitor>,
     fits: Vec<Fit>,
     /// The variables of derivatives other than time, with these derivatives.
     variations: Option<Variations>,
@@ -245,7 +245,7 @@ impl Lowering<'_> {
         self.rows_of_scopes();
         self.conditions();
         let (points, forces, measures) = (self.points(), self.forces(), self.measures());
-        let (parts, asking_parts) = (self.part_starts(), self.asking_parts());
+        let (parts, parts_with_derivatives) = (self.part_starts(), self.parts_with_derivatives());
         self.append_derivatives(forces.as_ref().map_or(&[], |forces| &forces.reactions), &measures);
         Written {
             name: model.declared.name.clone(),
@@ -260,7 +260,7 @@ impl Lowering<'_> {
             forces,
             measures,
             parts,
-            asking_parts,
+            parts_with_derivatives,
             variations: self.variations.take().map(Box::new),
             conditions: std::mem::take(&mut self.conditions),
             watches: std::mem::take(&mut self.watches),
@@ -437,7 +437,7 @@ impl Lowering<'_> {
             circles: Vec::new(),
             at: None,
             written: None,
-            is_spoken_of: false,
+            is_referenced: false,
         });
         self.rows.extend(phi.iter().map(|&(phi, unit)| Row { declaration, phi, unit }));
     }
@@ -456,7 +456,7 @@ impl Lowering<'_> {
         }
         for named in &model.named[..model.named_before_results] {
             if let Named::Quantity(_, Quantity::Rotation(joint, _) | Quantity::Displacement(joint, ..)) = named {
-                self.declarations[joint_declaration(*joint)].is_spoken_of = true;
+                self.declarations[joint_declaration(*joint)].is_referenced = true;
             }
         }
     }

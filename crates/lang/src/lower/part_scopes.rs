@@ -3,7 +3,7 @@
 use super::Lowering;
 use crate::model::{Mechanism, Named, PartId};
 use mechc_expr::{ExprId, Graph};
-use mechc_ir::{AskingPart, ConstraintSystem, DeclarationId, LEAF_ORDERS, Leaf, Scope, SparseRows, leaf};
+use mechc_ir::{ConstraintSystem, DeclarationId, LEAF_ORDERS, Leaf, PartWithDerivatives, Scope, SparseRows, leaf};
 use rustc_hash::FxHashMap;
 
 /// Formulas in which the inputs that parts hold fixed are leaves.
@@ -172,7 +172,7 @@ impl Lowering<'_> {
     }
 
     /// Returns the parts whose texts ask for derivatives.
-    pub(super) fn asking_parts(&mut self) -> Vec<AskingPart> {
+    pub(super) fn parts_with_derivatives(&mut self) -> Vec<PartWithDerivatives> {
         let model = self.model;
         let mut asking: Vec<PartId> = model.part_derivatives.iter().map(|derivative| derivative.part).collect();
         asking.sort_unstable();
@@ -180,7 +180,7 @@ impl Lowering<'_> {
         asking.into_iter().map(|part| self.asking_part(part)).collect()
     }
 
-    fn asking_part(&mut self, part: PartId) -> AskingPart {
+    fn asking_part(&mut self, part: PartId) -> PartWithDerivatives {
         let model = self.model;
         let derivatives = || model.part_derivatives.iter().filter(|derivative| derivative.part == part);
         let mut places: Vec<_> = derivatives().map(|derivative| derivative.span).collect();
@@ -191,7 +191,15 @@ impl Lowering<'_> {
         let (name, columns) =
             (model[part].declared.name.clone(), self.numbering.of_part(model, |to| belongs(model, to, part)));
         let inputs = model[part].inputs.iter().map(|(_, id)| self.formula(*id)).collect();
-        AskingPart { name, used_at, places, of_force, columns, inputs, declarations: self.declarations_of(part) }
+        PartWithDerivatives {
+            name,
+            used_at,
+            places,
+            of_force,
+            columns,
+            inputs,
+            declarations: self.declarations_of(part),
+        }
     }
 
     /// Returns the joints, constraints and drivers of a part and of the parts in it.

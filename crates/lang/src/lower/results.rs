@@ -32,7 +32,7 @@ impl Lowering<'_> {
         }
         let holds_variations = reductions.iter().any(|reduction| self.graph.dependence(reduction.of).is_varied());
         let variations = self.variations.take().filter(|_| holds_variations).map(Box::new);
-        Results { reductions, outcomes, variations, varied_where: Vec::new() }
+        Results { reductions, outcomes, variations, variation_conditions: Vec::new() }
     }
 
     /// Returns the derivatives of results by the variables of columns: those of the first result, then those of the second, and so on.

@@ -3,7 +3,7 @@
 use super::Lowering;
 use crate::model::{Mechanism, Units, quotient};
 use mechc_expr::{Dependence, ExprId};
-use mechc_ir::{Appended, Coordinate, Measure, Reaction, Variable, Variations};
+use mechc_ir::{Coordinate, DerivativeColumn, Measure, Reaction, Variable, Variations};
 
 /// Returns the variables of derivatives; `None` if there are no variables.
 pub(super) fn variables(model: &Mechanism) -> Option<Variations> {
@@ -106,7 +106,7 @@ impl Lowering<'_> {
         if let Some(variations) = &mut self.variations {
             let by = &variations.variables[variable as usize];
             let (name, unit) = (format!("{of}.by.{}", by.name), quotient(unit, &by.unit));
-            variations.appended.push(Appended { name, value, variable, unit, scale });
+            variations.appended.push(DerivativeColumn { name, value, variable, unit, scale });
         }
     }
 }

@@ -22,7 +22,7 @@ pub use forces::{Force, Load, Mass};
 pub use joints::{Joint, JointKind};
 pub use mechc_text::vocabulary::{CompoundUnit, Dimension};
 pub use named::Named;
-pub use params::{Input, Led, Param, Variable};
+pub use params::{ContinuedParam, Input, Param, Variable};
 pub use parts::{Part, PartDerivative};
 pub use placement::Placement;
 pub use quantities::{Direction, Quantity};
@@ -109,7 +109,7 @@ pub struct Mechanism {
     /// The inputs, ordered so that each depends only on earlier ones.
     pub inputs: Vec<Input>,
     /// The parameters and inputs that vary along a continuation path; then time runs from 0 to 1.
-    pub led: Vec<Led>,
+    pub continued: Vec<ContinuedParam>,
     /// The parts; a part within another one follows it.
     pub parts: Vec<Part>,
     /// The variables of derivatives, by their number.
@@ -163,12 +163,12 @@ pub struct Mechanism {
     pub analysis: Option<Analysis>,
     /// Parameter formulas whose values decided something in `check`. With other parameter values that decide nothing differently, the
     /// mechanism differs from this one in these values only.
-    pub decided: Vec<(ExprId, DecidedBy)>,
+    pub guards: Vec<(ExprId, GuardKind)>,
 }
 
 /// The property of a formula's value on which a decision of `check` depends.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum DecidedBy {
+pub enum GuardKind {
     /// The value is finite.
     Finite,
     /// The sign: negative, zero or positive.
@@ -187,7 +187,7 @@ impl Mechanism {
             named: Vec::new(),
             params: Vec::new(),
             inputs: Vec::new(),
-            led: Vec::new(),
+            continued: Vec::new(),
             parts: Vec::new(),
             variables: Vec::new(),
             part_derivatives: Vec::new(),
@@ -213,7 +213,7 @@ impl Mechanism {
             named_before_results: 0,
             conditions: Vec::new(),
             analysis: None,
-            decided: Vec::new(),
+            guards: Vec::new(),
         }
     }
 

@@ -31,7 +31,7 @@ pub struct Input {
 
 /// A parameter or input that moves from one value to another along a continuation path.
 #[derive(Clone, Debug)]
-pub struct Led {
+pub struct ContinuedParam {
     /// The name of the parameter or input.
     pub declared: Declared,
     /// The index of the parameter, whose symbol then stands for the first value; `None` for an input.

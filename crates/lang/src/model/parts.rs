@@ -24,7 +24,7 @@ pub struct Part {
     /// The pose of the part's ground in the mount: x (m), y (m), phi (rad), in the handedness of the text that declares the part.
     pub pose: [ExprId; 3],
     /// True if the part's text is mirrored relative to the text that declares the part.
-    pub is_turned_over: bool,
+    pub is_mirrored_in_parent: bool,
     /// True if the part's text is mirrored relative to the ground.
     pub is_mirrored: bool,
 }

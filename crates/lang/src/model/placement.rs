@@ -129,6 +129,6 @@ impl Mechanism {
         part: &super::Part,
     ) -> Placement {
         let [x, y, phi] = part.pose.map(|id| formula(graph, id));
-        mount.compose(graph, &Placement { at: [x, y], phi, is_mirrored: part.is_turned_over })
+        mount.compose(graph, &Placement { at: [x, y], phi, is_mirrored: part.is_mirrored_in_parent })
     }
 }

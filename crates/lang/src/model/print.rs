@@ -207,7 +207,7 @@ impl Text<'_> {
         for (part, frame) in self.model.parts.iter().zip(self.model.part_frames()) {
             let [x, y, phi] = part.pose.map(|id| self.formula_text(id));
             let mount = self.model.frame_name(part.mount);
-            let mirrored = if part.is_turned_over { " mirrored" } else { "" };
+            let mirrored = if part.is_mirrored_in_parent { " mirrored" } else { "" };
             writeln!(f, "\n{} on {mount} at ({x}, {y}, {phi}){mirrored}", part.ground_name)?;
             self.write_features(f, frame)?;
         }

@@ -3,11 +3,11 @@
 
 use crate::options::RunOptions;
 use crate::sweep::TopologyGroups;
-use crate::{AskedTimes, Checked, Variants};
-use mechc_engine::sweep::{Each, LANES, PART, Room, Team, Together, WantedOfEach};
+use crate::{Checked, RequestedTimes, Variants};
+use mechc_engine::sweep::{BatchContext, BatchRequest, BatchRunner, CHUNK, LANES, PerLane, RowBuffer};
 use mechc_expr::Symbol;
 use mechc_ir::program::{LaneMachine, LaneValues, Program, Register, Registers, Stage};
-use mechc_lang::model::{DecidedBy, Mechanism};
+use mechc_lang::model::{GuardKind, Mechanism};
 use mechc_text::cancel::Cancel;
 use std::array::from_fn;
 use std::collections::BTreeSet;
@@ -15,7 +15,7 @@ use std::sync::Arc;
 
 /// The data that variants of a sweep share in lanes.
 pub(crate) struct BatchPlan {
-    batch: Arc<Together>,
+    batch: Arc<BatchContext>,
     /// All params of the reference variant (SI).
     values: Vec<f64>,
     /// For each param that varies: the indices of the model's params that equal it.
@@ -25,7 +25,7 @@ pub(crate) struct BatchPlan {
 
 /// The rows and results that a sweep computes of each variant.
 pub(crate) struct Requested<'r> {
-    pub times: &'r AskedTimes,
+    pub times: &'r RequestedTimes,
     /// The columns of the rows, if rows are requested.
     pub columns: Option<&'r [usize]>,
     pub results: bool,
@@ -33,9 +33,9 @@ pub(crate) struct Requested<'r> {
 
 /// Lanes of variants, with the registers of their guards.
 pub(crate) struct BatchLanes {
-    pub team: Team,
-    params: Vec<Each>,
-    registers: Vec<Each>,
+    pub team: BatchRunner,
+    params: Vec<PerLane>,
+    registers: Vec<PerLane>,
 }
 
 /// Formulas of params by which the checker decides something, evaluated for the reference variant.
@@ -48,7 +48,7 @@ struct Guards {
 
 struct Guard {
     register: Register,
-    by: DecidedBy,
+    by: GuardKind,
     /// Its value in the reference variant.
     reference: f64,
 }
@@ -91,7 +91,7 @@ impl BatchPlan {
         let params: BTreeSet<u32> = targets.iter().flatten().map(|&at| at as u32).collect();
         let params: Vec<u32> = params.into_iter().collect();
         let guards = Guards::new(&model, &params, &values);
-        let wanted = WantedOfEach { rows: (&times, requested.columns), results: requested.results };
+        let wanted = BatchRequest { rows: (&times, requested.columns), results: requested.results };
         let batch = Arc::new(group.continuation.batch(&params, &wanted, options)?);
         Some(BatchPlan { batch, values, targets, guards })
     }
@@ -99,7 +99,7 @@ impl BatchPlan {
     /// Returns lanes for variants to follow.
     pub fn lanes(&self) -> BatchLanes {
         let params = self.values.iter().map(|&value| LaneValues([value; LANES])).collect();
-        BatchLanes { team: Team::new(&self.batch), params, registers: self.guards.registers_of_lanes() }
+        BatchLanes { team: BatchRunner::new(&self.batch), params, registers: self.guards.registers_of_lanes() }
     }
 
     /// Returns the number of rows of each variant.
@@ -109,7 +109,13 @@ impl BatchPlan {
 
     /// Follows up to `LANES` variants, given by the values of the varying params, variant by variant, and writes their rows. Returns which of
     /// them have all rows, or all results if no rows are requested. Variants whose guards differ from the reference are not followed.
-    pub fn follow(&self, lanes: &mut BatchLanes, varying: &[f64], room: Room<'_>, cancel: &Cancel) -> [bool; LANES] {
+    pub fn follow(
+        &self,
+        lanes: &mut BatchLanes,
+        varying: &[f64],
+        room: RowBuffer<'_>,
+        cancel: &Cancel,
+    ) -> [bool; LANES] {
         let width = self.targets.len();
         let count = varying.len() / width.max(1);
         for (k, targets) in self.targets.iter().enumerate() {
@@ -142,7 +148,7 @@ impl Guards {
     /// Collects the decisive formulas of a model that hold one of the given params.
     fn new(model: &Mechanism, params: &[u32], values: &[f64]) -> Guards {
         let varies = |symbol: &Symbol| matches!(symbol, Symbol::Param(k) if params.contains(k));
-        let mut formulas = model.decided.clone();
+        let mut formulas = model.guards.clone();
         formulas.sort_unstable_by_key(|&(id, by)| (id.index(), by as u8));
         formulas.dedup();
         formulas.retain(|&(id, _)| model.graph.symbols(id).iter().any(varies));
@@ -155,26 +161,26 @@ impl Guards {
         Guards { program, registers, all }
     }
 
-    fn registers_of_lanes(&self) -> Vec<Each> {
+    fn registers_of_lanes(&self) -> Vec<PerLane> {
         let all = 0..self.program.registers() as Register;
         all.map(|register| LaneValues([self.registers.get(register); LANES])).collect()
     }
 
     /// Returns for which lanes all guards decide as for the reference variant.
-    fn hold(&self, registers: &mut [Each], params: &[Each]) -> [bool; LANES] {
+    fn hold(&self, registers: &mut [PerLane], params: &[PerLane]) -> [bool; LANES] {
         let Guards { program, registers: scalars, all } = self;
         let first = program.inputs.params as usize;
         registers[first..first + params.len()].copy_from_slice(params);
-        let mut machine = LaneMachine::<LANES, PART>::new(registers, LANES / PART, (program, scalars));
+        let mut machine = LaneMachine::<LANES, CHUNK>::new(registers, LANES / CHUNK, (program, scalars));
         let stages = [Stage::Prologue, Stage::Measures];
         stages.into_iter().flat_map(|stage| program.stage(stage)).for_each(|op| op.run(&mut machine));
         from_fn(|lane| {
             all.iter().all(|&Guard { register, by, reference }| {
                 let value = registers[register as usize].0[lane];
                 match by {
-                    DecidedBy::Finite => value.is_finite(),
-                    DecidedBy::Sign => value.is_finite() && sign(value) == sign(reference),
-                    DecidedBy::Value => value.to_bits() == reference.to_bits(),
+                    GuardKind::Finite => value.is_finite(),
+                    GuardKind::Sign => value.is_finite() && sign(value) == sign(reference),
+                    GuardKind::Value => value.to_bits() == reference.to_bits(),
                 }
             })
         })

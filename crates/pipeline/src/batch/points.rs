@@ -4,7 +4,7 @@
 use crate::continuation::Continuation;
 use crate::options::RunOptions;
 use mechc_engine::analysis::Times;
-use mechc_engine::sweep::{Each, LANES, Numbers, Room, Team, Together, WantedOfEach};
+use mechc_engine::sweep::{BatchContext, BatchRequest, BatchRunner, LANES, Numbers, PerLane, RowBuffer};
 use mechc_ir::program::LaneValues;
 use mechc_text::diag::Diagnostic;
 use std::array::from_fn;
@@ -32,16 +32,16 @@ pub(crate) struct BatchEvaluator {
 struct Cache {
     times: Times,
     /// `None` if points at this time have to be computed alone.
-    batch: Option<Arc<Together>>,
+    batch: Option<Arc<BatchContext>>,
     /// Lanes that can be used again.
     idle: Vec<PointLanes>,
 }
 
 /// Query points in lanes.
 pub(crate) struct PointLanes {
-    batch: Arc<Together>,
-    team: Team,
-    params: Vec<Each>,
+    batch: Arc<BatchContext>,
+    team: BatchRunner,
+    params: Vec<PerLane>,
     /// For each column, a number for each point.
     columns: Vec<Numbers>,
     /// Points that the batch has not rejected.
@@ -76,7 +76,7 @@ impl BatchEvaluator {
             column.truncate(0);
             column.make_room(queries.len().min(LANES));
         }
-        let room = Room { columns: &mut lanes.columns, before: 0, rows: 1 };
+        let room = RowBuffer { columns: &mut lanes.columns, before: 0, rows: 1 };
         lanes.accepted = lanes.team.follow(&lanes.params, points.map(|point| point.is_some()), room, &options.cancel);
         Some(lanes)
     }
@@ -97,7 +97,7 @@ impl BatchEvaluator {
                 return None;
             }
             let all: Vec<usize> = (0..columns).collect();
-            let wanted = WantedOfEach { rows: (times, Some(&all)), results: false };
+            let wanted = BatchRequest { rows: (times, Some(&all)), results: false };
             let batch = continuation.batch(&self.params, &wanted, options).map(Arc::new);
             // the outcome of cancelled work must not be kept
             if options.cancel.is_cancelled() {
@@ -108,7 +108,7 @@ impl BatchEvaluator {
         let cache = cache.as_mut()?;
         let batch = Arc::clone(cache.batch.as_ref()?);
         let new = || PointLanes {
-            team: Team::new(&batch),
+            team: BatchRunner::new(&batch),
             batch,
             params: Vec::new(),
             columns: vec![Numbers::default(); columns],

@@ -4,12 +4,11 @@ use super::messages::{ContinuationTarget, passed_bifurcation, stopped_path};
 use super::nominal::Nominal;
 use crate::lowering::lower_on_path;
 use crate::options::RunOptions;
-use mechc_engine::analysis::{self, Horizon, LeadOptions, Started, Stop, Times, Warning};
-use mechc_engine::sweep::{Arrived, Base, Lost, Whole};
+use mechc_engine::analysis::{self, ContinuationOptions, Horizon, Started, Stop, Times, Warning};
+use mechc_engine::sweep::{CompiledSystem, ContinuationBase, ContinuationError, ContinuedVariant};
 use mechc_ir::ConstraintSystem;
-use mechc_ir::program::Program;
 use mechc_ir::structure::Determined;
-use mechc_lang::lower::Clock;
+use mechc_lang::lower::TimeOnPath;
 use mechc_lang::model;
 use mechc_text::cancel::Cancel;
 use mechc_text::diag::{Diagnostic, Diagnostics};
@@ -43,16 +42,16 @@ pub(super) struct ContinuationContext {
     pub nominal: Nominal,
     /// Nominal values of all params (SI).
     pub values: Vec<f64>,
-    pub options: LeadOptions,
+    pub options: ContinuationOptions,
     /// One for variants that begin at the nominal first time, and one for those whose time moves along the path.
-    bases: [OnceLock<Option<Base>>; 2],
+    bases: [OnceLock<Option<ContinuationBase>>; 2],
 }
 
 impl ContinuationContext {
     pub fn new(nominal: Nominal, options: &RunOptions) -> ContinuationContext {
         let RunOptions { tolerance, pass_bifurcations, ref cancel, .. } = *options;
-        let options = LeadOptions { tolerance, pass_bifurcations, t: nominal.t, cancel: cancel.clone() };
-        let (values, bases) = (nominal.whole.0.system().values_of_params(), [OnceLock::new(), OnceLock::new()]);
+        let options = ContinuationOptions { tolerance, pass_bifurcations, t: nominal.t, cancel: cancel.clone() };
+        let (values, bases) = (nominal.compiled.determined.system().param_values(), [OnceLock::new(), OnceLock::new()]);
         ContinuationContext { nominal, values, options, bases }
     }
 
@@ -65,11 +64,11 @@ impl ContinuationContext {
     /// Continues to the param values of a system of the same text.
     pub fn start_system(&self, system: &ConstraintSystem, horizon: Horizon, cancel: &Cancel) -> ContinuedStart {
         let mut diagnostics = Diagnostics::default();
-        let values = system.values_of_params();
+        let values = system.param_values();
         let Some(base) = self.base(&values, horizon.from, cancel) else { return ContinuedStart::default() };
         let (times, targets) = ([self.options.t, self.end_time(horizon.from)], || self.targets(system, &values));
         match base.alone(base.variant(&values), horizon, cancel) {
-            Ok(Arrived { started, passed, passed_before_start }) => {
+            Ok(ContinuedVariant { started, passed, passed_before_start }) => {
                 diagnostics.extend(self.nominal.started.far_estimates_at(self.nominal.t));
                 let path_system = base.path_system();
                 let report =
@@ -78,9 +77,11 @@ impl ContinuationContext {
                 diagnostics.extend(passed_before_start.iter().map(|warning| warning.explain(system)));
                 ContinuedStart { started: Some(Ok(started)), diagnostics, stopped_path: None }
             }
-            Err(Lost::AtTarget(stop)) => ContinuedStart { started: Some(Err(stop)), ..ContinuedStart::default() },
-            Err(Lost::OnPath(_)) if cancel.is_cancelled() => ContinuedStart::default(),
-            Err(Lost::OnPath(stop)) => {
+            Err(ContinuationError::AtTarget(stop)) => {
+                ContinuedStart { started: Some(Err(stop)), ..ContinuedStart::default() }
+            }
+            Err(ContinuationError::OnPath(_)) if cancel.is_cancelled() => ContinuedStart::default(),
+            Err(ContinuationError::OnPath(stop)) => {
                 let span = self.nominal.model.declared.span;
                 diagnostics.push(stopped_path(None, &targets(), times, span, stop.t, (&stop, base.path_system())));
                 ContinuedStart { started: None, diagnostics, stopped_path: Some(stop.t) }
@@ -98,9 +99,9 @@ impl ContinuationContext {
         }
         match base.alone(Arc::clone(&variant), Horizon::of(times), cancel) {
             Ok(arrived) => Outcome::Started(Box::new(arrived.started)),
-            Err(Lost::AtTarget(stop)) => Outcome::CannotStart(stop, variant),
-            Err(Lost::OnPath(_)) if cancel.is_cancelled() => Outcome::NoPath(None),
-            Err(Lost::OnPath(stop)) => {
+            Err(ContinuationError::AtTarget(stop)) => Outcome::CannotStart(stop, variant),
+            Err(ContinuationError::OnPath(_)) if cancel.is_cancelled() => Outcome::NoPath(None),
+            Err(ContinuationError::OnPath(stop)) => {
                 let targets = self.targets(variant.system(), values);
                 let (ends, span) = ([self.options.t, self.end_time(times.from())], self.nominal.model.declared.span);
                 Outcome::NoPath(Some(Box::new(stopped_path(
@@ -122,20 +123,20 @@ impl ContinuationContext {
 
     /// Returns the params with the intervals of their values, for messages.
     fn targets(&self, system: &ConstraintSystem, values: &[f64]) -> Vec<ContinuationTarget> {
-        let with_line = |param: &model::Led| {
+        let with_line = |param: &model::ContinuedParam| {
             let k = param.param? as usize;
-            Some(model::Led {
+            Some(model::ContinuedParam {
                 line: [self.values[k], values[k]],
                 dimension: system.params()[k].dimension,
                 ..param.clone()
             })
         };
-        let params: Vec<model::Led> = self.nominal.model.led.iter().filter_map(with_line).collect();
+        let params: Vec<model::ContinuedParam> = self.nominal.model.continued.iter().filter_map(with_line).collect();
         ContinuationTarget::from_params(&params, &self.nominal.angles)
     }
 
     /// Returns what variants share that begin at `from` (s); `None` if the number of values differs.
-    pub fn base(&self, values: &[f64], from: f64, cancel: &Cancel) -> Option<&Base> {
+    pub fn base(&self, values: &[f64], from: f64, cancel: &Cancel) -> Option<&ContinuationBase> {
         // inputs that are set have their values at `from` only, so time has to move along the path
         let time_moves = self.nominal.sets_inputs && from.to_bits() != self.options.t.to_bits();
         let slot = &self.bases[usize::from(time_moves)];
@@ -150,15 +151,21 @@ impl ContinuationContext {
         slot.get()?.as_ref().filter(|_| values.len() == self.values.len())
     }
 
-    fn new_base(&self, time_moves: bool, cancel: &Cancel) -> Option<Base> {
-        let clock = if time_moves { Clock::Goes } else { Clock::Still(self.options.t) };
+    fn new_base(&self, time_moves: bool, cancel: &Cancel) -> Option<ContinuationBase> {
+        let clock = if time_moves { TimeOnPath::Moving } else { TimeOnPath::Still(self.options.t) };
         let system = lower_on_path(&self.nominal.model, clock);
         let leave_out = self.nominal.leave_out_redundant;
         let (determined, _) = analysis::determine(system, leave_out, Horizon::of_analysis(None)).ok()?;
-        let program = Arc::new(Program::new(determined.system()));
-        let on_path: Whole = (Arc::new(determined), program);
-        let params = self.nominal.model.led.iter().filter_map(|param| param.param).collect();
-        let options = LeadOptions { cancel: cancel.clone(), ..self.options.clone() };
-        Base::new(self.nominal.whole.clone(), &self.nominal.started, on_path, (params, time_moves), options).ok()
+        let on_path = CompiledSystem::new(determined);
+        let params = self.nominal.model.continued.iter().filter_map(|param| param.param).collect();
+        let options = ContinuationOptions { cancel: cancel.clone(), ..self.options.clone() };
+        ContinuationBase::new(
+            self.nominal.compiled.clone(),
+            &self.nominal.started,
+            on_path,
+            (params, time_moves),
+            options,
+        )
+        .ok()
     }
 }

@@ -3,7 +3,7 @@
 use crate::angles::Angles;
 use mechc_engine::analysis::{Stop, Warning};
 use mechc_ir::{ConstraintSystem, PartStart};
-use mechc_lang::model::Led;
+use mechc_lang::model::ContinuedParam;
 use mechc_text::diag::{Code, Diagnostic, readable};
 use mechc_text::source::Span;
 
@@ -12,16 +12,16 @@ const MAX_LISTED: usize = 8;
 
 /// A param or input that changes along a path, as messages list it.
 pub(crate) struct ContinuationTarget {
-    param: Led,
+    param: ContinuedParam,
     /// SI unit; empty for a pure number.
     unit: String,
 }
 
 impl ContinuationTarget {
     /// Returns those of some params and inputs that change along the path.
-    pub fn from_params(params: &[Led], angles: &Angles) -> Vec<ContinuationTarget> {
+    pub fn from_params(params: &[ContinuedParam], angles: &Angles) -> Vec<ContinuationTarget> {
         let moving = params.iter().filter(|param| param.line[0].total_cmp(&param.line[1]).is_ne());
-        let target = |param: &Led| {
+        let target = |param: &ContinuedParam| {
             let unit = match param.dimension.unit().as_str() {
                 "1" if angles.has(param.declared.span) => "rad".to_owned(),
                 "1" => String::new(),

@@ -11,4 +11,4 @@ mod starts;
 
 pub(crate) use context::{ContinuedStart, Outcome};
 pub(crate) use nominal::Continuation;
-pub(crate) use starts::{CompiledSystem, ContinuationOrigin, InitialGuess, StartSolver};
+pub(crate) use starts::{ContinuationOrigin, InitialGuess, StartSolver};

@@ -4,16 +4,16 @@ use super::context::{ContinuationContext, ContinuedStart, Outcome};
 use crate::angles::Angles;
 use crate::{Checked, Redundant, RunOptions};
 use mechc_engine::analysis::{Horizon, Started, Times};
-use mechc_engine::sweep::{Together, WantedOfEach, Whole};
+use mechc_engine::sweep::{BatchContext, BatchRequest, CompiledSystem};
 use mechc_ir::ConstraintSystem;
-use mechc_lang::check::{Given, Setting, Surroundings};
+use mechc_lang::check::{CheckOptions, InputOverrides, ParamOverride};
 use mechc_lang::model::Mechanism;
 use mechc_text::diag::Diagnostics;
 use std::sync::{Arc, OnceLock};
 
 /// A mechanism with its nominal values, compiled and assembled at its first time.
 pub(crate) struct Nominal {
-    pub whole: Whole,
+    pub compiled: CompiledSystem,
     /// Lists the params that a path may change.
     pub model: Arc<Mechanism>,
     pub started: Started,
@@ -54,13 +54,13 @@ impl Continuation {
     }
 
     /// Returns what a batch of variants shares that differ in the given params; `None` if such variants have to be computed alone.
-    pub fn batch(&self, params: &[u32], wanted: &WantedOfEach<'_>, options: &RunOptions) -> Option<Together> {
+    pub fn batch(&self, params: &[u32], wanted: &BatchRequest<'_>, options: &RunOptions) -> Option<BatchContext> {
         let context = self.context(options)?;
         if wanted.rows.0.from().to_bits() != context.options.t.to_bits() {
             return None;
         }
         let base = context.base(&context.values, wanted.rows.0.from(), &options.cancel)?;
-        Together::of(base, &context.nominal.started, params, wanted, options.vectors)
+        BatchContext::of(base, &context.nominal.started, params, wanted, options.vectors)
     }
 
     fn context(&self, options: &RunOptions) -> Option<Arc<ContinuationContext>> {
@@ -90,14 +90,14 @@ impl Checked {
     }
 
     /// Returns the settings that decide counts of declarations: no path leads from one number of bodies to another.
-    pub(crate) fn count_settings(&self) -> Vec<Setting> {
+    pub(crate) fn count_settings(&self) -> Vec<ParamOverride> {
         let counts = self.settings_without_symbol(Vec::new());
         // with other counts there may be more params that a path can change
         if counts.is_empty() { counts } else { self.settings_without_symbol(counts) }
     }
 
     /// Returns the settings that are no symbols of the model if `set` alone is set; `set` itself if that has errors.
-    fn settings_without_symbol(&self, set: Vec<Setting>) -> Vec<Setting> {
+    fn settings_without_symbol(&self, set: Vec<ParamOverride>) -> Vec<ParamOverride> {
         let Some(symbolic) = self.with_symbolic_settings(set.clone()).filter(Checked::is_sound) else { return set };
         let is_symbol =
             |path: &str| ["", ".x", ".y"].iter().any(|axis| symbolic.param_in_part(&format!("{path}{axis}")).is_some());
@@ -105,15 +105,16 @@ impl Checked {
     }
 
     /// Returns the mechanism with `settings` in place of its own, and the params of its own settings as symbols of the model.
-    fn with_symbolic_settings(&self, settings: Vec<Setting>) -> Option<Checked> {
+    fn with_symbolic_settings(&self, settings: Vec<ParamOverride>) -> Option<Checked> {
         let open = self.check_options.settings.iter().map(|setting| setting.path.clone()).collect();
-        let options = Surroundings { settings, given: Given::default(), open, ..(*self.check_options).clone() };
+        let options =
+            CheckOptions { settings, given: InputOverrides::default(), open, ..(*self.check_options).clone() };
         Some(Checked::with_check_options(self.parsed.clone(), self.index?, options, false, Diagnostics::default()))
     }
 
     /// Returns the mechanism with params of the given names as symbols of the model.
     pub(crate) fn with_symbolic_params(&self, open: Vec<String>) -> Option<Checked> {
-        let options = Surroundings { open, ..(*self.check_options).clone() };
+        let options = CheckOptions { open, ..(*self.check_options).clone() };
         Some(Checked::with_check_options(self.parsed.clone(), self.index?, options, false, Diagnostics::default()))
     }
 
@@ -122,11 +123,19 @@ impl Checked {
         let (compiled, model) = (self.compile(redundant, &options.cancel).0?, Arc::clone(self.model.as_ref()?));
         let t = compiled.analysis().map_or(0.0, |[from, ..]| from);
         let horizon = Horizon::of_analysis(compiled.analysis()).beginning(t);
-        let started = compiled.start(horizon, &RunOptions { stand: None, ..options.clone() }).0.ok()?;
-        let whole = (Arc::clone(compiled.determined()), Arc::clone(compiled.program()));
+        let started = compiled.start(horizon, &RunOptions { configuration: None, ..options.clone() }).0.ok()?;
+        let (determined, program) = (Arc::clone(compiled.determined()), Arc::clone(compiled.program()));
         let angles = Angles::new(self.library(), self.sources());
         let sets_inputs = self.check_options.set_inputs.as_ref().is_some_and(|set| !set.names.is_empty());
         let leave_out_redundant = redundant == Redundant::LeftOut;
-        Some(Nominal { whole, model, started, t, sets_inputs, leave_out_redundant, angles })
+        Some(Nominal {
+            compiled: CompiledSystem { determined, program },
+            model,
+            started,
+            t,
+            sets_inputs,
+            leave_out_redundant,
+            angles,
+        })
     }
 }

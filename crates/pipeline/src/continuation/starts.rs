@@ -4,15 +4,14 @@
 use super::messages::{ContinuationTarget, passed_bifurcation, stopped_path};
 use super::shared_paths::{PartTarget, SharedPath, shared_paths};
 use crate::angles::Angles;
-use crate::lowering::lowered;
+use crate::lowering::lower_model;
 use crate::options::RunOptions;
-use mechc_engine::analysis::{self, Horizon, LeadOptions, Request, Solving, Unassembled, Warning};
+use mechc_engine::analysis::{self, ContinuationOptions, Horizon, Request, Solving, Unassembled, Warning};
+use mechc_engine::sweep::CompiledSystem;
 use mechc_expr::Symbol;
-use mechc_ir::program::Program;
-use mechc_ir::structure::Determined;
 use mechc_ir::{ConstraintSystem, PartStart};
-use mechc_lang::check::{self, Given, Lead, Setting, Surroundings};
-use mechc_lang::model::{Led, Mechanism};
+use mechc_lang::check::{self, CheckOptions, ContinuationPath, InputOverrides, ParamOverride};
+use mechc_lang::model::{ContinuedParam, Mechanism};
 use mechc_syntax::{self as syntax, ast};
 use mechc_text::diag::{Diagnostic, Diagnostics};
 use mechc_text::source::{Sources, Span};
@@ -26,7 +25,7 @@ pub(crate) struct StartSolver {
     pub read: Arc<syntax::ParsedText>,
     /// Index of the mechanism in its file.
     pub index: usize,
-    pub check_options: Surroundings,
+    pub check_options: CheckOptions,
     pub sources: Sources,
     pub has_given_inputs: bool,
 }
@@ -49,21 +48,9 @@ pub(crate) enum InitialGuess {
     Estimates(Option<Vec<f64>>),
 }
 
-/// A constraint system that is proved determined, with its operations.
-pub(crate) struct CompiledSystem {
-    pub determined: Arc<Determined>,
-    pub program: Arc<Program>,
-}
-
-impl CompiledSystem {
-    fn new(determined: Determined) -> CompiledSystem {
-        let program = Arc::new(Program::new(determined.system()));
-        CompiledSystem { determined: Arc::new(determined), program }
-    }
-
-    fn has_parts(&self) -> bool {
-        !self.determined.system().parts().is_empty()
-    }
+/// Returns whether a mechanism has parts.
+fn has_parts(system: &CompiledSystem) -> bool {
+    !system.determined.system().parts().is_empty()
 }
 
 impl StartSolver {
@@ -83,7 +70,7 @@ impl StartSolver {
             ContinuationOrigin::Configuration(t, q) => (*t, Some(q.as_slice())),
             ContinuationOrigin::Estimates => (horizon.from, None),
         };
-        let options = &LeadOptions { tolerance, pass_bifurcations, t, cancel: cancel.clone() };
+        let options = &ContinuationOptions { tolerance, pass_bifurcations, t, cancel: cancel.clone() };
         let mut search = StartSearch {
             check_options: &self.check_options,
             sources: &self.sources,
@@ -103,7 +90,7 @@ impl StartSolver {
         let guess = position.map_or_else(
             || {
                 let settings = &self.check_options.settings;
-                let estimates = system.has_parts().then(|| search.estimates_with_parts(system, horizon, settings));
+                let estimates = has_parts(&system).then(|| search.estimates_with_parts(system, horizon, settings));
                 InitialGuess::Estimates(estimates)
             },
             InitialGuess::Position,
@@ -114,7 +101,7 @@ impl StartSolver {
 
 /// A mechanism at the first time of its own analysis, with its nominal inputs.
 struct Standalone {
-    check_options: Surroundings,
+    check_options: CheckOptions,
     /// The first time (s).
     t: f64,
     /// The values of its inputs then (SI), by their names.
@@ -170,17 +157,17 @@ struct ResolvedPart {
 struct PathModel {
     system: CompiledSystem,
     /// The inputs that change along the path.
-    inputs: Vec<Led>,
+    inputs: Vec<ContinuedParam>,
     span: Span,
 }
 
 struct StartSearch<'s> {
-    check_options: &'s Surroundings,
+    check_options: &'s CheckOptions,
     sources: &'s Sources,
     /// The position [m, rad] at which the continuation of the whole begins, if it is known.
     configuration: Option<&'s [f64]>,
     leave_out_redundant: bool,
-    options: &'s LeadOptions,
+    options: &'s ContinuationOptions,
     standalone: FxHashMap<StandaloneKey, Option<Rc<Standalone>>>,
     /// Coordinates [m, rad] at the targets that were reached.
     continued: FxHashMap<TargetKey, Vec<f64>>,
@@ -193,9 +180,9 @@ impl<'s> StartSearch<'s> {
     /// Continues the whole to the inputs that are given, at a time (s); `None` if no path leads there.
     fn continue_to_given_inputs(&mut self, tree: &ast::Mechanism, t: f64) -> Option<Vec<f64>> {
         let times = [self.options.t, t];
-        let lead = Some(Lead { times, inputs: Vec::new() });
-        let on_path = Surroundings {
-            lead,
+        let lead = Some(ContinuationPath { times, inputs: Vec::new() });
+        let on_path = CheckOptions {
+            continuation: lead,
             by: Vec::new(),
             slopes: None,
             reactions: false,
@@ -206,9 +193,9 @@ impl<'s> StartSearch<'s> {
         let PathModel { system, inputs, span } = self.path_model(tree, &on_path)?;
         let from = if let Some(configuration) = self.configuration {
             Some(configuration.to_vec())
-        } else if system.has_parts() {
-            let nominal = Surroundings {
-                given: Given::default(),
+        } else if has_parts(&system) {
+            let nominal = CheckOptions {
+                given: InputOverrides::default(),
                 by: Vec::new(),
                 reactions: false,
                 pictures_forces: false,
@@ -240,17 +227,22 @@ impl<'s> StartSearch<'s> {
         path.reached.into_iter().next()
     }
 
-    fn path_model(&self, tree: &ast::Mechanism, check_options: &Surroundings) -> Option<PathModel> {
+    fn path_model(&self, tree: &ast::Mechanism, check_options: &CheckOptions) -> Option<PathModel> {
         let (model, _) = check::check(tree, check_options, self.sources);
         let model = model?;
-        let system = lowered(&model);
+        let system = lower_model(&model);
         let horizon = Horizon::of_analysis(system.analysis());
         let (determined, _) = analysis::determine(system, self.leave_out_redundant, horizon).ok()?;
-        Some(PathModel { system: CompiledSystem::new(determined), inputs: model.led, span: model.declared.span })
+        Some(PathModel { system: CompiledSystem::new(determined), inputs: model.continued, span: model.declared.span })
     }
 
     /// Returns the estimates of a mechanism [m, rad], its parts at their starting positions.
-    fn estimates_with_parts(&mut self, system: &CompiledSystem, horizon: Horizon, settings: &[Setting]) -> Vec<f64> {
+    fn estimates_with_parts(
+        &mut self,
+        system: &CompiledSystem,
+        horizon: Horizon,
+        settings: &[ParamOverride],
+    ) -> Vec<f64> {
         let CompiledSystem { determined, program } = system;
         let estimates = estimates(determined.system());
         let cancel = self.options.cancel.clone();
@@ -264,7 +256,7 @@ impl<'s> StartSearch<'s> {
         system: &ConstraintSystem,
         requests: &[Request],
         t: f64,
-        settings: &[Setting],
+        settings: &[ParamOverride],
     ) -> Vec<Option<Vec<f64>>> {
         let mut pending: Vec<PendingPart<'_>> = Vec::new();
         let mut resolved: Vec<Option<ResolvedPart>> = Vec::with_capacity(requests.len());
@@ -302,7 +294,7 @@ impl<'s> StartSearch<'s> {
         &mut self,
         system: &ConstraintSystem,
         start: &PartStart,
-        settings: &[Setting],
+        settings: &[ParamOverride],
     ) -> Option<(StandaloneKey, Rc<Standalone>)> {
         let params: Vec<(String, f64)> =
             start.params.iter().map(|(name, id)| (name.clone(), system.value_at(*id, &[]))).collect();
@@ -345,7 +337,10 @@ impl<'s> StartSearch<'s> {
         let PendingPart { start, ref standalone, inputs, .. } = parts[shared.farthest];
         let times = [standalone.t, t];
         let targets = start.inputs.iter().zip(inputs).map(|((name, _), value)| (name.clone(), *value)).collect();
-        let on_path = Surroundings { lead: Some(Lead { times, inputs: targets }), ..standalone.check_options.clone() };
+        let on_path = CheckOptions {
+            continuation: Some(ContinuationPath { times, inputs: targets }),
+            ..standalone.check_options.clone()
+        };
         let model = self.tree_of(start).and_then(|tree| self.path_model(tree, &on_path));
         let Some(PathModel { system, inputs, span }) = model else { return };
         let stops: Vec<f64> = shared.stops.iter().map(|(fraction, _)| *fraction).collect();
@@ -383,23 +378,23 @@ impl<'s> StartSearch<'s> {
         start: &PartStart,
         key: &StandaloneKey,
         params: Vec<(String, f64)>,
-        settings: Vec<Setting>,
+        settings: Vec<ParamOverride>,
     ) -> Option<Rc<Standalone>> {
         if let Some(cached) = self.standalone.get(key) {
             return cached.clone();
         }
-        let Surroundings { library, files, .. } = self.check_options.clone();
-        let check_options = Surroundings {
+        let CheckOptions { library, files, .. } = self.check_options.clone();
+        let check_options = CheckOptions {
             settings,
             library,
             files,
-            given: Given::default(),
+            given: InputOverrides::default(),
             by: Vec::new(),
             slopes: None,
             reactions: false,
             pictures_forces: false,
             bound: params,
-            lead: None,
+            continuation: None,
             open: Vec::new(),
             set_inputs: None,
             has_signals: false,
@@ -414,12 +409,12 @@ impl<'s> StartSearch<'s> {
     }
 
     /// Assembles a mechanism at the first time of its own analysis, with its nominal inputs.
-    fn assembled(&mut self, tree: &ast::Mechanism, check_options: Surroundings) -> Option<Standalone> {
+    fn assembled(&mut self, tree: &ast::Mechanism, check_options: CheckOptions) -> Option<Standalone> {
         let (model, _) = check::check(tree, &check_options, self.sources);
         let model = model?;
         let t = model.analysis.map_or(0.0, |analysis| analysis.from);
         let inputs = nominal_inputs(&model, t);
-        let system = lowered(&model);
+        let system = lower_model(&model);
         let (q, remarks) = (estimates(&system), Diagnostics::default());
         let mut standalone = Standalone { check_options, t, inputs, q, is_assembled: false, remarks };
         let horizon = Horizon::of_analysis(system.analysis()).beginning(t);
@@ -427,10 +422,10 @@ impl<'s> StartSearch<'s> {
             return Some(standalone);
         };
         let system = CompiledSystem::new(determined);
-        if system.has_parts() {
+        if has_parts(&system) {
             standalone.q = self.estimates_with_parts(&system, horizon, &standalone.check_options.settings);
         }
-        let LeadOptions { tolerance, pass_bifurcations, ref cancel, .. } = *self.options;
+        let ContinuationOptions { tolerance, pass_bifurcations, ref cancel, .. } = *self.options;
         let (CompiledSystem { determined, program }, cancel) = (system, cancel.clone());
         let unassembled = Unassembled { determined, program, horizon, tolerance, pass_bifurcations, cancel };
         if let Ok(started) = analysis::start_from(&unassembled, Some(&standalone.q), Solving::With(None)) {
@@ -442,12 +437,12 @@ impl<'s> StartSearch<'s> {
     }
 
     /// Returns inputs as messages list them.
-    fn targets(&self, inputs: &[Led]) -> Vec<ContinuationTarget> {
+    fn targets(&self, inputs: &[ContinuedParam]) -> Vec<ContinuationTarget> {
         ContinuationTarget::from_params(inputs, &Angles::new(&self.check_options.library, self.sources))
     }
 
     fn tree_of(&self, start: &PartStart) -> Option<&'s ast::Mechanism> {
-        let check_options: &'s Surroundings = self.check_options;
+        let check_options: &'s CheckOptions = self.check_options;
         check_options.library.mechanism_at(start.text)
     }
 }
@@ -468,20 +463,20 @@ fn nominal_inputs(model: &Mechanism, t: f64) -> FxHashMap<String, f64> {
 }
 
 /// Returns inputs whose paths end at a fraction of theirs.
-fn shortened(inputs: &[Led], fraction: f64) -> Vec<Led> {
-    let shorter = |input: &Led| {
+fn shortened(inputs: &[ContinuedParam], fraction: f64) -> Vec<ContinuedParam> {
+    let shorter = |input: &ContinuedParam| {
         let [from, to] = input.line;
-        Led { line: [from, from + (to - from) * fraction], ..input.clone() }
+        ContinuedParam { line: [from, from + (to - from) * fraction], ..input.clone() }
     };
     inputs.iter().map(shorter).collect()
 }
 
 /// Returns the settings of params in a part, by their names there.
-fn settings_in_part(settings: &[Setting], part: &str) -> Vec<Setting> {
+fn settings_in_part(settings: &[ParamOverride], part: &str) -> Vec<ParamOverride> {
     let is_part = |owner: &str| owner == part || part.split_once('[').is_some_and(|(base, _)| base == owner);
-    let inner = |setting: &Setting| {
+    let inner = |setting: &ParamOverride| {
         let (owner, path) = setting.path.split_once('.')?;
-        is_part(owner.trim()).then(|| Setting { path: path.trim().to_owned(), value: setting.value.clone() })
+        is_part(owner.trim()).then(|| ParamOverride { path: path.trim().to_owned(), value: setting.value.clone() })
     };
     settings.iter().filter_map(inner).collect()
 }

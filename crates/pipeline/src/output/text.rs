@@ -1,6 +1,6 @@
 //! Tables as CSV or JSON: rows are collected and formatted in blocks, by several threads if there are many.
 
-use mechc_parallel::{Relay, usual_jobs};
+use mechc_parallel::{OrderedPipeline, default_jobs};
 use std::io::{self, Write};
 use std::mem;
 
@@ -23,7 +23,7 @@ pub(super) struct TextWriter<W> {
     /// Rows that are not formatted yet.
     gathered: Rows,
     /// Formats rows on other threads; made for the second block, as most tables are small.
-    relay: Option<Relay<Rows, Vec<u8>>>,
+    relay: Option<OrderedPipeline<Rows, Vec<u8>>>,
     has_rows: bool,
 }
 
@@ -77,7 +77,7 @@ impl<W: Write> TextWriter<W> {
             return text.map_or(Ok(()), |text| self.write(&text));
         }
         let marks = self.marks;
-        self.relay = Some(Relay::new(usual_jobs().min(MAX_JOBS), move |rows: Rows| marks.text(&rows)));
+        self.relay = Some(OrderedPipeline::new(default_jobs().min(MAX_JOBS), move |rows: Rows| marks.text(&rows)));
         self.write(&marks.text(&rows))
     }
 
@@ -88,7 +88,7 @@ impl<W: Write> TextWriter<W> {
     }
 
     pub fn finish(mut self) -> io::Result<W> {
-        while let Some(text) = self.relay.as_mut().and_then(Relay::take) {
+        while let Some(text) = self.relay.as_mut().and_then(OrderedPipeline::take) {
             self.write(&text)?;
         }
         if self.gathered.count > 0 {

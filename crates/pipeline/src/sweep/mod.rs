@@ -10,12 +10,12 @@ pub use spec::{Variants, VaryOptions};
 
 use crate::batch::{BatchLanes, BatchPlan, Requested};
 use crate::continuation::Outcome;
-use crate::{AskedTimes, Checked, Compiled, Redundant, RunOptions, Vectors};
-use mechc_engine::analysis::{Answers, Asked, Started, Stop, Times};
-use mechc_engine::sweep::{LANES, OneVariant, PART, Spare, Status, Swept, Team};
+use crate::{Checked, Compiled, Redundant, RequestedTimes, RunOptions, Vectors};
+use mechc_engine::analysis::{Answers, ResultQuery, Started, Stop, Times};
+use mechc_engine::sweep::{BatchRunner, BufferPool, CHUNK, LANES, Status, Swept, VariantOutcome};
 use mechc_ir::ConstraintSystem;
 use mechc_lang::check::UNTIL;
-use mechc_parallel::{Crew, usual_jobs};
+use mechc_parallel::{ParallelMap, default_jobs};
 use mechc_text::cancel::Cancel;
 use mechc_text::diag::{Code, Diagnostic, Diagnostics};
 use std::ops::Range;
@@ -43,7 +43,7 @@ const MAX_NUMBERS: u64 = 1 << 22;
 #[derive(Clone, Debug)]
 pub struct SweepOptions {
     /// The times that are requested.
-    pub times: AskedTimes,
+    pub times: RequestedTimes,
     /// Indices of the columns whose rows are requested; `None` for results alone.
     pub columns: Option<Vec<usize>>,
     /// The treatment of redundant equations.
@@ -69,7 +69,7 @@ pub struct SweepOptions {
 impl Default for SweepOptions {
     fn default() -> SweepOptions {
         let RunOptions { tolerance, pass_bifurcations, vectors, cancel, .. } = RunOptions::default();
-        let (times, redundant) = (AskedTimes::default(), Redundant::default());
+        let (times, redundant) = (RequestedTimes::default(), Redundant::default());
         let (columns, jobs, digits, skip, take) = (None, None, false, 0, None);
         SweepOptions {
             times,
@@ -101,7 +101,7 @@ fn block_size(size: VariantSize, count: u64, most: u64) -> u64 {
     let numbers = ROWS.saturating_mul(size.columns).clamp(NUMBERS, NUMBERS_OF_MANY_COLUMNS);
     let all = (numbers / size.numbers).min(count / MIN_BLOCKS).min(most) / lanes * lanes;
     let all = all.max(lanes);
-    let fewer = [all, PART as u64].into_iter().find(|variants| variants * size.numbers <= MAX_NUMBERS);
+    let fewer = [all, CHUNK as u64].into_iter().find(|variants| variants * size.numbers <= MAX_NUMBERS);
     fewer.unwrap_or(1)
 }
 
@@ -135,7 +135,7 @@ impl Blocks {
 
 /// A sweep in progress: an iterator over what is made of its blocks, in the order of the variants.
 pub struct Sweep<T> {
-    crew: Crew<(T, Option<EndReason>)>,
+    crew: ParallelMap<(T, Option<EndReason>)>,
     end: Option<EndReason>,
 }
 
@@ -150,7 +150,7 @@ enum EndReason {
 impl<T> Sweep<T> {
     /// Returns whether the last variant that was delivered is the one that is searched for.
     #[must_use]
-    pub fn has_found(&self) -> bool {
+    pub fn found_match(&self) -> bool {
         self.end == Some(EndReason::Found)
     }
 }
@@ -158,7 +158,7 @@ impl<T> Sweep<T> {
 impl Compiled {
     /// Returns the names of the results that a sweep tabulates, with their SI units.
     #[must_use]
-    pub fn results_of_variants(&self) -> Vec<(String, String)> {
+    pub fn variant_results(&self) -> Vec<(String, String)> {
         let outcomes = self.system().results().outcomes.iter().filter(|outcome| outcome.name != UNTIL);
         outcomes.map(|outcome| (outcome.name.clone(), outcome.units.si.clone())).collect()
     }
@@ -193,7 +193,7 @@ impl Checked {
         let first = blocks.first;
         let results: Vec<String> = compiled.results().into_iter().map(|(name, _)| name).collect();
         let until = results.iter().position(|name| name == UNTIL);
-        let jobs = options.jobs.unwrap_or_else(usual_jobs).max(1);
+        let jobs = options.jobs.unwrap_or_else(default_jobs).max(1);
         let names = compiled.columns();
         let columns = options.columns.iter().flatten().map(|&column| names[column].clone()).collect();
         let result_count = results.len();
@@ -218,7 +218,7 @@ impl Checked {
                 Some((make(swept), end))
             }
         };
-        Ok(Sweep { crew: Crew::new(jobs, 0..blocks.count(), start), end: None })
+        Ok(Sweep { crew: ParallelMap::new(jobs, 0..blocks.count(), start), end: None })
     }
 }
 
@@ -260,12 +260,12 @@ struct Worker {
     context: Arc<SweepContext>,
     lanes: Option<BatchLanes>,
     /// Memory of columns that were delivered and read.
-    spare: Arc<Spare>,
+    spare: Arc<BufferPool>,
 }
 
 /// Variants that a batch has followed.
 struct BatchOutput<'d> {
-    team: &'d Team,
+    team: &'d BatchRunner,
     /// For each lane, true if the variant has all its rows, or all its results if no rows are requested.
     accepted: [bool; LANES],
     /// Rows of each variant.
@@ -288,13 +288,13 @@ impl<'d> BatchOutput<'d> {
         let accepted = plan.follow(lanes, params, block.room(count, rows), &context.options.cancel);
         let team = &lanes.team;
         let is_whole = (0..count).all(|lane| accepted[lane] && context.has_all_results(team, lane));
-        BatchOutput { team, accepted, rows, pending: (!is_whole).then(|| block.take_room(before)) }
+        BatchOutput { team, accepted, rows, pending: (!is_whole).then(|| block.take_rows_from(before)) }
     }
 }
 
 impl Worker {
     fn new(context: &Arc<SweepContext>) -> Worker {
-        Worker { context: Arc::clone(context), lanes: None, spare: Arc::new(Spare::new(SPARE_BLOCKS)) }
+        Worker { context: Arc::clone(context), lanes: None, spare: Arc::new(BufferPool::new(SPARE_BLOCKS)) }
     }
 
     /// Computes variants up to the one that is searched for, or until it is cancelled, and says why the sweep ends there, if it does; `None`
@@ -350,9 +350,9 @@ impl SweepContext {
         let width = self.width();
         let count = params.len() / width;
         if let Some(output) = output.filter(|output| output.pending.is_none()) {
-            block.push_abreast((count, output.rows), params);
+            block.push_batch((count, output.rows), params);
             let results = (0..count).filter_map(|lane| output.team.results(lane));
-            results.for_each(|results| block.push_results_abreast(results));
+            results.for_each(|results| block.push_batch_results(results));
             return None;
         }
         for (lane, params) in params.chunks_exact(width).enumerate() {
@@ -375,7 +375,7 @@ impl SweepContext {
     }
 
     /// Returns whether a batch has computed all that is requested of a variant, and none is searched for.
-    fn has_all_results(&self, team: &Team, lane: usize) -> bool {
+    fn has_all_results(&self, team: &BatchRunner, lane: usize) -> bool {
         self.result_count == 0 || self.until.is_none() && team.results(lane).is_some()
     }
 
@@ -395,9 +395,9 @@ impl SweepContext {
         for (column, from) in block.columns.iter_mut().zip(output.pending.iter().flatten()) {
             column.extend(from[lane * output.rows..(lane + 1) * output.rows].iter().copied());
         }
-        block.push_abreast((1, output.rows), params);
+        block.push_batch((1, output.rows), params);
         if has_batch_results {
-            block.push_results_abreast(&results.values);
+            block.push_batch_results(&results.values);
         } else {
             block.push_results(&results.values);
             block.push_digits(results.digits);
@@ -424,13 +424,13 @@ impl SweepContext {
         };
         let query = self.result_query(&mut started, &times, &options);
         let mut results = vec![f64::NAN; self.result_count];
-        let answers = query.and_then(Asked::answer).unwrap_or_default();
+        let answers = query.and_then(ResultQuery::answer).unwrap_or_default();
         write_results(&answers.values, &group.outputs, &mut results);
         Some(ResultValues { values: results, digits: answers.certain_digits() })
     }
 
     /// Returns what results are computed from, if there are any.
-    fn result_query(&self, started: &mut Started, times: &Times, options: &RunOptions) -> Option<Asked> {
+    fn result_query(&self, started: &mut Started, times: &Times, options: &RunOptions) -> Option<ResultQuery> {
         // a run reports the conditioning of its start, which restores the factors there; do the same for the same bits
         let _ = started.conditioning();
         started.use_vectors(options.vectors);
@@ -455,7 +455,7 @@ impl SweepContext {
 
     /// Computes a variant as `run --lead --set` does. The search condition must not decide anything of it: if it stops the variant, as it
     /// may name a place that this variant lacks, the variant is computed without it, and the condition does not hold.
-    fn variant(&self, params: &[f64]) -> OneVariant {
+    fn variant(&self, params: &[f64]) -> VariantOutcome {
         let variant = self.variant_with_condition(params);
         let Some(until) = self.until.filter(|_| matches!(variant.status, Status::Stopped(_))) else { return variant };
         let without = self.without_until.get_or_init(|| Box::new(self.new_without_until(until)));
@@ -481,8 +481,8 @@ impl SweepContext {
         }
     }
 
-    fn variant_with_condition(&self, params: &[f64]) -> OneVariant {
-        let mut variant = OneVariant {
+    fn variant_with_condition(&self, params: &[f64]) -> VariantOutcome {
+        let mut variant = VariantOutcome {
             status: Status::Ok,
             stopped: f64::NAN,
             results: vec![f64::NAN; self.result_count],
@@ -496,7 +496,7 @@ impl SweepContext {
         variant
     }
 
-    fn run(&self, params: &[f64], variant: &mut OneVariant) -> Result<(), VariantStop> {
+    fn run(&self, params: &[f64], variant: &mut VariantOutcome) -> Result<(), VariantStop> {
         let options = self.run_options();
         if self.checked.has_given_inputs() {
             return self.run_by_all_stages(params, variant);
@@ -529,11 +529,11 @@ impl SweepContext {
         times: &Times,
         options: &RunOptions,
         outputs: &OutputMapping,
-        variant: &mut OneVariant,
+        variant: &mut VariantOutcome,
     ) -> Result<(), VariantStop> {
         let mut query = self.result_query(&mut started, times, options);
         // if no rows are requested, it only matters whether all of them exist
-        let early = query.take_if(|_| self.options.columns.is_none()).and_then(Asked::answer);
+        let early = query.take_if(|_| self.options.columns.is_none()).and_then(ResultQuery::answer);
         if !early.as_ref().is_some_and(|answers| answers.has_all_rows) {
             let mut motion = started.into_motion(times);
             if options.pass_bifurcations {
@@ -546,13 +546,13 @@ impl SweepContext {
                 }
             }
         }
-        let answers = early.or_else(|| query.and_then(Asked::answer)).unwrap_or_default();
+        let answers = early.or_else(|| query.and_then(ResultQuery::answer)).unwrap_or_default();
         set_results(&answers, outputs, variant);
         Ok(())
     }
 
     /// Checks, compiles and runs a variant anew; only the nominal mechanism that it is continued from is shared.
-    fn run_by_all_stages(&self, params: &[f64], variant: &mut OneVariant) -> Result<(), VariantStop> {
+    fn run_by_all_stages(&self, params: &[f64], variant: &mut VariantOutcome) -> Result<(), VariantStop> {
         let options = self.run_options();
         let checked = self.checked.continued_to(self.variants.read_settings(params), self.variants.sources());
         if !checked.is_sound() {
@@ -587,7 +587,7 @@ impl SweepContext {
         RunOptions { tolerance, pass_bifurcations, vectors, cancel: cancel.clone(), ..RunOptions::default() }
     }
 
-    fn push_row(&self, row: &[f64], outputs: &OutputMapping, variant: &mut OneVariant) {
+    fn push_row(&self, row: &[f64], outputs: &OutputMapping, variant: &mut VariantOutcome) {
         let Some(columns) = &self.options.columns else { return };
         match outputs {
             OutputMapping::Identity => variant.rows.extend(columns.iter().map(|&column| row[column])),
@@ -617,7 +617,7 @@ impl From<Box<Diagnostic>> for VariantStop {
     }
 }
 
-fn set_results(answers: &Answers, outputs: &OutputMapping, variant: &mut OneVariant) {
+fn set_results(answers: &Answers, outputs: &OutputMapping, variant: &mut VariantOutcome) {
     write_results(&answers.values, outputs, &mut variant.results);
     variant.digits = answers.certain_digits();
 }

@@ -5,8 +5,8 @@ use crate::option_reader::{
     OptionReader, SourcedResult, is_of_angles, refuse_duplicates, si_unit, spaceless, unusable, written,
 };
 use crate::{Checked, Choice};
-use mechc_engine::sweep::{Levels, MOST_OF_SOBOL, Method, Points, Sampling, Varying};
-use mechc_lang::check::{self, Column, Setting};
+use mechc_engine::sweep::{Levels, MAX_SOBOL_DIMENSIONS, Method, Points, Sampling, Varying};
+use mechc_lang::check::{self, Column, ParamOverride};
 use mechc_lang::model::Dimension;
 use mechc_syntax::{self as syntax, ast};
 use mechc_text::diag::{Diagnostic, Diagnostics};
@@ -91,11 +91,11 @@ impl Variants {
     }
 
     /// Returns the settings of given values as formulas.
-    pub(crate) fn read_settings(&self, values: &[f64]) -> impl Iterator<Item = Setting> {
+    pub(crate) fn read_settings(&self, values: &[f64]) -> impl Iterator<Item = ParamOverride> {
         let set = |((name, unit), &value): ((&String, &ast::Expr), &f64)| {
             let number = ast::Expr { kind: ast::ExprKind::Literal { value, unit: None }, span: unit.span };
             let kind = ast::ExprKind::Product(Box::new(number), vec![(ast::Factor::Times, unit.clone())]);
-            Setting { path: name.clone(), value: ast::Expr { kind, span: unit.span } }
+            ParamOverride { path: name.clone(), value: ast::Expr { kind, span: unit.span } }
         };
         self.points.params().iter().zip(&self.ones).zip(values).map(set)
     }
@@ -247,8 +247,8 @@ fn refuse_without_counterpart(vary: &VaryOptions, arguments: &[VaryArgument]) ->
             "`--sample` is for ranges without a number of values: `--vary rod=100mm..200mm`",
         ),
         (Some(_), None, Some(0)) => refuse("a sample has one variant at least".to_owned(), "as in `--sample 1000`"),
-        (Some(_), None, Some(_)) if ranges > MOST_OF_SOBOL && vary.method != Some(Method::Random) => refuse(
-            format!("Sobol's sequence is known here for {MOST_OF_SOBOL} params, and {ranges} are to vary"),
+        (Some(_), None, Some(_)) if ranges > MAX_SOBOL_DIMENSIONS && vary.method != Some(Method::Random) => refuse(
+            format!("Sobol's sequence is known here for {MAX_SOBOL_DIMENSIONS} params, and {ranges} are to vary"),
             "add `--method random`",
         ),
         (None, _, None) if vary.method.is_some() || vary.seed.is_some() => {
@@ -340,7 +340,7 @@ impl SpecBuilder<'_> {
     /// Reads the variants that a table lists, a column for each param.
     fn file(&mut self, path: &Path) -> SourcedResult<Varying> {
         self.named_files.push(path.to_owned());
-        let file = world::rows_given(self.reader.world, path, &mut self.sources);
+        let file = world::read_rows(self.reader.world, path, &mut self.sources);
         let file = file.map_err(|why| (self.sources.clone(), (*why).into()))?;
         let columns = check::variants(self.sources.get(file), file).map_err(|faults| {
             let mut diagnostics = Diagnostics::default();

@@ -1,6 +1,6 @@
 //! Deviations of measures and results that tolerances of params cause: estimates by derivatives, and what corner variants find.
 
-use mechc_engine::sweep::rounded;
+use mechc_engine::sweep::round_to_15_digits;
 use mechc_ir::layout::ColumnUnit;
 use mechc_lang::model::quotient;
 
@@ -30,7 +30,7 @@ impl Tolerance {
     /// Returns the least and the largest value (SI).
     #[must_use]
     pub fn ends(&self) -> [f64; 2] {
-        self.range.map(|off| rounded(self.nominal + off))
+        self.range.map(|off| round_to_15_digits(self.nominal + off))
     }
 
     /// Returns half of the range (SI).
@@ -48,7 +48,7 @@ impl Tolerance {
 
 /// A measure or result, with its derivatives by the params that have tolerances.
 #[derive(Clone, PartialEq, Debug)]
-pub struct Affected {
+pub struct OutputSensitivity {
     /// Name.
     pub name: String,
     /// Time (s) at which a measure deviates most; `None` for results.
@@ -80,7 +80,7 @@ pub struct Deviation {
     pub sigma: f64,
 }
 
-impl Affected {
+impl OutputSensitivity {
     /// Returns the deviations that tolerances cause; `None` if a derivative is unknown. A `normal` distribution has its range at 3 σ, otherwise it is
     /// uniform.
     #[must_use]
@@ -105,29 +105,29 @@ impl Affected {
 
     /// Returns the unit for readers: its own, or, if that is SI, that of a tolerance with the same SI unit.
     #[must_use]
-    pub fn to_be_read(&self, tolerances: &[Tolerance]) -> Shown {
+    pub fn display_unit(&self, tolerances: &[Tolerance]) -> DisplayUnit {
         let is_alike = |by: &&Tolerance| self.unit.text == self.si && by.si == self.si && self.si != "1";
         match tolerances.iter().find(is_alike) {
-            Some(Tolerance { unit: (text, size), .. }) => Shown { text: text.clone(), size: *size },
-            None => Shown::of(&self.unit),
+            Some(Tolerance { unit: (text, size), .. }) => DisplayUnit { text: text.clone(), size: *size },
+            None => DisplayUnit::from_column(&self.unit),
         }
     }
 }
 
 /// A unit for readers.
 #[derive(Clone, PartialEq, Debug)]
-pub struct Shown {
+pub struct DisplayUnit {
     /// `mm`; `1` for a pure number.
     pub text: String,
     /// Value of the unit in SI.
     pub size: f64,
 }
 
-impl Shown {
+impl DisplayUnit {
     /// Returns the unit of a column.
     #[must_use]
-    pub fn of(unit: &ColumnUnit) -> Shown {
-        Shown { text: unit.text.clone(), size: 1.0 / unit.printed(1.0) }
+    pub fn from_column(unit: &ColumnUnit) -> DisplayUnit {
+        DisplayUnit { text: unit.text.clone(), size: 1.0 / unit.printed(1.0) }
     }
 
     /// Converts a derivative (SI) to this unit per unit of a tolerance; returns it with its unit.
@@ -140,7 +140,7 @@ impl Shown {
 
 /// Deviations that variants have shown.
 #[derive(Clone, PartialEq, Debug)]
-pub struct Verified {
+pub struct CornerReport {
     /// Number of variants.
     pub variants: u64,
     /// True if they are all corners; if not, they are the worst corners by derivatives and a sample.
@@ -155,7 +155,7 @@ pub struct Verified {
     pub lost: Option<(u64, Vec<String>, &'static str)>,
 }
 
-impl Verified {
+impl CornerReport {
     /// Returns the number of complete variants in which a measure or result has no value.
     #[must_use]
     pub fn missing(&self, k: usize) -> u64 {
@@ -164,7 +164,7 @@ impl Verified {
 
     /// Returns whether derivatives and variants agree on a measure or result.
     #[must_use]
-    pub fn is_linear(&self, k: usize, output: &Affected, deviation: &Deviation) -> bool {
+    pub fn is_linear(&self, k: usize, output: &OutputSensitivity, deviation: &Deviation) -> bool {
         let [low, high] = deviation.worst;
         if self.missing(k) > 0 {
             return false;

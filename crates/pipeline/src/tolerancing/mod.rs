@@ -4,11 +4,11 @@
 
 mod deviation;
 
-pub use deviation::{Affected, Deviation, Shown, Tolerance, Verified};
+pub use deviation::{CornerReport, Deviation, DisplayUnit, OutputSensitivity, Tolerance};
 
 use crate::checked::TOL;
 use crate::option_reader::{OptionReader, SourcedResult, is_of_angles, number_and_unit, si_unit, spaceless, unusable};
-use crate::{AskedTimes, Checked, Choice, Compiled, RunOptions, SweepOptions, Variants};
+use crate::{Checked, Choice, Compiled, RequestedTimes, RunOptions, SweepOptions, Variants};
 use mechc_engine::sweep::{Levels, Method, Points, Sampling, Status, Swept, Varying};
 use mechc_expr::{Binary, Dependence, ExprId, Node, Unary};
 use mechc_ir::Measure;
@@ -63,7 +63,11 @@ impl Checked {
         self.with_symbolic_params(vec![name.to_owned()]).and_then(|symbolic| symbolic.model.clone()).map_or(
             Vec::new(),
             |model| {
-                model.led.iter().map(|param| (param.declared.name.clone(), param.line[0], param.dimension)).collect()
+                model
+                    .continued
+                    .iter()
+                    .map(|param| (param.declared.name.clone(), param.line[0], param.dimension))
+                    .collect()
             },
         )
     }
@@ -157,7 +161,7 @@ impl Tolerancing<'_> {
     ///
     /// # Errors
     /// The nominal mechanism does not run, or has no measure and no result; with the texts that the diagnostics point into.
-    pub fn affected(&self, compiled: &Compiled, options: &SweepOptions) -> SourcedResult<Vec<Affected>> {
+    pub fn sensitivities(&self, compiled: &Compiled, options: &SweepOptions) -> SourcedResult<Vec<OutputSensitivity>> {
         let slopes = Some([options.times.from.is_none(), options.times.to.is_none()]);
         let by = self.tolerances.iter().map(|tolerance| tolerance.name.clone()).collect();
         // results that options add are in the tree already
@@ -194,7 +198,7 @@ impl Tolerancing<'_> {
     }
 
     /// For each measure or result, returns the largest nominal value of its SI unit among all and among the params.
-    fn largest(&self, affected: &[Affected]) -> Vec<f64> {
+    fn largest(&self, affected: &[OutputSensitivity]) -> Vec<f64> {
         let of_params = self.tolerances.iter().map(|tolerance| (&tolerance.si, tolerance.nominal));
         let all: Vec<(&String, f64)> =
             of_params.chain(affected.iter().map(|output| (&output.si, output.nominal))).collect();
@@ -234,14 +238,14 @@ impl Tolerancing<'_> {
             let (name, si) = (measure.name.clone(), measure.units.si.clone());
             Some(MeasureColumns { by: by(&name), name, column, unit: units[column].clone(), si })
         });
-        let results = compiled.results().into_iter().zip(compiled.results_of_variants());
+        let results = compiled.results().into_iter().zip(compiled.variant_results());
         let results = results.map(|((name, unit), (_, si))| (name, unit, si)).collect::<Vec<_>>();
         let nominal_count = results.len() / (self.tolerances.len() + 1) - means.measures.len();
         ToleratedOutputs { measures: measures.collect(), results: results[..nominal_count].to_vec(), means }
     }
 
     /// Returns the axes of the variants that verify derivatives, and whether they are all corners.
-    fn corners(&self, affected: &[Affected]) -> (Vec<Vec<Varying>>, bool) {
+    fn corners(&self, affected: &[OutputSensitivity]) -> (Vec<Vec<Varying>>, bool) {
         let ends: Vec<[f64; 2]> = self.tolerances.iter().map(Tolerance::ends).collect();
         if self.tolerances.len() <= MAX_CORNER_PARAMS {
             let axis = |(param, ends): (usize, &[f64; 2])| {
@@ -269,7 +273,7 @@ impl Tolerancing<'_> {
 
     /// Returns the number of variants that verification computes.
     #[must_use]
-    pub fn count(&self, affected: &[Affected]) -> u64 {
+    pub fn count(&self, affected: &[OutputSensitivity]) -> u64 {
         let variants: u64 =
             self.corners(affected).0.iter().map(|axes| axes.iter().map(Varying::count).product::<u64>()).sum();
         variants * CornerSearch::new(affected).sweeps(&SweepOptions::default(), &[]).len() as u64
@@ -279,13 +283,13 @@ impl Tolerancing<'_> {
     ///
     /// # Errors
     /// The times are not given; with the texts that the diagnostics point into.
-    pub fn verified(
+    pub fn verify(
         &self,
         compiled: &Compiled,
-        affected: &[Affected],
+        affected: &[OutputSensitivity],
         options: &SweepOptions,
         mut tick: impl FnMut(u64),
-    ) -> SourcedResult<Verified> {
+    ) -> SourcedResult<CornerReport> {
         let (all, are_all_corners) = self.corners(affected);
         let mut search = CornerSearch::new(affected);
         for (group, axes) in all.into_iter().enumerate() {
@@ -396,7 +400,7 @@ impl ToleratedOutputs {
     }
 
     /// Collects measures and results from the nominal variant.
-    fn affected(self, swept: &Swept, tolerances: &[Tolerance]) -> Vec<Affected> {
+    fn affected(self, swept: &Swept, tolerances: &[Tolerance]) -> Vec<OutputSensitivity> {
         let (mut columns, mut all) = (swept.columns.iter(), Vec::new());
         let (nominal_count, count) = (self.results.len(), tolerances.len());
         let number = |k: usize| Some(swept.results[k][0]).filter(|value| value.is_finite());
@@ -425,7 +429,7 @@ impl ToleratedOutputs {
                 });
             }
         }
-        all.extend(self.results.into_iter().enumerate().map(|(k, (name, unit, si))| Affected {
+        all.extend(self.results.into_iter().enumerate().map(|(k, (name, unit, si))| OutputSensitivity {
             name,
             at: None,
             nominal: swept.results[k][0],
@@ -439,14 +443,14 @@ impl ToleratedOutputs {
 }
 
 /// Returns a measure after its largest jump, without derivatives by the params that move the jump.
-fn where_it_jumps(measure: MeasureColumns, rows: &Rows<'_>, jumps: &[bool]) -> Affected {
+fn where_it_jumps(measure: MeasureColumns, rows: &Rows<'_>, jumps: &[bool]) -> OutputSensitivity {
     let Rows { times, values, slopes } = rows;
     let change = |row: &usize| (values[*row] - values[*row - 1]).abs();
     let widest = (1..times.len()).filter(|row| change(row).is_finite()).max_by(|a, b| change(a).total_cmp(&change(b)));
     let row = widest.or_else(|| values.iter().position(|value| value.is_finite()));
     let number = |column: &[f64]| row.map(|row| column[row]).filter(|value| value.is_finite());
     let slopes = slopes.iter().zip(jumps).map(|(slope, jumps)| slope.filter(|_| !jumps).and_then(number));
-    Affected {
+    OutputSensitivity {
         at: row.map(|row| times[row]).or(times.first().copied()),
         nominal: number(values).unwrap_or(f64::NAN),
         slopes: slopes.collect(),
@@ -458,7 +462,7 @@ fn where_it_jumps(measure: MeasureColumns, rows: &Rows<'_>, jumps: &[bool]) -> A
 }
 
 /// Returns a measure at the time of its largest worst case; at the first time if no derivative is known.
-fn where_it_is_worst(measure: MeasureColumns, rows: &Rows<'_>, tolerances: &[Tolerance]) -> Affected {
+fn where_it_is_worst(measure: MeasureColumns, rows: &Rows<'_>, tolerances: &[Tolerance]) -> OutputSensitivity {
     let Rows { times, values, slopes } = rows;
     let rows: Vec<usize> = (0..times.len()).filter(|&row| values[row].is_finite()).collect();
     let (mut worst, mut unknown) = (None, 0);
@@ -472,7 +476,7 @@ fn where_it_is_worst(measure: MeasureColumns, rows: &Rows<'_>, tolerances: &[Tol
     }
     let row = worst.map(|(_, row)| row).or(rows.first().copied());
     let number = |column: &[f64]| row.map(|row| column[row]).filter(|value| value.is_finite());
-    Affected {
+    OutputSensitivity {
         at: row.map(|row| times[row]).or(times.first().copied()),
         nominal: number(values).unwrap_or(f64::NAN),
         slopes: slopes.iter().map(|slope| slope.and_then(number)).collect(),
@@ -495,7 +499,7 @@ fn size<'t>(slopes: impl Iterator<Item = (f64, &'t Tolerance)>) -> f64 {
 
 /// Collects the extreme deviations of measures and results over variants.
 struct CornerSearch<'a> {
-    affected: &'a [Affected],
+    affected: &'a [OutputSensitivity],
     /// The times (s) of measures, rising, without repetition.
     times: Vec<f64>,
     extremes: Vec<Option<[f64; 2]>>,
@@ -508,7 +512,7 @@ struct CornerSearch<'a> {
 }
 
 impl CornerSearch<'_> {
-    fn new(affected: &[Affected]) -> CornerSearch<'_> {
+    fn new(affected: &[OutputSensitivity]) -> CornerSearch<'_> {
         let mut times: Vec<f64> = affected.iter().filter_map(|output| output.at).collect();
         times.sort_by(f64::total_cmp);
         times.dedup();
@@ -520,9 +524,9 @@ impl CornerSearch<'_> {
     fn sweeps(&self, options: &SweepOptions, columns: &[String]) -> Vec<SweepOptions> {
         let mut sweeps = Vec::with_capacity(2);
         if !self.times.is_empty() {
-            let column = |output: &Affected| columns.iter().position(|column| *column == output.name);
+            let column = |output: &OutputSensitivity| columns.iter().position(|column| *column == output.name);
             let columns = self.affected.iter().filter(|output| output.at.is_some()).filter_map(column).collect();
-            let times = AskedTimes { at: self.times.clone(), ..options.times.clone() };
+            let times = RequestedTimes { at: self.times.clone(), ..options.times.clone() };
             sweeps.push(SweepOptions { columns: Some(columns), times, ..options.clone() });
         }
         if self.affected.iter().any(|output| output.at.is_none()) {
@@ -574,9 +578,9 @@ impl CornerSearch<'_> {
         }
     }
 
-    fn verified(self, are_all_corners: bool, largest: Vec<f64>) -> Verified {
+    fn verified(self, are_all_corners: bool, largest: Vec<f64>) -> CornerReport {
         let count = self.lost.len() as u64;
-        Verified {
+        CornerReport {
             variants: self.variants,
             are_all_corners,
             largest,

@@ -2,7 +2,7 @@
 
 use super::Fault;
 use crate::tokens::{Token, begins_declaration, tokens};
-use mechc_text::diag::{Applies, Edit, Fix};
+use mechc_text::diag::{Applicability, Edit, Fix};
 
 impl<'a> Fault<'a> {
     /// Returns the brackets that are open before the fault, innermost last.
@@ -75,7 +75,7 @@ impl<'a> Fault<'a> {
             (_, "{") if self.found.is_empty() => self.braces_at_the_end(&opened),
             (_, "{") if self.found == "mechanism" => {
                 let edits = vec![self.brace_before()?];
-                Some(Fix { message: "close it with `}`".to_owned(), edits, applies: Applies::Always })
+                Some(Fix { message: "close it with `}`".to_owned(), edits, applies: Applicability::Always })
             }
             (_, "{") => None,
             _ => self.round_and_square(&opened),
@@ -96,7 +96,7 @@ impl<'a> Fault<'a> {
             before.iter().filter(|token| token.start > *innermost).map(|token| token.text).collect();
         let is_sure =
             open.count() == 1 && if *bracket == "(" { is_plain_list(&inside) } else { inside.ends_with(&[")"]) };
-        let applies = if is_sure { Applies::Always } else { Applies::Probably };
+        let applies = if is_sure { Applicability::Always } else { Applicability::Probably };
         Some(Fix::replace(self.span(end..end), closers.clone(), format!("close it with `{closers}`"), applies))
     }
 
@@ -113,7 +113,7 @@ impl<'a> Fault<'a> {
         // one brace too many at the head of a block leaves one open at the end as well
         let tokens: Vec<Token<'_>> = tokens(self.text);
         let is_doubled = tokens.windows(2).any(|pair| pair[0].text == "{" && pair[1].text == "{");
-        let applies = if opened.len() == 1 && !is_doubled { Applies::Always } else { Applies::Probably };
+        let applies = if opened.len() == 1 && !is_doubled { Applicability::Always } else { Applicability::Probably };
         let (end, closers) = (self.text.len(), "}".repeat(opened.len()));
         Some(Fix::replace(self.span(end..end), text, format!("close it with `{closers}`"), applies))
     }

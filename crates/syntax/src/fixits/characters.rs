@@ -3,7 +3,7 @@
 use super::{Fault, FixIt};
 use crate::grammar::Rule;
 use crate::tokens::tokens;
-use mechc_text::diag::{Applies, Edit, Fix};
+use mechc_text::diag::{Applicability, Edit, Fix};
 use std::ops::Range;
 
 /// Unambiguous characters: replacement and message.
@@ -32,20 +32,23 @@ impl Fault<'_> {
         let (before, behind) = (self.before(), self.behind());
         let around = self.opened().last().map_or("", |(_, token)| *token);
         Some(match self.found {
-            "=" if self.text[..self.at].ends_with('=') => {
-                self.replaced(self.at - 1..self.at + 1, "=", "an equation is written with one `=`", Applies::Always)
-            }
+            "=" if self.text[..self.at].ends_with('=') => self.replaced(
+                self.at - 1..self.at + 1,
+                "=",
+                "an equation is written with one `=`",
+                Applicability::Always,
+            ),
             "==" if self.expects(Rule::equals) => {
-                self.replaced(self.here(), "=", "an equation is written with one `=`", Applies::Always)
+                self.replaced(self.here(), "=", "an equation is written with one `=`", Applicability::Always)
             }
             "=" if self.text[..self.at].ends_with(':') => return self.colon_equals(),
             "=" if self.expects(Rule::kw_then) => {
-                self.replaced(self.here(), "==", "a comparison is written `==`", Applies::Always)
+                self.replaced(self.here(), "==", "a comparison is written `==`", Applicability::Always)
             }
             "+" if OPERAND.iter().any(|rule| self.expects(*rule)) => self.left_out("a positive number needs no sign"),
             ";" => self.semicolon(around),
             "*" if self.text[..self.at].ends_with('*') => {
-                self.replaced(self.at - 1..self.at + 1, "^", "a power is written with `^`", Applies::Always)
+                self.replaced(self.at - 1..self.at + 1, "^", "a power is written with `^`", Applicability::Always)
             }
             "*" if self.text[..self.at].ends_with('/') => self.block_comment(self.at - 1),
             "/" if behind.starts_with('*') => self.block_comment(self.at),
@@ -58,8 +61,8 @@ impl Fault<'_> {
                 FixIt::words("a name is made of letters, digits and `_`")
             }
             "²" if behind.trim_start().starts_with('(') => FixIt::words("the square of a function is `f(x)^2`"),
-            "²" => self.replaced(self.here(), "^2", "a square is written `^2`", Applies::Always),
-            "³" => self.replaced(self.here(), "^3", "a cube is written `^3`", Applies::Always),
+            "²" => self.replaced(self.here(), "^2", "a square is written `^2`", Applicability::Always),
+            "³" => self.replaced(self.here(), "^3", "a cube is written `^3`", Applicability::Always),
             "\"" if behind.lines().next().is_some_and(|line| line.contains('"')) => {
                 FixIt::words("text in quotes is the file of a `table` or a `use`, and stands nowhere else")
             }
@@ -68,7 +71,7 @@ impl Fault<'_> {
             "," | "." => return self.decimal_separator(),
             "(" if around == "[" && before.ends_with(')') => {
                 let end = before.len();
-                self.replaced(end..end, ",", "rows are separated by commas: `(1, 2), (3, 4)`", Applies::Always)
+                self.replaced(end..end, ",", "rows are separated by commas: `(1, 2), (3, 4)`", Applicability::Always)
             }
             _ => return None,
         })
@@ -84,14 +87,14 @@ impl Fault<'_> {
             let gap = |text: Option<char>| if text.is_some_and(char::is_whitespace) { "" } else { " " };
             let [before, after] =
                 [self.text[..range.start].chars().next_back(), self.text[range.end..].chars().next()].map(gap);
-            self.replaced(range, &format!("{before}{by}{after}"), words, Applies::Always)
+            self.replaced(range, &format!("{before}{by}{after}"), words, Applicability::Always)
         };
         Some(match self.found {
             "&" if has_operator && is_double => joined("and", "conditions are joined with `and`"),
             "&" if has_operator => FixIt::words("conditions are joined with `and`"),
             "|" if has_operator && is_double => joined("or", "conditions are joined with `or`"),
             "!" if is_operand => {
-                self.replaced(self.here(), "not ", "a condition is denied with `not`", Applies::Always)
+                self.replaced(self.here(), "not ", "a condition is denied with `not`", Applicability::Always)
             }
             "?" if has_operator => FixIt::words("a choice is written `if CONDITION then A else B`"),
             "." if has_operator && behind.starts_with('d') && self.before().ends_with(')') => {
@@ -108,14 +111,14 @@ impl Fault<'_> {
         let edits = same
             .map(|token| Edit { span: self.span(self.at + token.start..self.at + token.end()), text: by.to_owned() })
             .collect();
-        Fix { message: words.to_owned(), edits, applies: Applies::Always }
+        Fix { message: words.to_owned(), edits, applies: Applicability::Always }
     }
 
     pub(super) fn left_out(&self, words: &str) -> FixIt {
         let Range { start, end } = self.here();
         let is_word = |c: char| c.is_alphanumeric() || c == '_' || c == '.';
         let joins = self.text[..start].ends_with(is_word) && self.text[end..].starts_with(is_word);
-        self.replaced(start..end, if joins { " " } else { "" }, words, Applies::Always)
+        self.replaced(start..end, if joins { " " } else { "" }, words, Applicability::Always)
     }
 
     /// `driver d := …`
@@ -124,7 +127,7 @@ impl Fault<'_> {
         let is_sure = !self.expects(Rule::prefix) || line.contains('=');
         let words = "a `:` alone stands behind the name";
         let start = self.text[..self.at - 1].trim_end().len();
-        is_sure.then(|| self.replaced(start..self.here().end, ":", words, Applies::Always))
+        is_sure.then(|| self.replaced(start..self.here().end, ":", words, Applicability::Always))
     }
 
     /// `# a comment`, and what is none: `a#1`.
@@ -139,9 +142,9 @@ impl Fault<'_> {
         // a block that was commented out needs a mark on each of its lines
         let opens_a_block = self.behind().lines().next().is_some_and(|line| line.contains(['{', '}']));
         match (is_at_line_start, is_apart, is_complete) {
-            _ if opens_a_block && is_apart => self.replaced(range, "//", words, Applies::Probably),
-            (true, ..) | (_, true, true) => self.replaced(range, "//", words, Applies::Always),
-            (_, false, true) => self.replaced(range, " //", words, Applies::Probably),
+            _ if opens_a_block && is_apart => self.replaced(range, "//", words, Applicability::Probably),
+            (true, ..) | (_, true, true) => self.replaced(range, "//", words, Applicability::Always),
+            (_, false, true) => self.replaced(range, " //", words, Applicability::Probably),
             _ => FixIt::words("a name is made of letters, digits and `_`; a comment begins with `//`"),
         }
     }
@@ -155,7 +158,7 @@ impl Fault<'_> {
             return FixIt::Words(words);
         }
         let text = line_comments(&self.text[start..end - 2]);
-        FixIt::Fix(Fix::replace(self.span(start..end), text, words, Applies::Always))
+        FixIt::Fix(Fix::replace(self.span(start..end), text, words, Applicability::Always))
     }
 
     /// `30°`, and `alpha°`, which is a product.
@@ -170,9 +173,9 @@ impl Fault<'_> {
             return FixIt::Words(words);
         }
         if word.parse::<f64>().is_ok() {
-            return self.replaced(self.before().len()..self.here().end, " deg", &words, Applies::Always);
+            return self.replaced(self.before().len()..self.here().end, " deg", &words, Applicability::Always);
         }
-        self.replaced(self.here(), " * deg", "degrees are written `deg`", Applies::Probably)
+        self.replaced(self.here(), " * deg", "degrees are written `deg`", Applicability::Probably)
     }
 
     /// Returns whether the number before is all of a param so far.
@@ -198,7 +201,7 @@ impl Fault<'_> {
                 // `1,000` may be a thousand, and a param may be a point
                 let is_group = digits.len() == 3;
                 let is_in_doubt = whole != "0" && (is_group || self.is_all_of_a_param());
-                let applies = if is_in_doubt { Applies::Probably } else { Applies::Always };
+                let applies = if is_in_doubt { Applicability::Probably } else { Applicability::Always };
                 let words = format!("decimals are written with a point: `{whole}.{digits}`");
                 Some(self.replaced(self.before().len()..self.here().end, ".", &words, applies))
             }
@@ -207,7 +210,7 @@ impl Fault<'_> {
                 if behind.starts_with(|c: char| c.is_alphanumeric() || c == '_' || c == '.') {
                     return Some(FixIt::Words(words));
                 }
-                Some(self.replaced(self.before().len()..self.here().end, ".0", &words, Applies::Always))
+                Some(self.replaced(self.before().len()..self.here().end, ".0", &words, Applicability::Always))
             }
             _ => None,
         }

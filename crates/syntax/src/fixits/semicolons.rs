@@ -3,7 +3,7 @@
 use super::{Fault, FixIt};
 use crate::grammar::Rule;
 use crate::tokens::{Token, begins_declaration, tokens};
-use mechc_text::diag::{Applies, Edit, Fix};
+use mechc_text::diag::{Applicability, Edit, Fix};
 
 const ROWS: &str = "rows are separated by commas: `(1, 2), (3, 4)`";
 const TERMINATOR: &str = "declarations need no terminator; leave the `;` out";
@@ -14,12 +14,17 @@ impl Fault<'_> {
         match around {
             "" | "{" => self.terminator(),
             _ if self.is_decimal_comma_beside() => self.decimal_commas(),
-            "[" => self.replaced(self.here(), ",", ROWS, Applies::Always),
+            "[" => self.replaced(self.here(), ",", ROWS, Applicability::Always),
             // closed on its line, it goes on behind the semicolon
             _ if self.expects(Rule::comma) && self.is_closed_on_the_line() => {
                 let is_decimal = |token: &Token<'_>| token.text == "," && self.is_between_digits(token.start);
                 let is_open = self.list().iter().any(is_decimal);
-                self.replaced(self.here(), ",", PARTS, if is_open { Applies::Probably } else { Applies::Always })
+                self.replaced(
+                    self.here(),
+                    ",",
+                    PARTS,
+                    if is_open { Applicability::Probably } else { Applicability::Always },
+                )
             }
             _ => self.unclosed_parenthesis(),
         }
@@ -39,7 +44,7 @@ impl Fault<'_> {
         let line = &self.text[start..self.at];
         let text =
             if line.contains('{') { " ".to_owned() } else { self.line_end().to_owned() + self.indentation(self.at) };
-        self.replaced(self.at..gap.end, &text, TERMINATOR, Applies::Always)
+        self.replaced(self.at..gap.end, &text, TERMINATOR, Applicability::Always)
     }
 
     /// `weld(a.P; b.Q` at the end of a line
@@ -51,14 +56,14 @@ impl Fault<'_> {
             && rest.iter().all(|token| !["(", "[", "{", "}", ";"].contains(&token.text));
         match rest.last() {
             None if is_complete => {
-                self.replaced(self.here(), ")", "close it with `)`, and leave the `;` out", Applies::Probably)
+                self.replaced(self.here(), ")", "close it with `)`, and leave the `;` out", Applicability::Probably)
             }
             Some(last) if is_complete => {
                 let end = self.here().end + last.end();
                 let edits = [(self.here(), ","), (end..end, ")")]
                     .map(|(range, text)| Edit { span: self.span(range), text: text.to_owned() });
                 let message = format!("{PARTS}; close it with `)`");
-                FixIt::Fix(Fix { message, edits: edits.into(), applies: Applies::Probably })
+                FixIt::Fix(Fix { message, edits: edits.into(), applies: Applicability::Probably })
             }
             _ => FixIt::words("what stands in parentheses is separated by commas, and they are closed with `)`"),
         }
@@ -127,6 +132,6 @@ impl Fault<'_> {
         edits.sort_unstable();
         let edits = edits.into_iter().map(|(at, text)| Edit { span: self.span(at..at + 1), text: text.to_owned() });
         let message = "decimals are written with a point, and lists with commas: `(0.5, 1.5)`".to_owned();
-        FixIt::Fix(Fix { message, edits: edits.collect(), applies: Applies::Probably })
+        FixIt::Fix(Fix { message, edits: edits.collect(), applies: Applicability::Probably })
     }
 }

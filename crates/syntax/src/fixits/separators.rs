@@ -2,7 +2,7 @@
 
 use super::Fault;
 use crate::tokens::tokens;
-use mechc_text::diag::{Applies, Fix};
+use mechc_text::diag::{Applicability, Fix};
 use mechc_text::vocabulary::{JointWord, Place, QuantityWord, Synonym, is_called};
 
 /// Separators behind a name, by their description, with the wrong one.
@@ -42,11 +42,11 @@ impl Fault<'_> {
             _ => (self.at, if before == self.at { " " } else { "" }),
         };
         let gap_behind = if self.text[end..].starts_with(char::is_whitespace) { "" } else { " " };
-        Fix::replace(self.span(start..end), format!("{gap}{separator}{gap_behind}"), words, Applies::Always)
+        Fix::replace(self.span(start..end), format!("{gap}{separator}{gap_behind}"), words, Applicability::Always)
     }
 
     /// Returns whether the name ends here and its value begins, and how certain that is; a superfluous word may precede it.
-    fn is_separated_by(&self, separator: &str) -> Option<Applies> {
+    fn is_separated_by(&self, separator: &str) -> Option<Applicability> {
         let before = tokens(self.before());
         let [.., keyword, _] = before.as_slice() else { return None };
         let line = self.behind().lines().next().unwrap_or_default();
@@ -65,6 +65,6 @@ impl Fault<'_> {
             (_, word) if word.starts_with(|c: char| c.is_ascii_digit()) => true,
             (_, word) => is_call && is_called(word) || ["axis", "circle"].contains(&keyword.text),
         };
-        Some(if is_sure { Applies::Always } else { Applies::Probably })
+        Some(if is_sure { Applicability::Always } else { Applicability::Probably })
     }
 }

@@ -3,7 +3,7 @@
 use super::{Fault, FixIt};
 use crate::grammar::Rule;
 use crate::tokens::tokens;
-use mechc_text::diag::Applies;
+use mechc_text::diag::Applicability;
 
 /// Words of other programs for `use`.
 const OTHER_WORDS: [&str; 4] = ["import", "include", "require", "from"];
@@ -28,8 +28,9 @@ impl Fault<'_> {
             return Some(FixIt::words("a `use` stands at the top of the file, above the first `mechanism`"));
         }
         let is_top = self.expects(Rule::kw_use) || self.expects(Rule::kw_mechanism);
-        (is_top && OTHER_WORDS.contains(&self.found))
-            .then(|| self.replaced(self.here(), "use", "a file is used by `use \"FILE.mech\"`", Applies::Probably))
+        (is_top && OTHER_WORDS.contains(&self.found)).then(|| {
+            self.replaced(self.here(), "use", "a file is used by `use \"FILE.mech\"`", Applicability::Probably)
+        })
     }
 
     /// `use leg.mech`
@@ -41,6 +42,6 @@ impl Fault<'_> {
         let taken = rest.split([' ', '\t', '\r', '\n', ';', '"']).next()?;
         let path = format!("\"{}\"", taken.trim_matches(['\'', '<', '>']));
         let words = "the path of a file stands in quotes";
-        Some(self.replaced(self.at..self.at + taken.len(), &path, words, Applies::Probably))
+        Some(self.replaced(self.at..self.at + taken.len(), &path, words, Applicability::Probably))
     }
 }

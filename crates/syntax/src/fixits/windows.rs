@@ -3,7 +3,7 @@
 use super::{Fault, FixIt};
 use crate::grammar::Rule;
 use crate::tokens::{Token, tokens};
-use mechc_text::diag::{Applies, Fix};
+use mechc_text::diag::{Applicability, Fix};
 use mechc_text::vocabulary::ReductionWord;
 
 impl<'a> Fault<'a> {
@@ -16,7 +16,7 @@ impl<'a> Fault<'a> {
             if self.found == "to" {
                 let comma = self.before().len() - 1..self.before().len();
                 let words = "no comma stands in a window: `from A to B`";
-                return Some(FixIt::Fix(Fix::replace(self.span(comma), "", words, Applies::Always)));
+                return Some(FixIt::Fix(Fix::replace(self.span(comma), "", words, Applicability::Always)));
             }
             return self.expects(Rule::right).then(|| FixIt::words("a window stands behind all arguments"));
         }
@@ -26,7 +26,7 @@ impl<'a> Fault<'a> {
         if is_window(word(0)) && word(1) == "(" && self.found == "to" {
             let bracket = last[1].start;
             let words = "a bracket behind `from` stands apart from it: otherwise `from` is called";
-            return Some(self.replaced(bracket..bracket, " ", words, Applies::Always));
+            return Some(self.replaced(bracket..bracket, " ", words, Applicability::Always));
         }
         if is_window(word(0)) && is_window(self.found) {
             return Some(FixIt::words("a time that begins with a sign stands in parentheses: `from (-1 s)`"));
@@ -36,7 +36,7 @@ impl<'a> Fault<'a> {
         }
         let end = self.before().len();
         let words = "a window stands behind a comma: `max(e, from A to B)`";
-        is_window(self.found).then(|| self.replaced(end..end, ",", words, Applies::Always))
+        is_window(self.found).then(|| self.replaced(end..end, ",", words, Applicability::Always))
     }
 
     /// Returns the tokens of the last argument of the innermost open call, if it is a reduction; none behind a comma.

@@ -3,7 +3,7 @@
 use super::{Correction, Foreign, hyphenated_at, is_name};
 use crate::grammar::Rule;
 use crate::tokens::{Token, tokens};
-use mechc_text::diag::{Applies, Fix};
+use mechc_text::diag::{Applicability, Fix};
 use mechc_text::vocabulary::{JointWord, Keyword, Place, Role, Synonym, is_called, is_declaration};
 
 impl Foreign<'_> {
@@ -49,7 +49,7 @@ impl Foreign<'_> {
         let written = format!("{}: {}", self.found, last.text);
         let edit = self.edit(last.start..self.at + self.found.len(), &written);
         let message = format!("the name of a joint stands before its kind: `{written}(…)`");
-        Some(Correction::Change(Fix { message, edits: vec![edit], applies: Applies::Always }))
+        Some(Correction::Change(Fix { message, edits: vec![edit], applies: Applicability::Always }))
     }
 
     /// `measure der(x(arm.tip))`, `joint: revolute(…)`, `measure (x(arm.tip))`

@@ -3,7 +3,7 @@
 use super::{Correction, Foreign, is_name};
 use crate::grammar::Rule;
 use crate::tokens::{Token, begins_declaration};
-use mechc_text::diag::{Applies, Fix};
+use mechc_text::diag::{Applicability, Fix};
 use mechc_text::vocabulary::{JointWord, Keyword, QuantityWord, Role};
 
 impl Foreign<'_> {
@@ -104,7 +104,7 @@ impl Foreign<'_> {
         if self.found == "(" && self.expects(Rule::at) {
             let edits = vec![self.edit(self.at..self.at, if last.end() < self.at { "at " } else { " at " })];
             let message = "write `at` before `(`".to_owned();
-            return Some(Correction::Change(Fix { message, edits, applies: Applies::Always }));
+            return Some(Correction::Change(Fix { message, edits, applies: Applicability::Always }));
         }
         if self.found != "at" || last.text != "{" || self.before.len() != 3 {
             return None;

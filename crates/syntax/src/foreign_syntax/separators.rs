@@ -3,7 +3,7 @@
 use super::{Correction, Foreign, is_name};
 use crate::grammar::Rule;
 use crate::tokens::{Token, begins_declaration, tokens};
-use mechc_text::diag::{Applies, Fix};
+use mechc_text::diag::{Applicability, Fix};
 use mechc_text::vocabulary::{Unit, is_declaration};
 
 impl Foreign<'_> {
@@ -31,19 +31,19 @@ impl Foreign<'_> {
                     vec![edit],
                 ))
             }
-            (")", _) => left_out("this `)` closes nothing; leave it out", Applies::Probably),
+            (")", _) => left_out("this `)` closes nothing; leave it out", Applicability::Probably),
             _ => None,
         }
     }
 
     /// Returns the confidence in removing text before the next declaration or the end of the block.
-    fn applies_before_the_next(&self) -> Applies {
+    fn applies_before_the_next(&self) -> Applicability {
         let behind = self.at + self.found.len();
         let next = tokens(&self.text[behind..]).first().copied();
         let is_over = next.is_none_or(|next| {
             next.text == "}" || begins_declaration(self.text, Token { start: behind + next.start, ..next })
         });
-        if is_over { Applies::Always } else { Applies::Probably }
+        if is_over { Applicability::Always } else { Applicability::Probably }
     }
 
     /// `point P = (45, 40) mm`

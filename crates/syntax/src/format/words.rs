@@ -2,7 +2,7 @@
 
 use super::lexemes::{Lexeme, Shape};
 use crate::tokens::may_begin_a_bound;
-use mechc_text::vocabulary::{Constant, Keyword, Place, Role, Synonym, Unit, is_before_a_name};
+use mechc_text::vocabulary::{Constant, Keyword, Place, Role, Synonym, Unit, declares_name};
 use rustc_hash::FxHashSet;
 use std::ops::Range;
 
@@ -86,9 +86,8 @@ const BETWEEN_FEATURES: usize = 2;
 
 /// The words that a text declares as names, wherever: none of them means a unit in a formula.
 pub(super) fn declared<'a>(lexemes: &[Lexeme<'a>]) -> FxHashSet<&'a str> {
-    let is_keyword = |lexeme: &Lexeme<'_>| {
-        is_before_a_name(lexeme.text) && Keyword::named(lexeme.text).is_some_and(|k| begins(k.role))
-    };
+    let is_keyword =
+        |lexeme: &Lexeme<'_>| declares_name(lexeme.text) && Keyword::named(lexeme.text).is_some_and(|k| begins(k.role));
     let behind_keywords = lexemes.windows(2).filter(|pair| is_keyword(&pair[0])).map(|pair| pair[1].text);
     let is_argument = |run: &&[Lexeme<'_>]| ["fn", "curve"].contains(&run[0].text) && run[2].text == "(";
     let arguments = lexemes.windows(4).filter(is_argument).map(|run| run[3].text);
@@ -263,7 +262,7 @@ impl<'a> Classifier<'a> {
     fn begin(&mut self, keyword: &'a str) {
         let is_first = self.before.is_none();
         self.keyword = keyword;
-        self.takes_name = is_before_a_name(keyword) && keyword != "use";
+        self.takes_name = declares_name(keyword) && keyword != "use";
         // what stands in a block on one line has no columns
         if is_first {
             let has_cells = !matches!(keyword, "ground" | "analysis" | "gravity" | "mechanism");

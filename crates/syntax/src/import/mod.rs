@@ -52,7 +52,7 @@ pub fn import(model: FileId, settings: Option<FileId>, sources: &Sources) -> (Op
         if let Some(mechanism) = &mut mechanism {
             mechanism.items.extend(analysis);
         }
-        diagnostics.sort_by_place();
+        diagnostics.sort_by_span();
         let mechanisms = mechanism.filter(|_| !diagnostics.has_errors()).map(|mechanism| vec![mechanism]);
         (mechanisms.map(|mechanisms| ast::File { uses: Vec::new(), mechanisms }), diagnostics)
     })

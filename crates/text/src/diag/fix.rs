@@ -4,20 +4,20 @@ use crate::source::{FileId, Sources, Span};
 
 /// Confidence of a fix.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Applies {
+pub enum Applicability {
     /// Correct in every case; tools may apply it without asking.
     Always,
     /// Probably what was intended; the author decides.
     Probably,
 }
 
-impl Applies {
+impl Applicability {
     /// Returns the word for JSON.
     #[must_use]
     pub fn as_str(self) -> &'static str {
         match self {
-            Applies::Always => "always",
-            Applies::Probably => "probably",
+            Applicability::Always => "always",
+            Applicability::Probably => "probably",
         }
     }
 }
@@ -39,32 +39,32 @@ pub struct Fix {
     /// Edits, which do not overlap.
     pub edits: Vec<Edit>,
     /// Confidence.
-    pub applies: Applies,
+    pub applies: Applicability,
 }
 
 impl Fix {
     /// Creates a fix that replaces a span.
     #[must_use]
-    pub fn replace(span: Span, text: impl Into<String>, message: impl Into<String>, applies: Applies) -> Fix {
+    pub fn replace(span: Span, text: impl Into<String>, message: impl Into<String>, applies: Applicability) -> Fix {
         Fix { message: message.into(), edits: vec![Edit { span, text: text.into() }], applies }
     }
 
     /// Creates a fix that inserts text before a span.
     #[must_use]
-    pub fn insert(before: Span, text: impl Into<String>, message: impl Into<String>, applies: Applies) -> Fix {
+    pub fn insert(before: Span, text: impl Into<String>, message: impl Into<String>, applies: Applicability) -> Fix {
         Fix::replace(Span { end: before.start, ..before }, text, message, applies)
     }
 
     /// Creates a fix that inserts text after a span.
     #[must_use]
-    pub fn append(after: Span, text: impl Into<String>, message: impl Into<String>, applies: Applies) -> Fix {
+    pub fn append(after: Span, text: impl Into<String>, message: impl Into<String>, applies: Applicability) -> Fix {
         Fix::replace(Span { start: after.end, ..after }, text, message, applies)
     }
 
     /// Creates the fix "was `NAME` meant?", which replaces a span.
     #[must_use]
     pub fn meant(span: Span, name: &str) -> Fix {
-        Fix::replace(span, name, format!("was `{name}` meant?"), Applies::Probably)
+        Fix::replace(span, name, format!("was `{name}` meant?"), Applicability::Probably)
     }
 }
 
@@ -98,7 +98,7 @@ fn overlap(a: Span, b: Span) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::{Applies, Fix, fixed};
+    use super::{Applicability, Fix, fixed};
     use crate::source::{Sources, Span};
 
     #[test]
@@ -106,9 +106,9 @@ mod tests {
         let mut sources = Sources::default();
         let file = sources.add("a.mech", "a == b; c");
         let span = |start, end| Span { file, start, end };
-        let equals = Fix::replace(span(2, 4), "=", "one `=`", Applies::Always);
-        let other = Fix::replace(span(3, 6), "", "drop", Applies::Always);
-        let end = Fix::replace(span(6, 7), "", "no `;`", Applies::Always);
+        let equals = Fix::replace(span(2, 4), "=", "one `=`", Applicability::Always);
+        let other = Fix::replace(span(3, 6), "", "drop", Applicability::Always);
+        let end = Fix::replace(span(6, 7), "", "no `;`", Applicability::Always);
         let (text, applied) = fixed(&sources, file, [&equals, &other, &end]);
         assert_eq!((text.as_str(), applied.len()), ("a = b c", 2));
     }

@@ -12,12 +12,12 @@ mod render;
 mod responsibility;
 
 pub use codes::Code;
-pub use fix::{Applies, Edit, Fix, fixed};
+pub use fix::{Applicability, Edit, Fix, fixed};
 pub use nearest::nearest;
 pub use number::readable;
 pub use options::OptionText;
-pub use render::{Color, Format, render, render_made, visible};
-pub use responsibility::Blame;
+pub use render::{Color, Format, render, render_applied, visible};
+pub use responsibility::Responsibility;
 
 use crate::source::Span;
 use rustc_hash::FxHashSet;
@@ -107,7 +107,7 @@ impl Diagnostic {
 
     /// Adds a primary label for the cause of the fault; the other labels become related locations.
     #[must_use]
-    pub fn raised_by(mut self, span: Span, text: impl Into<String>) -> Diagnostic {
+    pub fn caused_by(mut self, span: Span, text: impl Into<String>) -> Diagnostic {
         for label in &mut self.labels {
             label.primary = false;
         }
@@ -244,7 +244,7 @@ impl Diagnostics {
     }
 
     /// Keeps only the first diagnostic of each code and primary span: copies of a declaration repeat its faults.
-    pub fn tell_once(&mut self) {
+    pub fn dedup_by_span(&mut self) {
         let mut keys: FxHashSet<(Code, Span)> = FxHashSet::default();
         self.list.retain(|d| d.labels.first().is_none_or(|label| keys.insert((d.code, label.span))));
     }
@@ -255,13 +255,13 @@ impl Diagnostics {
     }
 
     /// Adds the location where a part is used to all diagnostics from index `from` on.
-    pub fn in_part_from(&mut self, from: usize, path: &str, used_at: Span) {
+    pub fn annotate_part(&mut self, from: usize, path: &str, used_at: Span) {
         let moved = self.list.split_off(from.min(self.list.len()));
         self.list.extend(moved.into_iter().map(|diagnostic| diagnostic.in_part(path, used_at)));
     }
 
     /// Sorts the diagnostics by their primary span.
-    pub fn sort_by_place(&mut self) {
+    pub fn sort_by_span(&mut self) {
         self.list.sort_by_key(|d| d.labels.first().map(|label| label.span));
     }
 }

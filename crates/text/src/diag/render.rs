@@ -108,7 +108,7 @@ fn escape_controls(json: String) -> String {
 
 /// Renders a fix that was applied, as one line: ``file:line:column: message: `**` → `^` ``.
 #[must_use]
-pub fn render_made(fix: &Fix, sources: &Sources, format: Format) -> String {
+pub fn render_applied(fix: &Fix, sources: &Sources, format: Format) -> String {
     if format == Format::Json {
         return format!("{}\n", escape_controls(json!({ "fixed": fix_as_json(fix, sources) }).to_string()));
     }

@@ -5,7 +5,7 @@ use crate::source::Sources;
 
 /// Category of the first error, which decides the exit status.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Blame {
+pub enum Responsibility {
     /// The text has errors.
     Input,
     /// The request is impossible.
@@ -16,23 +16,23 @@ pub enum Blame {
     Files,
 }
 
-impl Blame {
+impl Responsibility {
     /// Returns the category of the first error, or `None` without errors.
     #[must_use]
-    pub fn of(diagnostics: &Diagnostics, sources: &Sources) -> Option<Blame> {
+    pub fn of(diagnostics: &Diagnostics, sources: &Sources) -> Option<Responsibility> {
         let first = diagnostics.iter().find(|d| d.is_error())?;
         // any fault in an option is a usage error, unless it shows only at some time of the motion
         let is_at_some_time = (Code::E0601..=Code::E0612).contains(&first.code);
         if !is_at_some_time && first.labels.first().is_some_and(|label| sources.get(label.span.file).is_option) {
-            return Some(Blame::Usage);
+            return Some(Responsibility::Usage);
         }
         Some(match first.code {
-            _ if is_at_some_time => Blame::Analysis,
+            _ if is_at_some_time => Responsibility::Analysis,
             // a file that a text names is part of the text
-            Code::E0701 if !first.labels.is_empty() => Blame::Input,
-            Code::E0701 | Code::E0702 => Blame::Files,
-            Code::E0703 | Code::E0704 | Code::E0705 | Code::E0706 | Code::E0708 => Blame::Usage,
-            _ => Blame::Input,
+            Code::E0701 if !first.labels.is_empty() => Responsibility::Input,
+            Code::E0701 | Code::E0702 => Responsibility::Files,
+            Code::E0703 | Code::E0704 | Code::E0705 | Code::E0706 | Code::E0708 => Responsibility::Usage,
+            _ => Responsibility::Input,
         })
     }
 }

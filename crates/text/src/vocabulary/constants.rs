@@ -9,12 +9,12 @@ pub struct Constant {
     /// Documentation.
     pub word: Word,
     /// Meaning.
-    pub stands_for: StandsFor,
+    pub stands_for: NamedConstant,
 }
 
 /// Meaning of a constant.
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub enum StandsFor {
+pub enum NamedConstant {
     /// Time (s).
     Time,
     /// Pure number.
@@ -23,14 +23,14 @@ pub enum StandsFor {
     Ground,
 }
 
-impl StandsFor {
+impl NamedConstant {
     /// Returns a noun for messages.
     #[must_use]
     pub fn noun(self) -> &'static str {
         match self {
-            StandsFor::Time => "time",
-            StandsFor::Number(_) => "a constant",
-            StandsFor::Ground => "the body that does not move",
+            NamedConstant::Time => "time",
+            NamedConstant::Number(_) => "a constant",
+            NamedConstant::Ground => "the body that does not move",
         }
     }
 }
@@ -44,13 +44,13 @@ impl Constant {
 
     /// Returns the names of the constants that formulas may contain.
     pub fn in_formulas() -> impl Iterator<Item = &'static str> {
-        CONSTANTS.iter().filter(|one| one.stands_for != StandsFor::Ground).map(|one| one.word.name)
+        CONSTANTS.iter().filter(|one| one.stands_for != NamedConstant::Ground).map(|one| one.word.name)
     }
 }
 
 const fn constant(
     name: &'static str,
-    stands_for: StandsFor,
+    stands_for: NamedConstant,
     form: &'static [&'static str],
     meaning: &'static str,
     more: &'static str,
@@ -67,7 +67,7 @@ const fn constant(
 pub static CONSTANTS: &[Constant] = &[
     constant(
         "t",
-        StandsFor::Time,
+        NamedConstant::Time,
         &["t"],
         "time, in seconds",
         "It may stand in drivers and measures, and in a `fn` that is used there; a constraint, a place and a length cannot depend \
@@ -76,7 +76,7 @@ pub static CONSTANTS: &[Constant] = &[
     ),
     constant(
         "pi",
-        StandsFor::Number(PI),
+        NamedConstant::Number(PI),
         &["pi"],
         "half a turn, 3.141592653589793",
         "",
@@ -84,7 +84,7 @@ pub static CONSTANTS: &[Constant] = &[
     ),
     constant(
         "tau",
-        StandsFor::Number(TAU),
+        NamedConstant::Number(TAU),
         &["tau"],
         "a whole turn, 2π = 6.283185307179586",
         "",
@@ -92,7 +92,7 @@ pub static CONSTANTS: &[Constant] = &[
     ),
     constant(
         "ground",
-        StandsFor::Ground,
+        NamedConstant::Ground,
         &["ground.P"],
         "the body that does not move",
         "It has no coordinates. Its points, axes, circles and curves are declared in `ground { … }`; a literal point `(x, y)` in a \

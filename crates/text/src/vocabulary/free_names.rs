@@ -4,7 +4,7 @@ use super::{Dimension, is_called, is_taken};
 
 /// Kind of what a name is for.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum KindOfName {
+pub enum SubstituteKind {
     /// Body.
     Body,
     /// Joint.
@@ -25,42 +25,42 @@ pub enum KindOfName {
     Argument,
 }
 
-impl KindOfName {
+impl SubstituteKind {
     /// Returns the kind of the name after a keyword.
     #[must_use]
-    pub fn behind(keyword: &str) -> KindOfName {
+    pub fn behind(keyword: &str) -> SubstituteKind {
         match keyword {
-            "body" | "mechanism" => KindOfName::Body,
-            "joint" => KindOfName::Joint,
-            "driver" | "constraint" => KindOfName::Equation,
-            "point" | "axis" | "circle" | "curve" => KindOfName::Feature,
-            "fn" | "table" => KindOfName::Function,
-            _ => KindOfName::Value,
+            "body" | "mechanism" => SubstituteKind::Body,
+            "joint" => SubstituteKind::Joint,
+            "driver" | "constraint" => SubstituteKind::Equation,
+            "point" | "axis" | "circle" | "curve" => SubstituteKind::Feature,
+            "fn" | "table" => SubstituteKind::Function,
+            _ => SubstituteKind::Value,
         }
     }
 
     /// Returns the kind of a parameter's name, from the dimension of its first unit.
     #[must_use]
-    pub fn of_value(dimension: Option<Dimension>) -> KindOfName {
+    pub fn of_value(dimension: Option<Dimension>) -> SubstituteKind {
         match dimension {
-            Some(dimension) if dimension.is(Dimension::MASS) => KindOfName::Mass,
-            Some(dimension) if dimension.is(Dimension::TIME) => KindOfName::Time,
-            _ => KindOfName::Value,
+            Some(dimension) if dimension.is(Dimension::MASS) => SubstituteKind::Mass,
+            Some(dimension) if dimension.is(Dimension::TIME) => SubstituteKind::Time,
+            _ => SubstituteKind::Value,
         }
     }
 
     /// Returns general names for the kind.
     fn names(self) -> &'static [&'static str] {
         match self {
-            KindOfName::Body => &["arm", "slide", "link", "lever", "plate"],
-            KindOfName::Joint => &["hinge", "pin", "guide", "bearing"],
-            KindOfName::Equation => &["motor", "feed", "coupling"],
-            KindOfName::Feature => &["tip", "center", "edge", "heel"],
-            KindOfName::Value => &["size", "offset", "width", "height"],
-            KindOfName::Mass => &["m1", "payload", "ballast"],
-            KindOfName::Time => &["period", "delay", "duration"],
-            KindOfName::Function => &["law", "lift", "shape"],
-            KindOfName::Argument => &["u", "v", "w", "x", "y", "z"],
+            SubstituteKind::Body => &["arm", "slide", "link", "lever", "plate"],
+            SubstituteKind::Joint => &["hinge", "pin", "guide", "bearing"],
+            SubstituteKind::Equation => &["motor", "feed", "coupling"],
+            SubstituteKind::Feature => &["tip", "center", "edge", "heel"],
+            SubstituteKind::Value => &["size", "offset", "width", "height"],
+            SubstituteKind::Mass => &["m1", "payload", "ballast"],
+            SubstituteKind::Time => &["period", "delay", "duration"],
+            SubstituteKind::Function => &["law", "lift", "shape"],
+            SubstituteKind::Argument => &["u", "v", "w", "x", "y", "z"],
         }
     }
 }
@@ -107,14 +107,14 @@ const SUBSTITUTES: &[(&str, [&str; 3])] = &[
 ];
 
 /// Returns a free name in place of a word of the language.
-pub fn another_name(word: &str, kind: KindOfName, is_free: impl Fn(&str) -> bool) -> Option<&'static str> {
+pub fn substitute_name(word: &str, kind: SubstituteKind, is_free: impl Fn(&str) -> bool) -> Option<&'static str> {
     let substitute = SUBSTITUTES.iter().find(|(other, _)| *other == word).and_then(|(_, names)| match kind {
-        KindOfName::Body => Some(names[0]),
-        KindOfName::Joint | KindOfName::Equation => Some(names[1]),
-        KindOfName::Feature | KindOfName::Value | KindOfName::Function => Some(names[2]),
-        KindOfName::Argument => Some("u"),
+        SubstituteKind::Body => Some(names[0]),
+        SubstituteKind::Joint | SubstituteKind::Equation => Some(names[1]),
+        SubstituteKind::Feature | SubstituteKind::Value | SubstituteKind::Function => Some(names[2]),
+        SubstituteKind::Argument => Some("u"),
         // the substitutes for values are mostly lengths
-        KindOfName::Mass | KindOfName::Time => None,
+        SubstituteKind::Mass | SubstituteKind::Time => None,
     });
     substitute
         .into_iter()
@@ -124,13 +124,13 @@ pub fn another_name(word: &str, kind: KindOfName, is_free: impl Fn(&str) -> bool
 
 #[cfg(test)]
 mod tests {
-    use super::{KindOfName, SUBSTITUTES, another_name};
+    use super::{SUBSTITUTES, SubstituteKind, substitute_name};
     use crate::vocabulary::{Keyword, Unit, is_called, is_taken};
 
     #[test]
     fn every_proposed_name_can_be_declared() {
-        let general = ["body", "joint", "driver", "point", "param", "fn"].map(KindOfName::behind);
-        let values = [KindOfName::Mass, KindOfName::Time];
+        let general = ["body", "joint", "driver", "point", "param", "fn"].map(SubstituteKind::behind);
+        let values = [SubstituteKind::Mass, SubstituteKind::Time];
         let kinds = general.iter().chain(&values).flat_map(|kind| kind.names());
         let names = SUBSTITUTES.iter().flat_map(|(_, names)| names).chain(kinds);
         for name in names {
@@ -141,11 +141,11 @@ mod tests {
 
     #[test]
     fn a_name_is_proposed_that_the_text_does_not_use() {
-        let kind = KindOfName::behind("body");
-        assert_eq!(another_name("s", kind, |_| true), Some("slide"));
-        assert_eq!(another_name("s", kind, |name| name != "slide"), Some("arm"));
-        assert_eq!(another_name("cosh", kind, |name| !["arm", "slide"].contains(&name)), Some("link"));
-        assert_eq!(another_name("s", kind, |_| false), None);
-        assert_eq!(another_name("m", KindOfName::Mass, |_| true), Some("m1"));
+        let kind = SubstituteKind::behind("body");
+        assert_eq!(substitute_name("s", kind, |_| true), Some("slide"));
+        assert_eq!(substitute_name("s", kind, |name| name != "slide"), Some("arm"));
+        assert_eq!(substitute_name("cosh", kind, |name| !["arm", "slide"].contains(&name)), Some("link"));
+        assert_eq!(substitute_name("s", kind, |_| false), None);
+        assert_eq!(substitute_name("m", SubstituteKind::Mass, |_| true), Some("m1"));
     }
 }

@@ -93,7 +93,7 @@ pub fn is_feature(word: &str) -> bool {
 
 /// Returns whether a name follows the keyword of a declaration.
 #[must_use]
-pub fn is_before_a_name(keyword: &str) -> bool {
+pub fn declares_name(keyword: &str) -> bool {
     !matches!(keyword, "ground" | "analysis" | "gravity" | "mass")
 }
 

@@ -16,12 +16,12 @@ mod synonyms;
 mod topics;
 mod units;
 
-pub use constants::{CONSTANTS, Constant, StandsFor};
+pub use constants::{CONSTANTS, Constant, NamedConstant};
 pub use dimension::Dimension;
-pub use free_names::{KindOfName, another_name};
+pub use free_names::{SubstituteKind, substitute_name};
 pub use functions::{FUNCTIONS, Function, Group};
 pub use joints::{JOINTS, JointKind, JointWord};
-pub use keywords::{KEYWORDS, Keyword, Role, is_before_a_name, is_declaration, is_feature};
+pub use keywords::{KEYWORDS, Keyword, Role, declares_name, is_declaration, is_feature};
 pub use page::{OVERVIEWS, page};
 pub use quantities::{QUANTITIES, QuantityWord};
 pub use reductions::{REDUCTIONS, ReductionWord};

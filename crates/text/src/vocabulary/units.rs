@@ -300,7 +300,7 @@ impl Unit {
 
     /// Returns the value of a prefixed unit that is not in the language, in its base unit: `0.001 N` for `mN`.
     #[must_use]
-    pub fn of_multiple(name: &str) -> Option<String> {
+    pub fn prefixed_value(name: &str) -> Option<String> {
         PREFIXES.iter().find_map(|(prefix, factor)| {
             let unit = Unit::named(name.strip_prefix(prefix)?)?;
             DIVIDED.contains(&unit.word.name).then(|| format!("{factor} {}", unit.word.name))
@@ -314,7 +314,7 @@ impl Unit {
 
     /// Returns whether the unit is for angles or angular velocities, whose dimensions are those of pure numbers and rates.
     #[must_use]
-    pub fn is_of_angle(&self) -> bool {
+    pub fn measures_angle(&self) -> bool {
         self.dimension.is(Dimension::PURE) || self.word.name == "rpm"
     }
 

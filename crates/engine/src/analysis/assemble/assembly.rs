@@ -10,7 +10,7 @@ use mechc_ir::tolerances::assembly::newton::{
     AGREES, BESIDE, EXPLICIT_STEPS, LARGEST_DENSE, LARGEST_STEP, MOVED, NEARBY, NEWTON_STEPS, OPEN_NEARBY,
     PERTURBATIONS, SETTLED, SINGULAR_START, SMALLEST_DAMPING, VANISHING_TANGENT, WITHOUT_SLOPE,
 };
-use mechc_ir::{BodyId, ConstraintSystem, CoordinateKind, WatchKind};
+use mechc_ir::{BodyId, ConstraintSystem, CoordinateKind, MonitorKind};
 use std::f64::consts::PI;
 
 /// How far assembly moved the bodies from their estimates.
@@ -297,9 +297,9 @@ fn refuse_vanishing_tangents(kinematics: &mut Kinematics, q: &[f64], t: f64) -> 
         return Ok(());
     }
     let vanishes = |k: &usize| {
-        system.watches()[*k].kind == WatchKind::Tangents && kinematics.watched(*k).abs() < VANISHING_TANGENT
+        system.monitors()[*k].kind == MonitorKind::Tangents && kinematics.watched(*k).abs() < VANISHING_TANGENT
     };
-    match (0..system.watches().len()).find(vanishes) {
+    match (0..system.monitors().len()).find(vanishes) {
         Some(watch) => Err(StopCause::NoContact { watch }.at(t)),
         None => Ok(()),
     }

@@ -3,11 +3,11 @@
 use super::errors::{self, StartVerdict};
 use super::stop::{SingularPosition, Stop, StopCause, Warning, WarningCause};
 use crate::analysis::state::{Fault, Horizon, Kinematics, Singular, State};
-use mechc_ir::program::PlacedRim;
+use mechc_ir::program::BoundaryRegisters;
 use mechc_ir::tolerances::singular::reasons::{
-    AT_HAND, CUSP, FLAT, NEAR, NEAR_FOLD, PARABOLA, STEPS_AHEAD, TAKES_PART, TOLD, WEIGHTS,
+    CUSP, FLAT, NEAR, NEAR_FOLD, PARABOLA, STEPS_AHEAD, TAKES_PART, TOLD, VANISHED, WEIGHTS,
 };
-use mechc_ir::{ConstraintSystem, DeclarationId, DeclarationKind, JointKind, Watch, WatchKind};
+use mechc_ir::{ConstraintSystem, DeclarationId, DeclarationKind, JointKind, Monitor, MonitorKind};
 
 /// Returns why no step leads on from the last accepted state, where even one as small as `h` (s) towards `target` (s) failed.
 pub fn find_stop(kinematics: &mut Kinematics, state: &State, fault: Fault, [h, target]: [f64; 2]) -> Box<Stop> {
@@ -58,21 +58,24 @@ pub fn without_value(system: &ConstraintSystem, fault: Fault) -> StopCause {
     match fault {
         Fault::NotFinite { row } => StopCause::NotFinite { declarations: vec![system.rows()[row].declaration] },
         Fault::Condition { index } => StopCause::Condition { index },
-        Fault::Watch { index } => StopCause::NoContact { watch: index },
+        Fault::Monitor { index } => StopCause::NoContact { watch: index },
         Fault::Check { index } => StopCause::RedundantRow { check: index },
-        Fault::Singular | Fault::Uncertain | Fault::TooFar | Fault::Choice | Fault::Rim | Fault::Edge { .. } => {
-            StopCause::NoStep { driver: None }
-        }
+        Fault::Singular
+        | Fault::Uncertain
+        | Fault::TooFar
+        | Fault::Choice
+        | Fault::DomainBoundary
+        | Fault::Edge { .. } => StopCause::NoStep { driver: None },
     }
 }
 
 /// The watch over a contact that ends where the position was set.
 fn contact_that_ends(kinematics: &Kinematics, fault: Fault, sigma: f64) -> Option<usize> {
-    let watches = kinematics.system().watches();
+    let watches = kinematics.system().monitors();
     match fault {
         // a curvature that comes to zero makes the position singular, one that jumps over it does not
-        Fault::Watch { index } if watches[index].kind != WatchKind::Curvature || sigma > NEAR => Some(index),
-        _ => centers_that_meet(kinematics).or_else(|| vanishing(kinematics, WatchKind::Tangents)),
+        Fault::Monitor { index } if watches[index].kind != MonitorKind::Curvature || sigma > NEAR => Some(index),
+        _ => centers_that_meet(kinematics).or_else(|| vanishing(kinematics, MonitorKind::Tangents)),
     }
 }
 
@@ -107,14 +110,14 @@ fn time_of_fold(span: f64, state: &State, right: &[f64]) -> f64 {
 /// Returns the stop at a contact that ends at a time (s), by the watch over it, at the position that was set or just behind it.
 pub fn end_of_contact(kinematics: &Kinematics, index: usize, t: f64) -> Box<Stop> {
     let system = kinematics.system();
-    let watches = system.watches();
-    let Watch { kind, declaration, .. } = watches[index];
+    let watches = system.monitors();
+    let Monitor { kind, declaration, .. } = watches[index];
     let is_flat = system.declarations()[declaration].kind == DeclarationKind::Joint(JointKind::FlatFollower);
-    let of_contact = |k: &usize| watches[*k].kind == WatchKind::Curvature && watches[*k].declaration == declaration;
+    let of_contact = |k: &usize| watches[*k].kind == MonitorKind::Curvature && watches[*k].declaration == declaration;
     let curvature = (0..watches.len()).find(of_contact).map_or(0.0, |k| kinematics.watched(k).abs());
     // with `T` the tangent and `B` its derivative the radius is T²/B across; where the argument alone rests it is no less than usual
     let tangent = kinematics.watched(index);
-    if kind == WatchKind::Tangents && is_flat && tangent * tangent < CUSP * curvature {
+    if kind == MonitorKind::Tangents && is_flat && tangent * tangent < CUSP * curvature {
         StopCause::Undercut { watch: index }.at(t)
     } else {
         StopCause::NoContact { watch: index }.at(t)
@@ -159,18 +162,18 @@ pub fn warn_of_miss(kinematics: &mut Kinematics, state: &State, within: f64, t: 
 
 /// The watch over a line of centres that vanishes, or nearly so, where the position was set.
 pub fn centers_that_meet(kinematics: &Kinematics) -> Option<usize> {
-    vanishing(kinematics, WatchKind::LineOfCenters)
+    vanishing(kinematics, MonitorKind::LineOfCenters)
 }
 
 /// The watch of a kind over what vanishes, or nearly so, where the position was set.
-fn vanishing(kinematics: &Kinematics, kind: WatchKind) -> Option<usize> {
-    let watches = kinematics.system().watches();
+fn vanishing(kinematics: &Kinematics, kind: MonitorKind) -> Option<usize> {
+    let watches = kinematics.system().monitors();
     (0..watches.len()).find(|&k| watches[k].kind == kind && kinematics.watched(k).abs() < FLAT)
 }
 
 /// The joint at whose contact the relative curvature vanishes, or nearly so, where the position was set.
 fn flat_contact(kinematics: &Kinematics) -> Option<DeclarationId> {
-    vanishing(kinematics, WatchKind::Curvature).map(|k| kinematics.system().watches()[k].declaration)
+    vanishing(kinematics, MonitorKind::Curvature).map(|k| kinematics.system().monitors()[k].declaration)
 }
 
 /// Returns the stop where so many steps did not get to `target` (s).
@@ -188,17 +191,17 @@ fn rim_at_hand(kinematics: &mut Kinematics, state: &State) -> Option<Box<Stop>> 
     kinematics.restore(state);
     let span = kinematics.span();
     let rims = kinematics.rims().to_vec();
-    let mut left = |rim: &PlacedRim| {
+    let mut left = |rim: &BoundaryRegisters| {
         let [gauge, slope] = gauge_at(kinematics, rim, state, 0.0);
-        f64::min(gauge.abs() / kinematics.largest_term(rim), AT_HAND / NEAR_FOLD * (gauge / slope).abs() / span)
+        f64::min(gauge.abs() / kinematics.largest_term(rim), VANISHED / NEAR_FOLD * (gauge / slope).abs() / span)
     };
     // where time alone leads to one its driver is the fastest
     let of_motion = rims.iter().enumerate().filter(|(_, rim)| !rim.on_time);
     let nearest = of_motion.map(|(index, rim)| (index, left(rim))).min_by(|a, b| a.1.total_cmp(&b.1));
-    let index = nearest.filter(|(_, left)| *left < AT_HAND).map(|(rim, _)| rim)?;
+    let index = nearest.filter(|(_, left)| *left < VANISHED).map(|(rim, _)| rim)?;
     let corner = corner_ahead(kinematics, &rims[index], state);
     let system = kinematics.system();
-    let declarations = system.rims()[index].declarations.clone();
+    let declarations = system.domain_boundaries()[index].declarations.clone();
     let has_tangent = declarations.iter().any(|&declaration| errors::has_tangent(system, declaration));
     Some(match corner.filter(|_| has_tangent) {
         Some(left) => StopCause::PositionJump { declarations, jump: None, is_corner: true }.at(state.t + left),
@@ -207,7 +210,7 @@ fn rim_at_hand(kinematics: &mut Kinematics, state: &State) -> Option<Box<Stop>> 
 }
 
 /// How soon a gauge touches zero (s), behind which its formula goes on with a corner; none where it goes through zero.
-fn corner_ahead(kinematics: &mut Kinematics, rim: &PlacedRim, state: &State) -> Option<f64> {
+fn corner_ahead(kinematics: &mut Kinematics, rim: &BoundaryRegisters, state: &State) -> Option<f64> {
     let [gauge, slope] = gauge_at(kinematics, rim, state, 0.0);
     let left = -2.0 * gauge / slope;
     let [before, _] = gauge_at(kinematics, rim, state, -left);
@@ -216,7 +219,7 @@ fn corner_ahead(kinematics: &mut Kinematics, rim: &PlacedRim, state: &State) -> 
 }
 
 /// A gauge and its slope where the motion goes on evenly from a state for a time (s).
-fn gauge_at(kinematics: &mut Kinematics, rim: &PlacedRim, state: &State, after: f64) -> [f64; 2] {
+fn gauge_at(kinematics: &mut Kinematics, rim: &BoundaryRegisters, state: &State, after: f64) -> [f64; 2] {
     let q: Vec<f64> = state.q.iter().zip(&state.qd).map(|(q, qd)| q + after * qd).collect();
     kinematics.set_time(state.t + after);
     // what is wrong with the position shows in the gauge

@@ -380,7 +380,7 @@ impl Warning {
             WarningCause::WithoutValue { quantity, rows } => errors::without_value(system, *quantity, t, *rows),
             WarningCause::LoadWithoutDirection { index } => errors::load_without_direction(&system.loads()[*index], t),
             WarningCause::ContactPulls { index, force } => {
-                errors::contact_pulls(system, &system.presses()[*index], *force, t)
+                errors::contact_pulls(system, &system.contact_forces()[*index], *force, t)
             }
         }
     }

@@ -9,7 +9,7 @@ use mechc_ir::ConstraintSystem;
 use mechc_ir::layout::RowLayout;
 use mechc_ir::program::Program;
 use mechc_ir::structure::Determined;
-use mechc_ir::tolerances::assembly::lead::{BESIDE_A_KINK, KINK, MOST_KINKS};
+use mechc_ir::tolerances::assembly::lead::{KINK, KINK_OFFSET, MOST_KINKS};
 use mechc_text::cancel::Cancel;
 use mechc_text::diag::Diagnostics;
 use std::sync::Arc;
@@ -19,7 +19,7 @@ pub(super) const WAY: Horizon = Horizon { from: 0.0, span: 1.0 };
 
 /// How a mechanism is led.
 #[derive(Clone, Debug)]
-pub struct LeadOptions {
+pub struct ContinuationOptions {
     /// Bounds each row of Φ, scaled.
     pub tolerance: f64,
     /// Go on beyond bifurcations.
@@ -30,16 +30,16 @@ pub struct LeadOptions {
     pub cancel: Cancel,
 }
 
-impl LeadOptions {
+impl ContinuationOptions {
     /// The options of one that is to be assembled.
-    pub(super) fn of(unassembled: &Unassembled, t: f64) -> LeadOptions {
+    pub(super) fn of(unassembled: &Unassembled, t: f64) -> ContinuationOptions {
         let Unassembled { tolerance, pass_bifurcations, ref cancel, .. } = *unassembled;
-        LeadOptions { tolerance, pass_bifurcations, t, cancel: cancel.clone() }
+        ContinuationOptions { tolerance, pass_bifurcations, t, cancel: cancel.clone() }
     }
 }
 
 /// How far a mechanism was led.
-pub struct Way {
+pub struct PathOutcome {
     /// The coordinates [m, rad] at the parts of the way that were asked for, as far as it got.
     pub reached: Vec<Vec<f64>>,
     /// What is to be said of where it began.
@@ -54,25 +54,25 @@ pub struct Way {
 ///
 /// # Errors
 /// It does not stand there.
-pub fn before_ways(
+pub fn start_of_paths(
     determined: &Arc<Determined>,
     program: &Arc<Program>,
     stands: &[f64],
-    options: &LeadOptions,
+    options: &ContinuationOptions,
 ) -> Result<Started, Box<Stop>> {
     Continuation::new(determined, program, Solving::New, options).whole(WAY).assemble_at(stands, Solving::New)
 }
 
-/// Leads a mechanism to the end of its path, from the start and with the solver that [`before_ways`] made for the same mechanism.
+/// Leads a mechanism to the end of its path, from the start and with the solver that [`start_of_paths`] made for the same mechanism.
 ///
 /// # Errors
 /// It cannot be assembled at 0.
-pub fn lead_again(
+pub fn continue_from(
     determined: &Arc<Determined>,
     program: &Arc<Program>,
     (stands, solver): (&[f64], Option<Arc<Solver>>),
-    options: &LeadOptions,
-) -> Result<Way, Box<Stop>> {
+    options: &ContinuationOptions,
+) -> Result<PathOutcome, Box<Stop>> {
     let solving = Solving::With(solver);
     let leader = Continuation::new(determined, program, solving.clone(), options);
     let started = leader.whole(WAY).assemble_at(stands, solving)?;
@@ -84,7 +84,7 @@ pub(super) struct Continuation<'l> {
     determined: &'l Arc<Determined>,
     program: &'l Arc<Program>,
     solving: Solving,
-    options: &'l LeadOptions,
+    options: &'l ContinuationOptions,
 }
 
 impl<'l> Continuation<'l> {
@@ -92,27 +92,27 @@ impl<'l> Continuation<'l> {
         determined: &'l Arc<Determined>,
         program: &'l Arc<Program>,
         solving: Solving,
-        options: &'l LeadOptions,
+        options: &'l ContinuationOptions,
     ) -> Continuation<'l> {
         Continuation { determined, program, solving, options }
     }
 
     /// What is led, to be assembled where a horizon begins.
     pub fn whole(&self, horizon: Horizon) -> Unassembled {
-        let LeadOptions { tolerance, pass_bifurcations, ref cancel, .. } = *self.options;
+        let ContinuationOptions { tolerance, pass_bifurcations, ref cancel, .. } = *self.options;
         let (determined, program) = (Arc::clone(self.determined), Arc::clone(self.program));
         Unassembled { determined, program, horizon, tolerance, pass_bifurcations, cancel: cancel.clone() }
     }
 
     /// Follows it from a start at 0 to some parts of the way.
-    pub fn lead(&self, mut started: Started, parts: &[f64]) -> Way {
+    pub fn lead(&self, mut started: Started, parts: &[f64]) -> PathOutcome {
         let options = self.options;
         let warnings = started.far_estimates_at(options.t);
-        let mut way = Way { reached: Vec::new(), warnings, passed: Vec::new(), stopped: None };
+        let mut way = PathOutcome { reached: Vec::new(), warnings, passed: Vec::new(), stopped: None };
         let mut from = (0.0, started.q().to_vec());
         for _ in 0..MOST_KINKS {
             let known = way.reached.len();
-            let Way { reached, passed, .. } = &mut way;
+            let PathOutcome { reached, passed, .. } = &mut way;
             way.stopped = self.follow(started, from.0, &parts[known..], reached, passed);
             let Some(stop) = &way.stopped else { return way };
             if let Some(last) = way.reached[known..].last() {
@@ -143,7 +143,7 @@ impl<'l> Continuation<'l> {
 
     /// The start just behind a place where a velocity jumps, with its part of the way; none where the position is another one there.
     fn beyond_kink(&self, part: f64, (known, q): &(f64, Vec<f64>)) -> Option<(f64, Started)> {
-        let (before, behind) = ((part - BESIDE_A_KINK).max(*known), (part + BESIDE_A_KINK).min(1.0));
+        let (before, behind) = ((part - KINK_OFFSET).max(*known), (part + KINK_OFFSET).min(1.0));
         let again = self.at(*known, q)?;
         let mut there = Vec::new();
         let stopped = self.follow(again, *known, &[before], &mut there, &mut Vec::new());

@@ -22,8 +22,8 @@ mod start;
 mod step;
 mod warnings;
 
-pub use continuation::{LeadOptions, Way, before_ways, lead_again};
-pub use follower::{Follower, Stretch};
+pub use continuation::{ContinuationOptions, PathOutcome, continue_from, start_of_paths};
+pub use follower::{Follower, SmoothSegment};
 pub use row_selection::SelectedRows;
 pub use rows::{SingleRow, state_of_row};
 pub use start::{follow_to, lead, start, start_from};

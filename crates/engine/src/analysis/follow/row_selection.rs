@@ -67,7 +67,7 @@ impl RowSelection {
                 columns.zip(whole.phi_q().range(row).map(|position| registers[position])).collect()
             })
             .collect();
-        let registers = program.start(&whole.values_of_params());
+        let registers = program.start(&whole.param_values());
         let kept = determined.kept();
         let (slope, weights) = (vec![0.0; n], vec![0.0; n]);
         Some(RowSelection { program, registers, slopes, kept, slope, weights, known: Vec::new(), current: None })
@@ -148,7 +148,7 @@ impl RowSelection {
         if let Some(known) = known {
             return Some(Arc::clone(known));
         }
-        let determined = Arc::new(kinematics.determined().leaving_out(left_out)?);
+        let determined = Arc::new(kinematics.determined().with_rows_dropped(left_out)?);
         let program = Arc::new(Program::new(determined.system()));
         let mut other = kinematics.with_equations(Arc::clone(&determined), Arc::clone(&program));
         other.restore(state);

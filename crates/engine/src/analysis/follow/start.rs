@@ -3,7 +3,7 @@
 //! The branch of a motion is decided once, by the drawing: the equations are closed with the drivers where the drawing has them, and
 //! then the drivers are led to where they begin, along that branch. To any other first time the motion is followed from there.
 
-use super::continuation::{Continuation, LeadOptions, WAY, Way};
+use super::continuation::{Continuation, ContinuationOptions, PathOutcome, WAY};
 use crate::analysis::assemble::{Doubt, Solving, Started, Unassembled, close_without_drivers, driver_residuals};
 use crate::analysis::explain::{Stop, StopCause, Warning, WarningCause};
 use crate::analysis::state::{Horizon, Times};
@@ -82,8 +82,8 @@ pub fn lead(
     program: &Arc<Program>,
     stands: Option<&[f64]>,
     parts: &[f64],
-    options: &LeadOptions,
-) -> Result<Way, Box<Stop>> {
+    options: &ContinuationOptions,
+) -> Result<PathOutcome, Box<Stop>> {
     let leader = Continuation::new(determined, program, Solving::New, options);
     let started = match stands {
         Some(q) => leader.whole(WAY).assemble_at(q, Solving::New)?,
@@ -133,7 +133,7 @@ fn close_and_lead(
     let t = whole.horizon.from;
     let lines = residuals.iter().map(|residual| (residual.0, [residual.1, TAU * turns(residual)])).collect();
     let way = along(whole, &Homotopy::Residuals { t, lines }).ok()?;
-    let options = LeadOptions::of(&way, t);
+    let options = ContinuationOptions::of(&way, t);
     let leader = Continuation::new(&way.determined, &way.program, Solving::With(None), &options);
     let closed = way.close(Some(drawn), Solving::With(None)).ok()?;
     let (doubt, moved) = (closed.doubt(), closed.moved_in_loops());
@@ -175,7 +175,7 @@ pub fn follow_to(whole: &Unassembled, (started, own): (Started, f64)) -> Result<
 fn follow_back(whole: &Unassembled, started: &Started, own: f64) -> Result<(Vec<f64>, Vec<Warning>), Box<Stop>> {
     let to = whole.horizon.from;
     let back = along(whole, &Homotopy::Time([own, to]))?;
-    let options = LeadOptions::of(&back, own);
+    let options = ContinuationOptions::of(&back, own);
     let leader = Continuation::new(&back.determined, &back.program, Solving::With(None), &options);
     let mut way = leader.lead(back.assemble_at(started.q(), Solving::With(None))?, &[1.0]);
     let time_of = |fraction: f64| own + (to - own) * fraction;

@@ -6,7 +6,7 @@ use super::result_queries::ResultQueries;
 use super::{CHUNK, LANES, PerLane, ZERO};
 use crate::analysis::{Started, Times};
 use crate::solver::{Solver, VariantBatch, VariantLanes};
-use crate::sweep::continuation::ContinuationBase;
+use crate::sweep::continuation::{CompiledSystem, ContinuationBase};
 use mechc_expr::math::Vectors;
 use mechc_ir::CoordinateKind;
 use mechc_ir::program::{LaneMachine, LaneValues, Op, Program, Register, Registers, Stage};
@@ -16,7 +16,7 @@ use mechc_ir::tolerances::solving::variants::{
 use std::sync::Arc;
 
 /// The data that all batches of a mechanism share: its solvers, its requests, and its nominal state.
-pub struct Together {
+pub struct BatchContext {
     pub(super) program: Arc<Program>,
     /// The program's registers with the nominal parameters.
     pub(super) scalars: Registers,
@@ -80,14 +80,14 @@ impl RowPlan {
 }
 
 /// A request for rows and results of all variants.
-pub struct WantedOfEach<'w> {
+pub struct BatchRequest<'w> {
     /// The output times and the columns of rows; no columns if only results are requested.
     pub rows: (&'w Times, Option<&'w [usize]>),
     /// True if results are requested.
     pub results: bool,
 }
 
-impl Together {
+impl BatchContext {
     /// Prepares batches of a mechanism that is started with its nominal parameters, for variants that change `params` (indices). Returns
     /// `None` if variants are to be computed alone.
     #[must_use]
@@ -95,15 +95,15 @@ impl Together {
         base: &ContinuationBase,
         started: &Started,
         params: &[u32],
-        request: &WantedOfEach<'_>,
+        request: &BatchRequest<'_>,
         vectors: Vectors,
-    ) -> Option<Together> {
+    ) -> Option<BatchContext> {
         let mut started = started.clone();
         let (times, columns) = request.rows;
         if times.is_empty() || !started.is_plain() || !base.is_smooth_in(params) {
             return None;
         }
-        let ((determined, program), nominal_params) = base.nominal();
+        let (CompiledSystem { determined, program }, nominal_params) = base.nominal();
         let indices = tracked_indices(&started);
         let tracked = tracked_coordinates(&started, &indices)?;
         let derivatives = required_derivatives(&mut started, request, &indices);
@@ -129,7 +129,7 @@ impl Together {
         let loaded: Vec<Register> = solvers.into_iter().flatten().flat_map(Solver::loads).collect();
         let bounds = started.bounds();
         let inverse_bounds = |factor: f64| bounds.iter().map(|bound| 1.0 / (factor * bound)).collect();
-        let mut context = Together {
+        let mut context = BatchContext {
             prologue: prologue(program, &loaded),
             program: Arc::clone(program),
             scalars: program.start(nominal_params),
@@ -254,7 +254,7 @@ fn tracked_indices(started: &Started) -> Vec<usize> {
 }
 
 /// Returns the derivatives that steps need: velocities alone, which are cheapest, if only rows close to each other are requested.
-fn required_derivatives(started: &mut Started, request: &WantedOfEach<'_>, indices: &[usize]) -> TrackedDerivatives {
+fn required_derivatives(started: &mut Started, request: &BatchRequest<'_>, indices: &[usize]) -> TrackedDerivatives {
     let (times, columns) = (request.rows.0, request.rows.1.unwrap_or_default());
     let gap = times.widest_gap();
     if request.results || columns.is_empty() || gap > DENSE_PART_OF_SPAN * times.span() {

@@ -10,9 +10,9 @@ mod runner;
 mod step_history;
 mod stepper;
 
-pub use context::{Together, WantedOfEach};
+pub use context::{BatchContext, BatchRequest};
 pub use row_collector::RowBuffer;
-pub use runner::Team;
+pub use runner::BatchRunner;
 
 use mechc_ir::program::LaneValues;
 

@@ -4,7 +4,7 @@
 // loops over lane indices read best
 #![allow(clippy::needless_range_loop)]
 
-use super::context::Together;
+use super::context::BatchContext;
 use super::result_queries::{Query, QueryKind, ResultQueries};
 use super::step_history::StepHistory;
 use super::stepper::{BatchStepper, LaneSolver};
@@ -37,7 +37,7 @@ pub(super) struct ResultFinder {
 /// The inputs of a search: what a batch shares, its queries, and by lane its parameters (SI) and the registers that depend on these alone.
 #[derive(Clone, Copy)]
 struct Inputs<'i> {
-    context: &'i Together,
+    context: &'i BatchContext,
     queries: &'i ResultQueries,
     params: &'i [PerLane],
     loaded: &'i [PerLane],
@@ -63,7 +63,7 @@ impl Search {
 
 impl ResultFinder {
     /// Creates a finder for the queries of a mechanism.
-    pub fn new(context: &Together, queries: &ResultQueries) -> ResultFinder {
+    pub fn new(context: &BatchContext, queries: &ResultQueries) -> ResultFinder {
         ResultFinder {
             lanes: context.new_lanes(&queries.solver, |_| 1),
             registers: (0..queries.quantity_count()).map(|quantity| queries.registers(quantity)).collect(),
@@ -85,7 +85,7 @@ impl ResultFinder {
     /// Finds the results of the `active` lanes, as far as they are beyond doubt. `params` holds all parameters (SI).
     pub fn find_all(
         &mut self,
-        context: &Together,
+        context: &BatchContext,
         queries: &ResultQueries,
         stepper: &mut BatchStepper,
         params: &[PerLane],
@@ -114,7 +114,7 @@ impl ResultFinder {
     /// Follows the motion of the `active` lanes and records its steps.
     fn record_motion(
         &mut self,
-        context: &Together,
+        context: &BatchContext,
         queries: &ResultQueries,
         stepper: &mut BatchStepper,
         params: &[PerLane],

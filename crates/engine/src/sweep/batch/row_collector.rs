@@ -1,7 +1,7 @@
 //! Collects the rows of a batch column by column.
 
 use super::LANES;
-use super::context::{RowPlan, Together};
+use super::context::{BatchContext, RowPlan};
 use crate::solver::VariantLanes;
 use crate::sweep::column_buffer::Numbers;
 use mechc_expr::math::{Vectors, WIDE};
@@ -42,7 +42,7 @@ pub struct RowBuffer<'c> {
 
 impl RowCollector {
     /// Creates a collector for the requested rows.
-    pub fn new(context: &Together, plan: &RowPlan) -> RowCollector {
+    pub fn new(context: &BatchContext, plan: &RowPlan) -> RowCollector {
         let is_constant = plan.solver.is_prologue_column();
         let columns = plan.columns.iter().copied().enumerate();
         let has_few = plan.times.len().saturating_mul(plan.columns.len() as u64) <= MAX_CACHED_NUMBERS;

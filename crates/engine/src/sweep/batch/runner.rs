@@ -1,6 +1,6 @@
 //! Runs a batch of variants: collects their rows and finds their results.
 
-use super::context::Together;
+use super::context::BatchContext;
 use super::result_finder::ResultFinder;
 use super::row_collector::{RowBuffer, RowCollector};
 use super::stepper::{BatchStepper, LaneSolver};
@@ -10,18 +10,18 @@ use mechc_text::cancel::Cancel;
 use std::sync::Arc;
 
 /// Runs batches of variants; its memory is reused from batch to batch.
-pub struct Team {
-    context: Arc<Together>,
+pub struct BatchRunner {
+    context: Arc<BatchContext>,
     stepper: BatchStepper,
     collector: Option<RowCollector>,
     finder: Option<ResultFinder>,
 }
 
-impl Team {
+impl BatchRunner {
     /// Creates a runner for batches that share a context.
     #[must_use]
-    pub fn new(context: &Arc<Together>) -> Team {
-        Team {
+    pub fn new(context: &Arc<BatchContext>) -> BatchRunner {
+        BatchRunner {
             stepper: BatchStepper::new(context),
             collector: context.rows.as_ref().map(|rows| RowCollector::new(context, rows)),
             finder: context.queries.as_ref().map(|queries| ResultFinder::new(context, queries)),

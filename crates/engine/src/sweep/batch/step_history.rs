@@ -1,6 +1,6 @@
 //! The motion of a batch, step by step: its tears, and the quantities that results are computed from.
 
-use super::context::Together;
+use super::context::BatchContext;
 use super::result_queries::ResultQueries;
 use super::stepper::BatchStepper;
 use super::{LANES, PerLane, ZERO};
@@ -39,7 +39,7 @@ impl StepHistory {
     /// Appends the present state of a batch. `registers` are those of the quantities, by quantity and stage.
     pub fn record(
         &mut self,
-        context: &Together,
+        context: &BatchContext,
         queries: &ResultQueries,
         stepper: &BatchStepper,
         solution: &VariantLanes<LANES>,

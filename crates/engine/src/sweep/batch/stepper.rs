@@ -3,11 +3,11 @@
 //! variant whose steps are rejected too often leaves the batch.
 
 use super::acceptance::{LaneStates, Rejections, TrackedDerivatives, check_step};
-use super::context::{RowPlan, Together};
+use super::context::{BatchContext, RowPlan};
 use super::row_collector::RowCollector;
 use super::{CHUNK, LANES, PerLane, ZERO, active_chunks};
 use crate::solver::{Solver, VariantBatch, VariantLanes};
-use mechc_expr::math::{weigh, weigh_slopes};
+use mechc_expr::math::{slope_weights, weigh};
 use mechc_ir::program::LaneValues;
 use mechc_ir::tolerances::solving::variants::{ALIKE, CALM_STEPS, NEARLY, PARTS_OF_WAY, PATIENCE};
 use mechc_ir::tolerances::steps::march::CRUMB;
@@ -74,7 +74,7 @@ impl Extrapolation {
         let mut nodes = [0.0; MAX_NODES];
         nodes[1..].iter_mut().zip(back).for_each(|(node, back)| *node = -back);
         let weigh = match derivatives {
-            TrackedDerivatives::Velocities => weigh_slopes,
+            TrackedDerivatives::Velocities => slope_weights,
             TrackedDerivatives::Accelerations => weigh,
         };
         weigh(&nodes[..node_count], h, &mut self.weights);
@@ -98,7 +98,7 @@ impl<'s> LaneSolver<'s> {
 
 impl BatchStepper {
     /// Creates a stepper at the nominal state, without active lanes.
-    pub fn new(context: &Together) -> BatchStepper {
+    pub fn new(context: &BatchContext) -> BatchStepper {
         BatchStepper {
             registers: context.new_registers(),
             params: context.nominal_params.iter().map(|&value| LaneValues([value; LANES])).collect(),
@@ -122,7 +122,7 @@ impl BatchStepper {
     /// at most `max_step` (s) long.
     pub fn begin(
         &mut self,
-        context: &Together,
+        context: &BatchContext,
         params: &[PerLane],
         active: [bool; LANES],
         max_step: f64,
@@ -144,7 +144,7 @@ impl BatchStepper {
     }
 
     /// Continues all active lanes to their parameters, each in as few parts as it needs; returns the lanes that get there.
-    fn continue_to(&mut self, context: &Together, targets: &[PerLane]) -> [bool; LANES] {
+    fn continue_to(&mut self, context: &BatchContext, targets: &[PerLane]) -> [bool; LANES] {
         let (mut open, mut has_arrived) = (self.active, [false; LANES]);
         let mut reached = context.nominal_states();
         for parts in PARTS_OF_WAY {
@@ -165,7 +165,7 @@ impl BatchStepper {
     /// Continues from the nominal parameters in equal parts; returns the lanes out of `open` that get there.
     fn continue_in_parts(
         &mut self,
-        context: &Together,
+        context: &BatchContext,
         parts: u32,
         targets: &[PerLane],
         mut open: [bool; LANES],
@@ -190,7 +190,7 @@ impl BatchStepper {
     }
 
     /// Loads the parameters at a fraction of the path from the nominal ones to `targets`.
-    fn load(&mut self, context: &Together, targets: &[PerLane], fraction: f64) {
+    fn load(&mut self, context: &BatchContext, targets: &[PerLane], fraction: f64) {
         for ((param, target), &nominal) in self.params.iter_mut().zip(targets).zip(&context.nominal_params) {
             param.0 =
                 if fraction < 1.0 { target.0.map(|target| nominal + fraction * (target - nominal)) } else { target.0 };
@@ -204,7 +204,7 @@ impl BatchStepper {
     /// are too. Calls `show` for each state that `solver` computed.
     pub fn advance_to(
         &mut self,
-        context: &Together,
+        context: &BatchContext,
         t: f64,
         solver: &mut LaneSolver<'_>,
         at_every_step: bool,
@@ -234,7 +234,7 @@ impl BatchStepper {
     }
 
     /// Tries a step to a time (s); returns whether it was taken. Lanes that have rejected too many steps become inactive instead.
-    fn try_step(&mut self, context: &Together, t: f64, solver: Option<&mut LaneSolver<'_>>) -> bool {
+    fn try_step(&mut self, context: &BatchContext, t: f64, solver: Option<&mut LaneSolver<'_>>) -> bool {
         let h = t - self.now.t;
         self.extrapolate(context, h);
         let rejections = self.solve_at(context, t, Some(h), solver);
@@ -254,7 +254,7 @@ impl BatchStepper {
     }
 
     /// Extrapolates the guesses for Newton over a step of length `h` (s), along the Hermite curve through the last states.
-    fn extrapolate(&mut self, context: &Together, h: f64) {
+    fn extrapolate(&mut self, context: &BatchContext, h: f64) {
         let BatchStepper { now, before: [before, earlier, earliest], node_count, extrapolation, guesses, .. } = self;
         let derivatives = context.derivatives;
         let (states, node_count) = ([&**now, before, earlier, earliest], (*node_count).min(derivatives.nodes()));
@@ -288,7 +288,7 @@ impl BatchStepper {
     /// one in time.
     fn solve_at(
         &mut self,
-        context: &Together,
+        context: &BatchContext,
         t: f64,
         h: Option<f64>,
         solver: Option<&mut LaneSolver<'_>>,

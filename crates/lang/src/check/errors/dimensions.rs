@@ -4,7 +4,7 @@ use crate::check::suggest::edits::{is_bare_number, with_factors, with_unit};
 use crate::check::suggest::lost_rate::{Part, polar, suggest_rate_unit};
 use crate::model::Dimension;
 use mechc_syntax::ast::Name;
-use mechc_text::diag::{Applies, Code, Diagnostic, Fix, readable};
+use mechc_text::diag::{Applicability, Code, Diagnostic, Fix, readable};
 use mechc_text::source::Span;
 
 /// The largest number of locations of one kind after the first one.
@@ -55,7 +55,7 @@ fn unit_above(like: Dimension, term: Part, text: &str) -> Option<Fix> {
     let is_so = is_number(above) && is_number(number) && like.times(term.dimension).is(Dimension::PURE);
     let mended = format!("{} {} / {number}", above.trim(), unit.trim());
     let message = format!("a unit belongs to the number before it: `{mended}`");
-    is_so.then(|| Fix::replace(term.span, &mended, message, Applies::Probably))
+    is_so.then(|| Fix::replace(term.span, &mended, message, Applicability::Probably))
 }
 
 /// The largest number of characters of a text in a message.

@@ -3,7 +3,7 @@
 use super::dimensions::{MOST_PLACES, format_value};
 use crate::check::suggest::edits::{is_bare_number, with_factors};
 use crate::model::Dimension;
-use mechc_text::diag::{Applies, Code, Diagnostic, Edit, Fix, readable};
+use mechc_text::diag::{Applicability, Code, Diagnostic, Edit, Fix, readable};
 use mechc_text::source::Span;
 
 /// Gears whose drawn poses give no direction between their centres.
@@ -29,7 +29,7 @@ pub fn side_without_phase(side: &str, span: Span) -> Diagnostic {
             span,
             "0 mm, ",
             format!("write the phase too: `rack_pinion(c, a, 0 mm, {side})`"),
-            Applies::Probably,
+            Applicability::Probably,
         ))
 }
 
@@ -54,13 +54,13 @@ pub fn ends_before_start(spans: [Span; 2], texts: [&str; 2], from: f64, to: f64)
     let edit = |k: usize, text: &str| Edit { span: spans[k], text: text.to_owned() };
     let message = format!("the other way round: `from {to} s to {from} s`");
     let edits = vec![edit(0, texts[1]), edit(1, texts[0])];
-    let reversed = Fix { message, edits, applies: Applies::Probably };
+    let reversed = Fix { message, edits, applies: Applicability::Probably };
     let unit = if texts.iter().all(|text| is_bare_number(text)) { "" } else { " s" };
     let end = Fix::replace(
         spans[1],
         format!("{after}{unit}"),
         format!("`to` is a time, and no duration: `from {from} s to {after} s`"),
-        Applies::Probably,
+        Applicability::Probably,
     );
     Diagnostic::new(Code::E0408, format!("the analysis ends at {to} s, before its start at {from} s"))
         .at(spans[1], "the end")
@@ -93,7 +93,8 @@ pub fn too_large(span: Span) -> Diagnostic {
 pub fn degrees(span: Span, value: f64, text: &str) -> Diagnostic {
     let value = readable(value);
     let words = format!("write `{value} deg`, or `{value} rad` if radians are meant");
-    let unit = |unit: &str| Fix::append(span, format!(" {unit}"), format!("write `{value} {unit}`"), Applies::Probably);
+    let unit =
+        |unit: &str| Fix::append(span, format!(" {unit}"), format!("write `{value} {unit}`"), Applicability::Probably);
     let is_bare = is_bare_number(text);
     Diagnostic::new(Code::W0401, format!("{value} rad is more than a turn; degrees were probably meant"))
         .at(span, "a bare number is in radians")
@@ -107,7 +108,7 @@ pub fn no_direction(span: Span, found: &str, angle: Option<&str>) -> Diagnostic 
     let pair = |angle: &str| format!("(cos({angle}), sin({angle}))");
     let fix = angle.map(|angle| {
         let message = format!("the direction of an angle is `{}`", pair(angle));
-        Fix::replace(span, pair(angle), message, Applies::Probably)
+        Fix::replace(span, pair(angle), message, Applicability::Probably)
     });
     Diagnostic::new(Code::E0302, format!("expected a direction `(dx, dy)`, found {found}"))
         .at(span, format!("this is {found}"))
@@ -128,7 +129,7 @@ pub fn number_as_radians(
     let fix = |unit: &str| {
         let message = format!("write {}", written(unit));
         if is_number {
-            Fix::append(number, format!(" {unit}"), message, Applies::Probably)
+            Fix::append(number, format!(" {unit}"), message, Applicability::Probably)
         } else {
             with_factors(term, text, ["", &format!(" * 1 {unit}")], &message)
         }
@@ -182,7 +183,7 @@ pub fn no_unit_of_length(lengths: &[PlainLength<'_>], largest: f64, unit: &str) 
     let with = |unit: &str| {
         let edit = |span: &Span| Edit { span: Span { start: span.end, ..*span }, text: format!(" {unit}") };
         let message = format!("write {}", written(unit));
-        Fix { message, edits: numbers.iter().map(edit).collect(), applies: Applies::Probably }
+        Fix { message, edits: numbers.iter().map(edit).collect(), applies: Applicability::Probably }
     };
     let can_be_written = !numbers.is_empty();
     diagnostic

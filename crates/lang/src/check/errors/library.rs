@@ -1,7 +1,7 @@
 //! Diagnostics of files that use each other.
 
 use mechc_syntax::ast::Name;
-use mechc_text::diag::{Applies, Code, Diagnostic, Fix, nearest};
+use mechc_text::diag::{Applicability, Code, Diagnostic, Fix, nearest};
 use mechc_text::source::Span;
 
 /// The largest number of listed names.
@@ -38,7 +38,7 @@ pub fn no_mechanism(
     if let Some(path) = elsewhere {
         let span = prefix.map_or(name.span, |prefix| prefix.span.to(name.span));
         let message = format!("it is there as `{path}`");
-        return diagnostic.fix(Fix::replace(span, path, message, Applies::Probably));
+        return diagnostic.fix(Fix::replace(span, path, message, Applicability::Probably));
     }
     if let Some((file, path)) = further {
         return diagnostic.help(format!("`{file}` holds it: `use \"{path}\"` at the top of the file"));
@@ -61,7 +61,7 @@ pub fn names_twice(names: &[&str], files: [&str; 2], [first, second]: [Span; 2],
         second,
         format!(" as {prefix}"),
         help,
-        Applies::Probably,
+        Applicability::Probably,
     ))
 }
 

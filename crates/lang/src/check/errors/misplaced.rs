@@ -3,14 +3,14 @@
 use super::some_of;
 use crate::check::entity::Entity;
 use mechc_syntax::ast::Name;
-use mechc_text::diag::{Applies, Code, Diagnostic, Fix};
+use mechc_text::diag::{Applicability, Code, Diagnostic, Fix};
 use mechc_text::source::Span;
 use mechc_text::vocabulary::JointKind;
 
 pub fn not_callable(name: &Name, entity: Entity) -> Diagnostic {
     Diagnostic::new(Code::E0302, format!("`{}` is {}, and cannot be called", name.text, entity.noun()))
         .at(name.span, "called here")
-        .fix(Fix::append(name.span, " * ", "a product is written with `*`", Applies::Probably))
+        .fix(Fix::append(name.span, " * ", "a product is written with `*`", Applicability::Probably))
 }
 
 pub fn joint_with_itself(joint: &Name, frame: &str, spans: [Span; 2]) -> Diagnostic {

@@ -3,7 +3,7 @@
 use super::{list, nearest_name, wrong_kind};
 use crate::check::suggest::edits::suggest_rename;
 use mechc_syntax::ast::Name;
-use mechc_text::diag::{Applies, Code, Diagnostic, Fix};
+use mechc_text::diag::{Applicability, Code, Diagnostic, Fix};
 use mechc_text::source::Span;
 use mechc_text::vocabulary::{Constant, FUNCTIONS, JOINTS, JointWord, Place, QUANTITIES, QuantityWord, Synonym, Unit};
 
@@ -23,7 +23,7 @@ pub fn unknown_number(what: &str, name: &Name, candidates: &[&str]) -> Diagnosti
     {
         let written = format!("{a} * {b}");
         let message = format!("a product is written with `*`: `{written}`");
-        return diagnostic.instead(Fix::replace(name.span, written, message, Applies::Probably));
+        return diagnostic.instead(Fix::replace(name.span, written, message, Applicability::Probably));
     }
     if let (Some(power), true) = (power_of_a_unit(&name.text), diagnostic.help.is_empty()) {
         return diagnostic.instead(Fix::meant(name.span, &power));
@@ -137,7 +137,7 @@ pub fn not_a_unit(name: &Name, [number, power]: [&str; 2], is_a_name: bool) -> D
         .at(name.span, "only a unit may follow a number");
     if is_a_name {
         let words = format!("was `{number} * {}{power}` meant?", name.text);
-        let diagnostic = diagnostic.fix(Fix::insert(name.span, "* ", words, Applies::Probably));
+        let diagnostic = diagnostic.fix(Fix::insert(name.span, "* ", words, Applicability::Probably));
         // A unit in other formulas, and a name here.
         return match Synonym::of(Place::Unit, &name.text) {
             Some(synonym) if name.text == "g" => diagnostic.help(synonym.say(&[])),
@@ -160,7 +160,7 @@ pub(super) fn suggest_unit(diagnostic: Diagnostic, name: &Name) -> Diagnostic {
         return diagnostic.fix(Fix::meant(name.span, &power));
     }
     let units: Vec<&str> = Unit::names().collect();
-    match (Synonym::of(Place::Unit, &name.text), Unit::of_multiple(&name.text), nearest_name(name, &units)) {
+    match (Synonym::of(Place::Unit, &name.text), Unit::prefixed_value(&name.text), nearest_name(name, &units)) {
         (Some(synonym), ..) => diagnostic.help(synonym.say(&[])),
         (None, Some(text), _) => diagnostic.help(format!("`1 {}` is written `{text}`", name.text)),
         (None, None, Some(fix)) => diagnostic.fix(fix),

@@ -2,7 +2,7 @@
 
 use super::{list, nearest_name, unknown, wrong_kind};
 use mechc_syntax::ast::Name;
-use mechc_text::diag::{Applies, Code, Diagnostic, Fix};
+use mechc_text::diag::{Applicability, Code, Diagnostic, Fix};
 use mechc_text::source::Span;
 
 /// `candidates` are the points of its body and of the mechanism.
@@ -34,7 +34,7 @@ pub fn no_angle_of_pose(span: Span, text: &str) -> Diagnostic {
         span,
         format!("({text}, 0 deg)"),
         format!("a pose has an angle too: `at ({text}, 0 deg)`"),
-        Applies::Probably,
+        Applicability::Probably,
     );
     Diagnostic::new(Code::E0301, "a pose is a point and an angle, and this is a point alone")
         .at(span, "no angle")
@@ -50,7 +50,7 @@ pub fn point_as_number(name: &Name) -> Diagnostic {
 
 /// `A.x` where a point is expected.
 pub fn redundant_owner(span: Span, owner: &str, feature: &str) -> Diagnostic {
-    let fix = Fix::replace(span, feature, format!("within `{owner}` it is `{feature}`"), Applies::Always);
+    let fix = Fix::replace(span, feature, format!("within `{owner}` it is `{feature}`"), Applicability::Always);
     Diagnostic::new(Code::E0302, format!("a feature of `{owner}` is named alone in the braces of `{owner}`"))
         .at(span, "with its owner")
         .fix(fix)
@@ -86,7 +86,7 @@ pub fn length_of_moving(name: &Name, member: Span, arguments: [&str; 2]) -> Diag
         name.span,
         "distance",
         message,
-        Applies::Probably,
+        Applicability::Probably,
     ))
 }
 

@@ -2,7 +2,7 @@
 
 use mechc_syntax::ast::{Name, PathSegment};
 use mechc_syntax::format::expression;
-use mechc_text::diag::{Applies, Code, Diagnostic, Fix, readable};
+use mechc_text::diag::{Applicability, Code, Diagnostic, Fix, readable};
 use mechc_text::source::Span;
 
 /// Adds `for k = 2`, the copy in which the error is.
@@ -50,7 +50,7 @@ pub fn invalid_path(span: Span, segments: &[PathSegment], is_declared: bool) -> 
             let message = format!("a coordinate of a point is written `{text}`");
             Diagnostic::new(Code::E0302, "expected a number, found a path that goes on behind a point")
                 .at(span, "a body has points, and they have nothing of their own")
-                .fix(Fix::replace(span, text, message, Applies::Probably))
+                .fix(Fix::replace(span, text, message, Applicability::Probably))
         }
         [_, _, _, ..] => Diagnostic::new(Code::E0208, "a path is a body, and a feature of it")
             .at(span, "goes on")

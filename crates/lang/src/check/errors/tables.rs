@@ -5,7 +5,7 @@ use super::list;
 use super::names::suggest_unit;
 use crate::model::Dimension;
 use mechc_syntax::ast::{ColumnName, ColumnWord, Name};
-use mechc_text::diag::{Applies, Code, Diagnostic, Fix, nearest, readable};
+use mechc_text::diag::{Applicability, Code, Diagnostic, Fix, nearest, readable};
 use mechc_text::source::Span;
 
 pub fn not_a_unit_of_a_column(name: &Name) -> Diagnostic {
@@ -59,7 +59,7 @@ pub fn no_column(path: &Name, column: &ColumnName, header: &[&str]) -> Diagnosti
             column.span,
             format!("\"{suggestion}\""),
             format!("did you mean `{suggestion}`?"),
-            Applies::Probably,
+            Applicability::Probably,
         )),
         None => diagnostic.help(format!("its first line has {}", list(header))),
     }

@@ -160,5 +160,5 @@ impl Checker<'_> {
 /// Returns whether a unit holds a unit of angle other than the radian.
 fn is_of_degrees(written: &WrittenUnit) -> bool {
     let mut units = written.factors.iter().filter_map(|factor| Unit::named(&factor.name.text));
-    units.any(|unit| unit.is_of_angle() && unit.word.name != "rad")
+    units.any(|unit| unit.measures_angle() && unit.word.name != "rad")
 }

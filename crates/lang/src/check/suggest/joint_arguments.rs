@@ -5,7 +5,7 @@ use crate::check::features::Feature;
 use crate::check::{Checker, errors};
 use crate::model::Frame;
 use mechc_syntax::ast::{Expr, ExprKind, Name};
-use mechc_text::diag::{Applies, Edit, Fix};
+use mechc_text::diag::{Applicability, Edit, Fix};
 
 /// The kinds of a joint's first two arguments, where they differ.
 const ORDERS: [(&str, [&str; 2]); 4] = [
@@ -27,7 +27,7 @@ impl Checker<'_> {
         let fix = if !a.is(one) && a.is(other) && b.is(one) {
             self.swapped(first, second)
         } else if kind.text == "point_follower" && matches!(a, Feature::Circle(_)) && b.is("curve") {
-            Fix::replace(kind.span, "cam", "a circle on a curve is a `cam`", Applies::Probably)
+            Fix::replace(kind.span, "cam", "a circle on a curve is a `cam`", Applicability::Probably)
         } else {
             return false;
         };
@@ -39,7 +39,7 @@ impl Checker<'_> {
         let [one, other] = [first, second].map(|e| self.sources.text(e.span).to_owned());
         let message = format!("the other way round: `{other}, {one}`");
         let edits = vec![Edit { span: first.span, text: other }, Edit { span: second.span, text: one }];
-        Fix { message, edits, applies: Applies::Probably }
+        Fix { message, edits, applies: Applicability::Probably }
     }
 
     /// Returns the feature of `owner.feature`, if it is declared.

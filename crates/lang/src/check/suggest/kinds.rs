@@ -7,7 +7,7 @@ use crate::check::errors::list;
 use crate::check::features::Feature;
 use crate::model::{Dimension, Frame, JointKind};
 use mechc_syntax::ast::{Expr, ExprKind, Factor, ItemKind, Name};
-use mechc_text::diag::{Applies, Code, Diagnostic, Edit, Fix};
+use mechc_text::diag::{Applicability, Code, Diagnostic, Edit, Fix};
 use mechc_text::source::Span;
 use mechc_text::vocabulary::{Place, QuantityWord, Synonym, Unit};
 
@@ -18,7 +18,7 @@ impl Checker<'_> {
         let owner = self.frame_name(frame);
         if let Some(axis) = space.names(|feature| matches!(feature, Feature::Axis(_))).next() {
             let message = format!("was `{owner}.{axis}` meant?");
-            return Some(Fix::replace(point.span, axis, message, Applies::Probably));
+            return Some(Fix::replace(point.span, axis, message, Applicability::Probably));
         }
         let name = ["way", "line", "slideway"].into_iter().find(|name| space.get(name).is_none())?;
         let declared = space.span(&point.text)?;
@@ -38,7 +38,7 @@ impl Checker<'_> {
                 Edit { span: Span { start: feature.end, ..feature }, text: gap + &axis },
                 Edit { span: point.span, text: name.to_owned() },
             ],
-            applies: Applies::Probably,
+            applies: Applicability::Probably,
         })
     }
 
@@ -95,7 +95,7 @@ impl Checker<'_> {
             _ => return None,
         };
         let message = format!("{what} `{text}`");
-        Some(Fix::replace(e.span, text, message, Applies::Probably))
+        Some(Fix::replace(e.span, text, message, Applicability::Probably))
     }
 
     /// Returns the text of the quantity that a driver moves, if its left side is one.
@@ -118,7 +118,7 @@ impl Checker<'_> {
         let space = self.common.features.get(&frame)?;
         let column = |text: String| {
             let message = format!("a column's name is no formula; it is `{text}`");
-            Some(Fix::replace(span, text, message, Applies::Probably))
+            Some(Fix::replace(span, text, message, Applicability::Probably))
         };
         match (feature.text.as_str(), space.get(&feature.text)) {
             (_, Some(Feature::Point(_))) => {
@@ -127,7 +127,7 @@ impl Checker<'_> {
                     span,
                     x.clone(),
                     format!("the place of a point is `{x}` and `{y}`"),
-                    Applies::Probably,
+                    Applicability::Probably,
                 ))
             }
             ("phi", None) => column(format!("angle({})", owner.text)),
@@ -159,7 +159,7 @@ impl Checker<'_> {
         }
         let number = number.filter(|_| parts.len() == expected + edits.len())?;
         let message = format!("decimals are written with a point: `{number}`");
-        Some(Fix { message, edits, applies: Applies::Probably })
+        Some(Fix { message, edits, applies: Applicability::Probably })
     }
 
     /// Reports an angle where a length is expected. A plain formula would take it as metres.
@@ -219,7 +219,7 @@ impl Checker<'_> {
     ) {
         let is_atan2 = name.text == "atan" && arguments.len() == 2;
         let message = "the angle of two coordinates is `atan2(y, x)`";
-        let fix = is_atan2.then(|| Fix::replace(name.span, "atan2", message, Applies::Probably));
+        let fix = is_atan2.then(|| Fix::replace(name.span, "atan2", message, Applicability::Probably));
         let fix = fix.or_else(|| self.suggest_decimal_point(arguments, most));
         self.report(with_preferred_fix(diagnostic, fix));
     }

@@ -1,7 +1,7 @@
 //! Suggestions for rates that lack a part of their unit, such as `60 mm * t` where a length is expected.
 
 use crate::model::Dimension;
-use mechc_text::diag::{Applies, Edit, Fix};
+use mechc_text::diag::{Applicability, Edit, Fix};
 use mechc_text::source::Span;
 use mechc_text::vocabulary::Unit;
 
@@ -45,7 +45,7 @@ pub(in crate::check) fn suggest_rate_unit(like: Dimension, found: Part, text: &s
     let at = found.span.start + head.len() as u32;
     let message = format!("{what}: `{head}{added}{}`", &text[head.len()..]);
     let edit = Edit { span: Span { start: at, end: at, ..found.span }, text: added };
-    Some(Fix { message, edits: vec![edit], applies: Applies::Probably })
+    Some(Fix { message, edits: vec![edit], applies: Applicability::Probably })
 }
 
 /// Splits `60 mm * t` into `60 mm` and 1, and `60 * t^2` into `60` and 2.

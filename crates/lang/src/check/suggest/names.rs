@@ -6,7 +6,7 @@ use crate::check::formula::{Context, Dim};
 use crate::check::{Checker, errors};
 use crate::model::{Dimension, JointKind};
 use mechc_syntax::ast::{Expr, ExprKind, ItemKind, Name};
-use mechc_text::diag::{Applies, Code, Diagnostic, Diagnostics, Edit, Fix};
+use mechc_text::diag::{Applicability, Code, Diagnostic, Diagnostics, Edit, Fix};
 use mechc_text::source::Span;
 use mechc_text::vocabulary::{Place, Synonym, Unit, is_ground};
 use rustc_hash::FxHashMap;
@@ -53,7 +53,7 @@ impl Checker<'_> {
         let example = synonym.say(&[]);
         let order = (1..=3).rev().find(|&order| example.contains(&"der(".repeat(order))).unwrap_or(1);
         let written = format!("{}{quantity}{}", "der(".repeat(order), ")".repeat(order));
-        Some(Fix::replace(e.span, &written, format!("of a joint it is `{written}`"), Applies::Probably))
+        Some(Fix::replace(e.span, &written, format!("of a joint it is `{written}`"), Applicability::Probably))
     }
 
     /// Replaces a formula by a quantity. If the other side of its driver is a rate, that is multiplied with the time.
@@ -66,14 +66,14 @@ impl Checker<'_> {
         let Some(rate) = other.filter(|other| self.is_rate(other)) else {
             let message = if other.is_some() { "a driver gives the motion over time" } else { "of a joint it is" };
             let form = if other.is_some() { format!(": `{quantity} = …`") } else { format!(" `{quantity}`") };
-            return Fix::replace(span, quantity, format!("{message}{form}"), Applies::Probably);
+            return Fix::replace(span, quantity, format!("{message}{form}"), Applicability::Probably);
         };
         let law = format!("{} * t", self.sources.text(rate.span));
         let edits = vec![Edit { span, text: quantity.to_owned() }, Edit { span: rate.span, text: law.clone() }];
         Fix {
             message: format!("a driver gives the motion over time: `{quantity} = {law}`"),
             edits,
-            applies: Applies::Probably,
+            applies: Applicability::Probably,
         }
     }
 
@@ -115,7 +115,7 @@ impl Checker<'_> {
     pub(in crate::check) fn suggest_profile(&self, e: &Expr, expected: impl Fn(Feature) -> bool) -> Option<Fix> {
         let ExprKind::Member { owner, feature } = &e.kind else { return None };
         let name = self.common.features.get(&self.frame_of(owner)?)?.names(expected).next()?;
-        Some(Fix::replace(feature.span, name, format!("was `{}.{name}` meant?", owner.text), Applies::Probably))
+        Some(Fix::replace(feature.span, name, format!("was `{}.{name}` meant?", owner.text), Applicability::Probably))
     }
 
     /// Returns the bodies named in the other arguments of a joint, which cannot own the name.

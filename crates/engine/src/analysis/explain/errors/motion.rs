@@ -4,7 +4,7 @@ use super::{at, in_units, named_all, short, with_places};
 use crate::analysis::state::Unknown;
 use mechc_expr::{Symbol, TableId};
 use mechc_ir::{
-    Condition, ConditionKind, ConstraintSystem, DeclarationId, DeclarationKind, JointKind, LoadForce, Press,
+    Condition, ConditionKind, ConstraintSystem, ContactForce, DeclarationId, DeclarationKind, JointKind, LoadForce,
 };
 use mechc_text::diag::{Code, Diagnostic};
 
@@ -42,7 +42,7 @@ pub fn load_without_direction(load: &LoadForce, t: f64) -> Diagnostic {
 }
 
 /// A warning that a contact would have to pull with a force (N, below zero), at `t` (s) for the first time.
-pub fn contact_pulls(system: &ConstraintSystem, contact: &Press, force: f64, t: f64) -> Diagnostic {
+pub fn contact_pulls(system: &ConstraintSystem, contact: &ContactForce, force: f64, t: f64) -> Diagnostic {
     let declaration = &system.declarations()[contact.declaration];
     let message = format!("contact `{}` would have to pull at {}", declaration.name, at(t));
     let label = format!("its bodies would part, unless they are held together by {} N", short(-force));

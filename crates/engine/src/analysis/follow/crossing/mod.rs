@@ -158,14 +158,14 @@ impl Crossing {
         (fault, h, target): (Fault, f64, f64),
         warnings: &mut Warnings,
     ) -> Result<(), Box<Stop>> {
-        let is_singular = matches!(fault, Fault::Singular | Fault::Choice | Fault::TooFar | Fault::Watch { .. });
+        let is_singular = matches!(fault, Fault::Singular | Fault::Choice | Fault::TooFar | Fault::Monitor { .. });
         self.fold = None;
         let bridge = if is_singular { self.bridge_ahead(kinematics, step) } else { None };
         let Some(bridge) = bridge else {
             return Err(singular::find_stop_near_fold(kinematics, step.state(), fault, [h, target], self.fold));
         };
         kinematics.restore(&bridge.to);
-        if let Err(Fault::Watch { index }) = step.check_monitors(kinematics) {
+        if let Err(Fault::Monitor { index }) = step.check_monitors(kinematics) {
             // beyond it two bodies would go through each other: no branch goes on there, however smooth the equations are
             kinematics.restore(&bridge.state_at(bridge.at));
             let stop = singular::end_of_contact(kinematics, index, bridge.at);

@@ -129,7 +129,7 @@ impl DomainBoundaries {
             return Err(Fault::TooFar);
         }
         self.met = Some(Met { rim: met.rim, t });
-        Err(Fault::Rim)
+        Err(Fault::DomainBoundary)
     }
 
     fn first_on_curve(&mut self, kinematics: &mut Kinematics, step: &mut Step, h: f64) -> Option<Met> {
@@ -160,7 +160,7 @@ impl DomainBoundaries {
         kinematics.restore(step.state());
         // the state was computed once, so that this cannot fail now
         let _ = step.derive_state(kinematics);
-        let (system, behind) = (kinematics.system(), &kinematics.system().rims()[rim].declarations);
+        let (system, behind) = (kinematics.system(), &kinematics.system().domain_boundaries()[rim].declarations);
         let [before, after] = self.limits.sides();
         let declarations = behind.clone();
         let cause = match verdict {
@@ -206,7 +206,7 @@ impl DomainBoundaries {
             distance *= 0.25;
         }
         let system = kinematics.system();
-        let is_contact = system.rims()[rim].declarations.iter().any(|&k| errors::has_tangent(system, k));
+        let is_contact = system.domain_boundaries()[rim].declarations.iter().any(|&k| errors::has_tangent(system, k));
         let passes = self.is_passed(kinematics, step.state(), rim, t);
         self.limits.verdict(is_contact && passes)
     }

@@ -3,7 +3,7 @@
 use crate::analysis::follow::step::Step;
 use crate::analysis::state::{Kinematics, shortly_after};
 use mechc_expr::math::{Halving, about, along, bisect, farthest};
-use mechc_ir::program::{Enclosure, PlacedRim};
+use mechc_ir::program::{BoundaryRegisters, Enclosure};
 use mechc_ir::tolerances::steps::rims::{BEHIND, MOST_HALVINGS, MOST_WIDER, ROUNDING};
 
 /// Where gauges are looked at.
@@ -25,7 +25,7 @@ pub(super) struct Met {
 
 /// The gauges of all rims, with room to look at them.
 pub(super) struct EventFunctions {
-    all: Vec<PlacedRim>,
+    all: Vec<BoundaryRegisters>,
     of_time: Vec<usize>,
     of_motion: Vec<usize>,
     in_time: Enclosure,
@@ -63,7 +63,7 @@ impl EventFunctions {
         self.all.is_empty()
     }
 
-    pub fn rim(&self, rim: usize) -> &PlacedRim {
+    pub fn rim(&self, rim: usize) -> &BoundaryRegisters {
         &self.all[rim]
     }
 

@@ -4,7 +4,7 @@ use super::chattering::may_change;
 use super::{Edge, Edges};
 use crate::analysis::follow::step::Step;
 use crate::analysis::state::{Fault, Kinematics};
-use mechc_expr::math::{Halving, about, close_in, farthest};
+use mechc_expr::math::{Halving, about, enclose_root, farthest};
 use mechc_ir::tolerances::steps::edges::{FINEST_BETWEEN, MOST_PARTS_BETWEEN};
 use std::cell::Cell;
 
@@ -43,7 +43,7 @@ impl Edges {
         if !is_behind || !goes_on.get() {
             return false;
         }
-        let closed_in = close_in([[from, off], [next, off_behind]], 0.0, |t| Some(look(t)));
+        let closed_in = enclose_root([[from, off], [next, off_behind]], 0.0, |t| Some(look(t)));
         let edge = closed_in.filter(|_| goes_on.get());
         if let Some([_, t]) = edge {
             self.met = Some(Edge { t, after: None, is_rim: false });

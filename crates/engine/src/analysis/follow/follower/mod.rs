@@ -23,9 +23,9 @@ use crate::analysis::explain::{Stop, Warning, singular};
 use crate::analysis::state::{Fault, Kinematics, State, Times, Trust, behind_start};
 use crate::solver::Solver;
 use mechc_ir::ConstraintSystem;
-use mechc_ir::tolerances::UNTOLD_SPAN;
+use mechc_ir::tolerances::DEFAULT_SPAN;
 use mechc_ir::tolerances::steps::march::{FEWEST_STEPS_NEAR, MOST_STEPS};
-pub use segments::Stretch;
+pub use segments::SmoothSegment;
 use std::sync::Arc;
 
 /// A motion in progress: rows at ascending times, computed without allocating.
@@ -65,7 +65,7 @@ impl Follower {
     #[must_use]
     pub fn new((mut kinematics, state, solver): (Kinematics, State, Option<Arc<Solver>>), times: Times) -> Follower {
         let last = times.last();
-        let span = if times.span() > 0.0 { times.span() } else { UNTOLD_SPAN };
+        let span = if times.span() > 0.0 { times.span() } else { DEFAULT_SPAN };
         let edges_end = times.end();
         let edges = Edges::new(&mut kinematics, &state, span, edges_end);
         let crossing = Crossing::new(&state, span, last);
@@ -351,7 +351,7 @@ impl Follower {
                 return Ok(());
             }
             Fault::Edge { t, .. } if edges.locate(kinematics, step, t) => return Ok(()),
-            Fault::Rim => return edges.cross_rim(kinematics, step, warnings),
+            Fault::DomainBoundary => return edges.cross_rim(kinematics, step, warnings),
             _ => {}
         }
         if !step.halve(h) {

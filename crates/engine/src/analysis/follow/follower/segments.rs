@@ -11,7 +11,7 @@ use std::rc::Rc;
 use std::sync::Arc;
 
 /// A part of the motion between two states.
-pub struct Stretch {
+pub struct SmoothSegment {
     pub from: State,
     /// Halfway in time, if it has been solved for.
     pub middle: Option<State>,
@@ -28,12 +28,12 @@ pub struct Stretch {
     pub ends_at_edge: bool,
 }
 
-impl Stretch {
+impl SmoothSegment {
     /// Its parts before and behind a state within.
     #[must_use]
-    pub fn cut_at(self, within: State) -> [Stretch; 2] {
+    pub fn cut_at(self, within: State) -> [SmoothSegment; 2] {
         let (switches, chosen) = (Rc::clone(&self.switches), self.chosen.clone());
-        let before = Stretch {
+        let before = SmoothSegment {
             from: self.from,
             middle: None,
             to: within.clone(),
@@ -43,7 +43,7 @@ impl Stretch {
             begins_at_edge: self.begins_at_edge,
             ends_at_edge: false,
         };
-        [before, Stretch { from: within, middle: None, begins_at_edge: false, ..self }]
+        [before, SmoothSegment { from: within, middle: None, begins_at_edge: false, ..self }]
     }
 }
 
@@ -52,7 +52,7 @@ impl Follower {
     ///
     /// # Errors
     /// Why and where the motion cannot go on.
-    pub fn next_stretch(&mut self) -> Result<Option<Stretch>, Box<Stop>> {
+    pub fn next_segment(&mut self) -> Result<Option<SmoothSegment>, Box<Stop>> {
         let mut begins_at_edge = !self.begin()?;
         let last = self.last;
         let mut from = self.step.state().clone();
@@ -77,14 +77,14 @@ impl Follower {
         }
     }
 
-    fn stretch(&mut self, from: State, begins_at_edge: bool) -> Stretch {
+    fn stretch(&mut self, from: State, begins_at_edge: bool) -> SmoothSegment {
         let to = self.step.state().clone();
         let Follower { crossing, kinematics, step, .. } = self;
         let bridge = crossing.bridge_to(kinematics, step, to.t).cloned();
         let middle = if bridge.is_some() { None } else { self.middle_of_leap() };
         let ends_at_edge = self.edge.is_some() || to.t >= self.last;
         let chosen = self.choice.as_ref().and_then(RowSelection::current).cloned();
-        Stretch { from, middle, to, switches: self.switches(), chosen, bridge, begins_at_edge, ends_at_edge }
+        SmoothSegment { from, middle, to, switches: self.switches(), chosen, bridge, begins_at_edge, ends_at_edge }
     }
 
     /// The state in the middle of the step that was accepted last, if that was a leap and can be solved for there.

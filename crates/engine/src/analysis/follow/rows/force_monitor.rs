@@ -83,18 +83,18 @@ impl ForceMonitor {
     /// Of equations in a state; none where there is nothing to watch.
     pub fn of(kinematics: &Kinematics, state: &State) -> Option<ForceMonitor> {
         let system = kinematics.system();
-        if system.loads().is_empty() && system.presses().is_empty() {
+        if system.loads().is_empty() && system.contact_forces().is_empty() {
             return None;
         }
-        let presses = system.presses().iter().map(|press| press.force);
+        let presses = system.contact_forces().iter().map(|press| press.force);
         let formulas: Vec<ExprId> = presses.chain(system.loads().iter().flat_map(LoadForce::formulas)).collect();
         let counts = [system.params().len(), system.coordinates().len(), 0, system.rows().len()];
         let (program, registers) = Program::of_formulas(system.graph(), counts, &formulas);
         let mut registers = registers.into_iter();
-        let presses: Vec<Register> = registers.by_ref().take(system.presses().len()).collect();
+        let presses: Vec<Register> = registers.by_ref().take(system.contact_forces().len()).collect();
         let loads: Vec<LoadMonitor> =
             system.loads().iter().map_while(|load| LoadMonitor::of(load, &mut registers)).collect();
-        let params = system.values_of_params();
+        let params = system.param_values();
         let registers = program.start(&params);
         let range = |load: &LoadMonitor| Ranges::new(&program, &registers, &[load.force], Stage::Measures, false);
         let ranges: Vec<Ranges> = loads.iter().map(range).collect();
@@ -102,7 +102,7 @@ impl ForceMonitor {
         let delta = vec![0.0; state.q.len()];
         let coordinates = RowLayout::new(system).coordinates.map(|first| first as usize);
         let has_pulled = vec![false; presses.len()];
-        let sides = system.presses().iter().map(|press| f64::from(u8::from(press.is_sided))).collect();
+        let sides = system.contact_forces().iter().map(|press| f64::from(u8::from(press.is_sided))).collect();
         let (kinematics, state) = (kinematics.clone(), state.clone());
         Some(ForceMonitor {
             kinematics,

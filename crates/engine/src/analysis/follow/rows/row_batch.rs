@@ -5,7 +5,7 @@ use crate::analysis::follow::checkpoint::Checkpoint;
 use crate::analysis::follow::step::Step;
 use crate::analysis::state::{Kinematics, State, Times, are_alike};
 use crate::solver::{Batch, Bend, Lanes, Pivoting, Solver};
-use mechc_expr::math::{WIDE, to_next_line};
+use mechc_expr::math::{WIDE, numbers_to_cache_line};
 use mechc_ir::layout::RowLayout;
 use mechc_ir::tolerances::solving::rows::{ENOUGH, LANES, REFINED, SAME_TIME, SHORT};
 #[cfg(feature = "threads")]
@@ -86,7 +86,7 @@ impl RowBatch {
         let values = vec![0.0; threads * LANES * solver.layout().stride + WIDE];
         RowBatch {
             lanes: vec![Lanes::for_rows(&solver, kinematics.vectors()); threads],
-            begin: to_next_line(values.as_ptr()),
+            begin: numbers_to_cache_line(values.as_ptr()),
             values,
             holds: vec![[false; LANES]; threads],
             alone: SingleRow::new(kinematics, &solver),

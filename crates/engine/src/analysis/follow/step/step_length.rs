@@ -2,7 +2,7 @@
 
 use super::Accepted;
 use crate::analysis::state::Kinematics;
-use mechc_ir::tolerances::UNTOLD_SPAN;
+use mechc_ir::tolerances::DEFAULT_SPAN;
 use mechc_ir::tolerances::steps::march::{
     CALM_BETWEEN, CALM_CORRECTION, CRUMB, FEWEST_STEPS, FEWEST_STEPS_NEAR, LARGEST_BETWEEN, LARGEST_CORRECTION,
     SMALLEST_STEP,
@@ -19,7 +19,7 @@ pub struct Length {
 impl Length {
     /// For a motion over a span (s).
     pub fn new(span: f64) -> Length {
-        let measure = if span > 0.0 { span } else { UNTOLD_SPAN };
+        let measure = if span > 0.0 { span } else { DEFAULT_SPAN };
         Length { h: span / FEWEST_STEPS_NEAR, smallest: SMALLEST_STEP * span, span: measure }
     }
 
