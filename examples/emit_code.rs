@@ -12,13 +12,13 @@ use std::path::Path;
 const FILE: &str = "slider_crank.mech";
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let checked = Parsed::of(FILE, include_str!("slider_crank.mech")).check(&Choice::default(), &Memory::default());
+    let checked = Parsed::new(FILE, include_str!("slider_crank.mech")).check(&Choice::default(), &Memory::default());
     report(checked.diagnostics().iter(), checked.sources());
     let (compiled, diagnostics) = checked.compile(Redundant::Refused, &Cancel::default());
     report(diagnostics.iter(), checked.sources());
     let compiled = compiled.ok_or("the mechanism does not compile")?;
 
-    let options = RustOptions::of(FILE);
+    let options = RustOptions::new(FILE);
     let (module, diagnostics) = compiled.rust(&options);
     report(diagnostics.iter(), compiled.sources());
     let module = module.ok_or("the mechanism cannot be emitted")?;

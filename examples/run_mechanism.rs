@@ -16,7 +16,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     };
     // A text may name other files, which it reads through a `World`; this text names none.
     let world = Memory::default();
-    let checked = Parsed::of("slider_crank.mech", include_str!("slider_crank.mech")).check(&choice, &world);
+    let checked = Parsed::new("slider_crank.mech", include_str!("slider_crank.mech")).check(&choice, &world);
     report(checked.diagnostics().iter(), checked.sources());
     let (compiled, diagnostics) = checked.compile(Redundant::Refused, &Cancel::default());
     report(diagnostics.iter(), checked.sources());
@@ -43,7 +43,7 @@ fn main() -> Result<(), Box<dyn Error>> {
             }
         }
     }
-    report(run.take_remarks().iter(), compiled.sources());
+    report(run.take_warnings().iter(), compiled.sources());
 
     let answers = run.results().ok_or("the motion has no results")?;
     report(&answers.notes, compiled.sources());

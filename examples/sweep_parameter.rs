@@ -15,7 +15,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         ..Choice::default()
     };
     let world = Memory::default();
-    let checked = Parsed::of("slider_crank.mech", include_str!("slider_crank.mech")).check(&choice, &world);
+    let checked = Parsed::new("slider_crank.mech", include_str!("slider_crank.mech")).check(&choice, &world);
     report(checked.diagnostics().iter(), checked.sources());
     let (compiled, diagnostics) = checked.compile(Redundant::Refused, &Cancel::default());
     report(diagnostics.iter(), checked.sources());
@@ -33,7 +33,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     })?;
 
     let params = variants.points().params().iter().cloned();
-    let names: Vec<String> = params.chain(compiled.results_of_variants().into_iter().map(|(name, _)| name)).collect();
+    let names: Vec<String> = params.chain(compiled.variant_results().into_iter().map(|(name, _)| name)).collect();
     println!("{} status", names.iter().map(|name| format!("{name:>10}")).collect::<Vec<_>>().join(" "));
     for block in sweep {
         for (variant, status) in block.statuses.iter().enumerate() {

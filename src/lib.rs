@@ -4,8 +4,8 @@
 //! Sources ──▶ Parsed ──check──▶ Checked ──compile──▶ Compiled ──run──▶ Run ──▶ rows
 //! ```
 //!
-//! Each stage is owned, can be sent to another thread, and is cloned for little. What is to be said of a text is on its stages as
-//! [`Diagnostics`]; [`render()`] writes them.
+//! Each stage is owned, can be sent to another thread, and is cheap to clone. The diagnostics of a text are on its stages as
+//! [`Diagnostics`]; [`render()`] formats them.
 //!
 //! ```
 //! use mechc::{Cancel, Choice, Memory, Parsed, Redundant, RunOptions, Times};
@@ -27,7 +27,7 @@
 //! assert_eq!(row[3], std::f64::consts::FRAC_PI_2);
 //! ```
 //!
-//! The crates behind it are described in `ARCHITECTURE.md`, with what each knows and must not know.
+//! `ARCHITECTURE.md` describes the crates behind it, and what each must not depend on.
 
 #[cfg(feature = "cli")]
 pub mod cli;
@@ -38,17 +38,19 @@ pub use mechc_engine::sweep::{Levels, Method, Numbers, Points, Sampling, Status,
 pub use mechc_ir::layout::ColumnUnit;
 pub use mechc_lang::check::{DeclaredName, Meaning, NameId, NameKind, Symbols, Use};
 #[cfg(feature = "live")]
-pub use mechc_live::page::{picture, written as page};
+pub use mechc_live::page::{picture, render as page};
 pub use mechc_pipeline::output::{TableFormat, TableWriter};
 pub use mechc_pipeline::{
-    Adjustable, Adjusting, Affected, AskedPlace, AskedTimes, Assembly, Checked, Choice, Compiled, CurveTolerance,
-    Deviation, Formula, InputMotion, Parsed, Redundant, Run, RunOptions, RustOptions, Seen, Settable, Shown, Sweep,
-    SweepOptions, SweptColumn, Tolerance, Tolerancing, Variants, VaryOptions, Vectors, Verified, imported, seconds,
+    Assembly, Checked, Choice, Compiled, CornerReport, CurveTolerance, Deviation, DisplayUnit, EvaluationPoint,
+    EvaluatorOptions, Formula, InputMotion, MechanismEvaluator, OutputSensitivity, Parsed, Redundant, RequestedTimes,
+    Run, RunOptions, RustOptions, SettableParam, Sweep, SweepOptions, SweptColumn, Tolerance, Tolerancing, Variants,
+    VaryOptions, Vectors, Visualization, import_model, seconds,
 };
 pub use mechc_syntax::{Comment, Trivia};
 pub use mechc_text::cancel::Cancel;
 pub use mechc_text::diag::{
-    Applies, Blame, Code, Color, Diagnostic, Diagnostics, Edit, Fix, Format, Label, Severity, fixed, render,
+    Applicability, Code, Color, Diagnostic, Diagnostics, Edit, Fix, Format, Label, OptionText, Responsibility,
+    Severity, fixed, render,
 };
 pub use mechc_text::source::{Encoding, FileId, Source, Sources, Span};
 pub use mechc_text::vocabulary::{Category, Word, words};

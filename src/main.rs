@@ -1,4 +1,4 @@
-//! The binary: arguments in, exit code out. All else is in the library.
+//! The binary, which only calls the library.
 
 #[global_allocator]
 static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;

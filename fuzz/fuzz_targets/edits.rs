@@ -4,7 +4,7 @@
 
 use libfuzzer_sys::fuzz_target;
 use mechc::{Cancel, Memory, Sources};
-use mechc_ide::{self as ide, DiagnosticStage, Place, Snapshot};
+use mechc_ide::{self as ide, DiagnosticStage, FilePosition, Snapshot};
 use mechc_syntax as syntax;
 use std::path::Path;
 use std::sync::Arc;
@@ -86,7 +86,7 @@ fuzz_target!(|bytes: &[u8]| {
     }
     assert!(ide::outline(&snapshot, &path) == ide::outline(&fresh, &path), "{text}");
     for offset in (0..text.len() as u32).step_by(7) {
-        let place = Place { path: Arc::clone(&path), offset };
+        let place = FilePosition { path: Arc::clone(&path), offset };
         assert!(ide::hover(&snapshot, &place) == ide::hover(&fresh, &place), "{offset} of\n{text}");
     }
 });

@@ -10,7 +10,7 @@ use mechc::{
     Cancel, Choice, Color, Compiled, Diagnostic, Format, Memory, Parsed, Redundant, Run, RunOptions, RustOptions,
     Sources, Times, render,
 };
-use mechc_ir::program::{Frozen, Program, Stage};
+use mechc_ir::program::{FrozenSwitches, Program, Stage};
 use mechc_ir::structure::Determined;
 use mechc_syntax::{self as syntax, ast};
 use shape::file_shape;
@@ -181,7 +181,7 @@ fn rows(compiled: &Compiled, determined: &Determined, program: &Program, mut run
             break;
         }
     }
-    say(run.take_remarks().iter(), compiled.sources());
+    say(run.take_warnings().iter(), compiled.sources());
     known
 }
 
@@ -203,7 +203,7 @@ fn open(determined: &Determined, program: &Program, t: f64, q: &[f64], qd: &[f64
         registers.set_all(program.inputs.coordinates[0], &q);
         program.run(Stage::Time, &mut registers);
         program.run(Stage::Position, &mut registers);
-        registers.freeze(Frozen { time: true, motion: true });
+        registers.freeze(FrozenSwitches { time: true, motion: true });
     };
     evaluate(ahead);
     evaluate(0.0);

@@ -34,7 +34,7 @@ struct Outcome {
 }
 
 fn outcome(text: &str, choice: &Choice, times: Option<&Times>) -> Outcome {
-    let checked = Parsed::of("text.mech", text).check(choice, &Memory::default());
+    let checked = Parsed::new("text.mech", text).check(choice, &Memory::default());
     let mut outcome = Outcome {
         codes: Vec::new(),
         said: String::new(),

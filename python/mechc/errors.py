@@ -25,7 +25,6 @@ import sys
 import warnings
 from typing import Any
 
-from mechc.words import in_python, told
 
 __all__ = [
     "AnalysisError",
@@ -153,8 +152,8 @@ def warn(warning: MechcWarning) -> None:
 
 
 def _said(lines: list[str]) -> list[dict[str, Any]]:
-    """Diagnostics as data, of options in Python's words."""
-    return [told(json.loads(line)) for line in lines]
+    """Diagnostics as data."""
+    return [json.loads(line) for line in lines]
 
 
 def _raised(lines: list[str], text: str, blame: str, code: str) -> MechcError:
@@ -163,9 +162,9 @@ def _raised(lines: list[str], text: str, blame: str, code: str) -> MechcError:
     # where no way leads, why it cannot be assembled from its estimates either is what is behind that
     codes = [code, *(of["code"] for of in said if of["severity"] == "error")]
     kind = next((_OF_CODE[code] for code in codes if code in _OF_CODE), _OF_BLAME.get(blame, MechcError))
-    return kind(in_python(text), said)
+    return kind(text, said)
 
 
 def _warned(lines: list[str], text: str) -> None:
     """Warns of what is said."""
-    warn(MechcWarning(in_python(text), _said(lines)))
+    warn(MechcWarning(text, _said(lines)))

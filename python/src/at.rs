@@ -7,7 +7,7 @@ use crate::memory::{self, Of};
 use crate::waiting::interruptible;
 pub use found::{_at_again, At, Columns};
 use mechc::{
-    Adjustable, Adjusting, AskedPlace, Cancel, Checked, Choice, ColumnUnit, Diagnostic, InputMotion, Settable,
+    MechanismEvaluator, EvaluatorOptions, EvaluationPoint, Cancel, Checked, Choice, ColumnUnit, Diagnostic, InputMotion, SettableParam,
 };
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyFloat, PyString};
@@ -42,7 +42,7 @@ pub struct Kind {
 
 /// What was compiled for one.
 pub struct Compiled {
-    adjustable: Adjustable,
+    adjustable: MechanismEvaluator,
     columns: Arc<Columns>,
     /// The units that columns are printed in, where any is not SI.
     units: Option<Vec<ColumnUnit>>,
@@ -105,8 +105,8 @@ impl Compiled {
         } else {
             stages.with(&asked, &*stages.files, stages.redundant, cancel)?.0.0
         };
-        let usual = Adjusting::default();
-        let adjusting = Adjusting {
+        let usual = EvaluatorOptions::default();
+        let adjusting = EvaluatorOptions {
             inputs: kind.inputs.clone(),
             bend: kind.bend,
             params: kind.params.clone(),
@@ -131,7 +131,7 @@ impl Compiled {
 /// From where to where the time, and the inputs and params of a question in order, are near what the text says.
 fn near(checked: &Checked, compiled: &mechc::Compiled, kind: &Kind) -> Vec<[f64; 2]> {
     let time = compiled.analysis().map_or([f64::NAN; 2], |[from, to, _]| [from, to + FARTHEST * (to - from)]);
-    let around = |list: Vec<Settable>, names: &[String]| {
+    let around = |list: Vec<SettableParam>, names: &[String]| {
         let of = |name: &String| {
             let own = list.iter().find(|of| of.name == *name).map_or(f64::NAN, |of| of.value);
             let reach = FARTHEST * own.abs().max(1.0);
@@ -235,8 +235,8 @@ impl Question {
 
     fn all(&self, compiled: &Compiled, mut became: Became, cancel: &Cancel) -> Became {
         let width = compiled.columns.names.len();
-        let ask = |element: usize, place: &mut AskedPlace| self.write(element, place);
-        compiled.adjustable.at_each(self.elements(), ask, cancel, |found| {
+        let ask = |element: usize, place: &mut EvaluationPoint| self.write(element, place);
+        compiled.adjustable.evaluate_each(self.elements(), ask, cancel, |found| {
             let Became { rows, statuses, first } = &mut became;
             match found {
                 Ok(row) => {
@@ -258,7 +258,7 @@ impl Question {
     }
 
     /// Writes what an element asks for.
-    fn write(&self, element: usize, place: &mut AskedPlace) {
+    fn write(&self, element: usize, place: &mut EvaluationPoint) {
         let motion = |[value, rate, acceleration]: &[Operand; 3]| InputMotion {
             value: value.at(element),
             rate: rate.at(element),

@@ -1,7 +1,8 @@
 //! Diagnostics as exceptions: the data, the text that the command prints, and the kind that says who is to mend it. The classes are
 //! in `mechc/errors.py`.
 
-use mechc::{Blame, Color, Diagnostic, Diagnostics, Format, Severity, Sources, render};
+use crate::words::in_python;
+use mechc::{Responsibility, Color, Diagnostic, Diagnostics, Format, Severity, Sources, render};
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
 use pyo3::types::PyList;
@@ -29,17 +30,20 @@ pub type Packed = (Vec<String>, String, String, Option<f64>, Option<String>);
 impl Said {
     /// Diagnostics of some texts.
     pub fn of(diagnostics: &Diagnostics, sources: &Sources) -> Said {
-        let each =
-            |format| move |of: &Diagnostic| render(of, sources, format, Color::Never).trim_end_matches('\n').to_owned();
-        let json = diagnostics.iter().map(each(Format::Json)).collect();
-        let texts: Vec<String> = diagnostics.iter().map(each(Format::Human)).collect();
+        let (mut json, mut texts) = (Vec::new(), Vec::new());
+        for diagnostic in diagnostics.iter() {
+            let (diagnostic, sources) = in_python(diagnostic, sources);
+            let text = |format| render(&diagnostic, &sources, format, Color::Never).trim_end_matches('\n').to_owned();
+            json.push(text(Format::Json));
+            texts.push(text(Format::Human));
+        }
         let first = diagnostics.iter().find(|of| of.severity() == Severity::Error);
-        let blame = match Blame::of(diagnostics, sources) {
+        let blame = match Responsibility::of(diagnostics, sources) {
             None => "",
-            Some(Blame::Input) => "input",
-            Some(Blame::Usage) => "usage",
-            Some(Blame::Analysis) => "analysis",
-            Some(Blame::Files) => "files",
+            Some(Responsibility::Input) => "input",
+            Some(Responsibility::Usage) => "usage",
+            Some(Responsibility::Analysis) => "analysis",
+            Some(Responsibility::Files) => "files",
         };
         Said {
             json,

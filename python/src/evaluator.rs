@@ -5,7 +5,7 @@ use crate::mechanism::Stages;
 use crate::memory::{self, Of};
 use crate::run::Asked;
 use crate::waiting::interruptible;
-use mechc::{Adjustable, Adjusting, Answers, AskedTimes, Cancel, ColumnUnit, RunOptions};
+use mechc::{MechanismEvaluator, EvaluatorOptions, Answers, RequestedTimes, Cancel, ColumnUnit, RunOptions};
 use numpy::{PyArray1, PyArrayMethods, PyReadonlyArray1};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -16,9 +16,9 @@ use std::sync::Arc;
 pub struct Evaluator(Arc<Function>);
 
 struct Function {
-    adjustable: Adjustable,
+    adjustable: MechanismEvaluator,
     params: usize,
-    times: AskedTimes,
+    times: RequestedTimes,
     wanted: Vec<usize>,
     units: Vec<ColumnUnit>,
 }
@@ -41,13 +41,13 @@ impl Function {
         let ((checked, _), _) = asked.stages(stages, cancel)?;
         let RunOptions { tolerance, pass_bifurcations, .. } = asked.options(cancel);
         let (count, inputs, redundant) = (params.len(), Vec::new(), asked.redundant(stages));
-        let adjusting = Adjusting { inputs, bend: false, params, redundant, tolerance, pass_bifurcations };
+        let adjusting = EvaluatorOptions { inputs, bend: false, params, redundant, tolerance, pass_bifurcations };
         let adjustable = checked.adjustable(&adjusting, cancel).map_err(|(sources, said)| Said::of(&said, &sources))?;
         let compiled = adjustable.compiled();
         let mut sources = compiled.sources().clone();
-        let times = AskedTimes::of([&asked.from, &asked.to, &asked.every], &asked.at, &mut sources);
+        let times = RequestedTimes::of([&asked.from, &asked.to, &asked.every], &asked.at, &mut sources);
         let times = times.map_err(|why| Said::of(&why, &sources))?;
-        let wanted = compiled.chosen_columns(&asked.columns).map_err(|why| Said::of_one(*why, &sources))?;
+        let wanted = compiled.select_columns(&asked.columns).map_err(|why| Said::of_one(*why, &sources))?;
         let all = compiled.units();
         let units = wanted.iter().map(|&k| all[k].clone()).collect();
         Ok(Function { adjustable, params: count, times, wanted, units })
@@ -82,7 +82,7 @@ impl Evaluator {
     /// The names of the results, and their units.
     #[getter]
     fn results(&self) -> Vec<(String, String)> {
-        self.0.adjustable.compiled().results_of_variants()
+        self.0.adjustable.compiled().variant_results()
     }
 
     /// The results (SI), and rows of shape (times, columns), for values of the params (SI).

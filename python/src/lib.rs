@@ -17,6 +17,7 @@ mod sweep;
 mod table;
 mod tolerance;
 mod waiting;
+mod words;
 
 use pyo3::prelude::*;
 

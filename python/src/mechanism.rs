@@ -9,7 +9,7 @@ use crate::run::Asked;
 use crate::sweep::{AskedOfSweep, Sweep};
 use crate::tolerance::{self, Told};
 use crate::waiting::interruptible;
-use mechc::{Cancel, Checked, Choice, Compiled, Diagnostics, Parsed, Redundant, Settable, Sources, World};
+use mechc::{Cancel, Checked, Choice, Compiled, Diagnostics, Parsed, Redundant, SettableParam, Sources, World};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict, PyString};
 use std::collections::BTreeMap;
@@ -23,8 +23,8 @@ pub type Made<T> = Result<(T, Said), Said>;
 #[pyclass(frozen, subclass, module = "mechc._mechc")]
 pub struct Mechanism {
     pub stages: Arc<Stages>,
-    params: Vec<Settable>,
-    inputs: Vec<Settable>,
+    params: Vec<SettableParam>,
+    inputs: Vec<SettableParam>,
     /// What was compiled for questions of `at` by now.
     pub known: Known,
 }
@@ -38,7 +38,7 @@ impl Mechanism {
         name: &str,
         value: Bound<'py, PyAny>,
         option: &str,
-    ) -> PyResult<Vec<(&'m Settable, bool, Meant<'py>)>> {
+    ) -> PyResult<Vec<(&'m SettableParam, bool, Meant<'py>)>> {
         if let (Some((of, is_input)), "") = (self.settable(name), option) {
             return Ok(vec![(of, is_input, Meant::Given(value))]);
         }
@@ -60,8 +60,8 @@ impl Mechanism {
     }
 
     /// A param or input by its name, and whether it is an input.
-    fn settable(&self, name: &str) -> Option<(&Settable, bool)> {
-        let found = |list: &'_ [Settable]| list.iter().position(|of| of.name == name);
+    fn settable(&self, name: &str) -> Option<(&SettableParam, bool)> {
+        let found = |list: &'_ [SettableParam]| list.iter().position(|of| of.name == name);
         let input = found(&self.inputs).map(|place| (&self.inputs[place], true));
         input.or_else(|| found(&self.params).map(|place| (&self.params[place], false)))
     }
@@ -91,7 +91,7 @@ impl Mechanism {
     }
 
     /// An input's rate, or its acceleration.
-    pub fn rate(&self, name: &str, order: u32) -> PyResult<Settable> {
+    pub fn rate(&self, name: &str, order: u32) -> PyResult<SettableParam> {
         let input = self.inputs.iter().find(|of| of.name == name).map(|of| of.by_time(order));
         input.ok_or_else(|| pyo3::exceptions::PyKeyError::new_err(name.to_owned()))
     }
@@ -252,7 +252,7 @@ impl Mechanism {
 
     #[getter]
     fn _results(&self) -> Vec<(String, String)> {
-        self.stages.compiled.results_of_variants()
+        self.stages.compiled.variant_results()
     }
 
     /// First time, last time and step of the text's analysis (s), if it has one.
@@ -379,6 +379,6 @@ fn read(text: Option<&str>, path: &Path, files: &Files) -> Result<Parsed, (Sourc
 }
 
 /// Names with their units.
-fn units(list: &[Settable]) -> BTreeMap<String, String> {
+fn units(list: &[SettableParam]) -> BTreeMap<String, String> {
     list.iter().map(|of| (of.name.clone(), of.unit.clone())).collect()
 }

@@ -6,7 +6,7 @@ use crate::mechanism::Stages;
 use crate::memory::{self, Of};
 use crate::table::Table;
 use crate::waiting::interruptible;
-use mechc::{AskedTimes, Cancel, Checked, Choice, ColumnUnit, Compiled, Diagnostics, Redundant, Run, RunOptions};
+use mechc::{RequestedTimes, Cancel, Checked, Choice, ColumnUnit, Compiled, Diagnostics, Redundant, Run, RunOptions};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use std::path::PathBuf;
@@ -136,10 +136,10 @@ impl Asked {
         let ((_, compiled), said) = self.stages(stages, cancel)?;
         let mut sources = compiled.sources().clone();
         let ends = [&self.from, &self.to, &self.every];
-        let times = AskedTimes::of(ends, &self.at, &mut sources)
+        let times = RequestedTimes::of(ends, &self.at, &mut sources)
             .and_then(|asked| Ok(asked.over(compiled.analysis()).map_err(|why| *why)?.times().map_err(|why| *why)?));
         let times = times.map_err(|why| Said::of(&why, &sources))?;
-        let wanted = compiled.chosen_columns(&self.columns).map_err(|why| Said::of_one(*why, &sources))?;
+        let wanted = compiled.select_columns(&self.columns).map_err(|why| Said::of_one(*why, &sources))?;
         let (run, more) = compiled.run(&times, &self.options(cancel));
         let Some(run) = run else { return Err(Said::of(&more, &sources).into()) };
         let mut said = vec![said];
@@ -149,10 +149,10 @@ impl Asked {
         let mut run = run;
         let stopped = rows.take_all(&mut run).map(|why| Said::of(&why, &sources));
         let answers = run.results().unwrap_or_default();
-        let mut remarks = run.take_remarks();
+        let mut remarks = run.take_warnings();
         remarks.extend(answers.notes);
         said.push(Said::of(&remarks, &sources));
-        let si = compiled.results_of_variants().into_iter();
+        let si = compiled.variant_results().into_iter();
         let results = si.zip(answers.values).map(|((name, unit), value)| (name, value, unit)).collect();
         Ok(Ran { table: rows.table(), results, stopped, is_reassembled, said })
     }

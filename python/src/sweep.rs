@@ -11,7 +11,7 @@ use crate::table::{Head, Kind, Table, schema};
 use crate::waiting::interruptible;
 use arrow_schema::SchemaRef;
 use mechc::{
-    AskedTimes, Cancel, Checked, Choice, ColumnUnit, Compiled, Diagnostic, Diagnostics, Method, Sources, SweepOptions,
+    RequestedTimes, Cancel, Checked, Choice, ColumnUnit, Compiled, Diagnostic, Diagnostics, Method, Sources, SweepOptions,
     Variants, VaryOptions,
 };
 use pyo3::prelude::*;
@@ -93,10 +93,10 @@ impl Whole {
         let compiled = checked.widest(&variants, redundant).unwrap_or(compiled);
         let mut sources = variants.sources().clone();
         let ends = [&asked.from, &asked.to, &asked.every];
-        let times = AskedTimes::of(ends, &asked.at, &mut sources).map_err(|why| Said::of(&why, &sources))?;
+        let times = RequestedTimes::of(ends, &asked.at, &mut sources).map_err(|why| Said::of(&why, &sources))?;
         let refused = |why: Box<Diagnostic>| Said::of_one(*why, &sources);
         let rows = times.over(compiled.analysis()).and_then(|times| times.times()).map_err(refused)?.len();
-        let wanted = if more.rows { Some(compiled.chosen_columns(&asked.columns).map_err(refused)?) } else { None };
+        let wanted = if more.rows { Some(compiled.select_columns(&asked.columns).map_err(refused)?) } else { None };
         let (heads, units) = heads(&compiled, &variants, wanted.as_deref());
         let run = asked.options(cancel);
         let options = SweepOptions {
@@ -162,7 +162,7 @@ fn heads(compiled: &Compiled, variants: &Variants, wanted: Option<&[usize]>) -> 
     let params = variants.points().params().iter().zip(variants.units());
     heads.extend(params.map(|(name, unit)| head(name, unit, Kind::Numbers)));
     let Some(wanted) = wanted else {
-        heads.extend(compiled.results_of_variants().iter().map(|(name, unit)| head(name, unit, Kind::Numbers)));
+        heads.extend(compiled.variant_results().iter().map(|(name, unit)| head(name, unit, Kind::Numbers)));
         heads.push(head("status", "", Kind::Words));
         heads.push(head("stopped", "s", Kind::Numbers));
         return (heads, None);

@@ -4,7 +4,7 @@ use crate::errors::Said;
 use crate::mechanism::Stages;
 use crate::run::Asked;
 use crate::waiting::interruptible;
-use mechc::{Affected, AskedTimes, Cancel, RunOptions, SweepOptions, Tolerance};
+use mechc::{OutputSensitivity, RequestedTimes, Cancel, RunOptions, SweepOptions, Tolerance};
 use pyo3::prelude::*;
 use std::sync::Arc;
 
@@ -63,7 +63,7 @@ fn found(
     let told = |(sources, said)| Said::of(&said, &sources);
     let tolerancing = checked.tolerancing(tol, &choice, &*stages.files).map_err(told)?;
     let mut sources = compiled.sources().clone();
-    let times = AskedTimes::of([&asked.from, &asked.to, &asked.every], &[], &mut sources);
+    let times = RequestedTimes::of([&asked.from, &asked.to, &asked.every], &[], &mut sources);
     let RunOptions { tolerance, pass_bifurcations, .. } = asked.options(cancel);
     let options = SweepOptions {
         times: times.map_err(|why| Said::of(&why, &sources))?,
@@ -77,7 +77,7 @@ fn found(
     let verified =
         if verify { Some(tolerancing.verified(&compiled, &affected, &options, |_| ()).map_err(told)?) } else { None };
     let tolerances = tolerancing.tolerances();
-    let quantity = |(k, of): (usize, &Affected)| {
+    let quantity = |(k, of): (usize, &OutputSensitivity)| {
         let deviation = of.deviation(tolerances, normal);
         let tried = verified.as_ref().zip(deviation.as_ref());
         let is_linear = tried.map(|(verified, deviation)| verified.is_linear(k, of, deviation));
@@ -99,7 +99,7 @@ fn found(
     };
     let quantities = affected.iter().enumerate().map(quantity).collect();
     let param = |of: &Tolerance| (of.name.clone(), of.nominal, of.range, of.si.clone());
-    let lost = |verified: &mechc::Verified| verified.lost.as_ref().map_or(0, |(count, ..)| *count);
+    let lost = |verified: &mechc::CornerReport| verified.lost.as_ref().map_or(0, |(count, ..)| *count);
     let tried = verified.as_ref().map(|verified| (verified.variants, verified.are_all_corners, lost(verified)));
     Ok((tolerances.iter().map(param).collect(), quantities, tried))
 }

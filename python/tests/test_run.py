@@ -14,7 +14,7 @@ from conftest import EXAMPLES, OTHER_SIDE, ROOT, command, same_bits
 
 import mechc
 
-CASES = sorted(path for folder in ("cases", "cases2", "cases3") for path in (ROOT / "tests" / folder).glob("**/*.mech"))
+CASES = sorted(path for folder in ("cases", "cases_composed", "cases_forces") for path in (ROOT / "tests" / folder).glob("**/*.mech"))
 
 
 def mechanism_of(path):

@@ -1,4 +1,4 @@
-//! `mechc check`: is it a determined mechanism, and what was found?
+//! `mechc check`: proves that a mechanism is determined, and reports on it.
 
 use super::arguments::CheckArguments;
 use super::failure::Failure;
@@ -16,26 +16,26 @@ pub(super) fn check(arguments: &CheckArguments, reporter: &mut Reporter) -> Resu
     let compiled = input::compiled(&parsed, input, arguments.allow_redundant, reporter, &mut Timings::new(false))?;
     if let Some([from, to, _]) = compiled.analysis() {
         let refused = compiled.refused_results([from, to]);
-        reporter.settle((!refused.has_errors()).then_some(()), refused)?;
+        reporter.require((!refused.has_errors()).then_some(()), refused)?;
     }
     let from = compiled.analysis().map_or(0.0, |[from, ..]| from);
-    let (run, said) = compiled.run(&Times::listed(from, vec![from]), &RunOptions::default());
-    let run = reporter.settle(run, said)?;
+    let (run, diagnostics) = compiled.run(&Times::listed(from, vec![from]), &RunOptions::default());
+    let run = reporter.require(run, diagnostics)?;
     let report = report(&compiled, run.assembly());
     if arguments.fix && input.file == "-" {
-        // the mended text is there
-        Reporter::say(&report);
+        // standard output has the fixed text
+        Reporter::print_text(&report);
         return Ok(());
     }
     files::print(&visible(&report))
 }
 
-/// As many as a reader compares with a drawing.
+/// Rounds to nine significant digits, enough to compare with a drawing.
 fn nine_digits(value: f64) -> f64 {
     format!("{value:.8e}").parse().unwrap_or(value) + 0.0
 }
 
-/// Each driver with its equation as it is written.
+/// Lists the drivers with their equations as they are written.
 fn drivers(compiled: &Compiled) -> String {
     let drivers = compiled.drivers();
     let width = drivers.iter().map(|(name, _)| name.chars().count()).max().unwrap_or(0);
@@ -59,7 +59,7 @@ fn report(compiled: &Compiled, assembly: &Assembly) -> String {
     text += &format!("\nat t = {} s\n  {}\n", readable(assembly.t), assembly.moved);
     text += &format!("  distance to a singular position: {:.2} (1 is far, 0 is singular)\n", assembly.conditioning);
     for (name, q, unit) in &assembly.coordinates {
-        // less than an atom is nothing
+        // less than the size of an atom is rounding error
         let q = if q.abs() < 1e-12 { 0.0 } else { *q };
         let value = format!("{} {unit}", readable(nine_digits(q)));
         text += &format!("  {name} = {}\n", value.trim_end());

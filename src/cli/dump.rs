@@ -1,4 +1,4 @@
-//! `mechc dump`: what the compiler sees, readable.
+//! `mechc dump`: prints the tree, the model or the constraint system.
 
 use super::arguments::{DumpArguments, Stage};
 use super::failure::Failure;
@@ -11,12 +11,12 @@ pub(super) fn dump(arguments: &DumpArguments, reporter: &mut Reporter) -> Result
     let text = match arguments.stage {
         Stage::Ast => {
             let parsed = input::parsed(&arguments.input, reporter)?;
-            reporter.named.extend(parsed.named_files(&Disk));
+            reporter.named_files.extend(parsed.named_files(&Disk));
             parsed.formatted().ok_or_else(|| parsed.faults().clone())?
         }
         Stage::Model => input::model(&arguments.input, reporter)?.model_text().unwrap_or_default(),
-        // the equations can be looked at even where they are too many or too few
+        // the equations need not be as many as the coordinates
         Stage::Ir => input::model(&arguments.input, reporter)?.equations_text().unwrap_or_default(),
     };
-    Output::write(&arguments.output, &visible(&text), &reporter.spared())
+    Output::write(&arguments.output, &visible(&text), &reporter.protected())
 }

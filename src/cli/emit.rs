@@ -1,100 +1,102 @@
 //! `mechc emit`: the mechanism as Rust, a module or a whole crate, with a header for C on request; its constraint system as LaTeX or JSON.
 
 use super::arguments::{Content, EmitArguments, EmitFormat};
-use super::endings;
 use super::failure::{Failure, unusable};
 use super::files::{self, Output};
 use super::input;
+use super::output_format;
 use super::report::Reporter;
 use mechc_emit::{MARK, NOT_IN_ALL};
 use mechc_pipeline::{Compiled, RustOptions};
 use mechc_text::diag::{Code, Diagnostic, Severity};
 use std::path::Path;
 
-/// The forms by their endings.
-const FORMS: [(&str, EmitFormat); 3] =
+/// The formats by extension.
+const FORMATS: [(&str, EmitFormat); 3] =
     [("rs", EmitFormat::Rust), ("tex", EmitFormat::Latex), ("json", EmitFormat::Json)];
 
 pub(super) fn emit(arguments: &EmitArguments, reporter: &mut Reporter) -> Result<(), Failure> {
-    let format = endings::form(arguments.format, &arguments.output, &FORMS, EmitFormat::Rust)?;
+    let format = output_format::choose(arguments.format, &arguments.output, &FORMATS, EmitFormat::Rust)?;
     if arguments.folder.is_some() {
-        can_be_a_crate(arguments)?;
+        check_crate_options(arguments)?;
     } else if arguments.ffi {
         return Err(unusable("functions for C are a part of a crate")
             .help("name a folder for it with `--crate DIR`, or leave `--ffi` out")
             .into());
     }
     if arguments.lanes.is_some() {
-        can_have_lanes(arguments, format)?;
+        check_lanes_option(arguments, format)?;
     }
     let parsed = input::parsed(&arguments.input, reporter)?;
     let checked = input::checked(&parsed, &arguments.input, reporter)?;
-    let (compiled, said) = input::proven(&checked, arguments.allow_redundant);
-    // the name without its folder: the same output wherever the file lies
+    let (compiled, diagnostics) = input::prove(&checked, arguments.allow_redundant);
+    // the name without its folder, so that the output does not depend on where the file is
     let file = Path::new(&arguments.input.file).file_name().map_or("-".into(), |name| name.to_string_lossy());
-    if format != EmitFormat::Rust && compiled.is_none() && said.iter().all(is_of_counts) {
+    if format != EmitFormat::Rust && compiled.is_none() && diagnostics.iter().all(concerns_counts) {
         let text = if format == EmitFormat::Json { checked.json(&file) } else { checked.latex(&file) };
-        Output::write(&arguments.output, &text.unwrap_or_default(), &reporter.spared())?;
-        if !reporter.is_for_programs() {
-            Reporter::say("the mechanism is not determined, and the document says so: `mechc check` tells why\n");
+        Output::write(&arguments.output, &text.unwrap_or_default(), &reporter.protected())?;
+        if !reporter.is_machine_readable() {
+            Reporter::print_text(
+                "the mechanism is not determined, and the document says so: `mechc check` tells why\n",
+            );
         }
         return Ok(());
     }
-    let compiled = reporter.settle(compiled, said)?;
+    let compiled = reporter.require(compiled, diagnostics)?;
     let options = RustOptions {
         with_motion: arguments.with != Content::Equations,
         with_sensitivities: arguments.with == Content::Sensitivities,
         lanes: arguments.lanes,
         for_c: arguments.ffi,
-        ..RustOptions::of(&*file)
+        ..RustOptions::new(&*file)
     };
     if let Some(folder) = &arguments.folder {
         return package(&compiled, folder, &options, reporter);
     }
     let text = match format {
         EmitFormat::Rust => {
-            let (text, said) = compiled.rust(&options);
-            reporter.settle(text, said)?
+            let (text, diagnostics) = compiled.rust(&options);
+            reporter.require(text, diagnostics)?
         }
         EmitFormat::Latex => compiled.latex(&file),
         EmitFormat::Json => compiled.json(&file),
     };
-    Output::write(&arguments.output, &text, &reporter.spared())
+    Output::write(&arguments.output, &text, &reporter.protected())
 }
 
-/// Whether something is said of the number of equations and coordinates alone: these can be written all the same.
-fn is_of_counts(said: &Diagnostic) -> bool {
-    said.severity() != Severity::Error || matches!(said.code, Code::E0502 | Code::E0503)
+/// Returns whether a diagnostic only concerns the number of equations and coordinates; such systems can be written as documents.
+fn concerns_counts(diagnostic: &Diagnostic) -> bool {
+    diagnostic.severity() != Severity::Error || matches!(diagnostic.code, Code::E0502 | Code::E0503)
 }
 
-/// A crate: where the motion stops on its way, it is written with what there is, as a table is.
+/// Writes a crate. If the reference motion stops, the crate is still written, with the rows so far.
 fn package(compiled: &Compiled, folder: &str, options: &RustOptions, reporter: &Reporter) -> Result<(), Failure> {
     let name = folder_name(folder).unwrap_or_else(|| compiled.name().to_owned());
-    let (crate_files, said) = compiled.package(&name, options);
+    let (crate_files, diagnostics) = compiled.package(&name, options);
     let Some(crate_files) = crate_files else {
-        return Err(said.into());
+        return Err(diagnostics.into());
     };
     let texts = || crate_files.iter().map(|file| (file.path.as_str(), file.text.as_str()));
-    files::write_all(folder, texts(), MARK, &reporter.spared())?;
+    files::write_all(folder, texts(), MARK, &reporter.protected())?;
     let written: Vec<&str> = texts().map(|(path, _)| path).collect();
-    for removed in files::remove_left(folder, &NOT_IN_ALL, &written, MARK)? {
-        Reporter::say(&format!("removed `{removed}`, which is no longer a part of the crate\n"));
+    for removed in files::remove_stale(folder, &NOT_IN_ALL, &written, MARK)? {
+        Reporter::print_text(&format!("removed `{removed}`, which is no longer a part of the crate\n"));
     }
-    if said.has_errors() {
-        return Err(said.into());
+    if diagnostics.has_errors() {
+        return Err(diagnostics.into());
     }
-    reporter.print(&said);
+    reporter.print(&diagnostics);
     Ok(())
 }
 
-/// What a folder is called, `.` too; the root has no name.
+/// Returns the name of a folder, also of `.`; the root has none.
 fn folder_name(folder: &str) -> Option<String> {
     let named = |path: &Path| path.file_name().map(|name| name.to_string_lossy().into_owned());
     named(Path::new(folder)).or_else(|| named(&Path::new(folder).canonicalize().ok()?))
 }
 
-/// What has no lanes.
-fn can_have_lanes(arguments: &EmitArguments, format: EmitFormat) -> Result<(), Failure> {
+/// Refuses `--lanes` for output that has no lanes.
+fn check_lanes_option(arguments: &EmitArguments, format: EmitFormat) -> Result<(), Failure> {
     if format != EmitFormat::Rust || arguments.with == Content::Equations {
         return Err(unusable("lanes are for Rust code with the solver")
             .help("leave `--lanes` out, or `--format` and `--with`")
@@ -103,8 +105,8 @@ fn can_have_lanes(arguments: &EmitArguments, format: EmitFormat) -> Result<(), F
     Ok(())
 }
 
-/// What a crate cannot be made of.
-fn can_be_a_crate(arguments: &EmitArguments) -> Result<(), Failure> {
+/// Refuses options that do not fit `--crate`.
+fn check_crate_options(arguments: &EmitArguments) -> Result<(), Failure> {
     if matches!(arguments.format, Some(EmitFormat::Latex | EmitFormat::Json)) {
         return Err(unusable("a crate is written in Rust only")
             .help("leave `--format` out, or name a file with `-o` instead of a folder with `--crate`")

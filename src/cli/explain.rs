@@ -17,7 +17,7 @@ pub(super) fn explain(arguments: &ExplainArguments) -> Result<(), Failure> {
     }
 }
 
-/// Every code with its title, below its area.
+/// Lists the codes with their titles, by area.
 fn list() -> String {
     let mut text = String::new();
     for area in Code::ALL.chunk_by(|a, b| a.area() == b.area()) {
@@ -32,9 +32,9 @@ fn list() -> String {
 
 fn unknown(name: &str) -> Diagnostic {
     let diagnostic = unusable(format!("there is no code and no word `{name}`"));
-    let mut said = Synonym::all_of(name).map(|synonym| (synonym.say(&[]), synonym.means)).peekable();
-    if said.peek().is_some() {
-        return said.fold(diagnostic, |diagnostic, (say, means)| {
+    let mut synonyms = Synonym::all_of(name).map(|synonym| (synonym.say(&[]), synonym.means)).peekable();
+    if synonyms.peek().is_some() {
+        return synonyms.fold(diagnostic, |diagnostic, (say, means)| {
             let pages: Vec<String> = means.iter().map(|word| format!("`mechc explain {word}`")).collect();
             let end = if say.ends_with('?') { "" } else { ";" };
             diagnostic.help(if pages.is_empty() { say } else { format!("{say}{end} see {}", pages.join(" and ")) })
@@ -46,17 +46,17 @@ fn unknown(name: &str) -> Diagnostic {
         return diagnostic
             .help("a comment begins with `//` and ends with its line; `///` above a declaration documents it");
     }
-    // a short word is near to many
-    let near = |meant: &&str| name.chars().count() > 5 || name.chars().next() == meant.chars().next();
-    match code.or_else(|| nearest(name, words).filter(near)) {
-        Some(meant) => diagnostic.help(format!("was `{meant}` meant? `mechc explain` lists all codes")),
+    // a short name is similar to many words, so its first letter must agree
+    let is_likely = |word: &&str| name.chars().count() > 5 || name.chars().next() == word.chars().next();
+    match code.or_else(|| nearest(name, words).filter(is_likely)) {
+        Some(suggestion) => diagnostic.help(format!("was `{suggestion}` meant? `mechc explain` lists all codes")),
         None => diagnostic
             .help(format!("`mechc explain` lists all codes; the words are listed by {}", overviews()))
             .help(format!("there are pages on {}", topics().collect::<Vec<_>>().join(", "))),
     }
 }
 
-/// `mechc explain functions`, `motions` …
+/// Lists the commands that show overviews: `mechc explain functions` and others.
 fn overviews() -> String {
     let names: Vec<String> = OVERVIEWS.iter().map(|name| format!("`mechc explain {name}`")).collect();
     names.join(", ")

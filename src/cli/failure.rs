@@ -1,63 +1,63 @@
-//! What ends a command early, and the exit code that tells it.
+//! Failures of commands, and their exit codes.
 
-use mechc_text::diag::{Blame, Code, Diagnostic, Diagnostics};
+use mechc_text::diag::{Code, Diagnostic, Diagnostics, Responsibility};
 use mechc_text::source::Sources;
 
-/// The input has errors, or is not as it should be.
+/// The exit code if the input has errors or is not formatted.
 pub(super) const INPUT: u8 = 1;
-/// Wrong usage.
+/// The exit code of wrong usage.
 const USAGE: u8 = 2;
-/// The analysis could not be completed.
+/// The exit code if the analysis could not be completed.
 pub(super) const ANALYSIS: u8 = 3;
-/// A file could not be read or written.
+/// The exit code if a file could not be read or written.
 const FILES: u8 = 4;
 
-/// Why a command ends early.
+/// The reason why a command ends early.
 #[derive(Debug)]
 pub(super) enum Failure {
-    /// With something to say.
-    Said(Diagnostics),
-    /// The reader of the results has gone; nothing is left to do, and nothing is wrong.
-    ReaderGone,
+    /// Diagnostics to print.
+    Reported(Diagnostics),
+    /// The reader of the results has closed the pipe, which is not an error.
+    ReaderClosed,
 }
 
 impl From<Diagnostics> for Failure {
     fn from(diagnostics: Diagnostics) -> Failure {
-        Failure::Said(diagnostics)
+        Failure::Reported(diagnostics)
     }
 }
 
 impl From<Diagnostic> for Failure {
     fn from(diagnostic: Diagnostic) -> Failure {
-        Failure::Said(diagnostic.into())
+        Failure::Reported(diagnostic.into())
     }
 }
 
 impl From<Box<Diagnostic>> for Failure {
     fn from(diagnostic: Box<Diagnostic>) -> Failure {
-        Failure::Said((*diagnostic).into())
+        Failure::Reported((*diagnostic).into())
     }
 }
 
-/// Options that do not go together, or with the file.
+/// Creates an error about options that do not fit together or with the file.
 pub(super) fn unusable(message: impl Into<String>) -> Diagnostic {
     Diagnostic::new(Code::E0706, message)
 }
 
-/// Whether all errors among these are of the options of a command, and of files that these name.
-pub(super) fn is_of_options(diagnostics: &Diagnostics, sources: &Sources) -> bool {
+/// Returns whether there are errors and all of them concern the options of a command or files that these name.
+pub(super) fn concerns_options(diagnostics: &Diagnostics, sources: &Sources) -> bool {
     let code = |error: &Diagnostic| exit_code(&error.clone().into(), sources);
-    let mut errors = diagnostics.iter().filter(|said| said.is_error()).peekable();
+    let mut errors = diagnostics.iter().filter(|diagnostic| diagnostic.is_error()).peekable();
     errors.peek().is_some() && errors.all(|error| [USAGE, FILES].contains(&code(error)))
 }
 
-/// The exit code of a command that ended with these.
+/// Returns the exit code for some diagnostics.
 pub(super) fn exit_code(diagnostics: &Diagnostics, sources: &Sources) -> u8 {
-    match Blame::of(diagnostics, sources) {
+    match Responsibility::of(diagnostics, sources) {
         None => 0,
-        Some(Blame::Input) => INPUT,
-        Some(Blame::Usage) => USAGE,
-        Some(Blame::Analysis) => ANALYSIS,
-        Some(Blame::Files) => FILES,
+        Some(Responsibility::Input) => INPUT,
+        Some(Responsibility::Usage) => USAGE,
+        Some(Responsibility::Analysis) => ANALYSIS,
+        Some(Responsibility::Files) => FILES,
     }
 }

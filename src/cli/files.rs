@@ -1,8 +1,8 @@
-//! Reading the input, and writing results whole or not at all.
+//! Reads inputs, and writes outputs whole or not at all.
 
 use super::failure::Failure;
 use super::interrupts;
-use super::spared::{STANDARD_INPUT, Spared, behind_links, refuse_links};
+use super::protected_paths::{ProtectedPaths, STANDARD_INPUT, refuse_links, resolve_links};
 use mechc_text::diag::{Code, Diagnostic};
 use mechc_text::source::{FileId, Sources};
 use mechc_text::world::{self, Contents, World};
@@ -11,36 +11,36 @@ use std::io::{self, BufWriter, IsTerminal, Read, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
-/// The text of a file, or of standard input for `-`.
+/// Reads the text of a file, or of standard input for `-`.
 pub(super) fn read(name: &str, sources: &mut Sources) -> Result<FileId, Failure> {
     read_with_mark(name, sources).map(|(file, _)| file)
 }
 
-/// As [`read`], and whether the text begins with a byte-order mark.
+/// Reads a text like [`read`], and returns whether it begins with a byte-order mark.
 pub(super) fn read_with_mark(name: &str, sources: &mut Sources) -> Result<(FileId, bool), Failure> {
-    take_in_with_mark(name, given(Path::new(name)), sources)
+    add_source(name, read_any(Path::new(name)), sources)
 }
 
-/// The same of what can be written again in its place: of standard input for `-`, or of a file.
+/// Reads a text that can be replaced: standard input for `-`, or a regular file.
 pub(super) fn read_to_replace(name: &str, sources: &mut Sources) -> Result<(FileId, bool), Failure> {
     let path = Path::new(name);
-    take_in_with_mark(name, if name == "-" { given(path) } else { named(path) }, sources)
+    add_source(name, if name == "-" { read_any(path) } else { read_regular_file(path) }, sources)
 }
 
-fn take_in_with_mark(name: &str, bytes: io::Result<Vec<u8>>, sources: &mut Sources) -> Result<(FileId, bool), Failure> {
+fn add_source(name: &str, bytes: io::Result<Vec<u8>>, sources: &mut Sources) -> Result<(FileId, bool), Failure> {
     let shown = Disk.shown(Path::new(name));
     let bytes = bytes.map_err(|error| world::cannot_read(&shown, &error))?;
     let has_mark = bytes.starts_with("\u{feff}".as_bytes());
     world::take_in(&shown, &bytes, sources).map(|file| (file, has_mark)).map_err(Failure::from)
 }
 
-/// The bytes of what the user named: of standard input for `-`, of a file, a pipe or a device.
-fn given(path: &Path) -> io::Result<Vec<u8>> {
-    if path == Path::new("-") { up_to_the_largest(io::stdin().lock()) } else { up_to_the_largest(File::open(path)?) }
+/// Reads the bytes of an argument of the user: standard input for `-`, a file, a pipe or a device.
+fn read_any(path: &Path) -> io::Result<Vec<u8>> {
+    if path == Path::new("-") { read_limited(io::stdin().lock()) } else { read_limited(File::open(path)?) }
 }
 
-/// The bytes of what a text names: of a file, for what is none may have no end, or wait for somebody to write.
-fn named(path: &Path) -> io::Result<Vec<u8>> {
+/// Reads the bytes of a file that a text names. A pipe or device is refused, since reading it may never end.
+fn read_regular_file(path: &Path) -> io::Result<Vec<u8>> {
     let found = fs::metadata(path)?;
     if found.is_dir() {
         return Err(io::ErrorKind::IsADirectory.into());
@@ -48,11 +48,11 @@ fn named(path: &Path) -> io::Result<Vec<u8>> {
     if !found.is_file() {
         return Err(io::Error::other("it is a pipe or a device, no file"));
     }
-    up_to_the_largest(File::open(path)?)
+    read_limited(File::open(path)?)
 }
 
-/// All bytes that come, unless they are more than any text has.
-fn up_to_the_largest(from: impl Read) -> io::Result<Vec<u8>> {
+/// Reads all bytes, up to the maximum size of a text.
+fn read_limited(from: impl Read) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
     from.take(world::LARGEST as u64 + 1).read_to_end(&mut bytes)?;
     if bytes.len() > world::LARGEST { Err(world::too_large()) } else { Ok(bytes) }
@@ -63,11 +63,11 @@ pub(super) struct Disk;
 
 impl World for Disk {
     fn read(&self, path: &Path) -> io::Result<Contents> {
-        Ok(Contents { bytes: named(path)?.into(), version: 0 })
+        Ok(Contents { bytes: read_regular_file(path)?.into(), version: 0 })
     }
 
     fn given(&self, path: &Path) -> io::Result<Contents> {
-        Ok(Contents { bytes: given(path)?.into(), version: 0 })
+        Ok(Contents { bytes: read_any(path)?.into(), version: 0 })
     }
 
     fn shown(&self, path: &Path) -> String {
@@ -93,26 +93,26 @@ impl World for Disk {
     }
 
     fn identity(&self, path: &Path) -> PathBuf {
-        path.canonicalize().unwrap_or_else(|_| world::normalised(path))
+        path.canonicalize().unwrap_or_else(|_| world::normalize_path(path))
     }
 }
 
-/// A disk that is asked several times for what options name: standard input and pipes give what they hold only once.
+/// The files of this machine, with a cache for the files that options name: standard input and pipes can be read only once.
 #[derive(Default)]
-pub(super) struct AskedOnce(Mutex<Vec<(PathBuf, Contents)>>);
+pub(super) struct CachedDisk(Mutex<Vec<(PathBuf, Contents)>>);
 
-impl World for AskedOnce {
+impl World for CachedDisk {
     fn read(&self, path: &Path) -> io::Result<Contents> {
         Disk.read(path)
     }
 
     fn given(&self, path: &Path) -> io::Result<Contents> {
-        let mut known = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some((_, contents)) = known.iter().find(|(other, _)| other == path) {
+        let mut cache = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some((_, contents)) = cache.iter().find(|(other, _)| other == path) {
             return Ok(contents.clone());
         }
         let contents = Disk.given(path)?;
-        known.push((path.to_owned(), contents.clone()));
+        cache.push((path.to_owned(), contents.clone()));
         Ok(contents)
     }
 
@@ -137,11 +137,12 @@ pub(super) fn cannot_write(name: &str, error: &io::Error) -> Diagnostic {
     Diagnostic::new(Code::E0702, format!("cannot write `{name}`: {}", world::reason(error)))
 }
 
-/// Where results go: standard output, or a file that is replaced whole at the end.
+/// The destination of an output.
 pub(super) enum Destination {
     Standard(io::Stdout),
-    /// A device or a pipe, `/dev/null` say: written as it comes.
+    /// A device or a pipe, such as `/dev/null`, written directly.
     Device(File),
+    /// A file, written to a temporary one that replaces it at the end.
     File {
         temporary: tempfile::NamedTempFile,
         path: PathBuf,
@@ -174,47 +175,46 @@ impl Write for Destination {
 
 /// Prints a text to standard output.
 pub(super) fn print(text: &str) -> Result<(), Failure> {
-    Output::write("-", text, &Spared::default())
+    Output::write("-", text, &ProtectedPaths::default())
 }
 
 impl Output {
-    /// Opens it, unless it is one of the files that are to stay; a file's place is tried at once, so that no work is done for
-    /// nothing.
-    pub fn open(name: &str, spared: &Spared<'_>) -> Result<Output, Failure> {
-        spared.refuse(name)?;
-        let destination = Destination::of(name).map_err(|error| cannot_write(name, &error))?;
+    /// Opens an output, unless it is a protected file. A file is created at once, so that errors appear before the work begins.
+    pub fn open(name: &str, protected: &ProtectedPaths<'_>) -> Result<Output, Failure> {
+        protected.refuse(name)?;
+        let destination = Destination::open(name).map_err(|error| cannot_write(name, &error))?;
         let name = if name == "-" { "standard output" } else { name };
         Ok(Output { name: name.to_owned(), writer: BufWriter::with_capacity(1 << 16, destination) })
     }
 
     /// Writes a whole text.
-    pub fn write(name: &str, text: &str, spared: &Spared<'_>) -> Result<(), Failure> {
-        Output::open(name, spared)?.close_with_text(text)
+    pub fn write(name: &str, text: &str, protected: &ProtectedPaths<'_>) -> Result<(), Failure> {
+        Output::open(name, protected)?.close_with_text(text)
     }
 
-    /// Writes a whole text in the place of the one that was read there.
+    /// Replaces the text of a file that was read.
     pub fn replace(name: &str, text: &str) -> Result<(), Failure> {
         Output::replace_if(name, text, &|| true).map(|_| ())
     }
 
-    /// The same if that is due when nothing is left but to put the file in its place; says whether it was.
+    /// Replaces the text of a file if `is_due` still holds immediately before; returns whether it did.
     pub fn replace_if(name: &str, text: &str, is_due: &dyn Fn() -> bool) -> Result<bool, Failure> {
-        let mut output = Output::open(name, &Spared::default())?;
+        let mut output = Output::open(name, &ProtectedPaths::default())?;
         output.writer.write_all(text.as_bytes()).map_err(|error| output.failure(&error))?;
-        let written = output.written()?;
+        let pending = output.into_pending()?;
         let is_due = is_due();
         if is_due {
-            put_in_place(written)?;
+            commit(pending)?;
         }
         Ok(is_due)
     }
 
-    /// Whether it is standard output, and that a terminal.
+    /// Returns whether it is a terminal.
     pub fn is_terminal(&self) -> bool {
         matches!(self.writer.get_ref(), Destination::Standard(out) if out.is_terminal())
     }
 
-    /// Whether it is standard output.
+    /// Returns whether it is standard output.
     pub fn is_standard(&self) -> bool {
         matches!(self.writer.get_ref(), Destination::Standard(_))
     }
@@ -223,73 +223,72 @@ impl Output {
         &mut self.writer
     }
 
-    /// Why writing failed.
+    /// Converts an error of writing.
     pub fn failure(&self, error: &io::Error) -> Failure {
         if error.kind() == io::ErrorKind::BrokenPipe {
-            return Failure::ReaderGone;
+            return Failure::ReaderClosed;
         }
         cannot_write(&self.name, error).into()
     }
 
-    /// Writes a whole text, and puts the file in its place.
+    /// Writes a whole text and closes the output.
     pub fn close_with_text(mut self, text: &str) -> Result<(), Failure> {
         self.writer.write_all(text.as_bytes()).map_err(|error| self.failure(&error))?;
         self.close()
     }
 
-    /// Puts a file in its place.
+    /// Moves the file to its path.
     pub fn close(self) -> Result<(), Failure> {
-        put_in_place(self.written()?)
+        commit(self.into_pending()?)
     }
 
-    /// Puts this one and another in their places, both or none.
+    /// Moves this file and another one to their paths, after both are written completely.
     pub fn close_with(self, other: Option<Output>) -> Result<(), Failure> {
-        let other = other.map(Output::written).transpose()?.flatten();
-        put_in_place(self.written()?.into_iter().chain(other))
+        let other = other.map(Output::into_pending).transpose()?.flatten();
+        commit(self.into_pending()?.into_iter().chain(other))
     }
 
-    /// The file, if it is one, with all that was written.
-    fn written(mut self) -> Result<Option<Written>, Failure> {
+    /// Completes writing; returns the temporary file, if the output is a file.
+    fn into_pending(mut self) -> Result<Option<PendingFile>, Failure> {
         if let Err(error) = self.writer.flush() {
             return Err(self.failure(&error));
         }
         let name = self.name.clone();
         match self.writer.into_inner() {
-            Ok(Destination::File { temporary, path }) => Ok(Some(Written { name, temporary, path })),
+            Ok(Destination::File { temporary, path }) => Ok(Some(PendingFile { name, temporary, path })),
             Ok(Destination::Standard(_) | Destination::Device(_)) => Ok(None),
             Err(error) => Err(cannot_write(&name, error.error()).into()),
         }
     }
 }
 
-/// A file that is whole, but not in its place yet.
-struct Written {
+/// A completely written temporary file, and the path that it is for.
+struct PendingFile {
     name: String,
     temporary: tempfile::NamedTempFile,
     path: PathBuf,
 }
 
-/// Puts all that a command writes in its place. No interruption comes between.
-fn put_in_place(files: impl IntoIterator<Item = Written>) -> Result<(), Failure> {
+/// Moves temporary files to their paths. No interruption is handled meanwhile.
+fn commit(files: impl IntoIterator<Item = PendingFile>) -> Result<(), Failure> {
     let mut unfinished = interrupts::unfinished();
-    for Written { name, temporary, path } in files {
+    for PendingFile { name, temporary, path } in files {
         temporary.persist(path).map_err(|error| cannot_write(&name, &error.error))?;
     }
     unfinished.clear();
     Ok(())
 }
 
-/// Writes files into a folder, which is made if it is not there: all of them or none. A file that is there already is replaced only
-/// if it holds the mark.
+/// Writes files into a folder, which is created if necessary: all of them or none. An existing file is replaced only if it has the mark.
 pub(super) fn write_all<'f>(
     folder: &str,
     files: impl Iterator<Item = (&'f str, &'f str)>,
     mark: &str,
-    spared: &Spared<'_>,
+    protected: &ProtectedPaths<'_>,
 ) -> Result<(), Failure> {
     let files: Vec<(PathBuf, &str)> = files.map(|(path, text)| (Path::new(folder).join(path), text)).collect();
     for (path, _) in &files {
-        if path.symlink_metadata().is_ok() && !holds(path, mark) {
+        if path.symlink_metadata().is_ok() && !has_mark(path, mark) {
             let shown = path.to_string_lossy();
             return Err(Diagnostic::new(
                 Code::E0702,
@@ -299,31 +298,35 @@ pub(super) fn write_all<'f>(
             .into());
         }
     }
-    let result = written_beside(folder, &files, spared).and_then(put_in_place);
+    let result = write_temporaries(folder, &files, protected).and_then(commit);
     if result.is_err() {
-        interrupts::take_away(&mut interrupts::unfinished());
+        interrupts::remove(&mut interrupts::unfinished());
     }
     result
 }
 
-/// Writes files of a folder, which is made if it is not there, beside their places.
-fn written_beside(folder: &str, files: &[(PathBuf, &str)], spared: &Spared<'_>) -> Result<Vec<Written>, Failure> {
-    make_folder(Path::new(folder)).map_err(|error| cannot_write(folder, &error))?;
-    let mut outputs: Vec<Written> = Vec::new();
+/// Writes temporary files into a folder, which is created if necessary.
+fn write_temporaries(
+    folder: &str,
+    files: &[(PathBuf, &str)],
+    protected: &ProtectedPaths<'_>,
+) -> Result<Vec<PendingFile>, Failure> {
+    create_folder(Path::new(folder)).map_err(|error| cannot_write(folder, &error))?;
+    let mut outputs: Vec<PendingFile> = Vec::new();
     for (path, text) in files {
         let name = path.to_string_lossy();
-        path.parent().map_or(Ok(()), make_folder).map_err(|error| cannot_write(&name, &error))?;
-        let mut output = Output::open(&name, spared)?;
+        path.parent().map_or(Ok(()), create_folder).map_err(|error| cannot_write(&name, &error))?;
+        let mut output = Output::open(&name, protected)?;
         output.writer.write_all(text.as_bytes()).map_err(|error| output.failure(&error))?;
-        outputs.extend(output.written()?);
+        outputs.extend(output.into_pending()?);
     }
     refuse_links(outputs.iter().map(|output| output.name.as_str().into()))?;
     Ok(outputs)
 }
 
-/// Removes what an earlier crate has left in a folder where this one was written: files in the given folders, with the given endings, that
-/// hold the mark and are not among those written. What somebody wrote stays. Says what is gone.
-pub(super) fn remove_left(
+/// Removes files of an earlier emitted crate: those in given folders with given endings that have the mark and are not among the files
+/// written. The user's files stay. Returns the removed files.
+pub(super) fn remove_stale(
     folder: &str,
     places: &[(&str, &str)],
     written: &[&str],
@@ -332,18 +335,18 @@ pub(super) fn remove_left(
     let mut removed = Vec::new();
     for (inner, ending) in places {
         let place = Path::new(folder).join(inner);
-        let is_left = |name: &String| name.ends_with(ending) && !written.contains(&format!("{inner}/{name}").as_str());
-        for name in Disk.names_in(&place).into_iter().filter(is_left) {
+        let is_stale = |name: &String| name.ends_with(ending) && !written.contains(&format!("{inner}/{name}").as_str());
+        for name in Disk.names_in(&place).into_iter().filter(is_stale) {
             let path = place.join(name);
-            // a link leads to what may be somebody's
+            // the target of a link may be a user's file
             let is_file = path.symlink_metadata().is_ok_and(|found| found.is_file());
-            if is_file && holds(&path, mark) {
+            if is_file && has_mark(&path, mark) {
                 let shown = path.to_string_lossy().into_owned();
                 fs::remove_file(&path).map_err(|error| cannot_remove(&shown, &error))?;
                 removed.push(shown);
             }
         }
-        // where nothing else is in it, it was made for them
+        // this removes the folder only if it is empty
         if !removed.is_empty() {
             let _ = fs::remove_dir(&place);
         }
@@ -356,16 +359,17 @@ fn cannot_remove(name: &str, error: &io::Error) -> Diagnostic {
         .help("an earlier crate has left it: remove it by hand")
 }
 
-/// Whether one of the first lines of a file holds the mark.
-fn holds(path: &Path, mark: &str) -> bool {
-    fs::read(path).is_ok_and(|bytes| String::from_utf8_lossy(&bytes).lines().take(HEAD).any(|line| line.contains(mark)))
+/// Returns whether one of the first lines of a file contains the mark.
+fn has_mark(path: &Path, mark: &str) -> bool {
+    fs::read(path)
+        .is_ok_and(|bytes| String::from_utf8_lossy(&bytes).lines().take(MARK_LINES).any(|line| line.contains(mark)))
 }
 
-/// Lines of a file that may hold the mark.
-const HEAD: usize = 6;
+/// The number of lines that may contain the mark.
+const MARK_LINES: usize = 6;
 
-/// Makes a folder, unless it is there.
-pub(super) fn make_folder(path: &Path) -> io::Result<()> {
+/// Creates a folder unless it exists.
+pub(super) fn create_folder(path: &Path) -> io::Result<()> {
     match path.metadata() {
         Ok(found) if found.is_dir() => return Ok(()),
         Ok(_) => return Err(io::Error::other("it is a file")),
@@ -382,32 +386,32 @@ pub(super) fn make_folder(path: &Path) -> io::Result<()> {
     Ok(())
 }
 
-/// Whether a name means standard output.
+/// Returns whether a name stands for standard output.
 pub(super) fn is_standard_output(name: &str) -> bool {
     ["-", "/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"].contains(&name)
 }
 
-/// Whether a path means what the process has open, whatever that is: it is no place in a folder, where a file could be replaced.
-fn is_open_already(path: &Path) -> bool {
+/// Returns whether a path stands for an open file of the process, which has no folder in which it could be replaced.
+fn is_open_descriptor(path: &Path) -> bool {
     path == Path::new("/dev/stderr") || ["/dev/fd", "/proc/self/fd"].iter().any(|folder| path.starts_with(folder))
 }
 
 impl Destination {
-    fn of(name: &str) -> io::Result<Destination> {
+    fn open(name: &str) -> io::Result<Destination> {
         let path = Path::new(name);
         if is_standard_output(name) {
             return Ok(Destination::Standard(io::stdout()));
         }
-        // asked of the path itself: the links of what is open already lead nowhere
+        // the links of open descriptors cannot be resolved, so the path itself is examined
         let is_special = fs::metadata(path).is_ok_and(|found| !found.is_file() && !found.is_dir());
-        if is_special || is_open_already(path) {
+        if is_special || is_open_descriptor(path) {
             return OpenOptions::new().append(true).open(path).map(Destination::Device);
         }
-        Destination::beside(path)
+        Destination::temporary_for(path)
     }
 
-    fn beside(path: &Path) -> io::Result<Destination> {
-        let path = behind_links(path)?;
+    fn temporary_for(path: &Path) -> io::Result<Destination> {
+        let path = resolve_links(path)?;
         if let Ok(found) = fs::metadata(&path) {
             if found.is_dir() {
                 return Err(io::Error::other("it is a folder"));
@@ -428,7 +432,7 @@ impl Destination {
         #[cfg(unix)]
         {
             use std::os::unix::fs::PermissionsExt;
-            // a new one is as files are made, and both less what the user's mask takes away: never open to more than the old one is
+            // a temporary file never has more permissions than the file that it replaces, and the user's mask applies
             let mode = fs::metadata(&path).map_or(0o666, |found| found.permissions().mode() & 0o777);
             builder.permissions(fs::Permissions::from_mode(mode));
         }
@@ -436,21 +440,21 @@ impl Destination {
         let temporary = builder.tempfile_in(folder)?;
         unfinished.push(temporary.path().to_owned());
         #[cfg(unix)]
-        keep_rights(&path, temporary.as_file())?;
+        copy_permissions(&path, temporary.as_file())?;
         Ok(Destination::File { temporary, path })
     }
 }
 
-/// Gives a file that will be in the place of another one the owner and the group of that one, where this process may, and its mode.
+/// Gives a file the mode of the file that it replaces, and its owner and group if this process may.
 #[cfg(unix)]
-fn keep_rights(of: &Path, to: &File) -> io::Result<()> {
+fn copy_permissions(of: &Path, to: &File) -> io::Result<()> {
     use std::os::unix::fs::{MetadataExt, PermissionsExt, fchown};
     let (Ok(old), new) = (fs::metadata(of), to.metadata()?) else { return Ok(()) };
     let has_group = old.gid() == new.gid() || fchown(to, None, Some(old.gid())).is_ok();
     let has_owner = old.uid() == new.uid() || fchown(to, Some(old.uid()), None).is_ok();
-    // who runs it as its owner or in its group is somebody else, where those are others
+    // set-user-id and set-group-id bits must not apply to another owner or group
     let kept = if has_owner && has_group { 0o7777 } else { 0o777 };
     let [mode, made] = [old.permissions().mode() & kept, to.metadata()?.permissions().mode() & 0o7777];
-    // what the user's mask took is given back; a disk that has one mode for all files has nothing to give
+    // the mask may have removed bits; on a file system with one mode for all files nothing changes
     if mode == made { Ok(()) } else { to.set_permissions(fs::Permissions::from_mode(mode)) }
 }

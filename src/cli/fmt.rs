@@ -1,4 +1,4 @@
-//! `mechc fmt`: texts in the one style.
+//! `mechc fmt`: formats texts.
 
 use super::arguments::FmtArguments;
 use super::failure::{Failure, INPUT};
@@ -12,18 +12,18 @@ use std::borrow::Cow;
 use std::io::IsTerminal;
 use std::path::Path;
 
-/// A text that is not formatted, with what it is to be.
+/// A text before and after formatting.
 struct Change {
     name: String,
     old: String,
     new: String,
 }
 
-/// Formats all files that can be, and says what is wrong with the others.
+/// Formats all files that parse, and reports the errors of the others.
 pub(super) fn fmt(arguments: &FmtArguments, reporter: &mut Reporter) -> Result<(), Failure> {
-    let (mut faults, mut diffs) = (Diagnostics::default(), String::new());
+    let (mut errors, mut diffs) = (Diagnostics::default(), String::new());
     for file in folders::files_of(&arguments.files) {
-        let made = file.and_then(|name| {
+        let result = file.and_then(|name| {
             let change = change(&name, reporter)?;
             if arguments.check {
                 diffs += &diff(&change);
@@ -31,29 +31,29 @@ pub(super) fn fmt(arguments: &FmtArguments, reporter: &mut Reporter) -> Result<(
             }
             replace(&name, &change, reporter)
         });
-        match made {
+        match result {
             Ok(()) => {}
-            Err(Failure::Said(said)) => faults.extend(said),
-            Err(gone @ Failure::ReaderGone) => return Err(gone),
+            Err(Failure::Reported(diagnostics)) => errors.extend(diagnostics),
+            Err(closed @ Failure::ReaderClosed) => return Err(closed),
         }
     }
     if !diffs.is_empty() {
-        // who reads a diff from a pipe applies it
-        let is_seen = std::io::stdout().is_terminal();
-        files::print(&if is_seen { visible(&diffs) } else { Cow::Owned(diffs) })?;
-        reporter.end_with(INPUT);
+        // a program that reads the diff from a pipe needs its exact bytes
+        let is_terminal = std::io::stdout().is_terminal();
+        files::print(&if is_terminal { visible(&diffs) } else { Cow::Owned(diffs) })?;
+        reporter.set_exit_code(INPUT);
     }
-    if faults.has_errors() { Err(faults.into()) } else { Ok(()) }
+    if errors.has_errors() { Err(errors.into()) } else { Ok(()) }
 }
 
 /// Reads a file, or standard input for `-`.
 fn change(name: &str, reporter: &mut Reporter) -> Result<Change, Failure> {
     let (file, has_mark) = files::read_to_replace(name, &mut reporter.sources)?;
     let source = reporter.sources.get(file);
-    // alone: all texts together are only needed to speak of one
-    let new = Parsed::of(&source.name, &source.text).formatted();
-    let faults = || Parsed::of_source(reporter.sources.clone(), file, Path::new(name)).faults().clone();
-    let new = new.ok_or_else(faults)?;
+    // the text alone: the other texts are only needed to report errors
+    let new = Parsed::new(&source.name, &source.text).formatted();
+    let errors = || Parsed::from_source(reporter.sources.clone(), file, Path::new(name)).faults().clone();
+    let new = new.ok_or_else(errors)?;
     let mark = if has_mark { "\u{feff}" } else { "" };
     let old = format!("{mark}{}", source.text);
     Ok(Change { name: source.name.clone(), old, new: format!("{mark}{new}") })
@@ -65,20 +65,20 @@ fn replace(name: &str, change: &Change, reporter: &Reporter) -> Result<(), Failu
     }
     if change.new != change.old {
         Output::replace(name, &change.new)?;
-        if !reporter.is_for_programs() {
-            Reporter::say(&format!("formatted `{name}`\n"));
+        if !reporter.is_machine_readable() {
+            Reporter::print_text(&format!("formatted `{name}`\n"));
         }
     }
     Ok(())
 }
 
-/// What stands for a `\r`, which is a line's end for the comparison and none for `patch`: no text holds it.
+/// The stand-in for `\r`, which ends a line for the comparison and not for `patch`. No text contains this character.
 const NO_CHARACTER: &str = "\u{fdd0}";
 
-/// What would change, as `patch` takes it; nothing if nothing would.
+/// Formats the changes as a unified diff for `patch`; empty if there are none.
 fn diff(change: &Change) -> String {
     let [old, new] = [&change.old, &change.new].map(|text| text.replace('\r', NO_CHARACTER));
-    // a tab ends a name that holds spaces
+    // `patch` needs a tab after a name that contains spaces
     let end = if change.name.contains(char::is_whitespace) { "\t" } else { "" };
     let name = format!("{}{end}", change.name);
     let diff = TextDiff::from_lines(&old, &new);

@@ -1,4 +1,4 @@
-//! The `.mech` files that are meant by what a command names: files, and folders with all that is in them.
+//! The `.mech` files that a command's arguments name: files, and folders with their subfolders.
 
 use super::failure::Failure;
 use mechc_text::world;
@@ -7,14 +7,14 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// The files that some names mean, each once, in the order of the names and within a folder by theirs; with why a name means none.
+/// Returns the files of some names, each once, in the order of the names and sorted within a folder; an error for a name without files.
 pub(super) fn files_of(names: &[String]) -> Vec<Result<String, Failure>> {
-    let (mut files, mut seen) = (Vec::new(), FxHashSet::default());
+    let (mut files, mut visited) = (Vec::new(), FxHashSet::default());
     for name in names {
         let found = if name != "-" && Path::new(name).is_dir() { in_folder(name) } else { Ok(vec![name.clone()]) };
         match found {
-            // by whatever path or link
-            Ok(found) => files.extend(found.into_iter().filter(|file| seen.insert(identity(file))).map(Ok)),
+            // a file may be named by several paths or links
+            Ok(found) => files.extend(found.into_iter().filter(|file| visited.insert(identity(file))).map(Ok)),
             Err(why) => files.push(Err(why)),
         }
     }
@@ -39,7 +39,7 @@ fn shown(path: &Path) -> String {
     path.to_string_lossy().into_owned()
 }
 
-/// Adds all files below a folder, those that the language server knows of as well. What a link leads to has a place of its own.
+/// Adds all files below a folder, by the rules of the language server. Links are skipped, since their targets have other paths.
 fn collect(folder: &Path, files: &mut Vec<PathBuf>) -> Result<(), (PathBuf, io::Error)> {
     let failed = |error| (folder.to_owned(), error);
     let mut entries = fs::read_dir(folder).map_err(failed)?.collect::<Result<Vec<_>, _>>().map_err(failed)?;

@@ -15,7 +15,7 @@ pub(super) fn formula(arguments: &FormulaArguments, reporter: &mut Reporter) -> 
             .help("write it in quotes: `mechc formula '2 * t^2'`")
             .into());
     }
-    let formula = Formula::of(&arguments.formula, &mut reporter.sources)?;
+    let formula = Formula::parse(&arguments.formula, &mut reporter.sources)?;
     reporter.print(formula.remarks());
     let at = |text: &String| stages::seconds("--at", text, &mut reporter.sources);
     let times = arguments.at.iter().map(at).collect::<Result<Vec<f64>, Diagnostics>>()?;
@@ -37,11 +37,11 @@ pub(super) fn formula(arguments: &FormulaArguments, reporter: &mut Reporter) -> 
     if failed.is_empty() { Ok(()) } else { Err(failed.into()) }
 }
 
-/// Columns of numbers, their decimal points below each other.
+/// Formats columns of numbers with aligned decimal points.
 fn table(rows: &[[f64; 4]]) -> String {
     let mut columns = Vec::new();
     for (k, name) in ["t"].into_iter().chain(NAMES).enumerate() {
-        let cells: Vec<(String, String)> = rows.iter().map(|row| at_the_point(row[k] + 0.0)).collect();
+        let cells: Vec<(String, String)> = rows.iter().map(|row| split_at_point(row[k] + 0.0)).collect();
         let before = cells.iter().map(|(before, _)| before.len()).max().unwrap_or(0);
         let after = cells.iter().map(|(_, after)| after.len()).max().unwrap_or(0);
         let width = (before + after).max(name.len());
@@ -56,8 +56,8 @@ fn table(rows: &[[f64; 4]]) -> String {
     lines.collect()
 }
 
-/// A number in two parts, up to its decimal point and from there.
-fn at_the_point(value: f64) -> (String, String) {
+/// Splits a number before its decimal point or exponent.
+fn split_at_point(value: f64) -> (String, String) {
     let text = number(value);
     let at = text.find(['.', 'e']).unwrap_or(text.len());
     let (before, after) = text.split_at(at);

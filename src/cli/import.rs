@@ -1,10 +1,9 @@
-//! `mechc import`: the model files of the course's planar engine, translated.
+//! `mechc import`: translates the model files of the course's planar engine.
 
 use super::arguments::ImportArguments;
 use super::failure::{Failure, unusable};
 use super::files::{self, Output};
 use super::report::Reporter;
-use mechc_pipeline as stages;
 
 pub(super) fn import(arguments: &ImportArguments, reporter: &mut Reporter) -> Result<(), Failure> {
     if arguments.model == "-" && arguments.acf.as_deref() == Some("-") {
@@ -14,7 +13,7 @@ pub(super) fn import(arguments: &ImportArguments, reporter: &mut Reporter) -> Re
     }
     let model = files::read(&arguments.model, &mut reporter.sources)?;
     let settings = arguments.acf.as_ref().map(|acf| files::read(acf, &mut reporter.sources)).transpose()?;
-    let (text, said) = stages::imported(model, settings, &reporter.sources);
-    let text = reporter.settle(text, said)?;
-    Output::write(&arguments.output, &text, &reporter.spared())
+    let (text, diagnostics) = mechc_pipeline::import_model(model, settings, &reporter.sources);
+    let text = reporter.require(text, diagnostics)?;
+    Output::write(&arguments.output, &text, &reporter.protected())
 }

@@ -1,13 +1,14 @@
-//! From a file and its options to a determined mechanism: what all commands begin with.
+//! From a file and options to a determined mechanism, as most commands begin.
 
-use super::arguments::Input;
+use super::arguments::{Input, Interval};
 use super::failure::{Failure, unusable};
 use super::files::{self, Disk};
 use super::report::Reporter;
 use super::timings::{Phase, Timings};
-use mechc_pipeline::{Checked, Choice, Compiled, Parsed, Redundant};
+use mechc_pipeline::{Checked, Choice, Compiled, Parsed, Redundant, RequestedTimes};
 use mechc_text::cancel::Cancel;
 use mechc_text::diag::Diagnostics;
+use mechc_text::source::Sources;
 use mechc_text::world::World;
 use std::mem::ManuallyDrop;
 use std::path::Path;
@@ -23,7 +24,7 @@ pub(super) fn compiled(
     compiled_as(parsed, &choice(input), allow_redundant, reporter, timings)
 }
 
-/// The same of what is chosen.
+/// Checks and proves the mechanism of a choice; prints its warnings.
 pub(super) fn compiled_as(
     parsed: &Parsed,
     choice: &Choice,
@@ -31,22 +32,22 @@ pub(super) fn compiled_as(
     reporter: &mut Reporter,
     timings: &mut Timings,
 ) -> Result<Compiled, Failure> {
-    // see `run`: nothing is taken apart before the process ends
+    // see `run`: nothing is dropped before the process ends
     let checked = ManuallyDrop::new(checked_in(parsed, choice, &Disk, reporter)?);
     timings.end(Phase::Check);
-    let (compiled, said) = proven(&checked, allow_redundant);
-    let compiled = reporter.settle(compiled, said)?;
+    let (compiled, diagnostics) = prove(&checked, allow_redundant);
+    let compiled = reporter.require(compiled, diagnostics)?;
     timings.end(Phase::Prove);
     Ok(compiled)
 }
 
-/// The proof of a mechanism, with what is to be said of it.
-pub(super) fn proven(checked: &Checked, allow_redundant: bool) -> (Option<Compiled>, Diagnostics) {
+/// Proves a mechanism; returns it with its diagnostics.
+pub(super) fn prove(checked: &Checked, allow_redundant: bool) -> (Option<Compiled>, Diagnostics) {
     let redundant = if allow_redundant { Redundant::LeftOut } else { Redundant::Refused };
     checked.compile(redundant, &Cancel::default())
 }
 
-/// Reads and checks the mechanism of a command, which need not be determined; prints its warnings.
+/// Reads and checks the mechanism of a command without proving it; prints its warnings.
 pub(super) fn model(input: &Input, reporter: &mut Reporter) -> Result<Checked, Failure> {
     let parsed = parsed(input, reporter)?;
     checked(&parsed, input, reporter)
@@ -60,21 +61,21 @@ pub(super) fn parsed(input: &Input, reporter: &mut Reporter) -> Result<Parsed, F
             .into());
     }
     let file = files::read(&input.file, &mut reporter.sources)?;
-    reporter.named.extend(input.samples.clone().filter(|path| path != Path::new("-")));
-    Ok(Parsed::of_source(reporter.sources.clone(), file, path(input)))
+    reporter.named_files.extend(input.samples.clone().filter(|path| path != Path::new("-")));
+    Ok(Parsed::from_source(reporter.sources.clone(), file, path(input)))
 }
 
-/// Beside which the files are that a command's file names: the current folder for standard input.
+/// Returns the path to which names in a command's file are relative: the current folder for standard input.
 pub(super) fn path(input: &Input) -> &Path {
     if input.file == "-" { Path::new("") } else { Path::new(&input.file) }
 }
 
-/// Checks the mechanism of a command, and prints its warnings.
+/// Checks the mechanism of a command; prints its warnings.
 pub(super) fn checked(parsed: &Parsed, input: &Input, reporter: &mut Reporter) -> Result<Checked, Failure> {
     checked_in(parsed, &choice(input), &Disk, reporter)
 }
 
-/// What the options of a command choose.
+/// Returns the choice that the options of a command make.
 pub(super) fn choice(input: &Input) -> Choice {
     Choice {
         mechanism: input.mechanism.clone(),
@@ -85,7 +86,7 @@ pub(super) fn choice(input: &Input) -> Choice {
     }
 }
 
-/// Checks what is chosen, and prints its warnings.
+/// Checks the mechanism of a choice; prints its warnings.
 pub(super) fn checked_in(
     parsed: &Parsed,
     choice: &Choice,
@@ -94,7 +95,26 @@ pub(super) fn checked_in(
 ) -> Result<Checked, Failure> {
     let checked = parsed.check(choice, world);
     reporter.sources = checked.sources().clone();
-    reporter.named.extend(checked.named_files());
-    let said = checked.diagnostics().clone();
-    reporter.settle(checked.is_sound().then_some(checked), said)
+    reporter.named_files.extend(checked.named_files());
+    let diagnostics = checked.diagnostics().clone();
+    reporter.require(checked.is_sound().then_some(checked), diagnostics)
+}
+
+/// Returns the times of a command's options, completed by the file's analysis.
+pub(super) fn requested_times(
+    interval: &Interval,
+    at: &[String],
+    analysis: Option<[f64; 3]>,
+    sources: &mut Sources,
+) -> Result<RequestedTimes, Failure> {
+    Ok(time_options(interval, at, sources)?.over(analysis)?)
+}
+
+/// Returns the times of a command's options.
+pub(super) fn time_options(
+    interval: &Interval,
+    at: &[String],
+    sources: &mut Sources,
+) -> Result<RequestedTimes, Failure> {
+    Ok(RequestedTimes::from_options([&interval.from, &interval.to, &interval.every], at, sources)?)
 }

@@ -1,4 +1,4 @@
-//! What is half done when the user interrupts it is taken away: temporary files, and folders that are still empty.
+//! Interruptions: unfinished output, that is temporary files and empty new folders, is removed.
 
 use mechc_text::cancel::Cancel;
 use std::fs;
@@ -8,70 +8,69 @@ use std::process;
 use std::sync::atomic::{AtomicI32, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-/// Files and folders that are not yet what they are meant to be, in the order in which they were made.
+/// Temporary files and new folders, in the order in which they were created.
 static UNFINISHED: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
 
-/// What the first interruption ends, so that what is done is kept; the second one takes it away.
+/// The work that the first interruption cancels, so that finished results are kept; the second interruption abandons them.
 static GRACEFUL: Mutex<Option<Cancel>> = Mutex::new(None);
 
-/// The signal that has ended it, or 0.
+/// The signal that was caught, or 0.
 static CAUGHT: AtomicI32 = AtomicI32::new(0);
 
-/// From here on the first interruption ends this work, and the command comes to its end with what is done.
-pub(super) fn end_gracefully(work: &Cancel) {
+/// Makes the first interruption cancel this work, so that the command ends with the results so far.
+pub(super) fn stop_gracefully(work: &Cancel) {
     *GRACEFUL.lock().unwrap_or_else(PoisonError::into_inner) = Some(work.clone());
 }
 
-/// The exit code of a command that an interruption has brought to its end.
-pub(super) fn caught() -> Option<u8> {
+/// Returns the exit code of a command that was interrupted.
+pub(super) fn exit_code() -> Option<u8> {
     let signal = CAUGHT.load(Ordering::Relaxed);
     u8::try_from(signal).ok().filter(|signal| *signal > 0).map(|signal| 128 + signal)
 }
 
-/// Ends the work that may come to its end; whether there was any.
-fn end(signal: i32) -> bool {
+/// Cancels the work that may end gracefully; returns whether there is any.
+fn cancel_work(signal: i32) -> bool {
     let work = GRACEFUL.lock().unwrap_or_else(PoisonError::into_inner).take();
     CAUGHT.store(signal, Ordering::Relaxed);
     work.inspect(Cancel::cancel).is_some()
 }
 
-/// The list of them. While it is held nothing is interrupted, so that what is made or moved to its place is on the list or not,
-/// and never in between.
+/// Locks the list of unfinished files and folders. While it is locked no interruption is handled, so that creating or moving a file and
+/// updating the list are one step.
 pub(super) fn unfinished() -> MutexGuard<'static, Vec<PathBuf>> {
     UNFINISHED.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// From here on an interruption takes away what is unfinished. What the user has told the process to ignore, as `nohup` does, stays
-/// ignored.
+/// Handles interruptions from now on by removing unfinished output. Signals that the process ignores, as under `nohup`, stay ignored.
 #[cfg(unix)]
 pub(super) fn watch() {
     use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
-    let wanted = [SIGINT, SIGTERM, SIGHUP].into_iter().filter(|signal| !is_ignored(*signal));
+    let handled = [SIGINT, SIGTERM, SIGHUP].into_iter().filter(|signal| !is_ignored(*signal));
     let (is_watching, watches) = std::sync::mpsc::channel();
     let wait = move || {
-        let signals = signal_hook::iterator::Signals::new(wanted);
-        // nobody waits for what cannot be sent
+        let signals = signal_hook::iterator::Signals::new(handled);
+        // sending fails only if the receiver does not wait any more
         let _ = is_watching.send(());
         if let Ok(mut signals) = signals {
-            signals.forever().filter(|signal| !end(*signal)).for_each(abandon);
+            signals.forever().filter(|signal| !cancel_work(*signal)).for_each(abandon);
         }
     };
-    // where the system gives no thread, signals do what they do to any process: a signal that is caught and not seen to would do nothing
+    // without a thread signals keep their default action: a signal that is caught but not handled would be lost
     if std::thread::Builder::new().name("interrupts".to_owned()).spawn(wait).is_ok() {
-        // an error says that it ended, and with it what it watched
+        // an error means that the thread has ended, and its handlers with it
         let _ = watches.recv();
     }
 }
 
-/// Nothing is known here that tells of interruptions.
+/// Does nothing: interruptions are handled on Unix only.
 #[cfg(not(unix))]
 pub(super) fn watch() {}
 
-/// Whether the process was started with a signal ignored.
+/// Returns whether the process was started with a signal ignored.
 #[cfg(unix)]
 fn is_ignored(signal: i32) -> bool {
     let Ok(status) = fs::read_to_string("/proc/self/status") else {
-        // where that cannot be told, `nohup` must go on working
+        // without this file `nohup` must still work
         return signal == signal_hook::consts::SIGHUP;
     };
     let ignored = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
@@ -79,19 +78,19 @@ fn is_ignored(signal: i32) -> bool {
     ignored >> (signal - 1) & 1 == 1
 }
 
-/// Takes away what is unfinished, and ends the process as shells know it of one that a signal has ended.
+/// Removes unfinished output, and ends the process with the exit code of a process that a signal has ended.
 #[cfg(unix)]
 fn abandon(signal: i32) {
     let mut unfinished = unfinished();
-    take_away(&mut unfinished);
+    remove(&mut unfinished);
     process::exit(128 + signal);
 }
 
-/// Takes away what is unfinished.
-pub(super) fn take_away(unfinished: &mut Vec<PathBuf>) {
+/// Removes unfinished files and empty folders.
+pub(super) fn remove(unfinished: &mut Vec<PathBuf>) {
     for path in unfinished.drain(..).rev() {
         if fs::remove_file(&path).is_err() {
-            // a folder; if something else is in it, it stays
+            // it is a folder, which stays if it is not empty
             let _ = fs::remove_dir(&path);
         }
     }

@@ -1,19 +1,19 @@
-//! `mechc lsp`: the language server, for an editor at the other end of standard input and output.
+//! `mechc lsp`: the language server, over standard input and output.
 
 use super::arguments::LspArguments;
 use super::failure::Failure;
 use super::files::{Disk, cannot_write};
 use super::report::Reporter;
-use mechc_ide::lsp::{self, Ended, Log};
+use mechc_ide::lsp::{self, Log, SessionEnd};
 use std::fs::File;
 use std::io::{BufWriter, IsTerminal};
 use std::sync::Arc;
 
-/// What a person is told who meets it without an editor.
+/// The explanation for a user who starts it without an editor.
 const FOR_EDITORS: &str = "`mechc lsp` is the language server: an editor starts it and speaks the language server protocol with it, over\n\
     standard input and output. How editors are set up is in the folder `editors` of the project.\n";
 
-/// Serves until the client says that it is enough, or is gone; whether it ended as the protocol says.
+/// Serves a client until the session ends; returns whether it ended as the protocol requires.
 pub(super) fn lsp(arguments: &LspArguments) -> Result<bool, Failure> {
     let log = match &arguments.log {
         None => Log::none(),
@@ -24,11 +24,11 @@ pub(super) fn lsp(arguments: &LspArguments) -> Result<bool, Failure> {
     };
     let is_typed = std::io::stdin().is_terminal();
     if is_typed {
-        Reporter::say(FOR_EDITORS);
+        Reporter::print_text(FOR_EDITORS);
     }
     let ended = lsp::serve_pipe(Arc::new(Disk), log);
-    if ended == Ended::Unbegun && !is_typed {
-        Reporter::say(FOR_EDITORS);
+    if ended == SessionEnd::Unbegun && !is_typed {
+        Reporter::print_text(FOR_EDITORS);
     }
-    Ok(ended == Ended::Well)
+    Ok(ended == SessionEnd::Well)
 }

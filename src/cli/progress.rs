@@ -1,38 +1,38 @@
-//! A progress bar on a terminal, for runs that take more than a second.
+//! The progress bar on a terminal, for runs that take more than a second.
 
 use indicatif::{ProgressBar, ProgressStyle};
 use std::io::IsTerminal;
 use std::time::{Duration, Instant};
 
-/// How long a run stays without a bar.
-const PATIENCE: Duration = Duration::from_secs(1);
-/// Rows between two looks at the clock, where there are many.
+/// The time before a bar appears.
+const DELAY: Duration = Duration::from_secs(1);
+/// The number of rows between updates in long runs.
 const ROWS: u64 = 64;
 
 pub(super) struct Progress {
-    /// What is counted, as `times`.
+    /// The unit that is counted, such as `times`.
     what: &'static str,
     total: u64,
     done: u64,
-    wanted: bool,
-    began: Instant,
+    is_enabled: bool,
+    start: Instant,
     bar: Option<ProgressBar>,
 }
 
 impl Progress {
-    /// For so many rows; none is drawn where the rows themselves go to the terminal.
+    /// Creates a bar for a number of rows. It is not drawn if the rows themselves go to the terminal.
     pub fn new(total: u64, to_standard_output: bool) -> Progress {
-        Progress::of("times", total, to_standard_output)
+        Progress::counting("times", total, to_standard_output)
     }
 
-    /// For so many of anything.
-    pub fn of(what: &'static str, total: u64, to_standard_output: bool) -> Progress {
+    /// Creates a bar for a number of other units.
+    pub fn counting(what: &'static str, total: u64, to_standard_output: bool) -> Progress {
         let rows_on_terminal = to_standard_output && std::io::stdout().is_terminal();
-        let wanted = std::io::stderr().is_terminal() && !rows_on_terminal;
-        Progress { what, total, done: 0, wanted, began: Instant::now(), bar: None }
+        let is_enabled = std::io::stderr().is_terminal() && !rows_on_terminal;
+        Progress { what, total, done: 0, is_enabled, start: Instant::now(), bar: None }
     }
 
-    /// A row is done.
+    /// Counts a row.
     pub fn tick(&mut self) {
         self.done += 1;
         let often = self.total < 100 * ROWS;
@@ -41,32 +41,32 @@ impl Progress {
         }
     }
 
-    /// So many are done at once.
+    /// Counts several units at once.
     pub fn advance(&mut self, count: u64) {
         self.done += count;
         self.draw();
     }
 
     fn draw(&mut self) {
-        if !self.wanted {
+        if !self.is_enabled {
             return;
         }
         match &self.bar {
             Some(bar) => bar.set_position(self.done),
-            None if self.began.elapsed() > PATIENCE => {
+            None if self.start.elapsed() > DELAY => {
                 let bar = ProgressBar::new(self.total);
                 let template =
                     format!("{{bar:40}} {{human_pos}} of {{human_len}} {}, {{per_sec}}, {{eta}} left", self.what);
                 if let Ok(style) = ProgressStyle::with_template(&template) {
                     bar.set_style(style);
                 }
-                self.bar = Some(bar.with_elapsed(self.began.elapsed()).with_position(self.done));
+                self.bar = Some(bar.with_elapsed(self.start.elapsed()).with_position(self.done));
             }
             None => {}
         }
     }
 
-    /// Takes the bar away, so that nothing of it is left on the terminal.
+    /// Removes the bar from the terminal.
     pub fn finish(&self) {
         if let Some(bar) = &self.bar {
             bar.finish_and_clear();

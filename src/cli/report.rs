@@ -1,22 +1,22 @@
-//! Diagnostics to standard error.
+//! Prints diagnostics to standard error.
 
 use super::arguments::{MessageFormat, Messages, When};
 use super::failure::{Failure, exit_code};
-use super::spared::Spared;
-use mechc_text::diag::{Code, Color, Diagnostics, Fix, Format, render, render_made, visible};
+use super::protected_paths::ProtectedPaths;
+use mechc_text::diag::{Color, Diagnostics, Fix, Format, render, render_applied, visible};
 use mechc_text::source::{FileId, Sources};
 use std::cell::Cell;
 use std::io::{IsTerminal, Write};
 use std::path::PathBuf;
 
-/// Prints diagnostics as the user wants them, and knows the texts that they speak of.
+/// Prints diagnostics in the requested format, with the texts that they refer to.
 pub(super) struct Reporter {
     pub sources: Sources,
-    /// The files that they, and the options of the command, name.
-    pub named: Vec<PathBuf>,
+    /// The files that the texts and the options of the command name.
+    pub named_files: Vec<PathBuf>,
     format: Format,
     color: Color,
-    /// The exit code of a command that did its work, and had to say that not all is as it should be.
+    /// The exit code of a command that succeeds, which may still signal a problem.
     exit: Cell<u8>,
 }
 
@@ -37,16 +37,16 @@ impl Reporter {
             }
         };
         let color = if colored { Color::Always } else { Color::Never };
-        Reporter { sources: Sources::default(), named: Vec::new(), format, color, exit: Cell::new(0) }
+        Reporter { sources: Sources::default(), named_files: Vec::new(), format, color, exit: Cell::new(0) }
     }
 
-    /// What no output may be.
-    pub fn spared(&self) -> Spared<'_> {
-        Spared { read: Some(&self.sources), named: &self.named }
+    /// Returns the files that no output may overwrite.
+    pub fn protected(&self) -> ProtectedPaths<'_> {
+        ProtectedPaths { read: Some(&self.sources), named: &self.named_files }
     }
 
-    /// Whether what is said is read by other programs.
-    pub fn is_for_programs(&self) -> bool {
+    /// Returns whether diagnostics are written for other programs.
+    pub fn is_machine_readable(&self) -> bool {
         self.format == Format::Json
     }
 
@@ -59,33 +59,33 @@ impl Reporter {
         if errors > 1 && self.format == Format::Human {
             text += &format!("error: {errors} errors\n");
         }
-        // a reader of the diagnostics who has gone is no reason to fail
+        // a closed standard error is no reason to fail
         let _ = std::io::stderr().lock().write_all(text.as_bytes());
     }
 
-    /// What a stage gave, its remarks printed; or why it gave nothing.
-    pub fn settle<T>(&self, made: Option<T>, said: Diagnostics) -> Result<T, Failure> {
-        match made {
-            None => Err(said.into()),
-            Some(made) => {
-                self.print(&said);
-                // a start that was not led has been made another way
-                if said.iter().any(|said| said.code == Code::E0612) {
-                    self.exit.set(exit_code(&said, &self.sources));
+    /// Prints the diagnostics of a stage and returns its result; fails with the diagnostics if there is none.
+    pub fn require<T>(&self, result: Option<T>, diagnostics: Diagnostics) -> Result<T, Failure> {
+        match result {
+            None => Err(diagnostics.into()),
+            Some(result) => {
+                self.print(&diagnostics);
+                // no path led to the values that are set: the start was assembled directly, and the exit code tells so
+                if diagnostics.has_errors() {
+                    self.exit.set(exit_code(&diagnostics, &self.sources));
                 }
-                Ok(made)
+                Ok(result)
             }
         }
     }
 
-    /// Says which changes of a file were made, from its beginning to its end, and how many.
-    pub fn made(&self, fixes: &[Fix], file: FileId) {
-        // each round has a text of its own, where places may be shifted by a line at most
-        let place =
+    /// Prints the fixes that were applied to a file, in the order of the text, and their number.
+    pub fn print_fixes(&self, fixes: &[Fix], file: FileId) {
+        // each round has its own text, so positions are comparable up to a shift of a line
+        let position =
             |fix: &Fix| fix.edits.first().map(|edit| self.sources.get(edit.span.file).position(edit.span.start));
         let mut fixes: Vec<&Fix> = fixes.iter().collect();
-        fixes.sort_by_key(|fix| place(fix));
-        let mut text: String = fixes.iter().map(|fix| render_made(fix, &self.sources, self.format)).collect();
+        fixes.sort_by_key(|fix| position(fix));
+        let mut text: String = fixes.iter().map(|fix| render_applied(fix, &self.sources, self.format)).collect();
         if self.format != Format::Json {
             let name = &self.sources.get(file).name;
             text += &match fixes.len() {
@@ -93,24 +93,24 @@ impl Reporter {
                 count => format!("fixed {count} in `{name}`\n"),
             };
         }
-        Reporter::say(&text);
+        Reporter::print_text(&text);
     }
 
-    /// Ends the command with an exit code, although it did its work.
-    pub fn end_with(&self, code: u8) {
+    /// Sets the exit code of a command that succeeds.
+    pub fn set_exit_code(&self, code: u8) {
         self.exit.set(code);
     }
 
-    /// Says something that is no diagnostic.
-    pub fn say(text: &str) {
+    /// Prints text that is not a diagnostic.
+    pub fn print_text(text: &str) {
         let _ = std::io::stderr().lock().write_all(visible(text).as_bytes());
     }
 
-    /// Says why a command ended, and gives its exit code.
+    /// Prints why a command failed, and returns the exit code.
     pub fn finish(&self, result: Result<(), Failure>) -> u8 {
         match result {
-            Ok(()) | Err(Failure::ReaderGone) => self.exit.get(),
-            Err(Failure::Said(diagnostics)) => {
+            Ok(()) | Err(Failure::ReaderClosed) => self.exit.get(),
+            Err(Failure::Reported(diagnostics)) => {
                 self.print(&diagnostics);
                 exit_code(&diagnostics, &self.sources)
             }

@@ -1,4 +1,4 @@
-//! What became of the variants of a sweep, counted, with the first of each kind as a command that shows it in full.
+//! The summary of a sweep: counts of variants by status, each with a command that runs the first of them.
 
 use super::arguments::{Following, Input, Interval};
 use mechc_engine::sweep::Status;
@@ -7,29 +7,37 @@ use std::collections::BTreeMap;
 /// The variants that were written.
 #[derive(Default)]
 pub(super) struct Summary {
-    /// By status: how many, and the first of them.
+    /// For each status, the number of variants and the first of them.
     counts: BTreeMap<&'static str, (u64, u64)>,
     completed: u64,
     rows: u64,
-    /// By result that some have no value of though they ran to their end: its name, how many, and the first of them.
-    without_value: Vec<(String, u64, u64)>,
+    /// The completed variants without a value, for each result.
+    without_value: Vec<MissingValues>,
+}
+
+/// The completed variants without a value of a result.
+struct MissingValues {
+    result: String,
+    count: u64,
+    first: u64,
 }
 
 impl Summary {
-    /// Of none yet, with such results.
-    pub fn of(results: Vec<String>) -> Summary {
-        Summary { without_value: results.into_iter().map(|name| (name, 0, 0)).collect(), ..Summary::default() }
+    /// Creates an empty summary for some results.
+    pub fn new(results: Vec<String>) -> Summary {
+        let missing = |result| MissingValues { result, count: 0, first: 0 };
+        Summary { without_value: results.into_iter().map(missing).collect(), ..Summary::default() }
     }
 
-    /// Adds, by result, how many of a block have no value of it, and the first of them.
-    pub fn add_without_value(&mut self, lacking: &[(u64, u64)]) {
-        for ((_, count, first), (more, variant)) in self.without_value.iter_mut().zip(lacking) {
-            *first = if *count == 0 { *variant } else { *first };
-            *count += more;
+    /// Adds, for each result, the number of variants of a block without a value, and the first of them.
+    pub fn add_without_value(&mut self, missing: &[(u64, u64)]) {
+        for (total, (more, variant)) in self.without_value.iter_mut().zip(missing) {
+            total.first = if total.count == 0 { *variant } else { total.first };
+            total.count += more;
         }
     }
 
-    /// Adds a block of them with its rows.
+    /// Adds the variants of a block, with its number of rows.
     pub fn add(&mut self, first: u64, statuses: &[Status], rows: usize) {
         for (status, variant) in statuses.iter().zip(first..) {
             self.counts.entry(status.as_str()).or_insert((0, variant)).0 += 1;
@@ -38,17 +46,17 @@ impl Summary {
         self.rows += rows as u64;
     }
 
-    /// How many there are.
+    /// Returns the number of variants.
     pub fn count(&self) -> u64 {
         self.counts.values().map(|(count, _)| count).sum()
     }
 
-    /// How many ran to their end.
+    /// Returns the number of variants that ran to their end.
     pub fn completed(&self) -> u64 {
         self.completed
     }
 
-    /// A line for all of them, one for each status but `ok`, and one for each result that has no value in some.
+    /// Formats a line for all variants, one for each status but `ok`, and one for each result with missing values.
     pub fn text(&self, command: &dyn Fn(u64) -> String) -> String {
         let of = |status: Status| self.counts.get(status.as_str()).map_or(0, |(count, _)| *count);
         let (ok, reassembled) = (of(Status::Ok), of(Status::Reassembled));
@@ -65,15 +73,15 @@ impl Summary {
         for (status, &(count, first)) in self.counts.iter().filter(|(status, _)| **status != Status::Ok.as_str()) {
             text += &format!("  {status:<11} {count:>8}, {}\n", which(count, first));
         }
-        for (name, count, first) in self.without_value.iter().filter(|(_, count, _)| *count > 0) {
-            text += &format!("  no value of `{name}` in {count}, {}\n", which(*count, *first));
+        for MissingValues { result, count, first } in self.without_value.iter().filter(|missing| missing.count > 0) {
+            text += &format!("  no value of `{result}` in {count}, {}\n", which(*count, *first));
         }
         text
     }
 }
 
-/// What variants are computed by, beside what sets them.
-pub(super) struct Again<'a> {
+/// The options of a command that runs a single variant, without the settings of the variant.
+pub(super) struct VariantCommand<'a> {
     pub input: &'a Input,
     pub interval: &'a Interval,
     pub at: &'a [String],
@@ -81,11 +89,11 @@ pub(super) struct Again<'a> {
     pub following: &'a Following,
 }
 
-impl Again<'_> {
-    /// The command that shows a variant in full.
-    pub fn command(&self, settings: &[String]) -> String {
-        let Again { input, interval, at, result, following } = self;
-        // no option begins with a folder
+impl VariantCommand<'_> {
+    /// Formats the command that runs a variant.
+    pub fn format(&self, settings: &[String]) -> String {
+        let VariantCommand { input, interval, at, result, following } = self;
+        // a name that begins with `-` would be read as an option
         let is_like_an_option = input.file.starts_with('-') && input.file != "-";
         let file = if is_like_an_option { format!("./{}", input.file) } else { input.file.clone() };
         let mut words = vec!["mechc".to_owned(), "run".to_owned(), file, "--lead".to_owned()];
@@ -110,7 +118,7 @@ impl Again<'_> {
     }
 }
 
-/// A word as a shell takes it.
+/// Quotes a word for a shell.
 fn quoted(word: &str) -> String {
     let is_plain = |c: char| c.is_ascii_alphanumeric() || "-_./=:,+@%".contains(c);
     if !word.is_empty() && word.chars().all(is_plain) {
@@ -133,24 +141,25 @@ mod tests {
         summary.add(12, &[Status::Reassembled, Status::Stopped(Code::E0602), Status::Ok], 0);
         assert_eq!((summary.count(), summary.completed()), (5, 3));
         let text = summary.text(&|variant| format!("see {variant}"));
-        let wanted = "2 ok, 1 reassembled, 2 stopped; 5 rows\n  E0602              2, the first is variant 11: see 11\n  reassembled        1, variant 12: see 12\n";
-        assert_eq!(text, wanted);
+        let expected = "2 ok, 1 reassembled, 2 stopped; 5 rows\n  E0602              2, the first is variant 11: see 11\n  reassembled        1, variant 12: see 12\n";
+        assert_eq!(text, expected);
     }
 
     #[test]
     fn results_without_a_value_are_counted() {
-        let mut summary = Summary::of(vec!["a".to_owned(), "b".to_owned()]);
+        let mut summary = Summary::new(vec!["a".to_owned(), "b".to_owned()]);
         summary.add(0, &[Status::Ok; 4], 0);
         summary.add_without_value(&[(0, 0), (2, 1)]);
         summary.add_without_value(&[(0, 0), (1, 3)]);
-        let wanted = "4 ok\n  no value of `b` in 3, the first is variant 1: see 1\n";
-        assert_eq!(summary.text(&|variant| format!("see {variant}")), wanted);
+        let expected = "4 ok\n  no value of `b` in 3, the first is variant 1: see 1\n";
+        assert_eq!(summary.text(&|variant| format!("see {variant}")), expected);
     }
 
     #[test]
     fn words_are_quoted_for_a_shell() {
-        for (word, wanted) in [("rod=0.1", "rod=0.1"), ("rod=0.1 m", "'rod=0.1 m'"), ("", "''"), ("a'b", r"'a'\''b'")] {
-            assert_eq!(quoted(word), wanted);
+        for (word, expected) in [("rod=0.1", "rod=0.1"), ("rod=0.1 m", "'rod=0.1 m'"), ("", "''"), ("a'b", r"'a'\''b'")]
+        {
+            assert_eq!(quoted(word), expected);
         }
     }
 }

@@ -1,4 +1,4 @@
-//! `--timings`: where the time of a run goes.
+//! `--timings`: the time that each stage of a run takes.
 
 use std::time::{Duration, Instant};
 
@@ -24,19 +24,19 @@ const PHASES: [(Phase, &str); 7] = [
     (Phase::Write, "write"),
 ];
 
-/// A clock that is read at the end of each phase; costs nothing where nobody asked.
+/// A clock that is read at the end of each phase, if `--timings` is given.
 pub(super) struct Timings {
     last: Option<Instant>,
     spent: [Duration; PHASES.len()],
 }
 
 impl Timings {
-    /// Starts the clock, if it is wanted.
-    pub fn new(wanted: bool) -> Timings {
-        Timings { last: wanted.then(Instant::now), spent: [Duration::ZERO; PHASES.len()] }
+    /// Starts the clock, if it is enabled.
+    pub fn new(is_enabled: bool) -> Timings {
+        Timings { last: is_enabled.then(Instant::now), spent: [Duration::ZERO; PHASES.len()] }
     }
 
-    /// Books the time since the last reading to a phase.
+    /// Adds the time since the last reading to a phase.
     pub fn end(&mut self, phase: Phase) {
         if let Some(last) = &mut self.last {
             let now = Instant::now();
@@ -45,13 +45,13 @@ impl Timings {
         }
     }
 
-    /// Seconds by phase, and the time that solving took for each output time; nothing where nobody asked.
+    /// Formats the seconds of each phase, and the time of solving per output time; empty if the clock is not enabled.
     pub fn text(&self, rows: u64) -> String {
         if self.last.is_none() {
             return String::new();
         }
         let mut text = String::new();
-        // most files ask for no results
+        // most files have no results
         let is_spent = |(phase, _): &(Phase, &str)| *phase != Phase::Results || !self.spent[*phase as usize].is_zero();
         for (phase, name) in PHASES.into_iter().filter(is_spent) {
             text += &format!("{name:<8} {:>12.6} s\n", self.spent[phase as usize].as_secs_f64());

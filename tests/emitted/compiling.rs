@@ -49,7 +49,7 @@ impl Emitted {
     /// The same with operations as numbers beyond so many.
     pub fn text_of(&self, lanes: Option<usize>, largest_straight: usize) -> String {
         let file = format!("{}.mech", self.name);
-        let (text, said) = self.compiled.rust(&RustOptions { lanes, largest_straight, ..RustOptions::of(file) });
+        let (text, said) = self.compiled.rust(&RustOptions { lanes, largest_straight, ..RustOptions::new(file) });
         text.unwrap_or_else(|| panic!("{}: {said:?}", self.name))
     }
 

@@ -251,7 +251,7 @@ fn near_parallelogram([crank, coupler]: [f64; 2], [rocker_off, coupler_off]: [f6
 }
 
 #[test]
-fn a_change_point_that_rounded_lengths_miss_is_told() {
+fn a_change_point_that_rounded_lengths_miss_is_reported() {
     let mut random = Random::new(3);
     for _ in 0..12 {
         let crank = random.between(40.0, 120.0);
@@ -259,7 +259,7 @@ fn a_change_point_that_rounded_lengths_miss_is_told() {
         let found = near_parallelogram([crank, coupler], [0.01, 0.0]);
         assert_eq!(found.codes(), ["W0605"], "{crank}, {coupler}: {}", found.text());
         let data =
-            |name: &str| found.diagnostics.iter().next().and_then(|told| told.data[name].as_f64()).expect("data");
+            |name: &str| found.diagnostics.iter().next().and_then(|report| report.data[name].as_f64()).expect("data");
         // two thirds of a half turn after the start the links lie in line
         assert!((data("t") - TAU / 3.0).abs() < 1e-3, "{}", data("t"));
         let part = 0.01 / crank;

@@ -340,12 +340,12 @@ fn a_row_at_a_switch_does_not_depend_on_the_other_times() {
         (vec![0.5], Some(0.5), 0.0),
         (vec![0.5], Some(3.0), 10.0),
     ] {
-        let asked = mechc::AskedTimes { at, to, ..mechc::AskedTimes::default() };
-        let times = asked.over(compiled.analysis()).and_then(|times| times.times()).expect("times");
+        let requested = mechc::RequestedTimes { at, to, ..mechc::RequestedTimes::default() };
+        let times = requested.over(compiled.analysis()).and_then(|times| times.times()).expect("times");
         let (run, _) = compiled.run(&times, &mechc::RunOptions::default());
         let rows: Vec<Vec<f64>> = run.expect("it runs").map(|row| row.expect("a row")).collect();
         let row = rows.iter().find(|row| row[0] == 0.5).expect("a row");
-        assert_eq!(row[9], wanted, "{asked:?}");
+        assert_eq!(row[9], wanted, "{requested:?}");
     }
 }
 

@@ -315,8 +315,8 @@ fn sliding(declarations: &str, formula: &str, analysis: &str) -> String {
 fn assert_peak(name: &str, order: usize, s: f64, peak: f64) {
     // `s` is reached at t = 1
     let formula = format!("{name}(t, 1 - {s}, 0, 2 - {s}, 1)");
-    let said: &[&str] = if matches!(name, "step" | "harmonic") { &["W0601"] } else { &[] };
-    let got = motion_with(said, &sliding("", &formula, "from 0 s to 2.5 s every 0.0078125 s"));
+    let diagnostics: &[&str] = if matches!(name, "step" | "harmonic") { &["W0601"] } else { &[] };
+    let got = motion_with(diagnostics, &sliding("", &formula, "from 0 s to 2.5 s every 0.0078125 s"));
     let times = got.column("t");
     let column: Vec<f64> = jets(&got, "b.x").into_iter().map(|jet| jet[order]).collect();
     let there = column[times.iter().position(|&t| t == 1.0).expect("a row at t = 1")];

@@ -33,15 +33,15 @@ struct Table {
 impl Table {
     fn of(text: &str, set: &[String]) -> Table {
         let choice = Choice { reactions: true, set: set.to_vec(), ..Choice::default() };
-        let checked = Parsed::of("text", text).check(&choice, &Memory::default());
-        let (compiled, said) = checked.compile(Redundant::Refused, &Cancel::default());
+        let checked = Parsed::new("text", text).check(&choice, &Memory::default());
+        let (compiled, messages) = checked.compile(Redundant::Refused, &Cancel::default());
         let mut outcome = Outcome {
             sources: checked.sources().clone(),
             diagnostics: checked.diagnostics().clone(),
             columns: Vec::new(),
             rows: Vec::new(),
         };
-        outcome.diagnostics.extend(said);
+        outcome.diagnostics.extend(messages);
         let compiled = compiled.unwrap_or_else(|| panic!("{text}\n{}", outcome.text()));
         let [from, to, every] = compiled.analysis().expect("an analysis");
         let times = Times::grid(from, to, every).expect("a grid");
@@ -312,13 +312,13 @@ fn lifted([force, at, width]: [f64; 3], every: f64) -> support::Outcome {
 }
 
 #[test]
-fn a_contact_that_pulls_between_rows_is_told() {
+fn a_contact_that_pulls_between_rows_is_reported() {
     let mut random = support::random::Random::new(11);
     for _ in 0..12 {
         let (at, width) = (random.between(0.05, 0.45), random.between(0.002, 0.02));
         let found = lifted([50.0, at, width], 0.5);
         assert_eq!(found.codes(), ["W0604"], "{at}, {width}: {}", found.text());
-        let t = found.diagnostics.iter().next().and_then(|told| told.data["t"].as_f64()).expect("a time");
+        let t = found.diagnostics.iter().next().and_then(|report| report.data["t"].as_f64()).expect("a time");
         assert!((t - at).abs() < width, "{t}, not {at}");
         // rows are what they are without a pull
         let rows = lifted([5.0, at, width], 0.5);

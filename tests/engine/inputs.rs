@@ -34,14 +34,15 @@ const INPUTS: &str = "input turn = 30 deg + 1 rev/s * t
 
 /// The rows of a text, or the codes of what is wrong with it.
 fn rows(text: &str, choice: &Choice, world: &Memory) -> Result<Vec<Vec<u64>>, Vec<&'static str>> {
-    let checked = Parsed::of("machine.mech", text).check(choice, world);
-    let (compiled, said) = checked.compile(Redundant::Refused, &Cancel::default());
-    let codes = || checked.diagnostics().iter().chain(said.iter()).map(|fault| fault.code.as_str()).collect::<Vec<_>>();
+    let checked = Parsed::new("machine.mech", text).check(choice, world);
+    let (compiled, messages) = checked.compile(Redundant::Refused, &Cancel::default());
+    let codes =
+        || checked.diagnostics().iter().chain(messages.iter()).map(|fault| fault.code.as_str()).collect::<Vec<_>>();
     let compiled = compiled.ok_or_else(codes)?;
     let [from, to, every] = compiled.analysis().expect("times");
     let times = Times::grid(from, to, every).expect("a grid");
-    let (run, said) = compiled.run(&times, &RunOptions::default());
-    let mut run = run.ok_or_else(|| said.iter().map(|fault| fault.code.as_str()).collect::<Vec<_>>())?;
+    let (run, messages) = compiled.run(&times, &RunOptions::default());
+    let mut run = run.ok_or_else(|| messages.iter().map(|fault| fault.code.as_str()).collect::<Vec<_>>())?;
     let mut rows = Vec::new();
     while let Some(row) = run.next_row() {
         match row {
@@ -52,7 +53,7 @@ fn rows(text: &str, choice: &Choice, world: &Memory) -> Result<Vec<Vec<u64>>, Ve
     Ok(rows)
 }
 
-fn told(inputs: &[&str], samples: Option<&str>) -> (Choice, Memory) {
+fn reported(inputs: &[&str], samples: Option<&str>) -> (Choice, Memory) {
     let inputs = inputs.iter().map(|input| (*input).to_owned()).collect();
     let world = samples.map_or_else(Memory::default, |text| Memory::default().with("samples.csv", text));
     (Choice { inputs, samples: samples.map(|_| "samples.csv".into()), ..Choice::default() }, world)
@@ -60,7 +61,7 @@ fn told(inputs: &[&str], samples: Option<&str>) -> (Choice, Memory) {
 
 /// The rows of a mechanism whose inputs are told something are those of one in which that is written.
 fn is_the_same_as(inputs: &[&str], samples: Option<&str>, definitions: &str, written: [&str; 2]) {
-    let (choice, world) = told(inputs, samples);
+    let (choice, world) = reported(inputs, samples);
     let with_inputs = rows(&machine(INPUTS, ["turn", "feed"]), &choice, &world).expect("rows");
     let without = rows(&machine(definitions, written), &Choice::default(), &Memory::default()).expect("rows");
     assert!(with_inputs.len() > 20);
@@ -93,14 +94,14 @@ fn samples_are_joined_by_the_splines_of_tables() {
 #[test]
 fn lines_may_end_in_carriage_returns() {
     let of = |end: &str| {
-        let (choice, world) = told(&[], Some(&["t,turn", "0,0.5", "2,1.5", ""].join(end)));
+        let (choice, world) = reported(&[], Some(&["t,turn", "0,0.5", "2,1.5", ""].join(end)));
         rows(&machine(INPUTS, ["turn", "feed"]), &choice, &world)
     };
     let wanted = of("\n").expect("rows");
     assert!(of("\r") == Ok(wanted.clone()) && of("\r\n") == Ok(wanted));
     // where the fault is, is told by lines as an editor shows them
-    let (choice, world) = told(&[], Some("t,turn\r0,0.5\r2,x\r"));
-    let checked = Parsed::of("machine.mech", &machine(INPUTS, ["turn", "feed"])).check(&choice, &world);
+    let (choice, world) = reported(&[], Some("t,turn\r0,0.5\r2,x\r"));
+    let checked = Parsed::new("machine.mech", &machine(INPUTS, ["turn", "feed"])).check(&choice, &world);
     let fault = checked.diagnostics().iter().next().expect("a fault");
     let span = fault.labels.first().expect("a place").span;
     assert_eq!(checked.sources().get(span.file).position(span.start), (3, 3));
@@ -110,14 +111,14 @@ fn lines_may_end_in_carriage_returns() {
 fn headers_of_samples_say_what_is_missing() {
     let of = |header: &str| {
         // a column that is none of an input's may hold anything
-        let (choice, world) = told(&[], Some(&format!("{header}\n0,zero\n1,one\n")));
-        let checked = Parsed::of("machine.mech", &machine(INPUTS, ["turn", "feed"])).check(&choice, &world);
-        let told: Vec<String> = checked
+        let (choice, world) = reported(&[], Some(&format!("{header}\n0,zero\n1,one\n")));
+        let checked = Parsed::new("machine.mech", &machine(INPUTS, ["turn", "feed"])).check(&choice, &world);
+        let reported: Vec<String> = checked
             .diagnostics()
             .iter()
             .map(|fault| format!("{} {}; {}", fault.code, fault.message, fault.help.join("; ")))
             .collect();
-        told.join(" | ")
+        reported.join(" | ")
     };
     let no_input = |shown: &str, help: &str| format!("E0703 mechanism `machine` has no input `{shown}`; {help}");
     assert_eq!(of("t,turn[deg]"), no_input("turn[deg]", "a unit stands behind a space: `turn [deg]`"));
@@ -134,7 +135,7 @@ fn a_formula_from_outside_names_no_part() {
         mechanism lever { input turn = t / 1 s ground { point O = (0, 0) } body b { point O = (0, 0) }
             joint j: revolute(ground.O, b.O) driver d: rotation(j) = turn }";
     let of = |input: &str| {
-        let checked = Parsed::of("r.mech", text).check(&told(&[input], None).0, &Memory::default());
+        let checked = Parsed::new("r.mech", text).check(&reported(&[input], None).0, &Memory::default());
         checked.diagnostics().iter().map(|fault| fault.message.clone()).collect::<Vec<_>>().join(" | ")
     };
     assert_eq!(of("own=2 * t / 1 s"), "");
@@ -146,9 +147,9 @@ fn a_formula_from_outside_names_no_part() {
 }
 
 #[test]
-fn what_cannot_be_is_told() {
+fn what_cannot_be_is_reported() {
     let of = |inputs: &[&str], samples: Option<&str>| {
-        let (choice, world) = told(inputs, samples);
+        let (choice, world) = reported(inputs, samples);
         rows(&machine(INPUTS, ["turn", "feed"]), &choice, &world).expect_err("a fault")
     };
     assert_eq!(of(&["turns=3"], None), ["E0703"]);
@@ -200,7 +201,7 @@ const CRANKS: &str = "mechanism cranks {
 
 /// The last angles of the cranks.
 fn last_angles(inputs: &[&str], samples: Option<&str>) -> Result<[f64; 2], Vec<&'static str>> {
-    let (choice, world) = told(inputs, samples);
+    let (choice, world) = reported(inputs, samples);
     let rows = rows(CRANKS, &choice, &world)?;
     let row = rows.last().expect("a row");
     Ok([row[3], row[6]].map(f64::from_bits))
@@ -220,13 +221,13 @@ fn repeated_inputs_are_told_all_or_one() {
 
 #[test]
 fn what_decides_how_many_there_are_is_no_parameter_of_emitted_code() {
-    let parsed = Parsed::of("cranks.mech", CRANKS);
+    let parsed = Parsed::new("cranks.mech", CRANKS);
     let (compiled, _) = parsed
         .check(&Choice { set: vec!["n=3".to_owned()], ..Choice::default() }, &Memory::default())
         .compile(Redundant::Refused, &Cancel::default());
     let compiled = compiled.expect("a mechanism");
     let is_a_body = |column: &&String| column.starts_with("b[") && column.split('.').count() == 2;
     assert_eq!(compiled.columns().iter().filter(is_a_body).count(), 9);
-    let (rust, _) = compiled.rust(&mechc::RustOptions::of("cranks"));
+    let (rust, _) = compiled.rust(&mechc::RustOptions::new("cranks"));
     assert!(!rust.expect("code").contains("pub n: f64"), "`n` is a field of the parameters");
 }

@@ -175,7 +175,8 @@ fn a_crank_that_turns_back_beyond_a_change_point_is_told_to_come_to_it_twice() {
             let linkage = Linkage::new(is_slider, 1.0, Law::Back { start, way });
             // sin² is less than 1 by the part of the way that is beyond
             let before = math::asin((over / way).sqrt()) / PI;
-            let is_near = |told: f64, at: f64| assert!((told - at).abs() < 1e-8, "{told} for {at}, {}", linkage.text);
+            let is_near =
+                |reported: f64, at: f64| assert!((reported - at).abs() < 1e-8, "{reported} for {at}, {}", linkage.text);
             let stop = linkage.run(&Times::listed(0.0, vec![0.5]), false).stop().cloned().expect("it stops");
             assert_eq!(stop.code.as_str(), "E0603");
             is_near(stop.data["t"].as_f64().expect("a time"), 0.5 - before);

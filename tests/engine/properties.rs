@@ -487,7 +487,7 @@ proptest! {
         let mut graph = Graph::new();
         let root = tree.build(&mut graph);
         let gradient = graph.gradient(root, Dependence::coordinates(0));
-        let mut seen = false;
+        let mut visited = false;
         for by in [X, Y] {
             let slope = graph.derivatives(&[root], |graph, s| (s == by).then(|| graph.constant(1.0)))[0];
             let forward = value(&graph, slope, [x, y].map(Bounded::exact));
@@ -517,12 +517,12 @@ proptest! {
             let (wide, narrow) = (difference(h), difference(0.5 * h));
             let size = 1.0 + narrow.abs() + at(0.0).abs();
             if smooth && (wide - narrow).abs() <= 1e-7 * size {
-                seen = true;
+                visited = true;
                 let exact = forward.value;
                 prop_assert!((exact - narrow).abs() <= 1e-6 * size, "by {by:?}: {exact} and {narrow}");
             }
         }
-        prop_assume!(seen);
+        prop_assume!(visited);
     }
 }
 

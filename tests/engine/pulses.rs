@@ -51,12 +51,12 @@ fn a_cylinder_that_is_too_short_for_a_moment_locks_up() {
 }
 
 #[test]
-fn a_formula_without_a_value_for_a_moment_is_told() {
+fn a_formula_without_a_value_for_a_moment_is_reported() {
     expect_stop(&arm("rotation(pivot) = asin(0.5 + 0.6 * pulse(t))"), "E0605", reaches(0.5 / 0.6));
 }
 
 #[test]
-fn a_crank_that_passes_its_change_point_for_a_moment_is_told() {
+fn a_crank_that_passes_its_change_point_for_a_moment_is_reported() {
     let text = format!(
         "mechanism parallelogram {{
             ground {{ point A = (0, 0) point B = (2 m, 0) }}

@@ -384,12 +384,17 @@ fn run(text: &str) -> Outcome {
 }
 
 fn codes(outcome: &Outcome) -> Vec<&'static str> {
-    outcome.diagnostics.iter().filter(|said| support::is_error(said)).map(|said| said.code.as_str()).collect()
+    outcome
+        .diagnostics
+        .iter()
+        .filter(|message| support::is_error(message))
+        .map(|message| message.code.as_str())
+        .collect()
 }
 
 #[test]
 fn forces_are_told_where_the_rank_of_all_equations_determines_them_and_nowhere_else() {
-    let (mut told, mut refused) = (0, 0);
+    let (mut reported, mut refused) = (0, 0);
     for seed in 0..MECHANISMS {
         let mut drawn = Mechanism::drawn(seed);
         let mut order: Vec<usize> = (0..drawn.joints.len()).collect();
@@ -445,10 +450,10 @@ fn forces_are_told_where_the_rank_of_all_equations_determines_them_and_nowhere_e
                 let largest = multipliers.amax();
                 assert!((value - right).abs() < NOTHING * (1.0 + largest), "{seed}: {} {value} {right}", name(k));
             }
-            told += 1;
+            reported += 1;
         }
     }
-    assert!(told > 50 && refused > 15, "{told} {refused}");
+    assert!(reported > 50 && refused > 15, "{reported} {refused}");
 }
 
 /// Wheels with cranks at some angles (degrees), which as many rods couple; the first turns three times.
@@ -576,7 +581,11 @@ fn coupled_cranks_begin_as_they_are_drawn_wherever_their_driver_begins() {
         let times = Times::grid(from, from + 1.0, 0.25).expect("a grid");
         follow(&compiled, &times, &RunOptions::default(), &mut outcome);
         let is_expected = |code: &str| ["W0502", "W0401"].contains(&code);
-        assert!(outcome.diagnostics.iter().all(|said| is_expected(said.code.as_str())), "{}\n{text}", outcome.text());
+        assert!(
+            outcome.diagnostics.iter().all(|message| is_expected(message.code.as_str())),
+            "{}\n{text}",
+            outcome.text()
+        );
         assert!(outcome.rows.len() >= 5);
         for (row, t) in outcome.column("t").iter().enumerate() {
             let turned = start + 4.0 * t;

@@ -318,7 +318,7 @@ fn forces_of_loads_that_jump_and_their_powers_are_reduced() {
 }
 
 /// A ram that a driver pushes with 1 m/s, with what works on it and what is asked.
-fn ram(loads: &str, asked: &str) -> String {
+fn ram(loads: &str, requested: &str) -> String {
     format!(
         "mechanism m {{
     ground {{ axis way = (0, 0) along (1, 0) }}
@@ -326,23 +326,23 @@ fn ram(loads: &str, asked: &str) -> String {
     joint guide: translational(ground.way, ram.way)
     driver feed: displacement(guide) = 1 m/s * t
     {loads}
-    {asked}
+    {requested}
 }}"
     )
 }
 
 #[test]
 fn loads_that_come_and_go_between_two_steps_are_found() {
-    let asked = "result a = max(effort(feed)) result b = integral(effort(feed)) result c = argmax(effort(feed))";
+    let requested = "result a = max(effort(feed)) result b = integral(effort(feed)) result c = argmax(effort(feed))";
     // in a millimetre of two metres
     let text = ram(
         "fn blow(y) = if y > 0.777 m and y < 0.778 m then 1 kN else 0
          load punch: -blow(displacement(guide)) on displacement(guide)",
-        asked,
+        requested,
     );
     check(&text, 2.0, &[(1000.0, 1e-9), (1.0, 1e-9), (0.777, 1e-9)]);
     // a bell of a tenth of a millisecond, whose tails are nothing for long
-    let text = ram("load bell: -1 N * exp(-((t - 0.77771 s) / 0.1 ms)^2) on displacement(guide)", asked);
+    let text = ram("load bell: -1 N * exp(-((t - 0.77771 s) / 0.1 ms)^2) on displacement(guide)", requested);
     check(&text, 2.0, &[(1.0, 1e-9), (1e-4 * PI.sqrt(), 1e-10), (0.77771, 1e-9)]);
     // what steps of a motion function take back leaves rounding
     let text = ram(
@@ -451,7 +451,7 @@ fn rounding_is_told_from_poles() {
 
 /// Of two zeros that are close the first counts, and beyond where it ends a formula counts nowhere. The mean is by quadrature of the closed form.
 #[test]
-fn kinks_beside_each_other_and_ends_are_told() {
+fn kinks_beside_each_other_and_ends_are_reported() {
     let text = arm(
         "0.09 rad/s * t",
         "measure peak = abs(1 - exp(-((t - 0.67 s) / 0.14 ms)^2) - 0.01 * t / 1 s)
@@ -650,18 +650,18 @@ fn tables_are_looked_at_piece_by_piece() {
 fn branches_are_looked_at_one_by_one() {
     // of 0.55
     const ASIN: f64 = 0.582_364_237_868_743;
-    let asked = "result a = max(asin(step5(mod(t/1 s, 1), 0, 0.2, 2, 0.9))) result b = max(sqrt(step7(if t < 0.5 s then 0 else 1, 0, 0.2, 2, 0.9)))
+    let requested = "result a = max(asin(step5(mod(t/1 s, 1), 0, 0.2, 2, 0.9))) result b = max(sqrt(step7(if t < 0.5 s then 0 else 1, 0, 0.2, 2, 0.9)))
         result c = max(asin(step5(if t < 0.5 s then 0 else 1, 0, 0.2, 2, 0.9)))";
-    check(&arm("t", asked), 2.0, &[(ASIN, 1e-9), (0.55_f64.sqrt(), 1e-9), (ASIN, 1e-9)]);
+    check(&arm("t", requested), 2.0, &[(ASIN, 1e-9), (0.55_f64.sqrt(), 1e-9), (ASIN, 1e-9)]);
 }
 
 /// At a kink the derivatives are those of one side, and cells may begin or end just there.
 #[test]
 fn a_kink_where_cells_meet_is_integrated_on_both_sides() {
-    let asked = "result a = integral(max(0, t - 0.25)) result b = integral(max(t - 0.25, 0)) result c = integral(min(0.25, t))
+    let requested = "result a = integral(max(0, t - 0.25)) result b = integral(max(t - 0.25, 0)) result c = integral(min(0.25, t))
         result d = integral(max(0, 0.25 - t)) result e = integral(min(max(0, t - 0.25), 0.5)) result f = integral(max(0, t^2 - 0.0625))";
     let wanted = [0.28125, 0.28125, 0.21875, 0.03125, 0.25, 1.0 / 3.0 - 0.0625 + 1.0 / 96.0];
-    check(&arm("t", asked), 1.0, &wanted.map(|value| (value, 1e-11)));
+    check(&arm("t", requested), 1.0, &wanted.map(|value| (value, 1e-11)));
     let turning = "result a = mean(max(y(arm.tip), 0 m)) result b = mean(max(0 m, x(arm.tip))) result c = rms(max(y(arm.tip), 0 m))";
     check(&arm("360 deg * t", turning), 1.0, &[(1.0 / PI, 1e-10), (1.0 / PI, 1e-10), (0.5, 1e-10)]);
 }
@@ -669,20 +669,20 @@ fn a_kink_where_cells_meet_is_integrated_on_both_sides() {
 /// The third derivative of a spline jumps at its knots, also where nothing moves by it.
 #[test]
 fn jumps_of_third_derivatives_have_their_times() {
-    let asked = "table q = spline [(0, 0), (0.25, 1), (1, 0)]
+    let requested = "table q = spline [(0, 0), (0.25, 1), (1, 0)]
         result a = argmax(der(der(der(q(t/1 s))))) result b = max(der(der(der(q(t/1 s))))) result c = integral(der(der(der(q(t/1 s)))))
         table p = periodic spline [(0, 0), (0.5, 1), (1.2, -1), (2, 0)]
         result d = argmax(der(der(der(p(7 * t/1 s)))))";
     // a natural spline with one knot inside: c₃ is −64/6 before it, and 64/18 behind it
-    check(&arm("7 * t", asked), 1.0, &[(0.25, 1e-9), (64.0 / 3.0, 1e-9), (0.0, 1e-8), (0.5 / 7.0, 1e-9)]);
+    check(&arm("7 * t", requested), 1.0, &[(0.25, 1e-9), (64.0 / 3.0, 1e-9), (0.0, 1e-8), (0.5 / 7.0, 1e-9)]);
 }
 
 /// Its slope is nothing just there, and cells may begin or end there.
 #[test]
 fn a_turn_where_cells_meet_is_found() {
-    let asked = "result a = argmax(x(arm.tip)) result b = max(x(arm.tip)) result c = argmin(-x(arm.tip)) result d = argmin((y(arm.tip)/1 m)^2)";
+    let requested = "result a = argmax(x(arm.tip)) result b = max(x(arm.tip)) result c = argmin(-x(arm.tip)) result d = argmin((y(arm.tip)/1 m)^2)";
     for (turn, t, to) in [("30 rpm", 0.75, 1.4), ("1 rad/s", 0.25, 1.0), ("1 rad/s", 0.5, 1.0), ("1 rad/s", 0.3, 1.0)] {
-        let text = arm(&format!("{turn} * (t - {t} s)"), asked);
+        let text = arm(&format!("{turn} * (t - {t} s)"), requested);
         check(&text, to, &[(t, 1e-9), (1.0, 1e-12), (t, 1e-9), (t, 1e-9)]);
     }
 }
@@ -690,9 +690,9 @@ fn a_turn_where_cells_meet_is_found() {
 /// A number that rests is that number, and no little more or less.
 #[test]
 fn what_rests_at_a_switch_has_a_side() {
-    let asked = "result a = integral(mod(min(3 * t/1 s, 2), 1)) result b = integral(mod(max(t/1 s, 10), 1))
+    let requested = "result a = integral(mod(min(3 * t/1 s, 2), 1)) result b = integral(mod(max(t/1 s, 10), 1))
         result c = integral(sign(min(3 * t/1 s, 2) - 2)) result d = integral(mod(min(3 * rotation(main), 2), 1))";
-    check(&arm("t", asked), 2.0, &[(1.0 / 3.0, 1e-9), (0.0, 1e-12), (-2.0 / 3.0, 1e-9), (1.0 / 3.0, 1e-9)]);
+    check(&arm("t", requested), 2.0, &[(1.0 / 3.0, 1e-9), (0.0, 1e-12), (-2.0 / 3.0, 1e-9), (1.0 / 3.0, 1e-9)]);
 }
 
 #[test]
@@ -807,9 +807,9 @@ fn a_time_outside_the_analysis_is_refused() {
     let text = arm("1 rad/s * t", "result a = at(x(arm.tip), 2 s)");
     let compiled = compiled("m", &text);
     let codes = |to: f64| {
-        let (run, said) = compiled.run(&Times::grid(0.0, to, 0.1).expect("a grid"), &RunOptions::default());
-        assert_eq!(run.is_none(), said.has_errors());
-        said.iter().map(|fault| fault.code.as_str()).collect::<Vec<_>>()
+        let (run, messages) = compiled.run(&Times::grid(0.0, to, 0.1).expect("a grid"), &RunOptions::default());
+        assert_eq!(run.is_none(), messages.has_errors());
+        messages.iter().map(|fault| fault.code.as_str()).collect::<Vec<_>>()
     };
     assert_eq!(codes(1.0), ["E0422"]);
     assert_eq!(codes(2.0), Vec::<&str>::new());
@@ -984,7 +984,7 @@ fn what_is_found_where_a_row_would_be_refused_is_null() {
 }
 
 /// What the command line says on standard error and writes, in a folder with a file `m.mech`.
-fn said(folder: &std::path::Path, arguments: &[&str]) -> (Option<i32>, String) {
+fn messages(folder: &std::path::Path, arguments: &[&str]) -> (Option<i32>, String) {
     let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_mechc"));
     let output = command.current_dir(folder).args(arguments).output().expect("it runs");
     (output.status.code(), String::from_utf8_lossy(&output.stderr).into_owned())
@@ -999,11 +999,11 @@ fn the_command_line_tells_results_and_writes_them() {
          analysis from 0 s to 2 s every 0.1 s",
     );
     std::fs::write(folder.path().join("m.mech"), text).expect("it is written");
-    let run = |more: &[&str]| said(folder.path(), &[&["run", "m.mech", "-o", "m.csv"], more].concat());
-    let (code, told) = run(&["--results", "r.json"]);
+    let run = |more: &[&str]| messages(folder.path(), &[&["run", "m.mech", "-o", "m.csv"], more].concat());
+    let (code, reported) = run(&["--results", "r.json"]);
     // the digits that are certain
     let wanted = "high      = 1000 mm\nturned[0] = 0 deg\nturned[1] = 114.59155902616 deg\n";
-    assert_eq!((code, told), (Some(0), wanted.to_owned()));
+    assert_eq!((code, reported), (Some(0), wanted.to_owned()));
     let written = std::fs::read_to_string(folder.path().join("r.json")).expect("results");
     assert_eq!(written, "{\"high\": 1.0,\n \"turned[0]\": 0.0,\n \"turned[1]\": 2.0}\n");
     // diagnostics for programs are not mixed with anything else
@@ -1012,21 +1012,21 @@ fn the_command_line_tells_results_and_writes_them() {
     assert_eq!(run(&["--at", "1", "--results", "r.json"]), (Some(0), String::new()));
     assert_eq!(std::fs::read_to_string(folder.path().join("r.json")).expect("results"), "{}\n");
     // the interval is the one of the command line
-    let (_, told) = run(&["--from", "0", "--to", "0.5"]);
-    assert!(told.starts_with("high      = 479.4255386042 mm\n"), "{told}");
+    let (_, reported) = run(&["--from", "0", "--to", "0.5"]);
+    assert!(reported.starts_with("high      = 479.4255386042 mm\n"), "{reported}");
     for refused in [["--results", "m.csv"], ["--results", "./m.csv"], ["--results", "r.txt"], ["--results", "m.mech"]] {
         assert_eq!(run(&refused).0, Some(2), "{refused:?}");
     }
     assert_eq!(run(&["--results", "nowhere/r.json"]).0, Some(4));
-    let (_, told) = said(folder.path(), &["run", "m.mech", "--results", "-"]);
-    assert!(told.contains("both go to standard output"), "{told}");
+    let (_, reported) = messages(folder.path(), &["run", "m.mech", "--results", "-"]);
+    assert!(reported.contains("both go to standard output"), "{reported}");
 }
 
 #[test]
 fn names_in_results_have_their_meanings() {
     use mechc::{Category, Choice, Meaning, Memory, Parsed};
     let text = arm("1 rad/s * t", "param mean = 2 measure high = y(arm.tip) result r = mean(high) + max(high) * mean");
-    let checked = Parsed::of("m.mech", &text).check(&Choice::default(), &Memory::default());
+    let checked = Parsed::new("m.mech", &text).check(&Choice::default(), &Memory::default());
     assert!(checked.is_sound(), "{:?}", checked.diagnostics());
     let line = text.find("result r").expect("a result");
     let symbols = checked.symbols();
@@ -1045,7 +1045,7 @@ fn names_in_results_have_their_meanings() {
 
 /// The reference results of a case, to 1e-9 of the numbers.
 fn reference(name: &str) {
-    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/cases2");
+    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/cases_composed");
     let read = |ending: &str| std::fs::read_to_string(folder.join(format!("{name}.{ending}"))).expect("a file");
     let compiled = compiled(name, &read("mech"));
     let wanted: serde_json::Value = serde_json::from_str(&read("results.json")).expect("JSON");

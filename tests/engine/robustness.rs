@@ -252,7 +252,7 @@ fn printing_stays_linear_where_parts_are_shared() {
         params
     });
     let text = pendulum(&chain, "p39 * t").replace("body bar {", "body bar at (p39, 0, 0) {");
-    let checked = Parsed::of("chain", &text).check(&Choice::default(), &Memory::default());
+    let checked = Parsed::new("chain", &text).check(&Choice::default(), &Memory::default());
     assert!(checked.model_text().expect("sound").len() < 20_000);
     assert!(checked.equations_text().expect("sound").len() < 20_000);
 }

@@ -43,9 +43,9 @@ fn text_of(path: &str) -> String {
 fn compiled(path: &Path, text: &str, choice: &Choice) -> Compiled {
     let mut sources = mechc::Sources::default();
     let file = sources.add(path.display().to_string(), text);
-    let checked = Parsed::of_source(sources, file, path).check(choice, &Disk::default());
-    let (compiled, said) = checked.compile(Redundant::LeftOut, &Cancel::default());
-    compiled.unwrap_or_else(|| panic!("{}: {:?} {said:?}", path.display(), checked.diagnostics()))
+    let checked = Parsed::from_source(sources, file, path).check(choice, &Disk::default());
+    let (compiled, messages) = checked.compile(Redundant::LeftOut, &Cancel::default());
+    compiled.unwrap_or_else(|| panic!("{}: {:?} {messages:?}", path.display(), checked.diagnostics()))
 }
 
 /// What a program with a module prints, line by line, as bits.
@@ -73,9 +73,9 @@ fn holds((path, text): (&str, &str), largest_straight: usize) -> usize {
     let (rows, stop) = all_rows(&varied, &Times::listed(from, times.clone()));
     assert!(stop.is_none(), "{}: {stop:?}", path.display());
 
-    let options = RustOptions { with_sensitivities: true, largest_straight, ..RustOptions::of("machine.mech") };
-    let (module, said) = plain.rust(&options);
-    let module = module.unwrap_or_else(|| panic!("{}: {said:?}", path.display()));
+    let options = RustOptions { with_sensitivities: true, largest_straight, ..RustOptions::new("machine.mech") };
+    let (module, messages) = plain.rust(&options);
+    let module = module.unwrap_or_else(|| panic!("{}: {messages:?}", path.display()));
     let is_led = !inputs.is_empty();
     let program = PROGRAM
         .replace("LED", if is_led { "[false, true]" } else { "[false]" })
@@ -196,7 +196,7 @@ fn measures_that_are_derivatives() {
 fn where_the_order_of_elimination_loses_digits_measures_that_are_derivatives_are_found_as_well() {
     let path = "tests/slopes/asked.mech";
     let compiled = compiled(Path::new(path), &text_of(path), &Choice::default());
-    let module = compiled.rust(&RustOptions::of("asked.mech")).0.expect("a module");
+    let module = compiled.rust(&RustOptions::new("asked.mech")).0.expect("a module");
     // as if it did everywhere
     let asks = "if !at.is_settled || !at.holds {\n";
     assert_eq!(module.matches(asks).count(), 2, "once, and once more; by time and by inputs alike");
@@ -251,7 +251,7 @@ mechanism near {
 #[test]
 fn close_to_a_dead_point_measures_that_are_derivatives_have_no_value() {
     let compiled = support::compiled("near.mech", NEAR);
-    let module = compiled.rust(&RustOptions::of("near.mech")).0.expect("a module");
+    let module = compiled.rust(&RustOptions::new("near.mech")).0.expect("a module");
     let (rows, stop) = all_rows(&compiled, &compiled.times().expect("times"));
     assert!(stop.is_none(), "{stop:?}");
     let program = r#"

@@ -86,7 +86,7 @@ fn made(seed: u64) -> String {
 }
 
 /// Holds rows of some of so many times against the rows of all of them, bit by bit; gives how many there are of these.
-fn have_the_same_bits(name: &str, compiled: &Compiled, count: u32) -> usize {
+fn have_equal_bits(name: &str, compiled: &Compiled, count: u32) -> usize {
     let [from, to, _] = compiled.analysis().expect("an analysis");
     let at = |k: u32| from + (to - from) * f64::from(k) / f64::from(count);
     let (all, _) = all_rows(compiled, &Times::listed(from, (0..=count).map(at).collect()));
@@ -106,14 +106,14 @@ fn have_the_same_bits(name: &str, compiled: &Compiled, count: u32) -> usize {
 
 #[test]
 fn the_rows_of_random_mechanisms_have_the_same_bits_whichever_others_are_asked_for() {
-    let mut seen = 0;
+    let mut visited = 0;
     for seed in 0..8 {
         let text = made(seed);
         if let Some(compiled) = support::compile_with_forces(Path::new("made"), &text, 0) {
-            seen += usize::from(have_the_same_bits(&text, &compiled, 40) > 1);
+            visited += usize::from(have_equal_bits(&text, &compiled, 40) > 1);
         }
     }
-    assert!(seen > 4, "{seen}");
+    assert!(visited > 4, "{visited}");
 }
 
 #[test]
@@ -121,7 +121,7 @@ fn rows_that_hold_rounding_of_great_numbers_have_the_same_bits_whichever_others_
     let text = fs::read_to_string("tests/bits/gear_under_great_forces.mech").expect("a text");
     let compiled = compiled("gear", &text);
     for count in [20, 10, 2, 100] {
-        assert_eq!(have_the_same_bits("gear", &compiled, count), count as usize + 1);
+        assert_eq!(have_equal_bits("gear", &compiled, count), count as usize + 1);
     }
 }
 
@@ -141,7 +141,7 @@ fn short_rows_and_long_ones_hold_the_same() {
 
 #[test]
 fn every_case_is_solved_for_in_lanes() {
-    let mut seen = 0;
+    let mut visited = 0;
     for path in files("tests/cases", "mech") {
         let name = stem(&path);
         let text = fs::read_to_string(&path).expect("a text");
@@ -152,7 +152,7 @@ fn every_case_is_solved_for_in_lanes() {
         let Some(times) = compiled.times() else {
             continue;
         };
-        seen += 1;
+        visited += 1;
         let wanted = rows(&compiled, &times);
         let params: Vec<f64> = determined.system().params().iter().map(|param| param.value).collect();
         let started = analysis::start(
@@ -197,7 +197,7 @@ fn every_case_is_solved_for_in_lanes() {
         }
         assert!(10 * others <= wanted.len(), "{name}: {others} of {} rows have no lane", wanted.len());
     }
-    assert!(seen > 20, "only {seen} cases");
+    assert!(visited > 20, "only {visited} cases");
 }
 
 /// A solver with what it needs to be run at any time.

@@ -8,18 +8,18 @@ use mechc::{Cancel, Choice, Compiled, Diagnostics, Memory, Parsed, Redundant, Ru
 use std::f64::consts::{PI, TAU};
 
 fn compiled(text: &str) -> Compiled {
-    let checked = Parsed::of("drawn.mech", text).check(&Choice::default(), &Memory::default());
+    let checked = Parsed::new("drawn.mech", text).check(&Choice::default(), &Memory::default());
     assert!(checked.is_sound(), "{:?}\n{text}", checked.diagnostics());
-    let (compiled, said) = checked.compile(Redundant::Refused, &Cancel::default());
-    compiled.unwrap_or_else(|| panic!("{said:?}\n{text}"))
+    let (compiled, messages) = checked.compile(Redundant::Refused, &Cancel::default());
+    compiled.unwrap_or_else(|| panic!("{messages:?}\n{text}"))
 }
 
 /// A column by its name, at some times, as far as the motion gets; with what is said of the start.
 fn values(compiled: &Compiled, name: &str, times: &Times) -> (Vec<f64>, Diagnostics) {
     let column = compiled.columns().iter().position(|column| column == name).expect("the column");
-    let (run, said) = compiled.run(times, &RunOptions::default());
+    let (run, messages) = compiled.run(times, &RunOptions::default());
     let rows = run.into_iter().flatten().map_while(Result::ok).map(|row| row[column]).collect();
-    (rows, said)
+    (rows, messages)
 }
 
 /// A cam as a closed profile in its own frame (mm), and what touches it.
@@ -229,15 +229,15 @@ fn cams_start_as_they_are_drawn_wherever_their_drivers_begin() {
         let ratio = (random.below(4) == 0).then(|| random.between(0.5, 2.0));
         let text = cam.text(drawn, start, ratio);
         let compiled = compiled(&text);
-        let (found, said) = values(&compiled, "out", &Times::listed(0.0, vec![0.0]));
+        let (found, messages) = values(&compiled, "out", &Times::listed(0.0, vec![0.0]));
         done += 1;
-        if said.iter().any(|said| said.code.as_str() == "N0601") {
+        if messages.iter().any(|message| message.code.as_str() == "N0601") {
             noted += 1;
             continue;
         }
         let wanted = cam.follower(start);
 
-        let found = *found.first().unwrap_or_else(|| panic!("{said:?}\n{text}"));
+        let found = *found.first().unwrap_or_else(|| panic!("{messages:?}\n{text}"));
         assert!((found - wanted).abs() < 1e-6, "{:?}: {found} for {wanted}\n{text}", cam.kind);
     }
     assert!(noted * 50 <= done, "{noted} of {done} are in doubt");
@@ -316,8 +316,8 @@ fn linkages_start_as_they_are_drawn_be_the_crank_drawn_or_not() {
             _ => (format!("at (0, 0, {drawn})"), drawn + random.between(-2.0, 2.0) * TAU),
         };
         let text = four_bar.text(drawn, &crank, &format!("{start} + 1 rev/s * t"));
-        let (found, said) = values(&compiled(&text), "out", &Times::listed(0.0, vec![0.0]));
-        if said.iter().any(|said| said.code.as_str() == "N0601") {
+        let (found, messages) = values(&compiled(&text), "out", &Times::listed(0.0, vec![0.0]));
+        if messages.iter().any(|message| message.code.as_str() == "N0601") {
             noted += 1;
             continue;
         }
@@ -348,15 +348,15 @@ fn the_first_time_that_is_asked_for_decides_no_branch() {
         };
         let compiled = compiled(&text);
         let grid = Times::grid(from, from + 0.5, 0.1).expect("a grid");
-        let (found, said) = values(&compiled, name, &grid);
-        assert!(found.len() == 6, "{said:?}\n{text}");
+        let (found, messages) = values(&compiled, name, &grid);
+        assert!(found.len() == 6, "{messages:?}\n{text}");
         let is_it = if number % 2 == 0 { is_whole_turns(found[0] - wanted) } else { (found[0] - wanted).abs() < 1e-6 };
         assert!(is_it, "at {from} s: {} for {wanted}\n{text}", found[0]);
         if from > 0.0 {
             let whole = Times::listed(0.0, grid.iter().collect());
             let rows = |times: &Times| -> Vec<Vec<f64>> {
-                let (run, said) = compiled.run(times, &RunOptions::default());
-                run.unwrap_or_else(|| panic!("{said:?}")).map(|row| row.expect("it moves")).collect()
+                let (run, messages) = compiled.run(times, &RunOptions::default());
+                run.unwrap_or_else(|| panic!("{messages:?}")).map(|row| row.expect("it moves")).collect()
             };
             for (a, b) in rows(&grid).iter().zip(rows(&whole)) {
                 for (column, (a, b)) in a.iter().zip(b).enumerate() {
@@ -398,10 +398,13 @@ fn planets_keep_the_phase_that_they_are_drawn_in() {
             }}"
         );
         let from = if number % 2 == 0 { 0.0 } else { random.between(-2.0, 2.0) };
-        let (found, said) = values(&compiled(&text), "planet.phi", &Times::listed(from, vec![from]));
+        let (found, messages) = values(&compiled(&text), "planet.phi", &Times::listed(from, vec![from]));
         let (arm_turned, sun_turned) = (arm_start + from - arm, sun_start + 2.0 * from - sun);
         let ratio = if is_internal { large / small } else { -small / large };
         let wanted = planet + arm_turned + ratio * (sun_turned - arm_turned);
-        assert!(said.is_empty() && (found[0] - wanted).abs() < 1e-8, "{found:?} for {wanted}: {said:?}\n{text}");
+        assert!(
+            messages.is_empty() && (found[0] - wanted).abs() < 1e-8,
+            "{found:?} for {wanted}: {messages:?}\n{text}"
+        );
     }
 }

@@ -4,7 +4,7 @@
 
 use crate::support;
 
-use crate::support::swept::{bits, bits_of, compare, count, join, subject, vary};
+use crate::support::sweeps::{bits, bits_of, compare, count, join, subject, vary};
 use mechc::{Cancel, Choice, Memory, Method, Parsed, Redundant, RunOptions, Status, SweepOptions, VaryOptions};
 
 /// A four-bar, whose crank turns fully where it is shortest and shortest and longest together are no longer than the other two.
@@ -51,8 +51,8 @@ fn what_is_wrong_with_one_variant_is_its_own() {
     // in order: nothing wrong, cannot close, locks, a pole of a result, a negative length, all collinear once a turn
     let lengths = ["30mm", "400mm", "75mm", "-30mm", "40mm", "60mm"];
     let rockers = ["70mm", "69mm", "80mm"];
-    let asked = [format!("crank_length={}", lengths.join(",")), format!("rocker_length={}", rockers.join(", "))];
-    let variants = subject.variants(&vary(&[&asked[0], &asked[1]]));
+    let requested = [format!("crank_length={}", lengths.join(",")), format!("rocker_length={}", rockers.join(", "))];
+    let variants = subject.variants(&vary(&[&requested[0], &requested[1]]));
     assert_eq!(variants.points().count(), 18);
     let found = compare(&subject, &variants);
     assert!(count(&found, Status::Ok) >= 3, "{found:?}");
@@ -64,13 +64,13 @@ fn threads_and_shares_change_no_bit() {
     let subject = subject(FOUR_BAR, Choice::default());
     let variants = subject.variants(&vary(&["crank_length=20mm..50mm:7", "rocker_length=50mm..90mm:11"]));
     let options = subject.all_columns();
-    let whole = bits_of(&subject.swept(&variants, &SweepOptions { jobs: Some(1), ..options.clone() }));
+    let whole = bits_of(&subject.sweep(&variants, &SweepOptions { jobs: Some(1), ..options.clone() }));
     for jobs in [2, 16] {
-        assert_eq!(bits_of(&subject.swept(&variants, &SweepOptions { jobs: Some(jobs), ..options.clone() })), whole);
+        assert_eq!(bits_of(&subject.sweep(&variants, &SweepOptions { jobs: Some(jobs), ..options.clone() })), whole);
     }
-    let mut shares = subject.swept(&variants, &SweepOptions { take: Some(5), ..options.clone() });
+    let mut shares = subject.sweep(&variants, &SweepOptions { take: Some(5), ..options.clone() });
     for (skip, take) in [(5, Some(33)), (38, Some(1)), (39, None)] {
-        let share = subject.swept(&variants, &SweepOptions { skip, take, ..options.clone() });
+        let share = subject.sweep(&variants, &SweepOptions { skip, take, ..options.clone() });
         assert_eq!(share.first, skip);
         join(&mut shares, share);
     }
@@ -81,12 +81,12 @@ fn threads_and_shares_change_no_bit() {
 fn results_alone_are_those_beside_rows() {
     let subject = subject(FOUR_BAR, Choice { results: vec!["top = max(height)".to_owned()], ..Choice::default() });
     assert_eq!(
-        subject.compiled.results_of_variants().iter().map(|(name, unit)| format!("{name} {unit}")).collect::<Vec<_>>(),
+        subject.compiled.variant_results().iter().map(|(name, unit)| format!("{name} {unit}")).collect::<Vec<_>>(),
         ["swing rad", "pause 1", "top m"]
     );
     let variants = subject.variants(&vary(&["share=0..1:5"]));
-    let alone = subject.swept(&variants, &SweepOptions::default());
-    let beside = subject.swept(&variants, &subject.all_columns());
+    let alone = subject.sweep(&variants, &SweepOptions::default());
+    let beside = subject.sweep(&variants, &subject.all_columns());
     assert_eq!((alone.results.clone(), alone.statuses), (beside.results, beside.statuses));
     assert!(alone.columns.is_empty() && alone.lengths == [0; 5]);
     // the pen is farther out the larger its share is
@@ -95,16 +95,16 @@ fn results_alone_are_those_beside_rows() {
 
 /// The fewest digits of a variant's results; the numbers are those without them.
 #[test]
-fn digits_of_results_are_told() {
+fn digits_of_results_are_reported() {
     let results = vec!["top = max(height)".to_owned(), "pole = integral(abs(t - 0.1)^(-0.9))".to_owned()];
     let variants = vary(&["share=0..1:5"]);
     let of = |results: &[String], digits| {
         let subject = subject(FOUR_BAR, Choice { results: results.to_vec(), ..Choice::default() });
-        subject.swept(&subject.variants(&variants), &SweepOptions { digits, ..SweepOptions::default() })
+        subject.sweep(&subject.variants(&variants), &SweepOptions { digits, ..SweepOptions::default() })
     };
-    let [plain, told, with_pole] = [of(&results[..1], false), of(&results[..1], true), of(&results, true)];
-    assert_eq!((plain.digits, plain.results), (None, told.results));
-    assert!(told.digits.expect("digits").iter().all(|digits| *digits > 9));
+    let [plain, reported, with_pole] = [of(&results[..1], false), of(&results[..1], true), of(&results, true)];
+    assert_eq!((plain.digits, plain.results), (None, reported.results));
+    assert!(reported.digits.expect("digits").iter().all(|digits| *digits > 9));
     assert!(with_pole.digits.expect("digits").iter().all(|digits| (1..6).contains(digits)));
 }
 
@@ -112,7 +112,7 @@ fn digits_of_results_are_told() {
 #[test]
 fn with_its_own_values_a_variant_is_the_file() {
     let subject = subject(FOUR_BAR, Choice::default());
-    let block = subject.swept(&subject.variants(&vary(&["share=0.5", "speed=60rpm"])), &subject.all_columns());
+    let block = subject.sweep(&subject.variants(&vary(&["share=0.5", "speed=60rpm"])), &subject.all_columns());
     let plain = subject.parsed.check(&Choice::default(), &Memory::default());
     let compiled = plain.compile(Redundant::Refused, &Cancel::default()).0.expect("it is determined");
     let (run, _) = compiled.run(&compiled.times().expect("an analysis"), &RunOptions::default());
@@ -130,7 +130,7 @@ fn variants_of_the_examples_are_what_they_are_alone() {
     let mut found = 0;
     for path in support::files("examples", "mech") {
         let text = std::fs::read_to_string(&path).expect("an example");
-        let own = Parsed::of("text.mech", text.as_str()).check(&Choice::default(), &Memory::default());
+        let own = Parsed::new("text.mech", text.as_str()).check(&Choice::default(), &Memory::default());
         // what uses other files is told so
         let Some(compiled) = own.compile(Redundant::Refused, &Cancel::default()).0 else { continue };
         let inside = compiled.inside().0;
@@ -139,11 +139,11 @@ fn variants_of_the_examples_are_what_they_are_alone() {
             let unit = Some(param.unit()).filter(|unit| unit != "1").unwrap_or_default();
             let (value, beside) = (param.value, 1.02 * param.value + 1e-4);
             let subject = subject(&text, Choice::default());
-            let asked = vary(&[&format!("{}={value} {unit},{beside} {unit}", param.name)]);
+            let requested = vary(&[&format!("{}={value} {unit},{beside} {unit}", param.name)]);
             if subject.compiled.times().is_none() {
                 continue;
             }
-            let Ok(variants) = subject.variants_in(&asked, &Memory::default()) else { continue };
+            let Ok(variants) = subject.variants_in(&requested, &Memory::default()) else { continue };
             found += count(&compare(&subject, &variants), Status::Ok);
         }
     }
@@ -157,7 +157,7 @@ fn a_sweep_ends_at_the_variant_that_is_looked_for() {
         let subject = subject(FOUR_BAR, choice);
         let variants = subject.variants(&vary(&["crank_length=20mm..40mm:21"]));
         [1, 3].map(|jobs| {
-            let block = subject.swept(&variants, &SweepOptions { jobs: Some(jobs), ..SweepOptions::default() });
+            let block = subject.sweep(&variants, &SweepOptions { jobs: Some(jobs), ..SweepOptions::default() });
             assert_eq!(block.results.len(), 2, "what is looked for is no column");
             block.len()
         })
@@ -179,7 +179,7 @@ fn what_is_looked_for_stops_no_variant() {
         let swept = |until: Option<&str>, has_rows: bool| {
             let subject = subject(text, Choice { until: until.map(str::to_owned), ..Choice::default() });
             let options = if has_rows { subject.all_columns() } else { SweepOptions::default() };
-            subject.swept(&subject.variants(&vary(&[varied])), &options)
+            subject.sweep(&subject.variants(&vary(&[varied])), &options)
         };
         for has_rows in [false, true] {
             let block = swept(Some(condition), has_rows);
@@ -236,10 +236,10 @@ fn what_is_wrong_with_a_column_of_variants_is_said_at_its_header() {
         ("crank_length (mm)", "a unit stands in brackets behind the name: `rod [mm]`"),
     ] {
         let world = Memory::default().with("v.csv", format!("speed [rpm],{header}\n60,30\n"));
-        let asked = vary(&["@v.csv"]);
-        let (sources, said) =
-            subject.checked.variants(&asked, &subject.choice, &world).expect_err("that column is wrong");
-        let one = said.iter().next().expect("a word of it");
+        let requested = vary(&["@v.csv"]);
+        let (sources, diagnostics) =
+            subject.checked.variants(&requested, &subject.choice, &world).expect_err("that column is wrong");
+        let one = diagnostics.iter().next().expect("a word of it");
         let span = one.labels[0].span;
         assert_eq!((sources.get(span.file).name.as_str(), sources.text(span)), ("v.csv", header));
         assert_eq!(one.help, [help], "{header}");
@@ -250,7 +250,7 @@ fn what_is_wrong_with_a_column_of_variants_is_said_at_its_header() {
 fn what_cannot_vary_is_refused() {
     let subject = subject(FOUR_BAR, Choice { set: vec!["share=1".to_owned()], ..Choice::default() });
     let sampled = |params: &[&str], sample| VaryOptions { sample: Some(sample), ..vary(params) };
-    for (asked, wanted) in [
+    for (requested, wanted) in [
         (vary(&["crank_length"]), "`--vary crank_length` does not say what varies"),
         (vary(&["crank_length="]), "`--vary crank_length=` does not say what varies"),
         (vary(&["crank_length=..3mm:2"]), "`--vary crank_length=..3mm:2` does not say from where to where"),
@@ -277,7 +277,7 @@ fn what_cannot_vary_is_refused() {
             "there are more variants than can be counted",
         ),
     ] {
-        let said = subject.variants_in(&asked, &Memory::default()).expect_err("it is refused");
-        assert_eq!(said, wanted);
+        let diagnostics = subject.variants_in(&requested, &Memory::default()).expect_err("it is refused");
+        assert_eq!(diagnostics, wanted);
     }
 }

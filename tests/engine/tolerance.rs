@@ -8,8 +8,8 @@ use crate::support;
 
 use assert_cmd::Command;
 use mechc::{
-    Affected, Cancel, Checked, Choice, Compiled, Parsed, Redundant, RunOptions, SweepOptions, Times, Tolerance,
-    Tolerancing, Verified,
+    Cancel, Checked, Choice, Compiled, CornerReport, OutputSensitivity, Parsed, Redundant, RunOptions, SweepOptions,
+    Times, Tolerance, Tolerancing,
 };
 use std::f64::consts::{FRAC_PI_2, TAU};
 use std::fmt::Write;
@@ -22,11 +22,11 @@ struct Subject {
 }
 
 fn subject_with(text: &str, choice: Choice) -> Subject {
-    let parsed = Parsed::of("text.mech", text);
+    let parsed = Parsed::new("text.mech", text);
     let choice = Choice { lead: true, ..choice };
     let checked = parsed.check(&choice, &WORLD);
-    let (compiled, said) = checked.compile(Redundant::Refused, &Cancel::default());
-    let compiled = compiled.unwrap_or_else(|| panic!("{:?} {said:?}", checked.diagnostics()));
+    let (compiled, messages) = checked.compile(Redundant::Refused, &Cancel::default());
+    let compiled = compiled.unwrap_or_else(|| panic!("{:?} {messages:?}", checked.diagnostics()));
     Subject { parsed, choice, checked, compiled }
 }
 
@@ -35,34 +35,34 @@ fn subject(text: &str, results: &[&str]) -> Subject {
 }
 
 /// What is refused, as it is told.
-fn told((_, said): (mechc::Sources, mechc::Diagnostics)) -> String {
-    said.iter().map(|said| said.message.clone()).collect::<Vec<_>>().join("; ")
+fn reported((_, messages): (mechc::Sources, mechc::Diagnostics)) -> String {
+    messages.iter().map(|message| message.message.clone()).collect::<Vec<_>>().join("; ")
 }
 
 impl Subject {
-    fn tolerancing(&self, asked: &[&str]) -> Result<Tolerancing<'_>, String> {
-        let asked: Vec<String> = asked.iter().map(|&of| of.to_owned()).collect();
-        self.checked.tolerancing(&asked, &self.choice, &WORLD).map_err(told)
+    fn tolerancing(&self, requested: &[&str]) -> Result<Tolerancing<'_>, String> {
+        let requested: Vec<String> = requested.iter().map(|&of| of.to_owned()).collect();
+        self.checked.tolerancing(&requested, &self.choice, &WORLD).map_err(reported)
     }
 
-    fn affected(&self, asked: &[&str]) -> (Vec<Tolerance>, Vec<Affected>) {
-        let of = self.tolerancing(asked).unwrap_or_else(|why| panic!("{why}"));
-        let affected = of.affected(&self.compiled, &SweepOptions::default()).map_err(told);
+    fn affected(&self, requested: &[&str]) -> (Vec<Tolerance>, Vec<OutputSensitivity>) {
+        let of = self.tolerancing(requested).unwrap_or_else(|why| panic!("{why}"));
+        let affected = of.sensitivities(&self.compiled, &SweepOptions::default()).map_err(reported);
         (of.tolerances().to_vec(), affected.unwrap_or_else(|why| panic!("{why}")))
     }
 
-    fn verified(&self, asked: &[&str]) -> (Vec<Tolerance>, Vec<Affected>, Verified) {
-        let of = self.tolerancing(asked).unwrap_or_else(|why| panic!("{why}"));
+    fn verified(&self, requested: &[&str]) -> (Vec<Tolerance>, Vec<OutputSensitivity>, CornerReport) {
+        let of = self.tolerancing(requested).unwrap_or_else(|why| panic!("{why}"));
         let options = SweepOptions { jobs: Some(1), ..SweepOptions::default() };
-        let affected = of.affected(&self.compiled, &options).map_err(told).expect("it runs");
+        let affected = of.sensitivities(&self.compiled, &options).map_err(reported).expect("it runs");
         let mut count = 0;
-        let verified = of.verified(&self.compiled, &affected, &options, |more| count += more);
+        let verified = of.verify(&self.compiled, &affected, &options, |more| count += more);
         assert_eq!(count, of.count(&affected), "as many as were told before");
-        (of.tolerances().to_vec(), affected, verified.map_err(told).expect("it runs"))
+        (of.tolerances().to_vec(), affected, verified.map_err(reported).expect("it runs"))
     }
 
     /// What is affected, as `run --lead --set` has it with a param of another value (SI); no numbers where it does not come to its end.
-    fn at(&self, affected: &[Affected], (name, value, unit): (&str, f64, &str)) -> Vec<f64> {
+    fn at(&self, affected: &[OutputSensitivity], (name, value, unit): (&str, f64, &str)) -> Vec<f64> {
         let mut choice = self.choice.clone();
         choice.set.push(format!("{name}={value}{unit}"));
         let nothing = vec![f64::NAN; affected.len()];
@@ -76,7 +76,7 @@ impl Subject {
         let rows = rows(&compiled, &Times::listed(from, times.clone())).0;
         let results = rows_and_results(&compiled);
         let mut results = results.into_iter();
-        let of = |of: &Affected| match of.at {
+        let of = |of: &OutputSensitivity| match of.at {
             None => results.next().unwrap_or(f64::NAN),
             Some(t) => {
                 let column = columns.iter().position(|column| *column == of.name).expect("a column");
@@ -88,7 +88,7 @@ impl Subject {
     }
 
     /// The derivatives of what is affected by a tolerance, by differences, and how far these are certain.
-    fn differences(&self, affected: &[Affected], of: &Tolerance) -> Vec<(f64, f64)> {
+    fn differences(&self, affected: &[OutputSensitivity], of: &Tolerance) -> Vec<(f64, f64)> {
         let unit = behind_a_number(&of.si);
         let step = 2e-3 * if of.nominal == 0.0 { 0.01 } else { of.nominal.abs() };
         let slopes = |h: f64| -> Vec<f64> {
@@ -144,8 +144,8 @@ fn rows_and_results(compiled: &Compiled) -> Vec<f64> {
 
 /// Compares derivatives with differences; gives how many there are, and how many of them are known.
 #[track_caller]
-fn compare(subject: &Subject, asked: &[&str]) -> (usize, usize) {
-    let (tolerances, affected) = subject.affected(asked);
+fn compare(subject: &Subject, requested: &[&str]) -> (usize, usize) {
+    let (tolerances, affected) = subject.affected(requested);
     let (mut all, mut known) = (0, 0);
     for (j, tolerance) in tolerances.iter().enumerate() {
         for (of, (wanted, certain)) in affected.iter().zip(subject.differences(&affected, tolerance)) {
@@ -221,7 +221,7 @@ const FOUR_BAR: &str = "mechanism four_bar {
 #[test]
 fn derivatives_are_those_of_differences() {
     let subject = subject(FOUR_BAR, &[]);
-    let asked = [
+    let requested = [
         "ground_length=0.1mm",
         "crank_length=0.1mm",
         "coupler_length=0.1mm",
@@ -229,7 +229,7 @@ fn derivatives_are_those_of_differences() {
         "pen.x=0.1mm",
         "pen.y=0.1mm",
     ];
-    let (all, known) = compare(&subject, &asked);
+    let (all, known) = compare(&subject, &requested);
     // the peak of accelerations is found less exactly by some
     assert!(all > 70 && known as f64 > 0.9 * all as f64, "{known} of {all}");
 }
@@ -240,7 +240,7 @@ fn derivatives_of_the_examples_are_those_of_differences() {
     let (mut all, mut known, mut texts) = (0, 0, 0);
     for path in support::files("examples", "mech") {
         let text = std::fs::read_to_string(&path).expect("an example");
-        let own = Parsed::of("text.mech", text.as_str()).check(&Choice::default(), &WORLD);
+        let own = Parsed::new("text.mech", text.as_str()).check(&Choice::default(), &WORLD);
         let Some(compiled) = own.compile(Redundant::Refused, &Cancel::default()).0 else { continue };
         let (system, _) = compiled.inside();
         let system = system.system();
@@ -257,13 +257,13 @@ fn derivatives_of_the_examples_are_those_of_differences() {
             .params()
             .iter()
             .map(|param| format!("{}{}", 1e-3 * param.value.abs().max(1e-3), behind_a_number(&param.unit())));
-        let asked: Vec<String> = params.iter().zip(sizes).map(|(name, size)| format!("{name}={size}")).collect();
-        let asked: Vec<&str> = asked.iter().map(String::as_str).collect();
+        let requested: Vec<String> = params.iter().zip(sizes).map(|(name, size)| format!("{name}={size}")).collect();
+        let requested: Vec<&str> = requested.iter().map(String::as_str).collect();
         // one that decides what is repeated
-        if subject.tolerancing(&asked).is_err() {
+        if subject.tolerancing(&requested).is_err() {
             continue;
         }
-        let found = compare(&subject, &asked);
+        let found = compare(&subject, &requested);
         println!("{}: {} of {}", path.display(), found.1, found.0);
         (all, known, texts) = (all + found.0, known + found.1, texts + 1);
     }
@@ -492,7 +492,7 @@ fn ends_of_the_analysis_may_go_with_a_param() {
     let subject_of = subject(&text, &[]);
     let of = |options: &SweepOptions| -> Vec<Option<f64>> {
         let tolerancing = subject_of.tolerancing(&["p=0.01"]).expect("a tolerance");
-        let affected = tolerancing.affected(&subject_of.compiled, options).map_err(told).expect("it runs");
+        let affected = tolerancing.sensitivities(&subject_of.compiled, options).map_err(reported).expect("it runs");
         affected.iter().map(|of| of.slopes[0]).collect()
     };
     // the mean of squares is 0.37 p², and that of t 0.55 p
@@ -501,7 +501,8 @@ fn ends_of_the_analysis_may_go_with_a_param() {
         near(found.expect("a derivative"), wanted);
     }
     // ends that are said beside the text stay
-    let times = mechc::AskedTimes { from: Some(0.08), to: Some(0.8), every: Some(0.1), ..mechc::AskedTimes::default() };
+    let times =
+        mechc::RequestedTimes { from: Some(0.08), to: Some(0.8), every: Some(0.1), ..mechc::RequestedTimes::default() };
     let stays = of(&SweepOptions { times, ..SweepOptions::default() });
     let wanted = [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.4, 0.0, 0.0];
     for (found, wanted) in stays.iter().zip(wanted) {
@@ -551,9 +552,9 @@ fn peaks_of_forces_and_accelerations_have_derivatives() {
     }";
     assert_eq!(compare(&subject(text, &[]), &["a=0.1mm"]), (7, 7), "the torque itself, and six results");
     let claw = std::fs::read_to_string("examples/film_claw.mech").expect("an example");
-    let asked =
+    let requested =
         ["up = max(der(der(y(claw.P))))", "down = min(der(der(y(claw.P))))", "along = max(der(der(x(claw.P))))"];
-    let (_, affected) = subject(&claw, &asked).affected(&["C.y=0.1mm"]);
+    let (_, affected) = subject(&claw, &requested).affected(&["C.y=0.1mm"]);
     let slopes: Vec<f64> = affected.iter().rev().take(3).filter_map(|of| of.slopes[0]).collect();
     // by differences of 1 um and of 0.1 um
     for (found, wanted) in slopes.iter().rev().zip([2509.7, 1345.1, -11058.0]) {
@@ -664,9 +665,9 @@ fn sum_of(count: usize) -> (String, Vec<String>) {
 #[test]
 fn all_corners_of_twelve_are_run_and_of_more_the_worst_with_a_sample() {
     for (count, variants, are_all) in [(1, 2, true), (12, 4096, true), (13, 10_002, false)] {
-        let (text, asked) = sum_of(count);
-        let asked: Vec<&str> = asked.iter().map(String::as_str).collect();
-        let (tolerances, affected, verified) = subject(&text, &[]).verified(&asked);
+        let (text, requested) = sum_of(count);
+        let requested: Vec<&str> = requested.iter().map(String::as_str).collect();
+        let (tolerances, affected, verified) = subject(&text, &[]).verified(&requested);
         assert_eq!((verified.variants, verified.are_all_corners), (variants, are_all), "{count}");
         let sums = affected[0].deviation(&tolerances, false).expect("all are known");
         let wanted: f64 = (0..count).map(|k| (k % 3) as f64 * 0.01 * (k + 1) as f64).sum();
@@ -705,7 +706,7 @@ fn what_rounding_alone_moves_is_linear() {
 }
 
 #[test]
-fn corners_that_do_not_run_are_told() {
+fn corners_that_do_not_run_are_reported() {
     let subject = subject(FOUR_BAR, &[]);
     // with 30 mm more all links would lie on one line; with 35 mm more it locks
     let (_, affected, verified) = subject.verified(&["crank_length=0mm..35mm"]);
@@ -716,7 +717,7 @@ fn corners_that_do_not_run_are_told() {
 
 /// A corner at which a result has no value is told, and linear is not enough then.
 #[test]
-fn corners_without_a_value_are_told() {
+fn corners_without_a_value_are_reported() {
     let text = arm(
         "result far = sqrt(first(x(arm.tip)) / 1 m - 2) result up = first(x(arm.tip)) analysis from 0 to 1 every 0.1",
     );
@@ -769,7 +770,7 @@ fn what_cannot_be_off_is_refused() {
     let text = arm("param count = 2 param A = (1 m, 2 m) input turn = 3
         measure wide[k in 0..count] = x(arm.tip) * k result far = first(x(arm.tip)) analysis from 0 to 1 every 0.1");
     let subject = subject(&text, &[]);
-    for (asked, wanted) in [
+    for (requested, wanted) in [
         (vec!["reach"], "`--tol reach` does not say what may be off, and how far"),
         (vec!["=1mm"], "`--tol =1mm` does not say what may be off, and how far"),
         (vec!["reach="], "`--tol reach=` does not say how far it may be off"),
@@ -784,22 +785,22 @@ fn what_cannot_be_off_is_refused() {
         (vec!["reach=1mm", "reach=2mm"], "`reach` has two tolerances"),
         (vec!["count=1"], "`count` decides what is repeated, and cannot be a little off"),
     ] {
-        let said = subject.tolerancing(&asked).map(|_| ()).expect_err("it is refused");
-        assert_eq!(said, wanted, "{asked:?}");
+        let messages = subject.tolerancing(&requested).map(|_| ()).expect_err("it is refused");
+        assert_eq!(messages, wanted, "{requested:?}");
     }
-    for asked in
+    for requested in
         ["reach=0/0*1mm", "reach=1e400mm", "reach=nan mm", "reach=inf", "reach=x(arm.tip)", "A=(1mm,1mm)", "A=1mm"]
     {
-        assert!(subject.tolerancing(&[asked]).is_err(), "{asked}");
+        assert!(subject.tolerancing(&[requested]).is_err(), "{requested}");
     }
     let bare = self::subject(&arm("analysis from 0 to 1 every 0.1"), &[]);
     let tolerancing = bare.tolerancing(&["reach=1mm"]).expect("a tolerance");
-    let why = tolerancing.affected(&bare.compiled, &SweepOptions::default()).map(|_| ()).map_err(told);
+    let why = tolerancing.sensitivities(&bare.compiled, &SweepOptions::default()).map(|_| ()).map_err(reported);
     assert_eq!(why, Err("there is no measure and no result that could be off".to_owned()));
     // signs and spaces as one writes them
-    for asked in ["reach=±1mm", " reach = +/- 1 mm", "reach=+-1mm", "reach=-1mm..1mm", "reach=1e-3 m"] {
-        let (tolerances, _) = subject.affected(&[asked]);
-        assert_eq!(tolerances[0].range, [-0.001, 0.001], "{asked}");
+    for requested in ["reach=±1mm", " reach = +/- 1 mm", "reach=+-1mm", "reach=-1mm..1mm", "reach=1e-3 m"] {
+        let (tolerances, _) = subject.affected(&[requested]);
+        assert_eq!(tolerances[0].range, [-0.001, 0.001], "{requested}");
     }
     let (tolerances, _) = subject.affected(&["begin=1deg", "rate=1rpm"]);
     near(tolerances[0].range[1], FRAC_PI_2 / 90.0);

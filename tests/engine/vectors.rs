@@ -224,7 +224,7 @@ fn outcome(compiled: &Compiled, times: &Times, vectors: Vectors) -> (Vec<Vec<u64
 #[test]
 fn rows_and_results_have_the_same_bits_with_all_vector_instructions() {
     let (units, mut seen) = (units(), 0);
-    let folders = ["tests/cases", "tests/cases2", "tests/cases3", "examples"];
+    let folders = ["tests/cases", "tests/cases_composed", "tests/cases_forces", "examples"];
     for path in folders.iter().flat_map(|folder| files(folder, "mech")) {
         let text = fs::read_to_string(&path).expect("a text");
         for number in 0..mechanisms(&text).len() {

@@ -3,7 +3,7 @@
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, clippy::float_cmp)] // a test fails by panicking
 
 use crate::support::compiled;
-use crate::support::swept::{bits, subject, vary};
+use crate::support::sweeps::{bits, subject, vary};
 use mechc::{Answers, Choice, Memory, RunOptions, Status, SweepOptions, Times};
 use mechc_expr::math::{cos, sin};
 use std::f64::consts::{FRAC_1_PI, FRAC_1_SQRT_2, PI};
@@ -198,10 +198,10 @@ fn a_sweep_has_what_runs_have() {
     result when = argmax(x * y, from late)";
     let subject = subject(&arm(declarations), Choice::default());
     let variants = subject.variants(&vary(&["late=0.25s..1s:16"]));
-    let block = subject.swept(&variants, &SweepOptions::default());
+    let block = subject.sweep(&variants, &SweepOptions::default());
     let mut complete = 0;
     for k in 0..block.len() {
-        let (status, results, _) = subject.alone(variants.settings(k as u64));
+        let (status, results, _) = subject.run_single(variants.settings(k as u64));
         let swept: Vec<f64> = block.results.iter().map(|column| column[k]).collect();
         assert_eq!(block.statuses[k], status);
         assert_eq!(bits(&swept), bits(&results), "{swept:?} instead of {results:?}");
@@ -218,11 +218,11 @@ fn by_p(p: f64, cases: &[(&str, Option<f64>)]) {
         let _ = writeln!(declarations, "result r{k} = {formula}");
     }
     let subject = subject(&arm(&declarations), Choice::default());
-    let (asked, world) = (["p=0.01".to_owned()], Memory::default());
-    let of = subject.checked.tolerancing(&asked, &subject.choice, &world);
-    let of = of.unwrap_or_else(|(_, said)| panic!("{said:?}"));
-    let affected = of.affected(&subject.compiled, &SweepOptions::default());
-    let affected = affected.unwrap_or_else(|(_, said)| panic!("{said:?}"));
+    let (requested, world) = (["p=0.01".to_owned()], Memory::default());
+    let of = subject.checked.tolerancing(&requested, &subject.choice, &world);
+    let of = of.unwrap_or_else(|(_, diagnostics)| panic!("{diagnostics:?}"));
+    let affected = of.sensitivities(&subject.compiled, &SweepOptions::default());
+    let affected = affected.unwrap_or_else(|(_, diagnostics)| panic!("{diagnostics:?}"));
     let of_results = affected.iter().filter(|of| of.at.is_none());
     for (of, (formula, wanted)) in of_results.zip(cases) {
         match (of.slopes[0], wanted) {

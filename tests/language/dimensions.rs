@@ -75,8 +75,8 @@ fn codes(declarations: &str) -> Vec<String> {
             {declarations}
         }}"
     );
-    let checked = Parsed::of("m.mech", &text).check(&Choice::default(), &Memory::default());
-    checked.diagnostics().iter().map(|said| said.code.as_str().to_owned()).collect()
+    let checked = Parsed::new("m.mech", &text).check(&Choice::default(), &Memory::default());
+    checked.diagnostics().iter().map(|message| message.code.as_str().to_owned()).collect()
 }
 
 #[test]
@@ -87,9 +87,9 @@ fn unlike_terms_are_found_in_formulas_without_units() {
     for _ in 0..1500 {
         let depth = 1 + draws.below(3) as u32;
         let (text, _, is_wrong) = formula(&mut draws, depth);
-        let said = codes(&format!("measure e = {text}"));
-        assert_eq!(said.iter().any(|code| code == "E0401"), is_wrong, "{text}: {said:?}");
-        assert!(said.iter().all(|code| code == "E0401"), "{text}: {said:?}");
+        let messages = codes(&format!("measure e = {text}"));
+        assert_eq!(messages.iter().any(|code| code == "E0401"), is_wrong, "{text}: {messages:?}");
+        assert!(messages.iter().all(|code| code == "E0401"), "{text}: {messages:?}");
         verdicts[usize::from(is_wrong)] += 1;
     }
     assert!(verdicts.iter().all(|&count| count > 300), "{verdicts:?}");
@@ -130,8 +130,8 @@ fn bare_numbers_beside_degrees_are_warned_of() {
         ("mu * mu - 1", false),
         ("1 - angle(b)", false),
     ] {
-        let said = codes(&format!("measure e = {formula}"));
-        assert_eq!(said, if is_warned { vec!["W0401"] } else { vec![] }, "{formula}");
+        let messages = codes(&format!("measure e = {formula}"));
+        assert_eq!(messages, if is_warned { vec!["W0401"] } else { vec![] }, "{formula}");
     }
     let through_a_function = "fn beside(u) = 180 - u measure e = beside(mu) measure f = beside(angle(b))";
     assert_eq!(codes(through_a_function), ["W0401"]);

@@ -7,7 +7,7 @@ use mechc::{Cancel, Choice, Memory, Parsed, Redundant};
 /// Where the joints of a mechanism take hold as it is drawn (m), and the directions of its axes and the radii of its circles.
 fn features(text: &str) -> (Vec<[f64; 2]>, Vec<[f64; 2]>, Vec<f64>) {
     // the mechanism that is chosen by default, which need not be the first
-    let checked = Parsed::of("machine.mech", text).check(&Choice::default(), &Memory::default());
+    let checked = Parsed::new("machine.mech", text).check(&Choice::default(), &Memory::default());
     let (compiled, _) = checked.compile(Redundant::Refused, &Cancel::default());
     let compiled = compiled.expect("it is determined");
     let system = compiled.system();

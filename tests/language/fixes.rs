@@ -4,7 +4,7 @@
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, clippy::float_cmp)] // a test fails by panicking
 
 use crate::support::{Span, files, is_error, run_in, stem};
-use mechc::{Applies, Code, Diagnostic, Diagnostics, Fix, Parsed, Sources, fixed};
+use mechc::{Applicability, Code, Diagnostic, Diagnostics, Fix, Parsed, Sources, fixed};
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -16,7 +16,7 @@ struct Case {
 }
 
 /// All that is said of a text: of what cannot be read, of the rest of it, and of its motion if nothing is wrong with either.
-fn said(case: &Case) -> (Sources, Diagnostics) {
+fn messages(case: &Case) -> (Sources, Diagnostics) {
     let name = case.path.file_name().expect("a name").to_string_lossy().into_owned();
     let outcome = run_in(case.path.parent().expect("a folder"), &name, &case.text, Span::default());
     (outcome.sources, outcome.diagnostics)
@@ -52,7 +52,7 @@ fn fault_of(
     text: String,
 ) -> Option<String> {
     let mended_case = Case { path: case.path.clone(), text };
-    let (sources_after, after) = said(&mended_case);
+    let (sources_after, after) = messages(&mended_case);
     let own = (mended.code, mended.message.as_str());
     let times = |list: &Diagnostics| list.iter().filter(|one| (one.code, one.message.as_str()) == own).count();
     if times(&after) >= times(before) {
@@ -79,7 +79,7 @@ fn fault_of(
 
 /// The faults of all fixes of a text, and how many fixes there are.
 fn faults_of(case: &Case) -> (usize, Vec<String>) {
-    let (sources, before) = said(case);
+    let (sources, before) = messages(case);
     let (mut count, mut faults) = (0, Vec::new());
     let fixes: Vec<(&Diagnostic, &Fix)> =
         before.iter().flat_map(|found| found.fixes.iter().map(move |fix| (found, fix))).collect();
@@ -139,9 +139,9 @@ const LEAST: usize = 80;
 fn mended(text: &str) -> String {
     let mut text = text.to_owned();
     for _ in 0..32 {
-        let parsed = Parsed::of("text.mech", &text);
+        let parsed = Parsed::new("text.mech", &text);
         let fixes = parsed.faults().iter().flat_map(|fault| &fault.fixes);
-        let certain = fixes.filter(|fix| fix.applies == Applies::Always);
+        let certain = fixes.filter(|fix| fix.applies == Applicability::Always);
         let (next, made) = fixed(parsed.sources(), parsed.file(), certain);
         if made.is_empty() {
             break;
@@ -320,7 +320,7 @@ fn a_slip_is_undone_or_left_to_its_writer() {
             let slipped = format!("{}{wrong}{}", &text[..at], &text[at + right.len()..]);
             let now = mended(&slipped);
             // what still has faults was left to its writer, and what needed no change was no slip
-            if !Parsed::of("text.mech", &now).faults().is_empty() || now == slipped {
+            if !Parsed::new("text.mech", &now).faults().is_empty() || now == slipped {
                 continue;
             }
             assert_eq!(without_blanks(&now), without_blanks(text), "{}: `{right}` typed as `{wrong}`", path.display());
@@ -364,13 +364,13 @@ fn damaged(text: &str, next: &mut impl FnMut(usize) -> usize) -> String {
 
 /// What a certain fix made worse.
 fn worse_by_a_fix(text: &str) -> Option<String> {
-    let parsed = Parsed::of("text.mech", text);
+    let parsed = Parsed::new("text.mech", text);
     let place =
         |parsed: &Parsed, fault: &Diagnostic| parsed.sources().get(parsed.file()).position(fault.labels[0].span.start);
     for fault in parsed.faults().iter() {
-        for fix in fault.fixes.iter().filter(|fix| fix.applies == Applies::Always) {
+        for fix in fault.fixes.iter().filter(|fix| fix.applies == Applicability::Always) {
             let (mended, made) = fixed(parsed.sources(), parsed.file(), [fix]);
-            let after = Parsed::of("text.mech", &mended);
+            let after = Parsed::new("text.mech", &mended);
             let (before, now) = (parsed.faults().len(), after.faults().len());
             let is_same =
                 |one: &&Diagnostic| one.message == fault.message && place(&after, one) == place(&parsed, fault);
@@ -408,9 +408,9 @@ fn a_certain_fix_never_makes_a_damaged_text_worse() {
         for _ in 0..=next(2) {
             text = damaged(&text, &mut next);
         }
-        let parsed = Parsed::of("text.mech", &text);
+        let parsed = Parsed::new("text.mech", &text);
         let has_certain =
-            parsed.faults().iter().any(|fault| fault.fixes.iter().any(|fix| fix.applies == Applies::Always));
+            parsed.faults().iter().any(|fault| fault.fixes.iter().any(|fix| fix.applies == Applicability::Always));
         mended += usize::from(has_certain);
         faults.extend(worse_by_a_fix(&text).map(|fault| format!("{fault}\n{text}")));
     }

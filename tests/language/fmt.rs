@@ -17,7 +17,7 @@ use std::path::{Path, PathBuf};
 
 /// A text without its white space and the commas behind last items; and its comments.
 fn essence(text: &str) -> (String, Vec<String>) {
-    let parsed = Parsed::of("text", text);
+    let parsed = Parsed::new("text", text);
     let (mut rest, mut at, mut comments) = (String::new(), 0, Vec::new());
     for comment in &parsed.trivia().comments {
         rest += &text[at..comment.span.start as usize];
@@ -50,12 +50,12 @@ fn edited(text: &str, edits: &[Edit]) -> String {
 
 /// The text formatted, if it follows the grammar, after a check of all that holds of every text.
 fn formatted(text: &str) -> Option<String> {
-    let parsed = Parsed::of("text", text);
+    let parsed = Parsed::new("text", text);
     let once = parsed.formatted()?;
     assert_eq!(edited(text, &parsed.formatting()), once, "by edits, of\n{text}");
     assert_eq!(essence(&once), essence(text), "{text}\n{once}");
     assert_eq!(shape_of(&once), shape_of(text), "{text}\n{once}");
-    let again = Parsed::of("text", &once);
+    let again = Parsed::new("text", &once);
     assert!(again.faults().is_empty(), "{text}\n{once}");
     let twice = again.formatted().expect("it has no faults");
     let unlike = twice.lines().zip(once.lines()).find(|(a, b)| a != b);
@@ -121,11 +121,11 @@ fn nothing_is_lost_of_any_text() {
 #[test]
 fn examples_cases_and_documentation_are_formatted() {
     let mut own: Vec<(String, String)> = documentation();
-    let folders = ["examples/", "tests/cases/", "tests/cases2/"];
+    let folders = ["examples/", "tests/cases/", "tests/cases_composed/"];
     own.extend(texts().into_iter().filter(|(name, _)| folders.iter().any(|folder| name.contains(folder))));
     let (mut looked_at, mut unlike) = (0, Vec::new());
     for (name, text) in own {
-        let Some(formatted) = Parsed::of(&name, &text).formatted() else { continue };
+        let Some(formatted) = Parsed::new(&name, &text).formatted() else { continue };
         looked_at += 1;
         if formatted != text {
             unlike.push(name);
@@ -161,7 +161,7 @@ const BETWEEN: [&str; 9] =
 /// A text with other white space, and more comments, beside some brackets, commas and spaces.
 fn respaced(text: &str, seed: u64) -> String {
     let mut random = Random::new(seed);
-    let comments = Parsed::of("text", text).trivia().comments.clone();
+    let comments = Parsed::new("text", text).trivia().comments.clone();
     let is_comment = |at: usize| comments.iter().any(|c| (c.span.start as usize..=c.span.end as usize).contains(&at));
     let (mut out, mut is_quoted) = (String::new(), false);
     for (at, c) in text.char_indices() {
@@ -225,7 +225,7 @@ fn a_damaged_text_stays_as_it_is_and_what_is_whole_of_it_is_formatted() {
             continue;
         }
         let text = damaged(text, &mut random);
-        let parsed = Parsed::of("text", &text);
+        let parsed = Parsed::new("text", &text);
         let partly = edited(&text, &parsed.formatting());
         assert_eq!(essence(&partly), essence(&text), "{text}\n{partly}");
         if parsed.faults().is_empty() {
@@ -400,7 +400,7 @@ fn line_ends_are_those_of_the_first_line() {
 
 /// The text with the edits made that `of` gives.
 fn with_edits(text: &str, of: impl Fn(&Parsed) -> Vec<Edit>) -> String {
-    edited(text, &of(&Parsed::of("text", text)))
+    edited(text, &of(&Parsed::new("text", text)))
 }
 
 #[test]
@@ -452,7 +452,7 @@ fn lines_of_a_text_are_formatted_alone() {
     let brace = at("}\nbody c") + 1;
     assert_eq!(with_edits(text, |parsed| parsed.formatting_at_brace(brace)), block);
     assert_eq!(with_edits(text, |parsed| parsed.formatting_at_brace(brace - 1)), text, "there is no brace");
-    let all = Parsed::of("text", text).formatted().expect("it follows the grammar");
+    let all = Parsed::new("text", text).formatted().expect("it follows the grammar");
     assert_eq!(with_edits(text, |parsed| parsed.formatting_at_brace(text.len() as u32 - 1)), all);
 }
 
@@ -460,7 +460,7 @@ fn lines_of_a_text_are_formatted_alone() {
 #[test]
 fn edits_are_small() {
     let text = "mechanism m {\n    param a = 1\n\n\n    param b =2\n}\n";
-    let edits = Parsed::of("text", text).formatting();
+    let edits = Parsed::new("text", text).formatting();
     let small: Vec<(u32, u32, &str)> = edits.iter().map(|e| (e.span.start, e.span.end, e.text.as_str())).collect();
     assert_eq!(small, [(31, 32, ""), (45, 45, " ")]);
 }
@@ -502,15 +502,15 @@ fn files_are_replaced_only_where_they_change() {
     for (name, text) in texts {
         fs::write(at(name), text).unwrap();
     }
-    let (code, diff, said) = fmt(folder.path(), &["--check", "."]);
-    assert_eq!((code, diff.matches("+    param a = 1").count()), (1, 4), "{diff}{said}");
-    assert!(said.contains("E0101"), "{said}");
+    let (code, diff, diagnostics) = fmt(folder.path(), &["--check", "."]);
+    assert_eq!((code, diff.matches("+    param a = 1").count()), (1, 4), "{diff}{diagnostics}");
+    assert!(diagnostics.contains("E0101"), "{diagnostics}");
     for (name, text) in texts {
         assert_eq!(read(name), text, "{name} is only looked at");
     }
     let old = fs::metadata(at("neat.mech")).unwrap().modified().unwrap();
-    let (code, printed, said) = fmt(folder.path(), &[".", "loose.mech"]);
-    assert_eq!((code, printed.as_str(), said.matches("formatted `").count()), (1, "", 4), "{said}");
+    let (code, printed, diagnostics) = fmt(folder.path(), &[".", "loose.mech"]);
+    assert_eq!((code, printed.as_str(), diagnostics.matches("formatted `").count()), (1, "", 4), "{diagnostics}");
     for changed in ["loose.mech", "inner/loose.mech", "inner/LOUD.MECH"] {
         assert_eq!(read(changed), NEAT, "{changed}");
     }
@@ -537,14 +537,14 @@ fn what_cannot_be_formatted_is_told_and_the_rest_is_formatted() {
     fs::create_dir(at("empty")).unwrap();
     for (bad, wanted, code) in [("missing.mech", "E0701", 4), ("empty", "no `.mech` file is in it", 4)] {
         fs::write(at("loose.mech"), LOOSE).unwrap();
-        let (exit, _, said) = fmt(folder.path(), &[bad, "loose.mech"]);
-        assert_eq!(exit, code, "{said}");
-        assert!(said.contains(wanted), "{said}");
+        let (exit, _, diagnostics) = fmt(folder.path(), &[bad, "loose.mech"]);
+        assert_eq!(exit, code, "{diagnostics}");
+        assert!(diagnostics.contains(wanted), "{diagnostics}");
         assert_eq!(fs::read_to_string(at("loose.mech")).unwrap(), NEAT);
     }
     fs::write(at("latin1.mech"), b"mechanism caf\xe9 {}").unwrap();
-    let (exit, _, said) = fmt(folder.path(), &["latin1.mech"]);
-    assert!(exit == 1 && said.contains("E0102"), "{said}");
+    let (exit, _, diagnostics) = fmt(folder.path(), &["latin1.mech"]);
+    assert!(exit == 1 && diagnostics.contains("E0102"), "{diagnostics}");
     assert_eq!(fmt(folder.path(), &[]).0, 2);
 }
 

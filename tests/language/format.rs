@@ -53,15 +53,15 @@ fn every_file_reads_back_as_it_was() {
 /// Also what is refused later, as long as it follows the grammar.
 #[test]
 fn files_with_mistakes_read_back_too() {
-    let mut seen = 0;
+    let mut visited = 0;
     for path in files("tests/ui", "mech") {
         let text = fs::read_to_string(&path).expect("a text");
         if read(&text, |sources, file| whole(parse(sources, file))).is_ok() {
             formatted(&path.display().to_string(), &text);
-            seen += 1;
+            visited += 1;
         }
     }
-    assert!(seen > 50, "only {seen} files follow the grammar");
+    assert!(visited > 50, "only {visited} files follow the grammar");
 }
 
 /// A file that was written in the style of the formatter, without `//` comments, stays as it is.

@@ -46,7 +46,7 @@ fn imported(model: &str, settings: Option<&str>) -> Imported {
         let id = sources.add("imported.mech", text.as_str());
         let again = syntax::parse(&sources, id).tree;
         assert_eq!(&syntax::format(&again), text, "it is formatted");
-        let (_, said) = check::check(&again.mechanisms[0], &check::Surroundings::default(), &sources);
+        let (_, said) = check::check(&again.mechanisms[0], &check::CheckOptions::default(), &sources);
         // constants that are not finite are told by the command
         let words = said.iter().find(|d| d.code != Code::E0404);
         let words = words.map(|d| render(d, &sources, Format::Human, Color::Never));

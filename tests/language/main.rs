@@ -6,16 +6,16 @@
 mod support;
 
 mod dimensions;
+mod display_units;
 mod features;
 mod fixes;
 mod fmt;
 mod format;
 mod formula;
+mod generated_names;
 mod import;
 mod mistakes;
 mod parts;
-mod printed;
 mod printing;
-mod spelled;
 mod stack;
 mod vocabulary;

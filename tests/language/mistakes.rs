@@ -8,8 +8,8 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 /// `(line, code)` of everything that is said of a text up to its check, whichever of its mechanisms it is said of.
-fn told(text: &str) -> Vec<(usize, &'static str)> {
-    let parsed = Parsed::of("text.mech", text);
+fn reported(text: &str) -> Vec<(usize, &'static str)> {
+    let parsed = Parsed::new("text.mech", text);
     let names: Vec<Option<String>> = parsed.mechanisms().map(|name| Some(name.to_owned())).collect();
     let mut places = BTreeSet::new();
     let mut list = Vec::new();
@@ -37,7 +37,7 @@ fn markers(text: &str) -> Vec<(usize, &str)> {
 }
 
 fn check(text: &str) {
-    assert_eq!(told(text), markers(text), "{text}");
+    assert_eq!(reported(text), markers(text), "{text}");
 }
 
 #[test]
@@ -322,7 +322,7 @@ fn inputs() -> Vec<Mistaken> {
                 !markers.is_empty()
                     && markers.iter().all(|(_, code)| !code.contains('5') && !["E0103", "W0402"].contains(code))
                     && !has_nameless(&text)
-                    && told(&text) == markers
+                    && reported(&text) == markers
             }));
         }
     }
@@ -346,8 +346,8 @@ fn of_two_mistakes_both_are_told_and_nothing_else() {
     let (mut state, mut together) = (7, 0);
     let mut failed = Vec::new();
     let mut check = |text: &str| {
-        if told(text) != markers(text) {
-            failed.push(format!("{text}\ntold   {:?}\nwanted {:?}", told(text), markers(text)));
+        if reported(text) != markers(text) {
+            failed.push(format!("{text}\ntold   {:?}\nwanted {:?}", reported(text), markers(text)));
         }
     };
     for _ in 0..PAIRS {

@@ -21,21 +21,21 @@ fn run(text: &str, file: &Path, mechanism: &str, times: Option<&Times>) -> Resul
     let choice = Choice { mechanism: Some(mechanism.to_owned()), ..Choice::default() };
     let mut sources = Sources::default();
     let id = sources.add("text", text);
-    let parsed = Parsed::of_source(sources, id, file);
+    let parsed = Parsed::from_source(sources, id, file);
     let checked = parsed.check(&choice, &Disk::default());
-    let (compiled, said) = checked.compile(Redundant::LeftOut, &Cancel::default());
-    let told = || {
-        let all = checked.diagnostics().iter().chain(said.iter());
+    let (compiled, messages) = checked.compile(Redundant::LeftOut, &Cancel::default());
+    let reported = || {
+        let all = checked.diagnostics().iter().chain(messages.iter());
         all.map(|d| format!("{} {}", d.code.as_str(), d.message)).collect::<Vec<_>>().join("; ")
     };
-    let compiled = compiled.ok_or_else(told)?;
+    let compiled = compiled.ok_or_else(reported)?;
     let times = match (times, compiled.analysis()) {
         (Some(times), _) => times.clone(),
         (None, Some([from, to, every])) => Times::grid(from, to, every).ok_or("no grid")?,
         (None, None) => return Err("no analysis".to_owned()),
     };
-    let (run, said) = compiled.run(&times, &RunOptions::default());
-    let mut run = run.ok_or_else(|| said.iter().map(|d| d.code.as_str()).collect::<Vec<_>>().join(" "))?;
+    let (run, messages) = compiled.run(&times, &RunOptions::default());
+    let mut run = run.ok_or_else(|| messages.iter().map(|d| d.code.as_str()).collect::<Vec<_>>().join(" "))?;
     let columns = run.columns().to_vec();
     let mut rows = Vec::new();
     while let Some(row) = run.next_row() {
@@ -58,15 +58,15 @@ fn named<'t>(text: &'t str, keyword: &str) -> Vec<(&'t str, &'t str)> {
 
 /// A mechanism with measures of all that can be asked of its bodies and joints.
 fn measured(text: &str) -> String {
-    let mut asked = String::new();
+    let mut requested = String::new();
     for (body, rest) in named(text, "body") {
         if !rest.trim_start().starts_with('[') {
             let _ = write!(
-                asked,
+                requested,
                 "    measure of_x_{body} = x({body}.own_origin)\n    measure of_y_{body} = y({body}.own_origin)\n"
             );
             let _ = write!(
-                asked,
+                requested,
                 "    measure of_phi_{body} = angle({body})\n    measure of_v_{body} = speed({body}.own_origin)\n"
             );
         }
@@ -74,9 +74,9 @@ fn measured(text: &str) -> String {
     for (joint, rest) in named(text, "joint") {
         let kind = rest.trim_start_matches([':', ' ']);
         if kind.starts_with("revolute(") {
-            let _ = writeln!(asked, "    measure of_turn_{joint} = rotation({joint})");
+            let _ = writeln!(requested, "    measure of_turn_{joint} = rotation({joint})");
         } else if kind.starts_with("translational(") {
-            let _ = writeln!(asked, "    measure of_way_{joint} = displacement({joint})");
+            let _ = writeln!(requested, "    measure of_way_{joint} = displacement({joint})");
         }
     }
     let mut changed = String::new();
@@ -91,7 +91,7 @@ fn measured(text: &str) -> String {
         }
     }
     let end = changed.rfind('}').expect("a mechanism");
-    changed.insert_str(end, &asked);
+    changed.insert_str(end, &requested);
     changed
 }
 
@@ -191,9 +191,9 @@ fn a_part_is_what_it_is_alone_seen_from_its_own_ground() {
 }
 
 /// What is said of the mechanism `whole` of a text, and its rows.
-fn said(text: &str) -> (Vec<String>, Vec<Vec<f64>>) {
+fn messages(text: &str) -> (Vec<String>, Vec<Vec<f64>>) {
     let choice = Choice { mechanism: Some("whole".to_owned()), ..Choice::default() };
-    let checked = Parsed::of("text", text).check(&choice, &Disk::default());
+    let checked = Parsed::new("text", text).check(&choice, &Disk::default());
     let (compiled, of_proof) = checked.compile(Redundant::Refused, &Cancel::default());
     let mut all: Vec<String> = checked.diagnostics().iter().chain(of_proof.iter()).map(|d| d.message.clone()).collect();
     let Some(compiled) = compiled else { return (all, Vec::new()) };
@@ -221,9 +221,9 @@ fn an_input_that_is_bound_has_no_limits_of_its_own_formula() {
         driver d: rotation(j) = turn
     }";
     let around = |part: &str| format!("mechanism whole {{ part p: {part} analysis from 0 to 3 every 1 }}\n{leaf}");
-    let (bound, rows) = said(&around("leaf(turn = 0.5 * t)"));
+    let (bound, rows) = messages(&around("leaf(turn = 0.5 * t)"));
     assert!(bound.is_empty() && rows.len() == 4, "{bound:?}");
-    let (own, _) = said(&around("leaf()"));
+    let (own, _) = messages(&around("leaf()"));
     assert_eq!(own, ["table `some` does not reach as far as `p.turn` goes at t = 1 s"]);
 }
 
@@ -247,11 +247,11 @@ fn parts_on_one_line_begin_where_each_would_alone() {
     let turns = [62.0, 40.0, 55.0, 61.0, 60.0, 40.0, 35.0];
     let all: Vec<String> =
         turns.iter().enumerate().map(|(k, turn)| format!("part p{k}: lever(turn = {turn} deg)\n")).collect();
-    let (told, rows) = said(&around(&all.concat()));
-    assert!(told.is_empty(), "{told:?}");
+    let (reported, rows) = messages(&around(&all.concat()));
+    assert!(reported.is_empty(), "{reported:?}");
     for (k, turn) in turns.iter().enumerate() {
-        let (told, alone) = said(&around(&format!("part p: lever(turn = {turn} deg)\n")));
-        assert!(told.is_empty(), "{told:?}");
+        let (reported, alone) = messages(&around(&format!("part p: lever(turn = {turn} deg)\n")));
+        assert!(reported.is_empty(), "{reported:?}");
         assert_eq!(rows[0][1 + 9 * k..][..9], alone[0][1..10], "turn = {turn} deg");
     }
 }
@@ -259,11 +259,12 @@ fn parts_on_one_line_begin_where_each_would_alone() {
 #[test]
 fn of_parts_on_one_line_each_says_that_it_does_not_arrive() {
     let parts = "part near: lever(turn = 66 deg)  part far: lever(turn = 200 deg)  part farther: lever(turn = 250 deg)";
-    let (told, _) = said(&format!("mechanism whole {{ {parts} analysis from 0 to 0 every 1 }}\n{LEVER}"));
-    let not_led: Vec<&String> = told.iter().filter(|message| message.starts_with("on the way of the part")).collect();
+    let (reported, _) = messages(&format!("mechanism whole {{ {parts} analysis from 0 to 0 every 1 }}\n{LEVER}"));
+    let not_led: Vec<&String> =
+        reported.iter().filter(|message| message.starts_with("on the way of the part")).collect();
     let place = |message: &str| message.split(" = ").nth(1).map(str::to_owned);
-    assert_eq!(not_led.len(), 2, "{told:?}");
-    assert!(not_led[0].contains("`far`") && not_led[1].contains("`farther`"), "{told:?}");
+    assert_eq!(not_led.len(), 2, "{reported:?}");
+    assert!(not_led[0].contains("`far`") && not_led[1].contains("`farther`"), "{reported:?}");
     assert_eq!(place(not_led[0]), place(not_led[1]), "the dead point is where it is");
     // where the rod and the rocker are in line, at acos(9/24)
     assert_eq!(place(not_led[0]).as_deref(), Some("1.186399552 rad"));
@@ -283,7 +284,7 @@ fn a_part_on_a_turning_body_is_what_it_is_alone_however_far_its_mount() {
         measure turned = angle(eye)
         analysis from 0 s to 1 s every 0.1 s
     }";
-    let (_, alone) = said(&part.replace("mechanism guided", "mechanism whole"));
+    let (_, alone) = messages(&part.replace("mechanism guided", "mechanism whole"));
     for distance in ["45 m", "100 m", "10 km", "100 km"] {
         let distance = distance.replace(" km", "000 m");
         let text = format!(
@@ -298,8 +299,8 @@ fn a_part_on_a_turning_body_is_what_it_is_alone_however_far_its_mount() {
             }}
             {part}"
         );
-        let (told, rows) = said(&text);
-        assert!(told.is_empty(), "{distance}: {told:?}");
+        let (reported, rows) = messages(&text);
+        assert!(reported.is_empty(), "{distance}: {reported:?}");
         assert_eq!(rows.len(), alone.len(), "{distance}");
     }
 }
@@ -325,8 +326,8 @@ mechanism arm {{
     driver motor: rotation(pivot) = 10 deg + 2 rad/s * t
 }}"
     );
-    let (told, rows) = said(&text);
-    assert!(told.is_empty() && rows.len() == 3, "{place}: {told:?}");
+    let (reported, rows) = messages(&text);
+    assert!(reported.is_empty() && rows.len() == 3, "{place}: {reported:?}");
     rows
 }
 
@@ -398,8 +399,8 @@ mechanism two {{
     driver dq: rotation(jq) = v
 }}"
     );
-    let (told, rows) = said(&text);
-    assert!(told.is_empty(), "{parts}: {told:?}");
+    let (reported, rows) = messages(&text);
+    assert!(reported.is_empty(), "{parts}: {reported:?}");
     rows.last().expect("rows").clone()
 }
 

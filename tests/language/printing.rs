@@ -2,7 +2,7 @@
 
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, clippy::float_cmp)] // a test fails by panicking
 
-use crate::support::reading::{self, BINARIES, Names, UNARIES, parse};
+use crate::support::formula_reader::{self, BINARIES, Names, UNARIES, parse};
 use mechc_expr::{Comparison, ExprId, Graph, Printer, Symbol, TableId};
 use mechc_syntax::ast;
 use proptest::prelude::*;
@@ -37,7 +37,7 @@ impl Names for Known<'_> {
 }
 
 fn read(graph: &mut Graph, e: &ast::Expr, known: &HashMap<String, ExprId>) -> ExprId {
-    reading::read(graph, e, &Known(known))
+    formula_reader::read(graph, e, &Known(known))
 }
 
 /// A program of constructors for a stack of numbers and a stack of conditions.

@@ -2,10 +2,10 @@
 
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, clippy::float_cmp)] // a test fails by panicking
 
-#[path = "../support/deepest.rs"]
-mod deepest;
+#[path = "../support/deep_texts.rs"]
+mod deep_texts;
 
-use deepest::{all_ways, deepest};
+use deep_texts::{deep_texts, run_all_stages};
 use mechc::{Choice, Memory, Parsed, Sources};
 use mechc_expr::math;
 use mechc_lang::check;
@@ -24,15 +24,15 @@ const TOO_LARGE: &str = "functions with branches";
 
 #[test]
 fn what_is_deepest_does_with_a_small_stack() {
-    let all = deepest();
+    let all = deep_texts();
     assert!(all.len() > 20);
     for deep in all {
         let name = deep.name;
         let way = thread::Builder::new().name(name.to_owned()).stack_size(STACK);
-        let went = way.spawn(move || all_ways(&deep)).expect("a thread").join().expect("no panic");
+        let went = way.spawn(move || run_all_stages(&deep)).expect("a thread").join().expect("no panic");
         match went {
             Ok(_) => assert_ne!(name, TOO_LARGE),
-            Err(said) => assert!(name == TOO_LARGE && said.contains("E0410"), "{name}: {said}"),
+            Err(messages) => assert!(name == TOO_LARGE && messages.contains("E0410"), "{name}: {messages}"),
         }
     }
 }
@@ -76,8 +76,8 @@ fn checked(text: &str) -> (Option<Mechanism>, Vec<&'static str>) {
     let file = sources.add("chained", text);
     let parsed = syntax::parse(&sources, file);
     assert!(parsed.faults.is_empty());
-    let (model, said) = check::check(&parsed.tree.mechanisms[0], &check::Surroundings::default(), &sources);
-    (model, said.iter().map(|one| one.code.as_str()).collect())
+    let (model, messages) = check::check(&parsed.tree.mechanisms[0], &check::CheckOptions::default(), &sources);
+    (model, messages.iter().map(|one| one.code.as_str()).collect())
 }
 
 proptest! {
@@ -115,8 +115,8 @@ fn what_is_said_of_a_long_chain_is_what_is_said_of_a_short_one() {
     for count in [3, 40, 70, 140, 900] {
         let (model, codes) =
             checked(&chained(&vec![(0, 0.5); count], "step(u, 0, 0, u + 1, 1)", &format!("{body} LAST(t) + LAST(t)")));
-        let asked = model.map(|model| model.conditions.len());
-        assert_eq!((asked, codes), (Some(1), vec![]), "{count} functions");
+        let requested = model.map(|model| model.conditions.len());
+        assert_eq!((requested, codes), (Some(1), vec![]), "{count} functions");
     }
 }
 
@@ -126,9 +126,10 @@ fn any_number_of_levels_of_parts_is_told_with_a_small_stack() {
     let text = (0..4000).map(level).collect::<String>() + "mechanism m4000 { body b { point O = (0, 0) } }";
     let check = move || {
         let choice = Choice { mechanism: Some("m0".to_owned()), ..Choice::default() };
-        let checked = Parsed::of("levels", &text).check(&choice, &Memory::default());
-        checked.diagnostics().iter().map(|said| said.code.as_str()).collect::<Vec<_>>()
+        let checked = Parsed::new("levels", &text).check(&choice, &Memory::default());
+        checked.diagnostics().iter().map(|message| message.code.as_str()).collect::<Vec<_>>()
     };
-    let told = thread::Builder::new().stack_size(STACK / 2).spawn(check).expect("a thread").join().expect("no panic");
-    assert_eq!(told, ["E0209"]);
+    let reported =
+        thread::Builder::new().stack_size(STACK / 2).spawn(check).expect("a thread").join().expect("no panic");
+    assert_eq!(reported, ["E0209"]);
 }

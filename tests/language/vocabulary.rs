@@ -105,8 +105,8 @@ fn joints_have_as_many_equations_and_coordinates_as_their_pages_say() {
         let name = &system.declarations()[number].name;
         let own: Vec<&str> =
             system.coordinates().iter().filter_map(|c| c.name.strip_prefix(&format!("{name}."))).collect();
-        let told: Vec<&str> = joint.coordinates.iter().map(|(name, _)| *name).collect();
-        assert_eq!(own, told, "{}", joint.word.name);
+        let reported: Vec<&str> = joint.coordinates.iter().map(|(name, _)| *name).collect();
+        assert_eq!(own, reported, "{}", joint.word.name);
     }
 }
 
@@ -312,13 +312,13 @@ const VALUES: &[(&str, &[&str], f64)] = &[
 #[test]
 fn what_is_said_instead_has_the_value_of_what_was_meant() {
     for &(word, arguments, value) in VALUES {
-        let said = Synonym::of(Place::Call, word).unwrap_or_else(|| panic!("{word}")).say(arguments);
-        let formula = *code_in(&said).last().expect("a formula");
+        let messages = Synonym::of(Place::Call, word).unwrap_or_else(|| panic!("{word}")).say(arguments);
+        let formula = *code_in(&messages).last().expect("a formula");
         let outcome = run(word, &with(&format!("measure v = {formula}")), Span::default()).expect_success();
         let found = outcome.column("v")[0];
         assert!(
             (found - value).abs() < 1e-12 * value.abs().max(1.0),
-            "{word}({arguments:?}), {said}: {found}, not {value}"
+            "{word}({arguments:?}), {messages}: {found}, not {value}"
         );
     }
 }
@@ -333,9 +333,9 @@ fn only_what_exists_is_proposed() {
         for word in synonym.means {
             assert!(vocabulary::page(word).is_some(), "{:?} mean `{word}`, which is no word", synonym.names);
         }
-        let said = synonym.say(&[]);
-        assert!(!said.ends_with('.') && !said.contains(['{', '}']), "{said}");
-        assert_eq!(code_in(&said).len() * 2, said.matches('`').count(), "{said}");
+        let messages = synonym.say(&[]);
+        assert!(!messages.ends_with('.') && !messages.contains(['{', '}']), "{messages}");
+        assert_eq!(code_in(&messages).len() * 2, messages.matches('`').count(), "{messages}");
         for name in synonym.names {
             assert_eq!(*name, name.to_lowercase(), "they are compared in small letters");
             let is_one = vocabulary::words().any(|word| {
@@ -359,17 +359,17 @@ fn only_what_exists_is_proposed() {
             });
             names.filter(|name| !name.is_empty()).collect()
         };
-        for name in code_in(&said).into_iter().flat_map(called) {
+        for name in code_in(&messages).into_iter().flat_map(called) {
             let is_joint = vocabulary::JOINTS.iter().any(|joint| joint.word.name == name);
             let is_quantity = vocabulary::QuantityWord::named(&name).is_some();
             let is_reduction = vocabulary::REDUCTIONS.iter().any(|reduction| reduction.word.name == name);
-            assert!(is_joint || is_quantity || is_reduction || vocabulary::is_called(&name), "{said}: `{name}`");
+            assert!(is_joint || is_quantity || is_reduction || vocabulary::is_called(&name), "{messages}: `{name}`");
         }
-        if synonym.place == Place::Call && !said.ends_with('?') {
-            for k in 0..code_in(&said).len() {
+        if synonym.place == Place::Call && !messages.ends_with('?') {
+            for k in 0..code_in(&messages).len() {
                 let works = of_kinds.iter().any(|arguments| {
-                    let said = synonym.say(arguments);
-                    let code = code_in(&said)[k]
+                    let messages = synonym.say(arguments);
+                    let code = code_in(&messages)[k]
                         .replace("joint)", "joint_b)")
                         .replace("(u, u0, v0, u1, v1)", "(t, 0, 0, 1, 1)");
                     let code = code.replace("(u, u0, c0, c1)", "(t, 0, 0, 1)");
@@ -378,7 +378,7 @@ fn only_what_exists_is_proposed() {
                     let result = measure.replace("measure", "result");
                     is_word || checks(&measure) || checks(&measure.replace("< 1 s", "< 1")) || checks(&result)
                 });
-                assert!(works, "{said}: number {k}");
+                assert!(works, "{messages}: number {k}");
             }
         }
     }

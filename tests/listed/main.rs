@@ -5,17 +5,17 @@
 #[path = "../support/mod.rs"]
 mod support;
 
-mod cases;
 mod explain;
 mod modules;
+mod references;
 mod sensitivities;
 mod sessions;
 mod stages;
 mod ui;
 
 fn main() {
-    let mut tests = support::listed::Tests::default();
-    cases::list(&mut tests);
+    let mut tests = support::named_tests::Tests::default();
+    references::list(&mut tests);
     explain::list(&mut tests);
     modules::list(&mut tests);
     sensitivities::list(&mut tests);

@@ -9,7 +9,7 @@ mod compiling;
 #[path = "../emitted/texts.rs"]
 mod texts;
 
-use crate::support::listed::{Tests, is_asked_for};
+use crate::support::named_tests::{Tests, is_requested};
 use crate::support::{files, mechanisms, stem};
 use compiling::{Emitted, POINTS, bits_of, compile, interpreted, point};
 use std::fmt::Write;
@@ -88,8 +88,15 @@ const FOR_RUN_ALONE: &str = "slider_crank_closed_form";
 
 /// Examples, reference cases and the stages; formulas with rims; and one that takes several functions.
 fn determined() -> Vec<Module> {
-    let folders =
-        ["examples", "tests/cases", "tests/cases3", "tests/forces", "tests/stages", "tests/following", "tests/slopes"];
+    let folders = [
+        "examples",
+        "tests/cases",
+        "tests/cases_forces",
+        "tests/forces",
+        "tests/stages",
+        "tests/following",
+        "tests/slopes",
+    ];
     let mut paths = folders.map(|folder| files(folder, "mech")).concat();
     paths.retain(|path| stem(path) != FOR_RUN_ALONE);
     let mut list: Vec<Module> = Vec::new();
@@ -286,7 +293,7 @@ pub fn list(tests: &mut Tests) {
     let groups = |name: &str| ["alone", "bits", "checked"].map(|group| format!("{group}::{name}"));
     // to compile all of them takes minutes: a dozen stand for them unless all are asked for
     let is_all = std::env::var_os(ALL).is_some();
-    let is_wanted = |module: &Module| groups(&module.name).iter().any(|name| is_asked_for(name));
+    let is_wanted = |module: &Module| groups(&module.name).iter().any(|name| is_requested(name));
     let checked: Vec<String> = with_checks.iter().map(|module| module.name.clone()).collect();
     let chosen = |every: usize| move |(k, _): &(usize, Module)| is_all || k % every == 0;
     let determined = determined.into_iter().enumerate().filter(chosen(count / A_DOZEN)).map(|(_, module)| module);

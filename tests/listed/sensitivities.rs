@@ -5,7 +5,7 @@
 
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, clippy::float_cmp)] // a test fails by panicking
 
-use crate::support::listed::Tests;
+use crate::support::named_tests::Tests;
 use crate::support::{Disk, all_rows, files, mechanisms, stem};
 use mechc::{Cancel, Choice, Compiled, Parsed, Redundant, Times};
 use mechc_engine::analysis::{self, Horizon};
@@ -127,7 +127,7 @@ fn with_some_params(text: &str, mechanism: usize, is_taken: impl Fn(usize) -> bo
 fn compile(path: &Path, text: &str, choice: &Choice) -> Option<Compiled> {
     let mut sources = mechc::Sources::default();
     let file = sources.add(path.display().to_string(), text);
-    let checked = Parsed::of_source(sources, file, path).check(choice, &Disk::default());
+    let checked = Parsed::from_source(sources, file, path).check(choice, &Disk::default());
     checked.compile(Redundant::Refused, &Cancel::default()).0
 }
 
@@ -152,7 +152,7 @@ fn setting(name: &str, value: f64, unit: &str) -> String {
 }
 
 /// A text with a parameter, or an input, to vary.
-struct Varied<'t> {
+struct SliderRange<'t> {
     path: &'t Path,
     text: &'t str,
     mechanism: &'t str,
@@ -162,7 +162,7 @@ struct Varied<'t> {
     is_input: bool,
 }
 
-impl Varied<'_> {
+impl SliderRange<'_> {
     fn choice(&self, by: &[&str]) -> Choice {
         let by = by.iter().map(|&name| name.to_owned()).collect();
         Choice { mechanism: Some(self.mechanism.to_owned()), by, ..Choice::default() }
@@ -173,8 +173,8 @@ impl Varied<'_> {
         let size = if self.unit == "1" { self.value.abs().max(0.1) } else { self.value.abs().max(1e-3) };
         let difference = |h: f64| {
             let side = |value: f64| {
-                let told = vec![setting(self.name, value, &self.unit)];
-                let (inputs, set) = if self.is_input { (told, Vec::new()) } else { (Vec::new(), told) };
+                let reported = vec![setting(self.name, value, &self.unit)];
+                let (inputs, set) = if self.is_input { (reported, Vec::new()) } else { (Vec::new(), reported) };
                 let choice = Choice { inputs, set, ..self.choice(&[]) };
                 rows(&compile(self.path, self.text, &choice)?, times)
             };
@@ -236,7 +236,7 @@ struct Seen {
 }
 
 impl Seen {
-    fn take(&mut self, varied: &Varied<'_>) {
+    fn take(&mut self, varied: &SliderRange<'_>) {
         if let Some((cells, looked_at)) = varied.check() {
             (self.variables, self.cells, self.looked_at) =
                 (self.variables + 1, self.cells + cells, self.looked_at + looked_at);
@@ -268,9 +268,9 @@ fn first_order(path: &Path) {
     seen.is_enough();
 }
 
-fn varied_param<'t>(path: &'t Path, (text, mechanism): (&'t str, &'t str), param: &'t Param) -> Varied<'t> {
+fn varied_param<'t>(path: &'t Path, (text, mechanism): (&'t str, &'t str), param: &'t Param) -> SliderRange<'t> {
     let Param { name, value, .. } = param;
-    Varied { path, text, mechanism, name, value: *value, unit: param.unit(), is_input: false }
+    SliderRange { path, text, mechanism, name, value: *value, unit: param.unit(), is_input: false }
 }
 
 /// The text with measures that are places and angles of its bodies, differentiated by a name.
@@ -342,7 +342,7 @@ fn inputs(path: &Path) {
                 let is_there = text.split("mechanism ").any(|one| one.starts_with(&mechanism) && one.contains(input));
                 if is_there && compile(path, &text, &choice).is_some() {
                     let (mechanism, name) = (&mechanism, "zin");
-                    seen.take(&Varied {
+                    seen.take(&SliderRange {
                         path,
                         text: &text,
                         mechanism,
@@ -363,7 +363,7 @@ fn operations(path: &Path, text: &str, choice: &Choice) -> usize {
     let (determined, program) = compile(path, text, choice).expect("it is determined").inside();
     let started =
         analysis::start(determined, program, Horizon::of_analysis(None), mechc::TOLERANCE, &Cancel::default());
-    started.unwrap_or_else(|why| panic!("{}", why.message)).solver().expect("operations").instructions().len()
+    started.unwrap_or_else(|stop| panic!("{stop:?}")).solver().expect("operations").instructions().len()
 }
 
 /// One name costs at most as much as a row without it: it is solved for with the factors that there are.

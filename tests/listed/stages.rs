@@ -3,7 +3,7 @@
 
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, clippy::float_cmp)] // a test fails by panicking
 
-use crate::support::listed::Tests;
+use crate::support::named_tests::Tests;
 use crate::support::{Span, files, run, stem};
 use mechc::{Choice, Memory, Parsed};
 use std::fmt::Write;
@@ -14,7 +14,7 @@ fn every_stage_is_as_in_its_snapshot(path: &Path) {
     let folder = path.parent().expect("a folder");
     let name = stem(folder);
     let text = fs::read_to_string(path).expect("a text");
-    let parsed = Parsed::of(&name, &text);
+    let parsed = Parsed::new(&name, &text);
     let checked = parsed.check(&Choice::default(), &Memory::default());
     assert!(checked.diagnostics().is_empty(), "{name}");
     let rows = run(&name, &text, Span::default()).expect_success();

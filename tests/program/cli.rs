@@ -113,7 +113,7 @@ fn a_reader_that_goes_away_is_no_error() {
 }
 
 /// What a message says, without the lines that it quotes.
-fn said(text: &str) -> String {
+fn messages(text: &str) -> String {
     let is_quoted = |line: &&str| line.contains(" │ ") && line.trim_start().starts_with(|c: char| c.is_ascii_digit());
     text.lines().filter(|line| !is_quoted(line)).collect::<Vec<&str>>().join("\n")
 }
@@ -124,7 +124,7 @@ fn numbers_in_messages_are_not_written_out() {
     let file = folder.path().join("numbers.mech").to_string_lossy().into_owned();
     let run = |text: &str, options: &[&str], code: i32| {
         fs::write(&file, format!("mechanism m {{ {text} }}")).unwrap();
-        let text = said(&failure(&[&["run", &file], options].concat(), code));
+        let text = messages(&failure(&[&["run", &file], options].concat(), code));
         assert!(!text.contains("000000"), "{text}");
         text
     };
@@ -154,7 +154,7 @@ fn numbers_in_messages_are_not_written_out() {
     fs::write(&file, format!("mechanism m {{ {disc} measure s = sin(1e30) analysis from 0 s to 1 s every 1 s }}"))
         .unwrap();
     let output = mechc().args(["run", &file]).output().expect("it runs");
-    let text = said(&String::from_utf8_lossy(&output.stderr));
+    let text = messages(&String::from_utf8_lossy(&output.stderr));
     assert!(!text.contains("000000"), "{text}");
 }
 
@@ -334,8 +334,8 @@ fn mistakes_without_doubt_are_mended_in_the_file() {
     let output = mechc().args(["check", &name, "--fix"]).output().expect("it runs");
     assert_eq!(output.status.code(), Some(0));
     assert!(String::from_utf8_lossy(&output.stdout).starts_with("mechanism disc is determined"));
-    let told = String::from_utf8(output.stderr).unwrap();
-    let lines: Vec<&str> = told.lines().map(|line| line.trim_start_matches(name.as_str())).collect();
+    let reported = String::from_utf8(output.stderr).unwrap();
+    let lines: Vec<&str> = reported.lines().map(|line| line.trim_start_matches(name.as_str())).collect();
     let last = format!("fixed 5 in `{name}`");
     let wanted = [
         ":2:5: a comment begins with `//`: `#` → `//`",
@@ -360,16 +360,20 @@ fn what_is_left_is_told_and_gives_the_exit_code() {
     let file = folder.path().join("disc.mech");
     let name = file.to_string_lossy().into_owned();
     fs::write(&file, DRAFT.replace("wheel.O)", "wheel.P)")).unwrap();
-    let told = failure(&["check", &name, "--fix", "--message-format", "short"], 1);
+    let reported = failure(&["check", &name, "--fix", "--message-format", "short"], 1);
     assert!(
-        told.contains("`wheel` has no point `P`") && told.contains(":7:34: an equation is written with one `=`"),
-        "{told}"
+        reported.contains("`wheel` has no point `P`")
+            && reported.contains(":7:34: an equation is written with one `=`"),
+        "{reported}"
     );
     assert_eq!(fs::read_to_string(&file).unwrap(), mended_draft().replace("wheel.O)", "wheel.P)"));
     fs::write(&file, DRAFT).unwrap();
-    let told = mechc().args(["check", &name, "--fix", "--message-format", "json"]).output().unwrap().stderr;
-    let lines: Vec<serde_json::Value> =
-        String::from_utf8(told).unwrap().lines().map(|line| serde_json::from_str(line).expect("an object")).collect();
+    let reported = mechc().args(["check", &name, "--fix", "--message-format", "json"]).output().unwrap().stderr;
+    let lines: Vec<serde_json::Value> = String::from_utf8(reported)
+        .unwrap()
+        .lines()
+        .map(|line| serde_json::from_str(line).expect("an object"))
+        .collect();
     assert!(lines.iter().all(|line| line["fixed"]["applies"] == "always"), "{lines:?}");
     assert_eq!(lines[0]["fixed"]["edits"][0]["start"]["line"], 2);
 }
@@ -378,8 +382,11 @@ fn what_is_left_is_told_and_gives_the_exit_code() {
 fn standard_input_is_mended_to_standard_output() {
     let output = mechc().args(["check", "-", "--fix"]).write_stdin(DRAFT).output().unwrap();
     assert_eq!((output.status.code(), String::from_utf8(output.stdout).unwrap()), (Some(0), mended_draft()));
-    let told = String::from_utf8(output.stderr).unwrap();
-    assert!(told.contains("<stdin>:2:5: a comment") && told.contains("mechanism disc is determined"), "{told}");
+    let reported = String::from_utf8(output.stderr).unwrap();
+    assert!(
+        reported.contains("<stdin>:2:5: a comment") && reported.contains("mechanism disc is determined"),
+        "{reported}"
+    );
     // what has no mistake comes out as it is, and so does what cannot be mended
     for (text, code) in [(mended_draft(), 0), (mended_draft().replace("wheel.O)", "wheel.P)"), 1)] {
         let output = mechc().args(["check", "-", "--fix"]).write_stdin(text.clone()).output().unwrap();
@@ -398,10 +405,10 @@ fn a_mended_file_is_replaced_as_results_are() {
     std::os::unix::fs::symlink("disc.mech", &link).unwrap();
     let with_mode = |mode| fs::set_permissions(&file, fs::Permissions::from_mode(mode)).unwrap();
     with_mode(0o444);
-    let told = failure(&["check", &name, "--fix"], 4);
+    let reported = failure(&["check", &name, "--fix"], 4);
     assert!(
-        told.contains("E0702") && told.contains("E0101"),
-        "it may not be written, and what is wrong with it is told: {told}"
+        reported.contains("E0702") && reported.contains("E0101"),
+        "it may not be written, and what is wrong with it is told: {reported}"
     );
     assert_eq!(fs::read_to_string(&file).unwrap(), DRAFT);
     with_mode(0o640);

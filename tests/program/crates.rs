@@ -20,7 +20,7 @@ struct Crate {
 fn emitted(path: &Path, text: &str) -> Crate {
     let name = path.file_name().expect("a name").to_string_lossy();
     let compiled = compile_number(path, text, 0).0.expect("determined");
-    let (files, _) = compiled.package("a_crate", &RustOptions::of(name));
+    let (files, _) = compiled.package("a_crate", &RustOptions::new(name));
     let files: BTreeMap<_, _> =
         files.expect("it assembles").into_iter().map(|CrateFile { path, text }| (path, text)).collect();
     let rows = table(&files["tests/reference.rs"]).chunks(compiled.columns().len()).map(<[f64]>::to_vec).collect();
@@ -202,8 +202,8 @@ fn what_somebody_wrote_stays() {
     let name = folder.path().to_string_lossy();
     fs::create_dir(folder.path().join("tests")).unwrap();
     fs::write(folder.path().join("tests/reference.rs"), "// mine\n").unwrap();
-    let said = emit_crate(&[SLIDER_CRANK, "--crate", &name], 4);
-    assert!(said.contains("E0702") && said.contains("reference.rs`: a file is there"), "{said}");
+    let diagnostics = emit_crate(&[SLIDER_CRANK, "--crate", &name], 4);
+    assert!(diagnostics.contains("E0702") && diagnostics.contains("reference.rs`: a file is there"), "{diagnostics}");
     assert_eq!(inside(folder.path()), ["tests/reference.rs"], "nothing is written beside it");
     let file = folder.path().join("tests/reference.rs");
     assert!(emit_crate(&[SLIDER_CRANK, "--crate", &file.to_string_lossy()], 4).contains("it is a file"));
@@ -222,11 +222,11 @@ fn what_an_earlier_crate_has_and_this_one_has_not_is_removed() {
     // the crate had another name once
     fs::copy(&header, target.join("include/before.h")).unwrap();
     fs::write(target.join("include/mine.h"), "/* mine */\n").unwrap();
-    let said = emit_crate(&["examples/trammel.mech", "--crate", &name, "--ffi"], 0);
-    assert_eq!(said, format!("removed `{name}/include/before.h`, which is no longer a part of the crate\n"));
+    let diagnostics = emit_crate(&["examples/trammel.mech", "--crate", &name, "--ffi"], 0);
+    assert_eq!(diagnostics, format!("removed `{name}/include/before.h`, which is no longer a part of the crate\n"));
     assert!(fs::read_to_string(&header).unwrap().contains("mechanism trammel"));
-    let said = emit_crate(&["examples/trammel.mech", "--crate", &name], 0);
-    assert!(said.contains("include/a_crate.h`") && said.contains("src/unsafe_c.rs`"), "{said}");
+    let diagnostics = emit_crate(&["examples/trammel.mech", "--crate", &name], 0);
+    assert!(diagnostics.contains("include/a_crate.h`") && diagnostics.contains("src/unsafe_c.rs`"), "{diagnostics}");
     let left = [
         "Cargo.toml",
         "README.md",
@@ -247,8 +247,8 @@ fn what_an_earlier_crate_has_and_this_one_has_not_is_removed() {
 fn where_the_motion_stops_the_crate_is_written_up_to_there() {
     let folder = tempfile::tempdir().expect("a folder");
     let target = folder.path().join("four_bar");
-    let said = emit_crate(&["tests/ui/run/four_bar_into_lock_up.mech", "--crate", &target.to_string_lossy()], 3);
-    assert!(said.contains("E0602"), "{said}");
+    let diagnostics = emit_crate(&["tests/ui/run/four_bar_into_lock_up.mech", "--crate", &target.to_string_lossy()], 3);
+    assert!(diagnostics.contains("E0602"), "{diagnostics}");
     let page = fs::read_to_string(target.join("README.md")).unwrap();
     assert!(page.contains("ends before the file's analysis does: the mechanism locks up at t = 0.3758"), "{page}");
     let numbers = table(&fs::read_to_string(target.join("tests/reference.rs")).unwrap());

@@ -3,7 +3,7 @@
 
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic)] // a test fails by panicking
 
-mod agree;
+mod consistency;
 mod words;
 
 use crate::support::golden;

@@ -28,10 +28,10 @@ impl Crate {
         let path = Path::new(path);
         let text = fs::read_to_string(path).expect("a text");
         let compiled = compile_number(path, &text, 0).0.expect("determined");
-        let options = RustOptions { with_sensitivities: true, for_c: true, ..RustOptions::of("machine.mech") };
+        let options = RustOptions { with_sensitivities: true, for_c: true, ..RustOptions::new("machine.mech") };
         let folder = tempfile::tempdir().expect("a folder");
-        let (files, said) = compiled.package(library, &options);
-        for CrateFile { path, text } in files.unwrap_or_else(|| panic!("{said:?}")) {
+        let (files, diagnostics) = compiled.package(library, &options);
+        for CrateFile { path, text } in files.unwrap_or_else(|| panic!("{diagnostics:?}")) {
             let path = folder.path().join(path);
             fs::create_dir_all(path.parent().expect("a folder")).expect("made");
             fs::write(path, text).expect("written");
@@ -107,8 +107,8 @@ fn is_there(compiler: &str) -> bool {
 fn compile(compiler: &str, options: &[&str], of: &Crate, paths: &[&Path]) {
     let include = of.folder.path().join("include");
     let output = Command::new(compiler).args(options).arg("-I").arg(include).args(paths).output().expect("it runs");
-    let said = String::from_utf8_lossy(&output.stderr).into_owned();
-    assert!(output.status.success() && said.is_empty(), "{}: {said}", of.library);
+    let diagnostics = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(output.status.success() && diagnostics.is_empty(), "{}: {diagnostics}", of.library);
 }
 
 /// What C asks of any mechanism: whatever is wrong is refused, and then the rows at the times that it reads, as bits.

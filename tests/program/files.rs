@@ -3,7 +3,7 @@
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic)] // a test fails by panicking
 
 use mechc::{Checked, Choice, Color, Contents, Format, Memory, Parsed, Sources, Span, World, render};
-use mechc_lang::check::{KnownFile, Library, NotKnown};
+use mechc_lang::check::{Library, LibraryFile, LookupError};
 use mechc_syntax::ast::Name;
 use mechc_syntax::parse;
 use std::io;
@@ -26,20 +26,20 @@ fn checked(files: &[(&str, String)]) -> Checked {
 }
 
 /// What is said of them, each with its code, its place and its words.
-fn said(files: &[(&str, String)]) -> Vec<String> {
+fn messages(files: &[(&str, String)]) -> Vec<String> {
     let checked = checked(files);
     let place = |span: Span| {
         let source = checked.sources().get(span.file);
         let (line, column) = source.position(span.start);
         format!("{}:{line}:{column}", source.name)
     };
-    let told = |said: &mechc::Diagnostic| {
-        let places: Vec<String> = said.labels.iter().map(|label| place(label.span)).collect();
+    let reported = |messages: &mechc::Diagnostic| {
+        let places: Vec<String> = messages.labels.iter().map(|label| place(label.span)).collect();
         // no place is outside of its text
-        let _ = render(said, checked.sources(), Format::Human, Color::Never);
-        format!("{} {} {}", said.code, places.join(" "), said.message)
+        let _ = render(messages, checked.sources(), Format::Human, Color::Never);
+        format!("{} {} {}", messages.code, places.join(" "), messages.message)
     };
-    checked.diagnostics().iter().map(told).collect()
+    checked.diagnostics().iter().map(reported).collect()
 }
 
 #[test]
@@ -93,7 +93,7 @@ fn a_file_is_read_once_whichever_paths_lead_to_it() {
 #[test]
 fn a_text_that_uses_nothing_reads_nothing() {
     let world = Counting(Memory::default(), Mutex::default());
-    assert!(Parsed::of("a.mech", &mechanism("a")).check(&Choice::default(), &world).is_sound());
+    assert!(Parsed::new("a.mech", &mechanism("a")).check(&Choice::default(), &world).is_sound());
     assert!(world.1.into_inner().expect("nobody panicked").is_empty());
 }
 
@@ -102,22 +102,25 @@ fn a_file_that_cannot_be_read_is_told_where_it_is_named() {
     let using = |path: &str| ("dir/a.mech", format!("use \"{path}\"\n{}", mechanism("a")));
     let help = |files: &[(&str, String)]| {
         let checked = checked(files);
-        let said = checked.diagnostics().iter().next().expect("a fault").clone();
-        (said.help, said.fixes.iter().flat_map(|fix| &fix.edits).map(|edit| edit.text.clone()).collect::<Vec<_>>())
+        let messages = checked.diagnostics().iter().next().expect("a fault").clone();
+        (
+            messages.help,
+            messages.fixes.iter().flat_map(|fix| &fix.edits).map(|edit| edit.text.clone()).collect::<Vec<_>>(),
+        )
     };
     let leg = ("dir/sub/legs.mech", mechanism("leg"));
     let missing = [using("sub/leg.mech"), leg.clone()];
-    assert_eq!(said(&missing), ["E0701 dir/a.mech:1:5 cannot read `dir/sub/leg.mech`: entity not found"]);
+    assert_eq!(messages(&missing), ["E0701 dir/a.mech:1:5 cannot read `dir/sub/leg.mech`: entity not found"]);
     assert_eq!(help(&missing), (vec!["was `sub/legs.mech` meant?".into()], vec!["\"sub/legs.mech\"".into()]));
     assert_eq!(help(&[using("sub/legs"), leg.clone()]).0, ["was `sub/legs.mech` meant?"]);
     assert!(help(&[using("sub/wheel.mech"), leg]).0.is_empty());
     // who names it twice is told twice, and reads it once
     let twice = [("a.mech", format!("use \"b\"\nuse \"./b\" as b\n{}", mechanism("a")))];
     assert_eq!(
-        said(&twice),
+        messages(&twice),
         ["E0701 a.mech:1:5", "E0701 a.mech:2:5"].map(|place| format!("{place} cannot read `b`: entity not found"))
     );
-    assert!(said(&[using("")])[0].starts_with("E0701 dir/a.mech:1:5 "));
+    assert!(messages(&[using("")])[0].starts_with("E0701 dir/a.mech:1:5 "));
 }
 
 #[test]
@@ -126,7 +129,7 @@ fn a_file_that_is_no_text_is_told_once() {
         .with("a.mech", format!("use \"b.mech\"\n{}", mechanism("a")))
         .with("b.mech", b"mechanism \xb5");
     let checked = Parsed::read(Path::new("a.mech"), &world).expect("it is there").check(&Choice::default(), &world);
-    let codes: Vec<&str> = checked.diagnostics().iter().map(|said| said.code.as_str()).collect();
+    let codes: Vec<&str> = checked.diagnostics().iter().map(|message| message.code.as_str()).collect();
     assert_eq!(codes, ["E0102"]);
     assert!(!checked.is_sound());
 }
@@ -140,30 +143,30 @@ fn faults_of_a_used_file_are_told_there_and_once() {
         ("d.mech", String::new()),
     ];
     assert_eq!(
-        said(&files),
+        messages(&files),
         [
             "E0101 c.mech:3:1 expected a formula, found `}`",
             "E0205 c.mech:5:11 c.mech:4:11 there are two mechanisms `d`"
         ]
     );
     let empty = [("a.mech", format!("use \"d.mech\"\n{}", mechanism("a"))), ("d.mech", String::new())];
-    assert_eq!(said(&empty), ["E0101 a.mech:1:5 `d.mech` holds no mechanism"]);
+    assert_eq!(messages(&empty), ["E0101 a.mech:1:5 `d.mech` holds no mechanism"]);
 }
 
 #[test]
 fn circles_are_shown() {
     let using = |path: &'static str, used: &str| (path, format!("use \"{used}\"\n{}", mechanism(&path[..1])));
-    assert_eq!(said(&[using("a.mech", "a.mech")]), ["E0206 a.mech:1:1 `a.mech` uses itself"]);
+    assert_eq!(messages(&[using("a.mech", "a.mech")]), ["E0206 a.mech:1:1 `a.mech` uses itself"]);
     let three = [using("a.mech", "b.mech"), using("b.mech", "./c.mech"), using("c.mech", "x/../a.mech")];
     assert_eq!(
-        said(&three),
+        messages(&three),
         ["E0206 a.mech:1:1 b.mech:1:1 c.mech:1:1 \
           files use each other in a circle: `a.mech` → `b.mech` → `c.mech` → `a.mech`"]
     );
     // a circle to which the file itself does not belong
     let beyond = [using("a.mech", "b.mech"), using("b.mech", "c.mech"), using("c.mech", "b.mech")];
     assert_eq!(
-        said(&beyond),
+        messages(&beyond),
         ["E0206 b.mech:1:1 c.mech:1:1 files use each other in a circle: `b.mech` → `c.mech` → `b.mech`"]
     );
     // by two ways to one file is no circle
@@ -173,7 +176,7 @@ fn circles_are_shown() {
         using("c.mech", "d.mech"),
         ("d.mech", mechanism("d")),
     ];
-    assert_eq!(said(&diamond), [""; 0]);
+    assert_eq!(messages(&diamond), [""; 0]);
 }
 
 #[test]
@@ -182,9 +185,9 @@ fn a_long_chain_of_files_is_followed() {
         .map(|k| (format!("f{k}.mech"), format!("use \"f{}.mech\"\n{}", (k + 1) % 3000, mechanism(&format!("m{k}")))))
         .collect();
     let files: Vec<(&str, String)> = files.iter().map(|(path, text)| (path.as_str(), text.clone())).collect();
-    let said = said(&files);
-    assert_eq!(said.len(), 1);
-    assert!(said[0].starts_with("E0206 f0.mech:1:1 f1.mech:1:1"), "{}", &said[0][..80]);
+    let messages = messages(&files);
+    assert_eq!(messages.len(), 1);
+    assert!(messages[0].starts_with("E0206 f0.mech:1:1 f1.mech:1:1"), "{}", &messages[0][..80]);
 }
 
 #[test]
@@ -198,11 +201,11 @@ fn two_mechanisms_of_one_name_are_told_at_the_use() {
         ]
     };
     assert_eq!(
-        said(&files("use \"b.mech\"\nuse \"c.mech\"\n")),
+        messages(&files("use \"b.mech\"\nuse \"c.mech\"\n")),
         ["E0205 a.mech:2:1 a.mech:1:1 `b.mech` and `c.mech` both hold mechanisms `foot`, `leg`"]
     );
     assert_eq!(
-        said(&files("use \"d.mech\"\n")),
+        messages(&files("use \"d.mech\"\n")),
         ["E0205 a.mech:1:1 a.mech:2:11 `a.mech` and `d.mech` both hold a mechanism `a`"]
     );
     for uses in [
@@ -211,19 +214,19 @@ fn two_mechanisms_of_one_name_are_told_at_the_use() {
         "use \"d.mech\" as a\n",
         "use \"b.mech\"\nuse \"b.mech\"\n",
     ] {
-        assert_eq!(said(&files(uses)), [""; 0], "{uses}");
+        assert_eq!(messages(&files(uses)), [""; 0], "{uses}");
     }
     assert_eq!(
-        said(&files("use \"b.mech\" as x\nuse \"d.mech\" as x\n")),
+        messages(&files("use \"b.mech\" as x\nuse \"d.mech\" as x\n")),
         ["E0203 a.mech:2:17 a.mech:1:17 two files are used as `x`"]
     );
     // what is proposed mends it
     let [(_, text), rest @ ..] = files("use \"b.mech\"\nuse \"c.mech\"\n");
     let checked = checked(&[&[("a.mech", text.clone())][..], &rest].concat());
-    let fixes: Vec<_> = checked.diagnostics().iter().flat_map(|said| &said.fixes).collect();
+    let fixes: Vec<_> = checked.diagnostics().iter().flat_map(|message| &message.fixes).collect();
     let (mended, _) = mechc::fixed(checked.sources(), fixes[0].edits[0].span.file, fixes);
     assert!(mended.contains("use \"c.mech\" as c\n"), "{mended}");
-    assert_eq!(said(&[&[("a.mech", mended)][..], &rest].concat()), [""; 0]);
+    assert_eq!(messages(&[&[("a.mech", mended)][..], &rest].concat()), [""; 0]);
 }
 
 #[test]
@@ -231,7 +234,7 @@ fn a_use_at_fault_spoils_nothing_else() {
     let text = format!("use b.mech\nuse \"c.mech\" as\nuse \"d.mech\" as x y\n{}", mechanism("a"));
     let files = [("a.mech", text), ("c.mech", mechanism("c")), ("d.mech", mechanism("c"))];
     assert_eq!(
-        said(&files),
+        messages(&files),
         [
             "E0101 a.mech:1:5 expected a file name in quotes, found `b`",
             "E0101 a.mech:3:1 expected a name, found `use`",
@@ -243,7 +246,7 @@ fn a_use_at_fault_spoils_nothing_else() {
 #[test]
 fn a_mechanism_is_named_only_where_one_has_to_be_chosen() {
     let two = [("a.mech", format!("use \"b.mech\"\n{}{}", mechanism("a"), mechanism("c"))), ("b.mech", mechanism("b"))];
-    assert_eq!(said(&two), ["E0704  `a.mech` holds 2 mechanisms"]);
+    assert_eq!(messages(&two), ["E0704  `a.mech` holds 2 mechanisms"]);
     let choose = |name: &str| {
         let world = two.iter().fold(Memory::default(), |world, (path, text)| world.with(path, text));
         let choice = Choice { mechanism: Some(name.to_owned()), ..Choice::default() };
@@ -261,7 +264,7 @@ fn tables_are_beside_the_file_that_names_them() {
         ("dir/way.csv", "0,0\n1,1\n".to_owned()),
         ("b.mech", mechanism("b")),
     ];
-    assert_eq!(said(&files), [""; 0]);
+    assert_eq!(messages(&files), [""; 0]);
     let named = checked(&files).named_files();
     let named: Vec<_> = named.iter().map(|path| path.to_string_lossy()).collect();
     assert_eq!(named, ["dir/../b.mech", "dir/way.csv"]);
@@ -275,7 +278,7 @@ fn library(files: &[(&str, String, &[Option<usize>])]) -> (Library, Sources) {
     let known = files.iter().map(|(path, text, uses)| {
         let id = sources.add(*path, text);
         let read = Arc::new(parse(&sources, id));
-        KnownFile { id, path: PathBuf::from(path), read, uses: uses.to_vec() }
+        LibraryFile { id, path: PathBuf::from(path), read, uses: uses.to_vec() }
     });
     let known = known.collect();
     (Library::new(known), sources)
@@ -301,8 +304,8 @@ fn found((library, sources): &(Library, Sources), file: usize, path: &str) -> Re
     };
     match library.find(prefix.as_ref(), &last, sources) {
         Ok(known) => Ok(format!("{}:{}", known.file, library.tree(known).name.text)),
-        Err(NotKnown::Told(said)) => Err(format!("{}; {}", said.message, said.help.join("; "))),
-        Err(NotKnown::Said) => Err(String::new()),
+        Err(LookupError::Told(messages)) => Err(format!("{}; {}", messages.message, messages.help.join("; "))),
+        Err(LookupError::Said) => Err(String::new()),
     }
 }
 

@@ -40,13 +40,13 @@ fn links(of: &Crate) -> BTreeMap<Names, Vec<Names>> {
 
 #[test]
 fn files_of_a_crate_name_each_other_in_one_direction() {
-    let (mut unused, mut seen) = (CIRCLES.to_vec(), 0);
+    let (mut unused, mut visited) = (CIRCLES.to_vec(), 0);
     for (name, of) in crates() {
         // a file and those in its folder are one, and what the root names is no folder of it
         let is_inside = |inner: &Names, outer: &Names| !outer.is_empty() && inner.starts_with(outer);
         let mut links = links(&of);
         for (module, others) in &mut links {
-            seen += 1;
+            visited += 1;
             others.retain(|other| {
                 let link = (module.join("/"), other.join("/"));
                 let is_known = unused.iter().position(|(from, to)| *from == link.0 && *to == link.1);
@@ -58,7 +58,7 @@ fn files_of_a_crate_name_each_other_in_one_direction() {
         let way: Vec<String> = circle.iter().map(|module| module.join("/")).collect();
         assert!(circle.is_empty(), "crates/{name}: a circle: {}", way.join(" → "));
     }
-    assert!(seen > 500, "only {seen} files were looked at");
+    assert!(visited > 500, "only {visited} files were looked at");
     assert!(unused.is_empty(), "{unused:?}: no such links are left, and they go from the list");
 }
 
@@ -66,7 +66,7 @@ fn files_of_a_crate_name_each_other_in_one_direction() {
 #[test]
 fn modules_of_a_crate_name_each_other_in_one_direction() {
     const SEVERAL: [&str; 6] = ["text", "expr", "ir", "lang", "engine", "draw"];
-    let mut seen = 0;
+    let mut visited = 0;
     for (name, of) in crates() {
         for (depth, outer) in [(1, None), (2, Some("analysis"))] {
             if !SEVERAL.contains(&name.as_str())
@@ -84,7 +84,7 @@ fn modules_of_a_crate_name_each_other_in_one_direction() {
                 let is_folder =
                     |folder: &Names| of.files.keys().any(|module| module.len() > depth && module.starts_with(folder));
                 if is_folder(&folder) {
-                    seen += 1;
+                    visited += 1;
                     folders.entry(folder).or_default().extend(others.into_iter().filter(is_folder));
                 }
             }
@@ -92,7 +92,7 @@ fn modules_of_a_crate_name_each_other_in_one_direction() {
             assert!(circle.is_empty(), "crates/{name}: a circle of folders: {circle:?}");
         }
     }
-    assert!(seen > 100, "only {seen} files were looked at");
+    assert!(visited > 100, "only {visited} files were looked at");
 }
 
 /// Modules that each name the next one, and the last one the first; nothing where there are none.
@@ -169,14 +169,14 @@ fn no_two_crates_export_types_of_one_name() {
 const PLATFORM: &[(&str, &str)] = &[
     ("engine/src/analysis/follow/rows/leap.rs", "std::thread"),
     ("parallel/src/lib.rs", "std::thread"),
-    ("parallel/src/relay.rs", "std::thread"),
-    ("parallel/src/shares.rs", "std::thread"),
+    ("parallel/src/ordered_pipeline.rs", "std::thread"),
+    ("parallel/src/scoped_chunks.rs", "std::thread"),
     ("live/src/http.rs", "std::time"),
     ("live/src/server.rs", "std::net"),
     ("live/src/server.rs", "std::thread"),
     ("live/src/server.rs", "std::time"),
-    ("live/src/workshop.rs", "std::thread"),
-    ("live/src/workshop.rs", "std::time"),
+    ("live/src/session.rs", "std::thread"),
+    ("live/src/session.rs", "std::time"),
 ];
 
 #[test]

@@ -102,7 +102,7 @@ fn plain(text: &str) -> String {
 fn the_program_tells_the_licences_of_all_that_it_carries() {
     let all = carried();
     assert!(all.len() > 50, "only {} crates", all.len());
-    let mut said: BTreeMap<String, Vec<String>> = BTreeMap::new();
+    let mut diagnostics: BTreeMap<String, Vec<String>> = BTreeMap::new();
     let mut made =
         "Crates, on one platform or another; where a licence may be chosen, it is the one whose text stands below\n\n"
             .to_owned();
@@ -111,12 +111,12 @@ fn the_program_tells_the_licences_of_all_that_it_carries() {
         let texts = texts(one, &all);
         assert!(!texts.is_empty(), "{} has no text of its licence", one.name);
         for text in texts {
-            said.entry(text).or_default().push(one.name.clone());
+            diagnostics.entry(text).or_default().push(one.name.clone());
         }
     }
-    let mut said: Vec<(String, Vec<String>)> = said.into_iter().collect();
-    said.sort_by(|(_, a), (_, b)| a.cmp(b));
-    for (text, names) in said {
+    let mut diagnostics: Vec<(String, Vec<String>)> = diagnostics.into_iter().collect();
+    diagnostics.sort_by(|(_, a), (_, b)| a.cmp(b));
+    for (text, names) in diagnostics {
         made += &format!("\n\n{}\n\n{text}\n", names.join(", "));
     }
     golden::holds("src/cli/licenses.txt", &made);

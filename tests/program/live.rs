@@ -283,17 +283,17 @@ fn over_ssh_the_line_that_forwards_the_port_is_printed() {
         let mut url = String::new();
         BufReader::new(process.stdout.take().expect("its output")).read_line(&mut url).expect("an address");
         let port = url.trim_start_matches("http://127.0.0.1:").split('/').next().unwrap_or_default();
-        let mut said = BufReader::new(process.stderr.take().expect("what it says"));
+        let mut diagnostics = BufReader::new(process.stderr.take().expect("what it says"));
         let (mut follows, mut forwards) = (String::new(), String::new());
-        said.read_line(&mut follows).expect("a line");
+        diagnostics.read_line(&mut follows).expect("a line");
         assert!(follows.starts_with("the page follows "), "{follows}");
         if let Some(wanted) = wanted {
-            said.read_line(&mut forwards).expect("a line");
+            diagnostics.read_line(&mut forwards).expect("a line");
             let line = format!("from another machine: ssh -N -L {port}:127.0.0.1:{port}{wanted}");
             assert!(forwards.starts_with(&line), "{forwards}");
         }
         process.kill().and_then(|()| process.wait()).expect("it ends");
-        said.read_to_string(&mut forwards).expect("its end");
+        diagnostics.read_to_string(&mut forwards).expect("its end");
         assert_eq!(forwards.lines().count(), usize::from(wanted.is_some()), "{forwards}");
     }
 }
@@ -477,31 +477,31 @@ fn said_of(name: &str, options: &[&str], code: u8, wanted: &str) -> String {
     let mut command = Command::new(env!("CARGO_BIN_EXE_mechc"));
     command.arg("view").arg(&file).args(options).env("PATH", path).stdout(Stdio::null()).stderr(Stdio::piped());
     let mut process = command.spawn().expect("it starts");
-    let mut said = String::new();
+    let mut diagnostics = String::new();
     for line in BufReader::new(process.stderr.take().expect("its messages")).lines() {
-        said += &line.expect("a text");
-        said += "\n";
-        if said.contains(wanted) {
+        diagnostics += &line.expect("a text");
+        diagnostics += "\n";
+        if diagnostics.contains(wanted) {
             break;
         }
     }
     let _ = process.kill();
     let _ = process.wait();
-    said
+    diagnostics
 }
 
 #[cfg(unix)]
 #[test]
-fn a_browser_that_does_not_open_is_told() {
-    let said = said_of("disc.mech", &["--open"], 3, "browser");
-    assert!(said.contains("the browser does not open: `xdg-open` ended with exit status: 3"), "{said}");
+fn a_browser_that_does_not_open_is_reported() {
+    let diagnostics = said_of("disc.mech", &["--open"], 3, "browser");
+    assert!(diagnostics.contains("the browser does not open: `xdg-open` ended with exit status: 3"), "{diagnostics}");
 }
 
 #[cfg(unix)]
 #[test]
 fn a_name_gives_no_orders_to_a_terminal() {
-    let said = said_of("a\u{1b}[31mb.mech", &[], 0, "Ctrl-C");
-    assert!(!said.contains('\u{1b}') && said.contains("a\u{fffd}[31mb.mech"), "{said:?}");
+    let diagnostics = said_of("a\u{1b}[31mb.mech", &[], 0, "Ctrl-C");
+    assert!(!diagnostics.contains('\u{1b}') && diagnostics.contains("a\u{fffd}[31mb.mech"), "{diagnostics:?}");
 }
 
 #[test]

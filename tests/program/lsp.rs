@@ -13,7 +13,7 @@ mod writing;
 
 use client::Client;
 use mechc::Memory;
-use mechc_ide::lsp::Ended;
+use mechc_ide::lsp::SessionEnd;
 use serde_json::{Value, json};
 
 const URI: &str = "file:///work/slider_crank.mech";
@@ -65,13 +65,13 @@ fn the_proof_comes_behind_the_words_and_stays_while_they_are_typed() {
     let driver = text.lines().find(|line| line.contains("driver")).expect("a driver").to_owned();
     text = text.replacen(&driver, "", 1);
     client.open(URI, &text);
-    let (_, told) = client.published(URI);
-    insta::assert_snapshot!(told.join("\n"), @"5:11 E0502 1 degree of freedom is left in mechanism `slider_crank`");
+    let (_, reported) = client.published(URI);
+    insta::assert_snapshot!(reported.join("\n"), @"5:11 E0502 1 degree of freedom is left in mechanism `slider_crank`");
     // a line more above it: no empty list comes in between
     let change = edit(&mut text, "mechanism slider_crank {", "\nmechanism slider_crank {");
     client.change(URI, &change);
-    let (version, told) = client.published(URI);
-    insta::assert_snapshot!(format!("{version}: {}", told.join("\n")), @"2: 5:1 E0502 1 degree of freedom is left in mechanism `slider_crank`");
+    let (version, reported) = client.published(URI);
+    insta::assert_snapshot!(format!("{version}: {}", reported.join("\n")), @"2: 5:1 E0502 1 degree of freedom is left in mechanism `slider_crank`");
     client.end();
 }
 
@@ -81,20 +81,20 @@ fn a_measure_that_is_typed_hides_nothing_of_the_proof() {
     let driver = text.lines().find(|line| line.contains("driver")).expect("a driver").to_owned();
     text = text.replacen(&driver, "    // more", 1);
     client.open(URI, &text);
-    let told = |(_, told): (i64, Vec<String>)| {
-        told.iter().map(|said| said[..].split(' ').nth(1).unwrap().to_owned()).collect::<Vec<_>>()
+    let reported = |(_, reported): (i64, Vec<String>)| {
+        reported.iter().map(|message| message[..].split(' ').nth(1).unwrap().to_owned()).collect::<Vec<_>>()
     };
-    assert_eq!(told(client.published(URI)), ["E0502"]);
+    assert_eq!(reported(client.published(URI)), ["E0502"]);
     let change = edit(&mut text, "// more", "measure half = 2 *");
     client.change(URI, &change);
-    assert_eq!(told(client.published(URI)), ["E0101", "E0502"]);
+    assert_eq!(reported(client.published(URI)), ["E0101", "E0502"]);
     // a joint that is typed: what moves is not known, and known again with its last letter
     let change = edit(&mut text, "measure half = 2 *", "joint half: revolute(");
     client.change(URI, &change);
-    assert_eq!(told(client.published(URI)), ["E0101"]);
+    assert_eq!(reported(client.published(URI)), ["E0101"]);
     let change = edit(&mut text, "joint half: revolute(", "measure half = 2");
     client.change(URI, &change);
-    assert_eq!(told(client.published(URI)), ["E0502"], "never an empty list");
+    assert_eq!(reported(client.published(URI)), ["E0502"], "never an empty list");
     client.end();
 }
 
@@ -161,12 +161,12 @@ fn sessions_go_as_the_protocol_says() {
     assert_eq!(client.request("shutdown", Value::Null), Value::Null);
     assert_eq!(client.refused("shutdown", Value::Null), INVALID_REQUEST);
     client.notify("exit", Value::Null);
-    assert_eq!(client.vanish(), Ended::Well);
+    assert_eq!(client.vanish(), SessionEnd::Well);
 }
 
 #[test]
 fn who_vanishes_ends_it() {
-    assert_eq!(pushed_to().vanish(), Ended::Early);
+    assert_eq!(pushed_to().vanish(), SessionEnd::Early);
 }
 
 /// A mechanism whose results are known behind its motion.
@@ -228,7 +228,7 @@ fn hints_tokens_and_signatures_are_in_the_words_of_the_protocol() {
 /// What hints count by the text alone is what the equations are.
 #[test]
 fn the_count_of_every_example_is_that_of_its_equations() {
-    let mut seen = 0;
+    let mut visited = 0;
     for folder in ["examples", "tests/cases"] {
         let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
         for entry in std::fs::read_dir(root.join(folder)).unwrap() {
@@ -241,11 +241,11 @@ fn the_count_of_every_example_is_that_of_its_equations() {
             let counted = counted(&uri, &text, &path);
             for (shown, system) in counted {
                 assert_eq!(shown, system, "{}", path.display());
-                seen += 1;
+                visited += 1;
             }
         }
     }
-    assert!(seen > 50, "{seen}");
+    assert!(visited > 50, "{visited}");
 }
 
 /// The hints `NDOF = …` of a text's mechanisms, each with that of the equations.
@@ -258,7 +258,7 @@ fn counted(uri: &str, text: &str, path: &std::path::Path) -> Vec<(String, String
             files = files.with(beside.display().to_string(), &text);
         }
     }
-    let systems = Parsed::of(&path.display().to_string(), text).check_each(&files);
+    let systems = Parsed::new(&path.display().to_string(), text).check_each(&files);
     let systems = systems.iter().map(|checked| checked.equations_text().expect("it is sound")).map(|text| {
         let numbers = text.lines().next().unwrap().rsplit_once(": ").unwrap().1.split(' ');
         let numbers: Vec<i64> = numbers.filter_map(|word| word.parse().ok()).collect();
@@ -293,7 +293,7 @@ fn it_ends_with_the_client_that_began_it_though_the_pipe_stays_open() {
     command.args(["-c", editor, env!("CARGO_BIN_EXE_mechc")]).current_dir(folder.path()).stdout(Stdio::piped());
     let mut process = command.spawn().expect("it starts");
     let mut output = process.stdout.take().expect("it is piped");
-    let (tell, told) = channel();
+    let (tell, reported) = channel();
     std::thread::spawn(move || {
         let mut bytes = [0; 4096];
         while let Ok(count @ 1..) = output.read(&mut bytes) {
@@ -302,13 +302,15 @@ fn it_ends_with_the_client_that_began_it_though_the_pipe_stays_open() {
     });
     let mut heard = String::new();
     while !heard.contains("serverInfo") {
-        heard += &told.recv_timeout(Duration::from_secs(240)).expect("an answer");
+        heard += &reported.recv_timeout(Duration::from_secs(240)).expect("an answer");
     }
     assert!(
-        told.recv_timeout(Duration::from_secs(2)).is_err_and(|why| why == std::sync::mpsc::RecvTimeoutError::Timeout)
+        reported
+            .recv_timeout(Duration::from_secs(2))
+            .is_err_and(|why| why == std::sync::mpsc::RecvTimeoutError::Timeout)
     );
     process.kill().expect("it is there");
     process.wait().expect("it ends");
-    let ended = told.recv_timeout(Duration::from_secs(240));
+    let ended = reported.recv_timeout(Duration::from_secs(240));
     assert_eq!(ended, Err(std::sync::mpsc::RecvTimeoutError::Disconnected), "the server is there still");
 }

@@ -10,7 +10,7 @@ mod cli;
 mod columns;
 mod crates;
 mod editors;
-mod emitted;
+mod emitted_rust;
 mod ffi;
 mod files;
 mod layers;

@@ -291,17 +291,18 @@ fn pipes_and_devices_are_written_as_it_comes() {
         "mechc run a.mech -o /dev/stdout > f; cat f",
         "mechc run a.mech -o /dev/fd/3 3> f; cat f",
     ] {
-        let (code, out, said) = shell(path, command);
-        assert_eq!((code, out.as_str()), (0, table.as_str()), "{command}: {said}");
+        let (code, out, diagnostics) = shell(path, command);
+        assert_eq!((code, out.as_str()), (0, table.as_str()), "{command}: {diagnostics}");
     }
     // what stands in a file already stays there
-    let (code, out, said) = shell(path, "{ echo before; mechc run a.mech -o /dev/stdout; echo behind; } > f; cat f");
-    assert_eq!((code, out), (0, format!("before\n{table}behind\n")), "{said}");
-    let (code, out, said) = shell(path, "mechc run a.mech -o t.csv --results /dev/stdout | cat");
-    assert_eq!((code, out.as_str()), (0, "{\"top\": 6.283185307179586}\n"), "{said}");
+    let (code, out, diagnostics) =
+        shell(path, "{ echo before; mechc run a.mech -o /dev/stdout; echo behind; } > f; cat f");
+    assert_eq!((code, out), (0, format!("before\n{table}behind\n")), "{diagnostics}");
+    let (code, out, diagnostics) = shell(path, "mechc run a.mech -o t.csv --results /dev/stdout | cat");
+    assert_eq!((code, out.as_str()), (0, "{\"top\": 6.283185307179586}\n"), "{diagnostics}");
     assert_eq!(fs::read_to_string(path.join("t.csv")).expect("a table"), table);
-    let (code, _, said) = shell(path, "mechc run a.mech --results /dev/stdout");
-    assert!(code == 2 && said.contains("would both go to standard output"), "{said}");
+    let (code, _, diagnostics) = shell(path, "mechc run a.mech --results /dev/stdout");
+    assert!(code == 2 && diagnostics.contains("would both go to standard output"), "{diagnostics}");
 }
 
 #[cfg(unix)]
@@ -321,13 +322,16 @@ fn outputs_that_are_one_file_by_a_link_are_refused() {
         ("gone.json", "to_gone.json"),
         ("one/t.json", "two/t.json"),
     ] {
-        let (code, _, said) = shell(path, &format!("mechc run a.mech -o {table} --results {results}"));
-        assert!(code == 2 && said.contains("E0706") && said.contains("would both go to"), "{table} {results}: {said}");
+        let (code, _, diagnostics) = shell(path, &format!("mechc run a.mech -o {table} --results {results}"));
+        assert!(
+            code == 2 && diagnostics.contains("E0706") && diagnostics.contains("would both go to"),
+            "{table} {results}: {diagnostics}"
+        );
         assert_eq!(fs::read_to_string(path.join("t.json")).unwrap(), "precious");
         assert!(!path.join("gone.json").exists() && !path.join("one/t.json").exists(), "{table} {results}");
     }
-    let (code, _, said) = shell(path, "mechc run a.mech -o one/t.json --results two/r.json");
-    assert!(code == 0 && path.join("one/r.json").exists(), "{said}");
+    let (code, _, diagnostics) = shell(path, "mechc run a.mech -o one/t.json --results two/r.json");
+    assert!(code == 0 && path.join("one/r.json").exists(), "{diagnostics}");
 }
 
 #[test]
@@ -336,16 +340,16 @@ fn control_characters_do_not_reach_the_terminal() {
     let path = folder.path();
     fs::write(path.join("secret.txt"), "root:x:0:0\n").unwrap();
     fs::write(path.join("uses.mech"), "use \"secret.txt\"\nmechanism m { }\n").unwrap();
-    let (code, _, said) = shell(path, "mechc check uses.mech");
-    assert!(code == 1 && said.contains("holds no mechanism") && !said.contains("root"), "{said}");
+    let (code, _, diagnostics) = shell(path, "mechc check uses.mech");
+    assert!(code == 1 && diagnostics.contains("holds no mechanism") && !diagnostics.contains("root"), "{diagnostics}");
     let text = "use \"a\u{1b}[31m.mech\"\nmechanism m { // \u{1b}[2J\u{7}\n param b\u{1b} = \u{9b}31m 2 \u{202e} x\u{7f}\r y }\n";
     fs::write(path.join("a.mech"), text).unwrap();
     for options in ["", "--message-format short", "--message-format json"] {
         for set in ["", "--set $'a\\x1b[31m=1\\x07'"] {
-            let (code, out, said) = shell(path, &format!("mechc check a.mech {options} {set}"));
-            assert_eq!(code, 1, "{said}");
+            let (code, out, diagnostics) = shell(path, &format!("mechc check a.mech {options} {set}"));
+            assert_eq!(code, 1, "{diagnostics}");
             let is_raw = |c: char| c.is_control() && c != '\n' || c == '\u{202e}';
-            assert!(!out.contains(is_raw) && !said.contains(is_raw), "{options} {set}: {out:?} {said:?}");
+            assert!(!out.contains(is_raw) && !diagnostics.contains(is_raw), "{options} {set}: {out:?} {diagnostics:?}");
         }
     }
 }
@@ -356,8 +360,8 @@ fn samples_come_from_standard_input_and_pipes() {
     let path = folder.path();
     fs::write(path.join("a.mech"), LEVER).unwrap();
     fs::write(path.join("s.csv"), "t,turn\n0,0\n1,1\n2,4\n").unwrap();
-    let (code, table, said) = shell(path, "mechc run a.mech --samples s.csv");
-    assert_eq!(code, 0, "{said}");
+    let (code, table, diagnostics) = shell(path, "mechc run a.mech --samples s.csv");
+    assert_eq!(code, 0, "{diagnostics}");
     for command in [
         "mechc run a.mech --samples - < s.csv",
         "cat s.csv | mechc run a.mech --samples -",
@@ -365,13 +369,13 @@ fn samples_come_from_standard_input_and_pipes() {
         "mechc run - --samples s.csv < a.mech",
         "mechc run <(cat a.mech) --samples s.csv",
     ] {
-        let (code, out, said) = shell(path, command);
-        assert_eq!((code, out.as_str()), (0, table.as_str()), "{command}: {said}");
+        let (code, out, diagnostics) = shell(path, command);
+        assert_eq!((code, out.as_str()), (0, table.as_str()), "{command}: {diagnostics}");
     }
-    let (code, _, said) = shell(path, "echo 't;turn' | mechc run a.mech --samples -");
-    assert!(code == 1 && said.contains("<stdin>:1:1"), "{said}");
-    let (code, _, said) = shell(path, "mechc run - --samples - < a.mech");
-    assert!(code == 2 && said.contains("cannot be both the mechanism and the samples"), "{said}");
+    let (code, _, diagnostics) = shell(path, "echo 't;turn' | mechc run a.mech --samples -");
+    assert!(code == 1 && diagnostics.contains("<stdin>:1:1"), "{diagnostics}");
+    let (code, _, diagnostics) = shell(path, "mechc run - --samples - < a.mech");
+    assert!(code == 2 && diagnostics.contains("cannot be both the mechanism and the samples"), "{diagnostics}");
 }
 
 #[test]
@@ -388,18 +392,21 @@ fn what_a_text_names_is_a_file() {
         let table = format!("{{ table way = spline \"{named}\"");
         fs::write(path.join("table.mech"), LEVER.replacen('{', &table, 1)).unwrap();
         for (text, place) in [("use.mech", "use.mech:1:5"), ("table.mech", "table.mech:1:38")] {
-            let (code, _, said) = shell(path, &format!("mechc check {text}"));
+            let (code, _, diagnostics) = shell(path, &format!("mechc check {text}"));
             let message = format!("cannot read `{named}`: {why}");
-            assert!(code == 1 && said.contains(&message) && said.contains(place), "{named} {text}: {code} {said}");
+            assert!(
+                code == 1 && diagnostics.contains(&message) && diagnostics.contains(place),
+                "{named} {text}: {code} {diagnostics}"
+            );
         }
     }
     // what has no end is not read to its end
     fs::write(path.join("a.mech"), LEVER).unwrap();
     for command in ["mechc check /dev/zero", "mechc run a.mech --samples /dev/zero"] {
-        let (code, _, said) = shell(path, command);
+        let (code, _, diagnostics) = shell(path, command);
         assert!(
-            code == 4 && said.contains("cannot read `/dev/zero`: it is larger than 1 GiB"),
-            "{command}: {code} {said}"
+            code == 4 && diagnostics.contains("cannot read `/dev/zero`: it is larger than 1 GiB"),
+            "{command}: {code} {diagnostics}"
         );
     }
 }

@@ -11,11 +11,11 @@ use crate::support::random::Random;
 use crate::support::{Disk, files, stem};
 use mechc::{
     Cancel, Checked, Choice, Code, Compiled, CurveTolerance, Diagnostic, Diagnostics, Parsed, Redundant, RunOptions,
-    Seen, Sources, Times,
+    Sources, Times, Visualization,
 };
 use mechc_draw::scene::{
-    Anchor, Look, Motion, Path as Drawn, Pen, Place, Pose, Scene, Segment, Torque, Vector, catalogue, distance, dot,
-    minus, plus, polar, times,
+    Anchor, Attachment, Catalogue, Look, Motion, Path as Drawn, Pen, Pose, Scene, Segment, Torque, Vector, catalogue,
+    distance, dot, minus, plus, polar, times,
 };
 use mechc_draw::view::svg::{Options, Plot, Theme, animated, has_vectors, plots, still};
 use mechc_draw::view::{dxf, first_sentence};
@@ -29,69 +29,73 @@ use std::path::Path;
 fn compiled(path: &Path, text: &str) -> (Checked, Compiled) {
     let mut sources = Sources::default();
     let file = sources.add(path.display().to_string(), text);
-    let parsed = Parsed::of_source(sources, file, path);
+    let parsed = Parsed::from_source(sources, file, path);
     let checked = parsed.check(&Choice::default(), &Disk::default());
-    let (compiled, said) = checked.compile(Redundant::Refused, &Cancel::default());
-    let compiled = compiled.unwrap_or_else(|| panic!("{}: {said:?}", path.display()));
+    let (compiled, reports) = checked.compile(Redundant::Refused, &Cancel::default());
+    let compiled = compiled.unwrap_or_else(|| panic!("{}: {reports:?}", path.display()));
     (checked, compiled)
 }
 
-fn seen_as(path: &Path, text: &str, times: Option<Times>) -> Seen {
+fn seen_as(path: &Path, text: &str, times: Option<Times>) -> Visualization {
     let (checked, compiled) = compiled(path, text);
     let times = times.or_else(|| compiled.times()).expect("an analysis");
-    let (seen, said) = checked.seen(&compiled, &times, &RunOptions::default(), 2000);
-    seen.unwrap_or_else(|| panic!("{}: {said:?}", path.display()))
+    let (seen, reports) = checked.visualize(&compiled, &times, &RunOptions::default(), 2000);
+    seen.unwrap_or_else(|| panic!("{}: {reports:?}", path.display()))
 }
 
 /// A motion that is refined until its curves are within a tolerance; with what is said of those that end early.
-fn refined(path: &Path, text: &str, tolerance: impl Fn(&Seen) -> CurveTolerance) -> (Seen, Diagnostics) {
+fn refined(
+    path: &Path,
+    text: &str,
+    tolerance: impl Fn(&Visualization) -> CurveTolerance,
+) -> (Visualization, Diagnostics) {
     let (checked, compiled) = compiled(path, text);
     let (times, options) = (compiled.times().expect("an analysis"), RunOptions::default());
-    let (seen, said) = checked.seen(&compiled, &times, &options, 2000);
-    let mut seen = seen.unwrap_or_else(|| panic!("{}: {said:?}", path.display()));
+    let (seen, reports) = checked.visualize(&compiled, &times, &options, 2000);
+    let mut seen = seen.unwrap_or_else(|| panic!("{}: {reports:?}", path.display()));
     let tolerance = tolerance(&seen);
-    let said = checked.refine_motion(&compiled, &times, &options, &mut seen, &tolerance);
-    (seen, said)
+    let reports = checked.refine_motion(&compiled, &times, &options, &mut seen, &tolerance);
+    (seen, reports)
 }
 
 /// A motion that is refined, all of whose curves are drawn to their ends.
-fn seen_within(path: &Path, text: &str, tolerance: impl Fn(&Seen) -> CurveTolerance) -> Seen {
-    let (seen, said) = refined(path, text, tolerance);
-    assert!(said.is_empty(), "{}: {said:?}", path.display());
+fn seen_within(path: &Path, text: &str, tolerance: impl Fn(&Visualization) -> CurveTolerance) -> Visualization {
+    let (seen, reports) = refined(path, text, tolerance);
+    assert!(reports.is_empty(), "{}: {reports:?}", path.display());
     seen
 }
 
 /// A text as it is cut at its own size.
-fn seen_to_cut(text: &str) -> Seen {
+fn seen_to_cut(text: &str) -> Visualization {
     seen_within(Path::new("test.mech"), text, |_| CurveTolerance::to_cut(1.0, Vec::new()))
 }
 
-fn seen_text(text: &str) -> Seen {
+fn seen_text(text: &str) -> Visualization {
     seen_as(Path::new("test.mech"), text, None)
 }
 
 /// What there is to see of a mechanism that has no motion, and all that is said of it.
-fn seen_at_rest(path: &str) -> (Seen, Vec<String>) {
+fn static_visualization(path: &str) -> (Visualization, Vec<String>) {
     let text = fs::read_to_string(path).expect("a mechanism");
     let mut sources = Sources::default();
     let file = sources.add(path, text);
-    let checked = Parsed::of_source(sources, file, Path::new(path)).check(&Choice::default(), &Disk::default());
+    let checked = Parsed::from_source(sources, file, Path::new(path)).check(&Choice::default(), &Disk::default());
     let options = RunOptions::default();
-    let (compiled, mut said) = checked.compile(Redundant::Refused, &Cancel::default());
+    let (compiled, mut reports) = checked.compile(Redundant::Refused, &Cancel::default());
     if let Some(compiled) = &compiled {
-        let (seen, why) = checked.seen(compiled, &compiled.times().expect("an analysis"), &options, 2000);
+        let (seen, why) = checked.visualize(compiled, &compiled.times().expect("an analysis"), &options, 2000);
         assert!(seen.is_none(), "{path} moves");
-        said = why;
+        reports = why;
     }
-    let seen = checked.seen_at_rest(compiled.as_ref(), (0.0, &options), &said).expect("it is sound");
-    let notes = |said: &Diagnostic| if said.code == Code::E0601 { said.notes.clone() } else { Vec::new() };
-    let message = |said: &Diagnostic| format!("error[{}]: {}", said.code, said.message);
-    let messages = said.iter().flat_map(|said| std::iter::once(message(said)).chain(notes(said))).collect();
+    let seen = checked.static_visualization(compiled.as_ref(), (0.0, &options), &reports).expect("it is sound");
+    let notes = |reports: &Diagnostic| if reports.code == Code::E0601 { reports.notes.clone() } else { Vec::new() };
+    let message = |reports: &Diagnostic| format!("error[{}]: {}", reports.code, reports.message);
+    let messages = reports.iter().flat_map(|reports| std::iter::once(message(reports)).chain(notes(reports))).collect();
     (seen, messages)
 }
 
 /// All examples, with their names.
-fn examples() -> Vec<(String, Seen)> {
+fn examples() -> Vec<(String, Visualization)> {
     let read = |path: std::path::PathBuf| {
         let text = fs::read_to_string(&path).expect("an example");
         (stem(&path), seen_as(&path, &text, None))
@@ -99,7 +103,7 @@ fn examples() -> Vec<(String, Seen)> {
     files("examples", "mech").into_iter().map(read).collect()
 }
 
-fn example(name: &str) -> Seen {
+fn example(name: &str) -> Visualization {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("examples/{name}.mech"));
     let text = fs::read_to_string(&path).expect("an example");
     seen_as(&path, &text, None)
@@ -148,7 +152,7 @@ impl<'f> Read<'f> {
     fn placed(&self, local: Vector, group: &str, part: f64) -> Vector {
         let put = |numbers: &[f64]| {
             let turn = numbers.get(2).copied().unwrap_or(0.0).to_radians();
-            Pose { at: [numbers[0], numbers[1]], phi: turn }.placed(local)
+            Pose { at: [numbers[0], numbers[1]], phi: turn }.transform(local)
         };
         let class = attribute(group, "class").unwrap_or("");
         let Some((_, number)) = class.split_once("m m") else {
@@ -174,7 +178,7 @@ impl<'f> Read<'f> {
 }
 
 /// The farthest that a pin of a moving picture is from its place, at random times (px).
-fn farthest_pin(name: &str, seen: &Seen, file: &str) -> f64 {
+fn farthest_pin(name: &str, seen: &Visualization, file: &str) -> f64 {
     let read = Read::of(file);
     let (mut random, mut poses, mut farthest) = (Random::new(7), Vec::new(), 0.0_f64);
     let (first, last) = (seen.motion.times[0], seen.motion.times[seen.motion.len() - 1]);
@@ -186,7 +190,7 @@ fn farthest_pin(name: &str, seen: &Seen, file: &str) -> f64 {
         seen.motion.write_poses(t, &mut poses);
         for (path, local, group) in &read.points {
             let point = seen.scene.point_named(path).expect("a point of the scene");
-            let wanted = read.pixels(poses[point.frame].placed(point.at));
+            let wanted = read.pixels(poses[point.frame].transform(point.at));
             let found = read.placed(*local, group, (t - first) / (last - first));
             farthest = farthest.max(distance(found, wanted));
         }
@@ -309,7 +313,7 @@ fn names_stand_near_what_they_name_and_beside_bars() {
         let boxes = boxes(&file);
         for name in ["crank.A0", "crank.A", "rocker.B", "rocker.B0"] {
             let point = seen.scene.point_named(name).expect("a point");
-            let pin = read.pixels(poses[point.frame].placed(point.at));
+            let pin = read.pixels(poses[point.frame].transform(point.at));
             let own = name.rsplit('.').next();
             let (_, [low, high]) = boxes.iter().find(|(text, _)| Some(text.as_str()) == own).expect("a label");
             let nearest = [0, 1].map(|part| pin[part].clamp(low[part], high[part]));
@@ -322,7 +326,7 @@ fn names_stand_near_what_they_name_and_beside_bars() {
                 .points
                 .iter()
                 .filter(|point| point.name.starts_with(name))
-                .map(|point| read.pixels(poses[point.frame].placed(point.at)))
+                .map(|point| read.pixels(poses[point.frame].transform(point.at)))
                 .collect();
             let (_, [low, high]) = boxes.iter().find(|(text, _)| text == name).expect("a label");
             let covered = (0..=100).map(|k| plus(ends[0], times(0.01 * f64::from(k), minus(ends[1], ends[0]))));
@@ -385,18 +389,18 @@ const HELD: &str = "mechanism held {
     analysis from 0 s to 0.2 s every 5 ms
 }";
 
-fn seen_with_forces(text: &str) -> Seen {
+fn seen_with_forces(text: &str) -> Visualization {
     let choice = Choice { pictures_forces: true, ..Choice::default() };
-    let checked = Parsed::of("test.mech", text).check(&choice, &Disk::default());
-    let (compiled, said) = checked.compile(Redundant::Refused, &Cancel::default());
-    let compiled = compiled.unwrap_or_else(|| panic!("{said:?} {:?}", checked.diagnostics()));
+    let checked = Parsed::new("test.mech", text).check(&choice, &Disk::default());
+    let (compiled, reports) = checked.compile(Redundant::Refused, &Cancel::default());
+    let compiled = compiled.unwrap_or_else(|| panic!("{reports:?} {:?}", checked.diagnostics()));
     let times = compiled.times().expect("an analysis");
-    let (seen, said) = checked.seen(&compiled, &times, &RunOptions::default(), 2000);
-    seen.unwrap_or_else(|| panic!("{said:?}"))
+    let (seen, reports) = checked.visualize(&compiled, &times, &RunOptions::default(), 2000);
+    seen.unwrap_or_else(|| panic!("{reports:?}"))
 }
 
 /// The torques of a mechanism in a row, with their names.
-fn torques(seen: &Seen, row: usize) -> Vec<(String, f64)> {
+fn torques(seen: &Visualization, row: usize) -> Vec<(String, f64)> {
     let named = |torque: &Torque| seen.scene.declarations[torque.declaration].name.clone();
     seen.scene.torques.iter().map(|torque| (named(torque), torque.value(&seen.motion, row))).collect()
 }
@@ -408,10 +412,10 @@ fn arcs_are_as_large_as_torques_and_go_their_way_round() {
     let mut scales: Vec<f64> = Vec::new();
     for row in [0, 7, 23] {
         let file = still(&seen.scene, &seen.motion, &one_row(&seen, row), &options);
-        let told = torques(&seen, row);
-        let names: Vec<&str> = told.iter().map(|(name, _)| name.as_str()).collect();
+        let reported = torques(&seen, row);
+        let names: Vec<&str> = reported.iter().map(|(name, _)| name.as_str()).collect();
         assert_eq!(names, ["guide", "motor", "spiral", "brake"]);
-        for (name, torque) in &told {
+        for (name, torque) in &reported {
             let paths = file.split('<').filter(|tag| tag.starts_with("path class=\"vector"));
             let own = |tag: &&str| attribute(tag, "data-name") == Some(name) && tag.contains(" 0 1 ");
             let Some(path) = paths.clone().find(own) else { continue };
@@ -499,7 +503,7 @@ fn boxes(file: &str) -> Vec<(String, [Vector; 2])> {
 }
 
 /// A single moment of a motion.
-fn one_row(seen: &Seen, row: usize) -> Motion {
+fn one_row(seen: &Visualization, row: usize) -> Motion {
     seen.motion.moment(row)
 }
 
@@ -508,13 +512,13 @@ fn corners(path: &Drawn, pose: &Pose) -> Vec<Vec<Vector>> {
     let Drawn::Lines(contours) = path else { return Vec::new() };
     let of_circle = |start: Vector, radius: f64, end: Vector| {
         let middle = times(0.5, plus(start, end));
-        (0..90).map(|k| pose.placed(plus(middle, polar(radius, f64::from(k) * 4_f64.to_radians())))).collect()
+        (0..90).map(|k| pose.transform(plus(middle, polar(radius, f64::from(k) * 4_f64.to_radians())))).collect()
     };
     contours
         .iter()
         .map(|one| match one.segments.first() {
             Some(Segment::Arc { to, radius, .. }) => of_circle(one.start, *radius, *to),
-            _ => Drawn::Lines(vec![one.clone()]).moved(pose).places(),
+            _ => Drawn::Lines(vec![one.clone()]).transform(pose).positions(),
         })
         .collect()
 }
@@ -539,10 +543,12 @@ fn depth(place: Vector, contours: &[Vec<Vector>]) -> f64 {
 /// The deepest that a tooth goes into what it meshes with along a motion, as a part of the size of symbols.
 fn deepest_overlap(scene: &Scene, motion: &Motion) -> (usize, f64) {
     let toothed = |look| matches!(look, Look::Gear | Look::Rack);
-    let wheels: Vec<(&Place, &Drawn)> = scene
+    let wheels: Vec<(&Attachment, &Drawn)> = scene
         .nodes
         .iter()
-        .flat_map(|node| node.shapes.iter().filter(|shape| toothed(shape.look)).map(|shape| (&node.place, &shape.path)))
+        .flat_map(|node| {
+            node.shapes.iter().filter(|shape| toothed(shape.look)).map(|shape| (&node.attachment, &shape.path))
+        })
         .collect();
     let mut deepest = 0.0_f64;
     for row in motion.sampled(25) {
@@ -585,9 +591,9 @@ fn wheels_that_no_pitch_fits_have_no_teeth() {
             }}"
         ))
     };
-    let teeth = |seen: &Seen| {
+    let teeth = |seen: &Visualization| {
         let gears = seen.scene.nodes.iter().flat_map(|node| &node.shapes).filter(|shape| shape.look == Look::Gear);
-        gears.map(|shape| shape.path.places().len()).min().expect("a wheel")
+        gears.map(|shape| shape.path.positions().len()).min().expect("a wheel")
     };
     let fitting = train("25 mm");
     assert!(teeth(&fitting) > 100);
@@ -602,7 +608,10 @@ fn guides_are_as_long_as_the_motion_asks_for() {
     let seen = example("slider_crank");
     let shapes = |look| {
         seen.scene.nodes.iter().flat_map(move |node| {
-            node.shapes.iter().filter(move |shape| shape.look == look).map(|shape| (node.place, shape.path.places()))
+            node.shapes
+                .iter()
+                .filter(move |shape| shape.look == look)
+                .map(|shape| (node.attachment, shape.path.positions()))
         })
     };
     let longest = |places: &[Vector]| distance(places[0], places[1]);
@@ -610,7 +619,7 @@ fn guides_are_as_long_as_the_motion_asks_for() {
     let (place, block) = shapes(Look::Block).next().expect("a block");
     for row in 0..seen.motion.len() {
         let (pose, _) = place.pose(seen.motion.poses(row));
-        for corner in block.iter().map(|corner| pose.placed(*corner)) {
+        for corner in block.iter().map(|corner| pose.transform(*corner)) {
             assert!(edge[0][0] < corner[0] && corner[0] < edge[1][0], "the block leaves its guide in row {row}");
         }
     }
@@ -702,7 +711,7 @@ fn edges_are_known() {
 }
 
 /// All measures of what is seen, as the command line plots them.
-fn measures(seen: &Seen) -> Vec<Plot<'_>> {
+fn measures(seen: &Visualization) -> Vec<Plot<'_>> {
     let declared = seen.scene.declarations.iter().filter(|declaration| declaration.kind == "measure");
     let plot = |name: &str| {
         let at = seen.columns.iter().position(|column| column == name).expect("a column");
@@ -779,7 +788,7 @@ fn pictures_true_to_scale_are_in_millimetres_of_paper() {
 }
 
 /// Through the group around all, places are where the scale has them, to a tenth of a micrometre of paper.
-fn places_are_true(seen: &Seen, row: usize, options: &Options) {
+fn places_are_true(seen: &Visualization, row: usize, options: &Options) {
     let file = still(&seen.scene, &seen.motion, &one_row(seen, row), options);
     let (_, group) = file.split_once("<g transform=\"scale(").expect("a group");
     let each: f64 = group.split(')').next().expect("a scale").parse().expect("a number");
@@ -787,7 +796,7 @@ fn places_are_true(seen: &Seen, row: usize, options: &Options) {
     assert!(!read.points.is_empty());
     for (path, local, group) in &read.points {
         let point = seen.scene.point_named(path).expect("a point");
-        let wanted = read.pixels(seen.motion.poses(row)[point.frame].placed(point.at));
+        let wanted = read.pixels(seen.motion.poses(row)[point.frame].transform(point.at));
         let found = times(each, read.placed(*local, group, 0.0));
         assert!(distance(found, wanted) < 1e-4, "{path}: {found:?}, not {wanted:?}");
     }
@@ -851,7 +860,7 @@ fn what_is_cut_keeps_to_its_lines() {
     let (polylines, points) = read_dxf(&text);
     let of = |layer: &str| polylines.iter().find(|(own, _, _)| own == layer).expect("a layer");
     let center = seen.scene.point_named("disc.C").expect("the centre");
-    let center = seen.motion.poses(20)[center.frame].placed(center.at);
+    let center = seen.motion.poses(20)[center.frame].transform(center.at);
     let (_, rim, is_closed) = of("disc_rim");
     assert!(*is_closed && off_circle(rim, center, 0.025) < 1e-6, "{}", off_circle(rim, center, 0.025));
     assert!(points.iter().any(|(layer, at)| layer == "disc_O" && distance(*at, [0.0; 2]) < 1e-9), "{points:?}");
@@ -938,8 +947,8 @@ fn a_film_has_a_picture_of_each_row() {
     let folder = tempfile::tempdir().expect("a folder");
     let times = ["--from", "0", "--to", "0.04", "--every", "10ms"];
     let with = |output| [&["-o", output][..], &times].concat();
-    let (code, said) = view(folder.path(), &with("film/%03d.svg"));
-    assert_eq!(code, 0, "{said}");
+    let (code, reports) = view(folder.path(), &with("film/%03d.svg"));
+    assert_eq!(code, 0, "{reports}");
     let mut names: Vec<String> = fs::read_dir(folder.path().join("film"))
         .expect("the folder")
         .map(|entry| entry.expect("a file").file_name().to_string_lossy().into_owned())
@@ -953,12 +962,12 @@ fn a_film_has_a_picture_of_each_row() {
     #[cfg(unix)]
     {
         std::os::unix::fs::symlink("../a.mech", folder.path().join("film/x2.svg")).expect("a link");
-        let (code, said) = view(folder.path(), &with("film/x%d.svg"));
-        assert!(code == 2 && said.contains("would be written over"), "{code}: {said}");
+        let (code, reports) = view(folder.path(), &with("film/x%d.svg"));
+        assert!(code == 2 && reports.contains("would be written over"), "{code}: {reports}");
         assert!(!folder.path().join("film/x0.svg").exists(), "none of them is written");
     }
-    let (code, said) = view(folder.path(), &with("no/such/%d.svg"));
-    assert!(code != 0 && said.contains("there is no folder `no`"), "{code}: {said}");
+    let (code, reports) = view(folder.path(), &with("no/such/%d.svg"));
+    assert!(code != 0 && reports.contains("there is no folder `no`"), "{code}: {reports}");
 }
 
 /// What the pictures of some examples show beside what these ask for: the point that an example is there for.
@@ -990,7 +999,7 @@ fn gallery() -> Vec<(String, String)> {
     for path in files("examples", "mech") {
         let name = stem(&path);
         let traced = TRACED.iter().find(|(example, _)| *example == name).map(|(_, path)| *path);
-        let anchor = |seen: &Seen| {
+        let anchor = |seen: &Visualization| {
             let point = seen.scene.point_named(traced?).expect("a point of the example");
             Some(Anchor { frame: point.frame, at: point.at })
         };
@@ -1030,8 +1039,8 @@ fn free(text: &str) -> Vec<Vec<(String, [f64; 3])>> {
     let mut sources = Sources::default();
     let file = sources.add("free.mech", text);
     let tree = syntax::parse(&sources, file).tree;
-    let (model, said) = check::check(&tree.mechanisms[0], &check::Surroundings::default(), &sources);
-    let system = lower::lowered(&model.unwrap_or_else(|| panic!("{said:?}")));
+    let (model, reports) = check::check(&tree.mechanisms[0], &check::CheckOptions::default(), &sources);
+    let system = lower::lower_model(&model.unwrap_or_else(|| panic!("{reports:?}")));
     let named = |FreeMotion { bodies }: FreeMotion| {
         bodies.into_iter().map(|(body, velocity)| (system.bodies()[body].name.clone(), velocity)).collect()
     };
@@ -1090,16 +1099,18 @@ fn free_motions_are_those_by_hand() {
 }
 
 /// The places of nodes that have a shape of some look, with their declarations.
-fn looking(seen: &Seen, look: Look) -> Vec<(&str, Vector)> {
+fn looking(seen: &Visualization, look: Look) -> Vec<(&str, Vector)> {
     let nodes = seen.scene.nodes.iter().filter(|node| node.shapes.iter().any(|shape| shape.look == look));
     let poses = seen.motion.poses(0);
-    nodes.map(|node| (seen.scene.declarations[node.declaration].name.as_str(), node.place.pose(poses).0.at)).collect()
+    nodes
+        .map(|node| (seen.scene.declarations[node.declaration].name.as_str(), node.attachment.pose(poses).0.at))
+        .collect()
 }
 
 #[test]
 fn what_is_left_free_has_arrows() {
-    let (seen, said) = seen_at_rest("tests/ui/ndof/three_cranks_without_driver.mech");
-    assert!(said[0].starts_with("error[E0503]"), "{said:?}");
+    let (seen, reports) = static_visualization("tests/ui/ndof/three_cranks_without_driver.mech");
+    assert!(reports[0].starts_with("error[E0503]"), "{reports:?}");
     let mut arrows = looking(&seen, Look::Free);
     arrows.sort_by(|a, b| a.0.cmp(b.0));
     let names: Vec<&str> = arrows.iter().map(|(name, _)| *name).collect();
@@ -1117,8 +1128,8 @@ fn what_is_left_free_has_arrows() {
 
 #[test]
 fn what_cannot_be_assembled_is_open_where_it_is_said() {
-    let (seen, said) = seen_at_rest("tests/ui/run/loop_that_never_closes.mech");
-    assert!(said[0].ends_with("joint `swing` stays open by 8.88 mm"), "{said:?}");
+    let (seen, reports) = static_visualization("tests/ui/run/loop_that_never_closes.mech");
+    assert!(reports[0].ends_with("joint `swing` stays open by 8.88 mm"), "{reports:?}");
     let open = seen.scene.nodes.iter().filter(|node| node.shapes.iter().any(|shape| shape.look == Look::GapEnd));
     let [open] = open.collect::<Vec<_>>()[..] else { panic!("one joint is open") };
     assert_eq!(seen.scene.declarations[open.declaration].name, "swing");
@@ -1134,7 +1145,7 @@ fn what_cannot_be_assembled_is_open_where_it_is_said() {
 #[test]
 fn lengths_that_are_blamed_stand_beside_what_is_red() {
     let path = "tests/ui/run/loop_that_never_closes.mech";
-    let (seen, said) = seen_at_rest(path);
+    let (seen, reports) = static_visualization(path);
     let remarks: Vec<&str> = seen.scene.remarks.iter().map(|remark| remark.text.as_str()).collect();
     assert_eq!(remarks, ["100 mm: too long", "10 mm: too short", "70 mm: too short"]);
     assert_eq!(seen.scene.remarks[0].at, [0.05, 0.0], "the middle of the ground's length");
@@ -1143,7 +1154,7 @@ fn lengths_that_are_blamed_stand_beside_what_is_red() {
         assert!(named.contains(&body), "{named:?}");
     }
     assert!(!named.contains(&"crank") && !named.contains(&"ground"), "{named:?}");
-    let file = still(&seen.scene, &seen.motion, &seen.motion, &Options { said, ..Options::default() });
+    let file = still(&seen.scene, &seen.motion, &seen.motion, &Options { said: reports, ..Options::default() });
     assert_eq!(file.matches("<text class=\"remark\"").count(), 3);
     // the command tells them below it, and breaks no number off its unit
     let folder = tempfile::tempdir().expect("a folder");
@@ -1173,16 +1184,16 @@ fn what_stops_is_shown_up_to_there() {
     assert!(farthest_pin("four_bar", &seen, &file) < 0.5);
 }
 
-fn stopped() -> Seen {
+fn stopped() -> Visualization {
     let path = Path::new("tests/ui/run/four_bar_into_lock_up.mech");
     seen_as(path, &fs::read_to_string(path).expect("a mechanism"), None)
 }
 
 #[test]
 fn messages_take_no_room_from_what_is_drawn() {
-    let (seen, said) = seen_at_rest("tests/ui/run/loop_that_never_closes.mech");
+    let (seen, reports) = static_visualization("tests/ui/run/loop_that_never_closes.mech");
     for size in [None, Some([400.0, 300.0]), Some([1280.0, 720.0])] {
-        let options = Options { said: said.clone(), labels: true, size, ..Options::default() };
+        let options = Options { said: reports.clone(), labels: true, size, ..Options::default() };
         let file = still(&seen.scene, &seen.motion, &seen.motion, &options);
         let lines: Vec<f64> = file
             .split("<text class=\"said\"")
@@ -1194,7 +1205,7 @@ fn messages_take_no_room_from_what_is_drawn() {
         assert!(!lines.is_empty() && lines.iter().all(|y| *y < height), "{lines:?} of {height}");
         let read = Read::of(&file);
         for point in &seen.scene.points {
-            let [x, y] = read.pixels(seen.motion.poses(0)[point.frame].placed(point.at));
+            let [x, y] = read.pixels(seen.motion.poses(0)[point.frame].transform(point.at));
             assert!(
                 x > 0.0 && y > 0.0 && y < lines[0] - 13.0,
                 "{} is at {x}, {y}, and words at {}",
@@ -1208,14 +1219,14 @@ fn messages_take_no_room_from_what_is_drawn() {
 /// Pictures that a reviewer reads, and those of the docs.
 fn goldens() -> Vec<(String, String)> {
     let span = mechc::Span { file: Sources::default().add("", ""), start: 0, end: 0 };
-    let (symbols, rest, captions) = catalogue(span);
+    let Catalogue { scene: symbols, motion: rest, captions } = catalogue(span);
     let of_symbols = Options { captions, ..Options::default() };
     let (hoeken, slider_crank) = (example("hoeken"), example("slider_crank"));
     let pen = hoeken.scene.point_named("coupler.pen").expect("the pen");
     let pen = ("coupler.pen".to_owned(), Anchor { frame: pen.frame, at: pen.at });
     let of_broken = |path: &str| {
-        let (seen, said) = seen_at_rest(path);
-        still(&seen.scene, &seen.motion, &seen.motion, &Options { said, ..Options::default() })
+        let (seen, reports) = static_visualization(path);
+        still(&seen.scene, &seen.motion, &seen.motion, &Options { said: reports, ..Options::default() })
     };
     let stopped = stopped();
     let why = stopped.stopped.as_ref().map(|why| why.message.clone());

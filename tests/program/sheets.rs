@@ -19,12 +19,12 @@ fn mechc(folder: &Path) -> Command {
 
 fn output(folder: &Path, arguments: &[&str]) -> Output {
     let output = mechc(folder).args(arguments).output().expect("it runs");
-    let said = String::from_utf8_lossy(&output.stderr);
-    assert!(!said.contains("panicked"), "{arguments:?}: {said}");
+    let diagnostics = String::from_utf8_lossy(&output.stderr);
+    assert!(!diagnostics.contains("panicked"), "{arguments:?}: {diagnostics}");
     output
 }
 
-fn said(output: &Output) -> String {
+fn diagnostics(output: &Output) -> String {
     String::from_utf8_lossy(&output.stderr).into_owned()
 }
 
@@ -120,10 +120,10 @@ fn alone(folder: &Path, file: &str, set: &[String], more: &[&str]) -> (String, S
         let _ = fs::remove_file(folder.join(name));
     }
     let ran = output(folder, &arguments);
-    let lines = said(&ran);
-    let said = lines.lines().filter_map(|line| serde_json::from_str::<serde_json::Value>(line).ok());
-    let errors: Vec<_> = said.filter(|said| said["severity"] == "error").collect();
-    let is_led = |said: &&serde_json::Value| said["code"] != "E0612";
+    let lines = diagnostics(&ran);
+    let diagnostics = lines.lines().filter_map(|line| serde_json::from_str::<serde_json::Value>(line).ok());
+    let errors: Vec<_> = diagnostics.filter(|diagnostic| diagnostic["severity"] == "error").collect();
+    let is_led = |diagnostics: &&serde_json::Value| diagnostics["code"] != "E0612";
     let (status, stopped) = match (errors.iter().find(is_led), errors.is_empty()) {
         (Some(why), _) => (
             why["code"].as_str().expect("a code").to_owned(),
@@ -150,7 +150,7 @@ fn results_are_those_of_runs(
     arguments.extend(sweep);
     arguments.extend(more);
     let swept = output(folder, &arguments);
-    assert!([Some(0), Some(3)].contains(&swept.status.code()), "{arguments:?}: {}", said(&swept));
+    assert!([Some(0), Some(3)].contains(&swept.status.code()), "{arguments:?}: {}", diagnostics(&swept));
     let cells = Cells::of(&fs::read_to_string(folder.join("sweep.csv")).expect("a table"));
     let mut statuses = Vec::new();
     for row in &cells.rows {
@@ -268,7 +268,7 @@ fn threads_units_and_shares_change_nothing(path: &Path, sweep: &[&str], more: &[
             [&["sweep", "a.mech", "-o", name], sweep, more, with].into_iter().flatten().copied().collect();
         let made = output(path, &arguments);
         // an instruction set that this processor does not have
-        let is_there = !said(&made).contains("that this processor has");
+        let is_there = !diagnostics(&made).contains("that this processor has");
         is_there.then(|| fs::read(path.join(name)).expect("a table"))
     };
     let whole = bytes("whole.csv", &["--jobs", "1"]).expect("a table");
@@ -415,16 +415,16 @@ fn interrupted_within(path: &Path, arguments: &[&str], count: usize) -> String {
             signal(&child, "-2");
         }
         let ended = child.wait_with_output().expect("it ends");
-        let told = said(&ended);
+        let reported = diagnostics(&ended);
         if ended.status.code() == Some(0) {
             late = Some(size);
         } else {
-            assert_eq!(ended.status.code(), Some(130), "{told}");
-            let skip = told.split("--skip ").nth(1).and_then(|rest| rest.split('`').next()).expect("how to go on");
+            assert_eq!(ended.status.code(), Some(130), "{reported}");
+            let skip = reported.split("--skip ").nth(1).and_then(|rest| rest.split('`').next()).expect("how to go on");
             let done: usize = skip.parse().expect("a number");
-            assert!(told.contains(&format!("interrupted: {done} of {count} variants are written")), "{told}");
+            assert!(reported.contains(&format!("interrupted: {done} of {count} variants are written")), "{reported}");
             if done > 0 {
-                assert!(done < count, "{told}");
+                assert!(done < count, "{reported}");
                 return skip.to_owned();
             }
             early = size;
@@ -487,8 +487,8 @@ fn a_table_is_never_written_over_what_was_read() {
         (vec!["tolerance", "a.mech", "--tol", "rod_length=1mm"], "hard.csv"),
     ] {
         let refused = output(path, &[&command[..], &["-o", out]].concat());
-        assert_eq!(refused.status.code(), Some(2), "{command:?} {out}: {}", said(&refused));
-        assert!(said(&refused).contains("would be written over"), "{}", said(&refused));
+        assert_eq!(refused.status.code(), Some(2), "{command:?} {out}: {}", diagnostics(&refused));
+        assert!(diagnostics(&refused).contains("would be written over"), "{}", diagnostics(&refused));
     }
     let behind: Vec<Vec<u8>> = ["a.mech", "v.csv"].map(|name| fs::read(path.join(name)).unwrap()).to_vec();
     assert!(before == behind);
@@ -554,7 +554,7 @@ fn a_sweep_ends_where_a_condition_holds_for_the_first_time() {
     let folder = in_folder(&[("a.mech", ARM)]);
     let swept = |more: &[&str]| {
         let output = output(folder.path(), &[&["sweep", "a.mech"], more].concat());
-        (String::from_utf8(output.stdout.clone()).unwrap().lines().count() - 1, said(&output))
+        (String::from_utf8(output.stdout.clone()).unwrap().lines().count() - 1, diagnostics(&output))
     };
     for (more, rows, found) in [
         (vec!["--vary", "c=1,2,3", "--until", "c > 1.5"], 2, Some(1)),
@@ -569,13 +569,13 @@ fn a_sweep_ends_where_a_condition_holds_for_the_first_time() {
         (vec!["--vary", "c=1,2,3", "--result", "q=sqrt(r / 1 m - 9)", "--until", "not (q > 0)"], 3, None),
         (vec!["--vary", "c=1,2,3", "--result", "q=sqrt(r / 1 m - 9)", "--until", "q != 0"], 3, None),
     ] {
-        let (count, said) = swept(&more);
-        assert_eq!(count, rows, "{more:?}: {said}");
-        assert!(said.contains(&format!("{rows} ok")), "{more:?}: {said}");
-        let told = found.map(|variant| format!("variant {variant} is the first with"));
+        let (count, diagnostics) = swept(&more);
+        assert_eq!(count, rows, "{more:?}: {diagnostics}");
+        assert!(diagnostics.contains(&format!("{rows} ok")), "{more:?}: {diagnostics}");
+        let reported = found.map(|variant| format!("variant {variant} is the first with"));
         assert!(
-            said.contains(told.as_deref().unwrap_or("no variant that ran to its end was found")),
-            "{more:?}: {said}"
+            diagnostics.contains(reported.as_deref().unwrap_or("no variant that ran to its end was found")),
+            "{more:?}: {diagnostics}"
         );
     }
 }
@@ -588,12 +588,16 @@ fn zeros_need_no_unit() {
     {
         let folder = in_folder(&[("a.mech", ARM), ("v.csv", table)]);
         let swept = output(folder.path(), &["sweep", "a.mech", "--vary", "@v.csv"]);
-        assert_eq!(swept.status.code(), Some(i32::from(!ok)), "{table}: {}", said(&swept));
-        assert!(said(&swept).contains(if ok { "2 ok" } else { "must be a length" }), "{table}: {}", said(&swept));
+        assert_eq!(swept.status.code(), Some(i32::from(!ok)), "{table}: {}", diagnostics(&swept));
+        assert!(
+            diagnostics(&swept).contains(if ok { "2 ok" } else { "must be a length" }),
+            "{table}: {}",
+            diagnostics(&swept)
+        );
     }
     let folder = in_folder(&[("a.mech", ARM)]);
     let swept = output(folder.path(), &["sweep", "a.mech", "--vary", "gap=0,0", "--vary", "w=0..0:2"]);
-    assert!(said(&swept).contains("4 ok"), "{}", said(&swept));
+    assert!(diagnostics(&swept).contains("4 ok"), "{}", diagnostics(&swept));
 }
 
 #[test]
@@ -604,8 +608,8 @@ fn what_cannot_be_swept_is_refused_before_anything_is_made() {
     let folder = in_folder(&[("a.mech", ARM), ("legs.mech", leg)]);
     let refused = |arguments: &[&str], why: &str| {
         let output = output(folder.path(), &[arguments, &["-o", "out.csv"]].concat());
-        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {}", said(&output));
-        assert!(said(&output).contains(why), "{arguments:?}: {}", said(&output));
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {}", diagnostics(&output));
+        assert!(diagnostics(&output).contains(why), "{arguments:?}: {}", diagnostics(&output));
         assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 2, "{arguments:?} leaves nothing behind");
     };
     let rows = ["sweep", "a.mech", "--vary", "c=0..1:3", "--rows"];
@@ -618,11 +622,11 @@ fn what_cannot_be_swept_is_refused_before_anything_is_made() {
     let copy_first = [&legs[..], &["--vary", "leg[1].a=1m,2m", "--vary", "leg.a=1m,3m"]].concat();
     refused(&copy_first, "`leg[1].a` would be what `leg.a` is");
     let all_first = [&legs[..], &["--vary", "leg.a=1m,3m", "--vary", "leg[1].a=1m,2m"]].concat();
-    assert!(said(&output(folder.path(), &all_first)).contains("4 ok"));
+    assert!(diagnostics(&output(folder.path(), &all_first)).contains("4 ok"));
     // at the end of as many variants as can be counted
     let last = ["--vary", "c=0..1:18446744073709551615", "--skip", "18446744073709551610", "--take", "100", "--yes"];
     let last = output(folder.path(), &[&["sweep", "a.mech"][..], &last].concat());
-    assert!(said(&last).contains("5 ok"), "{}", said(&last));
+    assert!(diagnostics(&last).contains("5 ok"), "{}", diagnostics(&last));
     // between ends whose difference is no number
     let far = output(folder.path(), &["sweep", "a.mech", "--vary", "c=-1e308..1e308:5", "--set", "w=0rpm"]);
     let far = String::from_utf8(far.stdout).unwrap();

@@ -46,7 +46,7 @@ fn changes_of_size(variant: &Value) -> bool {
 }
 
 #[test]
-fn variants_are_on_the_page_and_its_size_is_told() {
+fn variants_are_on_the_page_and_its_size_is_reported() {
     let Outcome { code, said, page, size } = view(&["--vary", "rod_length=120mm..180mm:13"]);
     assert_eq!((code, said), (0, format!("13 variants, {} kB\n", size.div_ceil(1000))));
     let page = page.expect("a page");

@@ -2,8 +2,8 @@
 
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, clippy::float_cmp)] // a test fails by panicking
 
+use crate::support::formula_reader::{Names, parse, read};
 use crate::support::random::Random;
-use crate::support::reading::{Names, parse, read};
 use crate::support::tex::Meaning;
 use crate::support::{compile_number, compile_with_forces, compiled, files, mechanisms, stem};
 use assert_cmd::Command;
@@ -369,7 +369,7 @@ fn formulas_of_the_json_are_those_of_the_system() {
         for (condition, item) in system.conditions().iter().zip(list(&json, "conditions")) {
             same(&item["positive"], condition.positive);
         }
-        for (watch, item) in system.watches().iter().zip(list(&json, "watches")) {
+        for (watch, item) in system.monitors().iter().zip(list(&json, "watches")) {
             same(&item["value"], watch.value);
         }
         for (check, item) in system.checks().iter().zip(list(&json, "left_out")) {

@@ -1,6 +1,6 @@
-//! The fenced blocks of a page.
+//! Fenced blocks of a page.
 
-/// The language and the text of each fenced block of a page.
+/// Returns the language and the text of each fenced block.
 pub fn blocks(page: &str) -> Vec<(String, String)> {
     let (mut blocks, mut lines) = (Vec::new(), page.lines());
     while let Some(line) = lines.next() {

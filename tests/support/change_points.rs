@@ -1,8 +1,8 @@
-//! Linkages that go through change points, as texts.
+//! Texts of linkages that pass change points.
 
 use mechc_expr::math;
 
-/// A crank and a rod of equal length, turned by a driver, with what is measured.
+/// Returns a crank and a rod of equal length with a driver and measures.
 pub fn equal_rods(length: f64, angle: &str, start: f64, analysis: &str) -> String {
     let (sin, cos) = math::sin_cos(start);
     let (x, y) = (length * cos, length * sin);
@@ -24,7 +24,7 @@ pub fn equal_rods(length: f64, angle: &str, start: f64, analysis: &str) -> Strin
     )
 }
 
-/// A parallelogram, turned by a driver.
+/// Returns a parallelogram with a driver.
 pub fn parallelogram(length: f64, base: f64, angle: &str, start: f64, analysis: &str) -> String {
     let (sin, cos) = math::sin_cos(start);
     format!(
@@ -45,7 +45,7 @@ pub fn parallelogram(length: f64, base: f64, angle: &str, start: f64, analysis: 
     )
 }
 
-/// A parallelogram whose crank is a param and whose turn is an input: it folds 1.5 s after its begin, in half a turn.
+/// Returns a parallelogram whose crank is a param and whose rotation is an input: it folds 1.5 s after its start, at half a turn.
 pub fn parallelogram_of_names(declarations: &str) -> String {
     format!(
         "mechanism m {{

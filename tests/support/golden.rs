@@ -1,9 +1,9 @@
-//! Files that tests make: what is checked in is what would be made now.
+//! Golden files: a checked-in file must equal what the program writes now.
 
 use std::fs;
 use std::path::Path;
 
-/// A file holds what is made; it is written if `UPDATE_GOLDENS` is set.
+/// Checks that a file has this content, or writes it if `UPDATE_GOLDENS` is set.
 pub fn holds(path: impl AsRef<Path>, made: &str) {
     let path = path.as_ref();
     let written = fs::read_to_string(path).unwrap_or_default();

@@ -1,15 +1,15 @@
-//! The pipeline as tests use it, through the façade: a text in, diagnostics and rows out.
+//! The pipeline as tests use it, through the façade: text in, diagnostics and rows out.
 
 #![allow(dead_code)] // each test file uses its part
 
 pub mod blocks;
 pub mod change_points;
+pub mod formula_reader;
 pub mod golden;
-pub mod listed;
+pub mod named_tests;
 pub mod random;
-pub mod reading;
 pub mod shape;
-pub mod swept;
+pub mod sweeps;
 pub mod table;
 pub mod tex;
 
@@ -19,7 +19,7 @@ use mechc::{
 };
 use std::path::{Path, PathBuf};
 
-/// The files of this machine, their paths being those from a folder.
+/// Files of this machine, with paths relative to a folder.
 #[derive(Default)]
 pub struct Disk(PathBuf);
 
@@ -40,7 +40,7 @@ impl World for Disk {
     }
 }
 
-/// What became of a text.
+/// Results for a text.
 pub struct Outcome {
     pub sources: Sources,
     pub diagnostics: Diagnostics,
@@ -48,7 +48,7 @@ pub struct Outcome {
     pub rows: Vec<Vec<f64>>,
 }
 
-/// Which times to compute; those of the file where nothing is said.
+/// Times to compute; those of the file by default.
 #[derive(Clone, Copy, Default)]
 pub struct Span {
     pub to: Option<f64>,
@@ -60,39 +60,39 @@ impl Outcome {
         Outcome { sources: sources.clone(), diagnostics: Diagnostics::default(), columns: Vec::new(), rows: Vec::new() }
     }
 
-    /// Whether nothing went wrong.
+    /// Returns whether there are no errors.
     pub fn succeeded(&self) -> bool {
         !self.diagnostics.has_errors()
     }
 
-    /// The diagnostics as a user reads them.
+    /// Returns the diagnostics as a user reads them.
     pub fn text(&self) -> String {
         self.diagnostics.iter().map(|d| render(d, &self.sources, Format::Human, Color::Never)).collect()
     }
 
-    /// Fails with the diagnostics unless nothing went wrong.
+    /// Fails with the diagnostics if there are errors.
     pub fn expect_success(self) -> Outcome {
         assert!(self.succeeded(), "{}", self.text());
         self
     }
 
-    /// The codes, in order.
+    /// Returns the codes in order.
     pub fn codes(&self) -> Vec<&'static str> {
         self.diagnostics.iter().map(|d| d.code.as_str()).collect()
     }
 
-    /// Why the motion stopped, if it did.
+    /// Returns the error that stopped the motion, if any.
     pub fn stop(&self) -> Option<&Diagnostic> {
         self.diagnostics.iter().find(|diagnostic| is_error(diagnostic))
     }
 
-    /// The times of the bifurcations that were passed (s).
+    /// Returns the times of the bifurcations that were passed (s).
     pub fn passed(&self) -> Vec<f64> {
         let passed = self.diagnostics.iter().filter(|remark| remark.code.as_str() == "W0602");
         passed.map(|remark| remark.data["t"].as_f64().expect("a time")).collect()
     }
 
-    /// A column by its name.
+    /// Returns a column by its name.
     pub fn column(&self, name: &str) -> Vec<f64> {
         let at = self.columns.iter().position(|column| column == name);
         let at = at.unwrap_or_else(|| panic!("no column {name} in {:?}", self.columns));
@@ -100,23 +100,22 @@ impl Outcome {
     }
 }
 
-/// Checks and proves the first mechanism of a text; the files that it names are beside its name.
+/// Checks and proves the first mechanism of a text, whose files are next to its name.
 pub fn compile(name: &str, text: &str) -> (Option<Compiled>, Outcome) {
-    compile_at(&Parsed::of(name, text), 0, Redundant::Refused, false, &Disk::default())
+    compile_at(&Parsed::new(name, text), 0, Redundant::Refused, false, &Disk::default())
 }
 
-/// The same; equations that follow from others are left out.
+/// Checks and proves the first mechanism of a text, without its redundant equations.
 pub fn compile_without_redundant(name: &str, text: &str) -> (Option<Compiled>, Outcome) {
-    compile_at(&Parsed::of(name, text), 0, Redundant::LeftOut, false, &Disk::default())
+    compile_at(&Parsed::new(name, text), 0, Redundant::LeftOut, false, &Disk::default())
 }
 
-/// Checks and proves a mechanism of a text that is in a file, by its number.
+/// Checks and proves a mechanism of a text in a file, by its number.
 pub fn compile_number(path: &Path, text: &str, number: usize) -> (Option<Compiled>, Outcome) {
     compile_at(&parsed_in(path, text), number, Redundant::Refused, false, &Disk::default())
 }
 
-/// The same with what all joints exert and all drivers supply, where a body of the text has a mass, or it has loads; what is written
-/// has that too.
+/// Checks and proves a mechanism with all reactions and efforts as columns, if the text has masses or loads.
 pub fn compile_with_forces(path: &Path, text: &str, number: usize) -> Option<Compiled> {
     let has_forces = text.lines().map(str::trim).any(|line| line.starts_with("mass ") || line.starts_with("load "));
     let with_forces = || compile_at(&parsed_in(path, text), number, Redundant::Refused, true, &Disk::default()).0;
@@ -126,10 +125,10 @@ pub fn compile_with_forces(path: &Path, text: &str, number: usize) -> Option<Com
 fn parsed_in(path: &Path, text: &str) -> Parsed {
     let mut sources = Sources::default();
     let file = sources.add(path.display().to_string(), text);
-    Parsed::of_source(sources, file, path)
+    Parsed::from_source(sources, file, path)
 }
 
-/// The compiled mechanism of a text that is right.
+/// Compiles the mechanism of a correct text.
 pub fn compiled(name: &str, text: &str) -> Compiled {
     let (compiled, outcome) = compile(name, text);
     compiled.unwrap_or_else(|| panic!("{name}:\n{}", outcome.text()))
@@ -142,7 +141,7 @@ fn compile_at(
     reactions: bool,
     disk: &Disk,
 ) -> (Option<Compiled>, Outcome) {
-    // of a text that cannot be read the faults are all there is to say
+    // the faults of a text that cannot be parsed are all there is
     let mechanism = parsed.mechanisms().nth(number).map(str::to_owned);
     let checked = parsed.check(&Choice { mechanism, reactions, ..Choice::default() }, disk);
     let (compiled, said) = checked.compile(redundant, &Cancel::default());
@@ -152,28 +151,28 @@ fn compile_at(
     (compiled, outcome)
 }
 
-/// Runs the first mechanism of a text over its analysis; its tables' files are beside the file that it is named after.
+/// Runs the first mechanism of a text over its analysis; the files of its tables are next to the file that it is named after.
 pub fn run(name: &str, text: &str, span: Span) -> Outcome {
     analyse(compile(name, text), span)
 }
 
-/// Runs one of the mechanisms of a file.
+/// Runs a mechanism of a file, by its number.
 pub fn run_number(path: &Path, text: &str, number: usize, span: Span) -> Outcome {
     analyse(compile_number(path, text, number), span)
 }
 
-/// The names of the mechanisms in a text.
+/// Returns the names of the mechanisms in a text.
 pub fn mechanisms(text: &str) -> Vec<String> {
-    Parsed::of("text", text).mechanisms().map(str::to_owned).collect()
+    Parsed::new("text", text).mechanisms().map(str::to_owned).collect()
 }
 
-/// As [`run`], the tables' files being in a folder.
+/// Runs the first mechanism of a text over its analysis; the files of its tables are in a folder.
 pub fn run_in(folder: &Path, name: &str, text: &str, span: Span) -> Outcome {
     let disk = Disk(folder.to_owned());
-    analyse(compile_at(&Parsed::of(name, text), 0, Redundant::Refused, false, &disk), span)
+    analyse(compile_at(&Parsed::new(name, text), 0, Redundant::Refused, false, &disk), span)
 }
 
-/// Runs what was compiled over its analysis.
+/// Runs a compiled mechanism over its analysis.
 pub fn analyse((compiled, mut outcome): (Option<Compiled>, Outcome), span: Span) -> Outcome {
     if let Some(compiled) = compiled
         && let Some([from, to, every]) = compiled.analysis()
@@ -184,7 +183,7 @@ pub fn analyse((compiled, mut outcome): (Option<Compiled>, Outcome), span: Span)
     outcome
 }
 
-/// All rows at some times, and why there are no more if it stopped.
+/// Returns all rows at some times, and the error that stopped the motion, if any.
 pub fn all_rows(compiled: &Compiled, times: &Times) -> (Vec<Vec<f64>>, Option<Diagnostic>) {
     let mut outcome = Outcome::of(compiled.sources());
     follow(compiled, times, &RunOptions::default(), &mut outcome);
@@ -192,7 +191,7 @@ pub fn all_rows(compiled: &Compiled, times: &Times) -> (Vec<Vec<f64>>, Option<Di
     (outcome.rows, stop)
 }
 
-/// Follows a motion to its last row, or to where it stops; gives whether it began.
+/// Follows a motion to its last row, or to where it stops. Returns whether it started.
 pub fn follow(compiled: &Compiled, times: &Times, options: &RunOptions, outcome: &mut Outcome) -> bool {
     outcome.columns = compiled.columns();
     let (run, said) = compiled.run(times, options);
@@ -205,13 +204,13 @@ pub fn follow(compiled: &Compiled, times: &Times, options: &RunOptions, outcome:
             Err(diagnostic) => why = Some(*diagnostic),
         }
     }
-    outcome.diagnostics.extend(run.take_remarks());
+    outcome.diagnostics.extend(run.take_warnings());
     outcome.diagnostics.extend(run.results().into_iter().flat_map(|answers| answers.notes));
     outcome.diagnostics.extend(why);
     true
 }
 
-/// A run that goes on beyond bifurcations, with another output step if one is given; and the times of those it has passed (s).
+/// Runs a text past bifurcations, with another output step if one is given. Returns the times of the bifurcations (s), too.
 pub fn passing(text: &str, every: Option<f64>) -> (Outcome, Vec<f64>) {
     let (compiled, mut outcome) = compile("text", text);
     let compiled = compiled.expect("determined");
@@ -224,7 +223,7 @@ pub fn passing(text: &str, every: Option<f64>) -> (Outcome, Vec<f64>) {
     (outcome, passed)
 }
 
-/// All files below a folder with an ending, in order.
+/// Returns all files with an ending below a folder, in order.
 pub fn files(folder: &str, ending: &str) -> Vec<PathBuf> {
     let found = any_files(folder, ending);
     assert!(!found.is_empty(), "no .{ending} below {folder}");
@@ -248,19 +247,19 @@ fn any_files(folder: &str, ending: &str) -> Vec<PathBuf> {
     found
 }
 
-/// All files of the compiler with an ending: of the command line and of each crate.
+/// Returns all source files of the compiler with an ending: of the command line and of each crate.
 pub fn sources(ending: &str) -> Vec<PathBuf> {
     let mut found: Vec<PathBuf> = ["src", "crates"].into_iter().flat_map(|folder| any_files(folder, ending)).collect();
     found.retain(|path| path.components().any(|part| part.as_os_str() == "src"));
     found
 }
 
-/// `name` of `folder/name.mech`.
+/// Returns `name` of `folder/name.mech`.
 pub fn stem(path: &Path) -> String {
     path.file_stem().expect("a file").to_string_lossy().into_owned()
 }
 
-/// Worse than a remark.
+/// Returns whether a diagnostic is an error.
 pub fn is_error(diagnostic: &Diagnostic) -> bool {
     diagnostic.severity() == Severity::Error
 }

@@ -1,8 +1,8 @@
-//! Random numbers that are the same on every run and every machine: Steele, Lea and Flood's `SplitMix64`.
+//! Random numbers that are the same on every run and machine: Steele, Lea and Flood's `SplitMix64`.
 //!
-//! It stands alone, so that programs which tests compile can hold it too.
+//! The file depends on nothing, so that programs which tests compile can include it.
 
-/// A sequence of its own for each seed.
+/// Generator with a sequence for each seed.
 pub struct Random(u64);
 
 impl Random {
@@ -17,7 +17,7 @@ impl Random {
         mixed ^ (mixed >> 31)
     }
 
-    /// From 0 to 1, which it never is.
+    /// Returns a number in [0, 1).
     pub fn part(&mut self) -> f64 {
         (self.bits() >> 11) as f64 / (1_u64 << 53) as f64
     }
@@ -26,17 +26,17 @@ impl Random {
         low + (high - low) * self.part()
     }
 
-    /// So many, each from `-size` to `size`.
+    /// Returns `n` numbers from `-size` to `size`.
     pub fn vector(&mut self, n: usize, size: f64) -> Vec<f64> {
         (0..n).map(|_| self.between(-size, size)).collect()
     }
 
-    /// A whole number from 0 to `n - 1`.
+    /// Returns an integer from 0 to `n - 1`.
     pub fn below(&mut self, n: usize) -> usize {
         (self.bits() >> 33) as usize % n
     }
 
-    /// One of a list.
+    /// Returns an element of a list.
     pub fn of<T: Copy>(&mut self, list: &[T]) -> T {
         list[self.below(list.len())]
     }

@@ -1,12 +1,11 @@
-//! Trees without their places: what two texts of one meaning share.
+//! Trees without spans: texts with the same meaning have the same shape.
 
 use mechc_syntax::ast::{
     Binding, Expr, ExprKind, Feature, FeatureKind, File, IndexRange, Item, ItemKind, Mechanism, Name, Part,
     PathSegment, TableRows, UsedFile, WrittenUnit,
 };
 
-/// A formula in a form that two texts of one meaning share: no parentheses, sums and products from the left in pairs,
-/// `and` and `or` flat, `else if` nested.
+/// Returns the shape of a formula: no parentheses, sums and products as pairs from the left, `and` and `or` flat, `else if` nested.
 pub fn shape(e: &Expr) -> String {
     let pairs = |first: &Expr, rest: Vec<(String, &Expr)>| {
         rest.into_iter().fold(shape(first), |before, (sign, e)| format!("({sign} {before} {})", shape(e)))
@@ -63,7 +62,7 @@ fn shapes(list: &[Expr]) -> String {
     format!("[{}]", list.iter().map(shape).collect::<Vec<_>>().join(", "))
 }
 
-/// All declarations of a file, a line each.
+/// Returns the shapes of all declarations of a file, a line each.
 pub fn file_shape(file: &File) -> Vec<String> {
     let uses = file.uses.iter().map(use_shape);
     uses.chain(file.mechanisms.iter().flat_map(mechanism_shape)).collect()

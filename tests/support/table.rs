@@ -1,13 +1,13 @@
 //! Rows with the names of their columns.
 
-/// A table of a run.
+/// Table of a run.
 pub struct Table {
     pub columns: Vec<String>,
     pub rows: Vec<Vec<f64>>,
 }
 
 impl Table {
-    /// What a column has in each row.
+    /// Returns the values of a column by row.
     #[track_caller]
     pub fn column(&self, name: &str) -> Vec<f64> {
         let at = self.columns.iter().position(|column| column == name);

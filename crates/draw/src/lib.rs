@@ -1,4 +1,4 @@
-//! Pictures: what there is to draw of a mechanism and its motion, and how that is written.
+//! Drawings of mechanisms and their motion: `scene` holds what is drawn, `view` writes it.
 
 pub mod scene;
 pub mod view;

@@ -329,7 +329,7 @@ mod tests {
     /// A program with tables, and its parameters.
     fn program() -> (Arc<Program>, Vec<f64>) {
         let text = include_str!("../../../tests/cases/table_list.mech");
-        let checked = Parsed::of("table_list.mech", text).check(&Choice::default(), &Memory::default());
+        let checked = Parsed::new("table_list.mech", text).check(&Choice::default(), &Memory::default());
         let (compiled, _) = checked.compile(Redundant::Refused, &Cancel::default());
         let compiled = compiled.expect("it is determined");
         let params = compiled.system().params().iter().map(|param| param.value);

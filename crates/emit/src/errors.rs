@@ -49,8 +49,8 @@ mod tests {
             Error::Inconsistent,
             Error::Divergence,
         ] {
-            let error = ERRORS.iter().find(|error| error.name == format!("{error:?}")).expect("it is error");
-            assert_eq!(error.message, error.to_string());
+            let text = ERRORS.iter().find(|text| text.name == format!("{error:?}")).expect("every error has a text");
+            assert_eq!(text.message, error.to_string());
         }
     }
 }

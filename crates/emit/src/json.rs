@@ -81,7 +81,7 @@ fn roots(system: &ConstraintSystem, mechanics: Option<&Mechanics>) -> Vec<ExprId
         roots.extend(system.reactions().iter().map(|of| of.value));
     }
     roots.extend(system.conditions().iter().map(|condition| condition.positive));
-    roots.extend(system.watches().iter().map(|watch| watch.value));
+    roots.extend(system.monitors().iter().map(|watch| watch.value));
     roots.extend(system.checks().iter().map(|check| check.phi));
     roots.extend(system.graph().tables().iter().flat_map(|table| table.cells().chain(table.values.iter().copied())));
     roots
@@ -279,7 +279,7 @@ impl Writer<'_> {
     }
 
     fn watches(&self) -> Vec<Value> {
-        let watches = self.system.watches().iter().map(|watch| {
+        let watches = self.system.monitors().iter().map(|watch| {
             let kind = match watch.kind {
                 MonitorKind::LineOfCenters => "line_of_centers",
                 MonitorKind::Tangents => "tangents",

@@ -10,7 +10,7 @@ use super::text::literal;
 use super::{EmittedMotion, TranslationUnit};
 use mechc_engine::solver::{Instruction, Segment, Solver};
 use mechc_ir::With;
-use mechc_ir::layout::{Holds, row_contents};
+use mechc_ir::layout::{ColumnContent, row_contents};
 use mechc_ir::program::{Column, Register};
 use mechc_ir::tolerances::solving::solver::LARGEST_MULTIPLIER;
 use rustc_hash::FxHashMap;
@@ -25,7 +25,7 @@ pub(super) struct Solution<'s> {
     /// Columns of what measures join that is no result, in order.
     pub joined: Vec<u32>,
     /// What the columns hold that operations leave values in.
-    holds: Vec<Holds>,
+    holds: Vec<ColumnContent>,
 }
 
 impl<'s> Solution<'s> {
@@ -242,9 +242,9 @@ impl<'s> Solution<'s> {
     }
 
     /// What a column holds.
-    fn holds(&self, column: u32) -> Holds {
+    fn holds(&self, column: u32) -> ColumnContent {
         debug_assert!((column as usize) < self.holds.len(), "column {column} is none of a row's");
-        self.holds.get(column as usize).copied().unwrap_or(Holds::Time)
+        self.holds.get(column as usize).copied().unwrap_or(ColumnContent::Time)
     }
 
     /// The place of a column among those that are joined.
@@ -274,11 +274,13 @@ impl<'s> Solution<'s> {
         let inputs = &self.unit.program.inputs;
         let place = |column: u32| match (self.joined(column), self.holds(column)) {
             (Some(place), _) => self.results() + place as u32,
-            (None, Holds::Slope { of, by: With::Input(input) }) => self.columns() + input as u32 * inputs.n + of as u32,
-            (None, Holds::Slope { of, by: With::Param(param) }) => {
+            (None, ColumnContent::Slope { of, by: With::Input(input) }) => {
+                self.columns() + input as u32 * inputs.n + of as u32
+            }
+            (None, ColumnContent::Slope { of, by: With::Param(param) }) => {
                 self.first_of_more() + param as u32 * inputs.n + of as u32
             }
-            (None, Holds::Reaction(k)) => self.first_of_more() + k as u32,
+            (None, ColumnContent::Reaction(k)) => self.first_of_more() + k as u32,
             (None, _) if column < self.motion.solver.layout().reactions => column,
             (None, _) => column - self.unit.system.reactions().len() as u32,
         };
@@ -381,20 +383,20 @@ impl CodeContext for SolverContext<'_> {
         }
         let held = self.solution.holds(column);
         match held {
-            Holds::Coordinate { index, order } => at(format!("at.{}[{index}]{}", ARRAYS[order], self.lane())),
-            Holds::Measure { order, .. } => {
+            ColumnContent::Coordinate { index, order } => at(format!("at.{}[{index}]{}", ARRAYS[order], self.lane())),
+            ColumnContent::Measure { order, .. } => {
                 let of = if self.has_lanes { "" } else { "measures." };
                 let place = column - self.solver.layout().measures[order];
                 at(format!("at.{of}{}[{place}]{}", ["values", "rates", "accelerations"][order], self.lane()))
             }
-            Holds::Slope { of, by: With::Input(input) } => at(format!("at.along.by_signal[{input}][{of}]")),
-            Holds::Slope { of, by: With::Param(param) } => Operand::new(format!("by[{param}][{of}]"), &["by"]),
-            Holds::Reaction(k) => Operand::new(format!("{FORCES}[{k}]"), &[FORCES]),
-            Holds::Time
-            | Holds::Slope { by: With::Time(_), .. }
-            | Holds::DerivativeColumn(_)
-            | Holds::Varied
-            | Holds::Multiplier => {
+            ColumnContent::Slope { of, by: With::Input(input) } => at(format!("at.along.by_signal[{input}][{of}]")),
+            ColumnContent::Slope { of, by: With::Param(param) } => Operand::new(format!("by[{param}][{of}]"), &["by"]),
+            ColumnContent::Reaction(k) => Operand::new(format!("{FORCES}[{k}]"), &[FORCES]),
+            ColumnContent::Time
+            | ColumnContent::Slope { by: With::Time(_), .. }
+            | ColumnContent::DerivativeColumn(_)
+            | ColumnContent::Varied
+            | ColumnContent::Multiplier => {
                 debug_assert!(false, "no code has a place for {held:?}");
                 Operand::Number(f64::NAN)
             }
@@ -404,7 +406,7 @@ impl CodeContext for SolverContext<'_> {
     fn name(&self, column: u32) -> Option<String> {
         let names: &Names = self.solution.equations.names;
         match self.solution.holds(column) {
-            Holds::Coordinate { index, order } if order < 3 => {
+            ColumnContent::Coordinate { index, order } if order < 3 => {
                 Some(names.coordinate(order, index)).filter(|name| Names::is_telling(name))
             }
             _ => None,
@@ -421,7 +423,7 @@ impl CodeContext for SolverContext<'_> {
 
     fn stores(&self, column: u32) -> bool {
         // third derivatives are no results
-        let is_third = matches!(self.solution.holds(column), Holds::Coordinate { order: 3, .. });
+        let is_third = matches!(self.solution.holds(column), ColumnContent::Coordinate { order: 3, .. });
         !is_third || self.solution.joined(column).is_some()
     }
 

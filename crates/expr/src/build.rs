@@ -1,33 +1,32 @@
-//! The simplifying constructors.
+//! Simplifying constructors of the expression graph.
 //!
-//! They fold numbers, drop zeros and ones, gather signs and equal factors, and order the operands of sums and
-//! products. None looks at the value of a parameter, and none changes a value beyond rounding, where there is one: zero
-//! times anything is zero, `a − a` too, also where `a` has a pole. A result that is not finite is never folded, so that
-//! it shows when it is evaluated.
+//! They fold numbers, drop zeros and ones, gather signs and equal factors, and order the operands of sums and products. No rule looks at
+//! the value of a parameter, and none changes a value beyond rounding where it exists: zero times anything is zero, and so is `a − a`, even
+//! where `a` has a pole. Results that are not finite are not folded, so that evaluation reports them.
 
 use super::{Binary, Comparison, ExprId, Graph, Node, Symbol, Unary, binary_value, compare, unary_value};
 use crate::math;
 
-/// Whole exponents up to this are products; others are the general power.
+/// Larger whole exponents become general powers instead of products.
 const LARGEST_WHOLE_POWER: i32 = 64;
 
 impl Graph {
-    /// A finite number.
+    /// Returns the node of a finite number.
     pub fn constant(&mut self, value: f64) -> ExprId {
         // −0 would make equal formulas differ
         self.intern(Node::Const((value + 0.0).to_bits()))
     }
 
-    /// A leaf.
+    /// Returns the node of a symbol.
     pub fn symbol(&mut self, symbol: Symbol) -> ExprId {
         self.intern(Node::Symbol(symbol))
     }
 
-    /// `from + (to − from) s`
+    /// Returns `from + (to − from) s`.
     pub fn line(&mut self, [from, to]: [ExprId; 2], s: ExprId) -> ExprId {
-        let way = self.sub(to, from);
-        let gone = self.mul(way, s);
-        self.add(from, gone)
+        let length = self.sub(to, from);
+        let progress = self.mul(length, s);
+        self.add(from, progress)
     }
 
     pub(super) fn folded(&mut self, value: f64, node: Node) -> ExprId {
@@ -35,11 +34,11 @@ impl Graph {
     }
 
     fn is(&self, id: ExprId, value: f64) -> bool {
-        // exact: a constructor may only act on the very number
+        // exact: a simplification must not act on a number nearby
         self.as_const(id).is_some_and(|c| c.to_bits() == value.to_bits())
     }
 
-    /// `a + b`
+    /// Returns `a + b`.
     pub fn add(&mut self, a: ExprId, b: ExprId) -> ExprId {
         if let (Some(x), Some(y)) = (self.as_const(a), self.as_const(b)) {
             return self.folded(x + y, Node::Add(a, b));
@@ -57,7 +56,7 @@ impl Graph {
         }
     }
 
-    /// `a − b`
+    /// Returns `a − b`.
     pub fn sub(&mut self, a: ExprId, b: ExprId) -> ExprId {
         if let (Some(x), Some(y)) = (self.as_const(a), self.as_const(b)) {
             return self.folded(x - y, Node::Sub(a, b));
@@ -69,7 +68,7 @@ impl Graph {
                 let opposite = self.constant(-f64::from_bits(bits));
                 self.add(a, opposite)
             }
-            // what is left of a number and its fraction
+            // a number minus its fraction
             (_, Node::Binary(Binary::Mod, x, one)) if x == a && self.is(one, 1.0) => self.unary(Unary::Floor, a),
             (_, Node::Neg(inner)) => self.add(a, inner),
             (Node::Neg(inner), _) => {
@@ -80,7 +79,7 @@ impl Graph {
         }
     }
 
-    /// `−a`
+    /// Returns `−a`.
     pub fn neg(&mut self, a: ExprId) -> ExprId {
         match self.node(a) {
             Node::Const(bits) => self.constant(-f64::from_bits(bits)),
@@ -97,7 +96,7 @@ impl Graph {
         }
     }
 
-    /// `a · b`; a number comes first.
+    /// Returns `a · b`; a number becomes the first operand.
     pub fn mul(&mut self, a: ExprId, b: ExprId) -> ExprId {
         match (self.as_const(a), self.as_const(b)) {
             (Some(x), Some(y)) => self.folded(x * y, Node::Mul(a, b)),
@@ -107,7 +106,7 @@ impl Graph {
         }
     }
 
-    /// A number times a formula that is none.
+    /// Returns a number times a formula that is not a number.
     fn scaled(&mut self, c: f64, c_id: ExprId, b: ExprId) -> ExprId {
         if c == 0.0 {
             return c_id;
@@ -134,7 +133,7 @@ impl Graph {
         }
     }
 
-    /// A product without a number for an operand.
+    /// Returns a product of formulas that are not numbers.
     fn product(&mut self, a: ExprId, b: ExprId) -> ExprId {
         match (self.node(a), self.node(b)) {
             (Node::Neg(x), Node::Neg(y)) => self.mul(x, y),
@@ -162,7 +161,7 @@ impl Graph {
         }
     }
 
-    /// `a / b`
+    /// Returns `a / b`.
     pub fn div(&mut self, a: ExprId, b: ExprId) -> ExprId {
         if let (Some(x), Some(y)) = (self.as_const(a), self.as_const(b)) {
             return self.folded(x / y, Node::Div(a, b));
@@ -184,7 +183,7 @@ impl Graph {
         }
     }
 
-    /// `aⁿ` for a whole n.
+    /// Returns `aⁿ` for a whole n.
     pub fn power(&mut self, a: ExprId, n: i32) -> ExprId {
         match (self.node(a), n) {
             (_, 0) => self.constant(1.0),
@@ -204,7 +203,7 @@ impl Graph {
         }
     }
 
-    /// `a` to any power; a whole number that is small becomes products.
+    /// Returns `a` to any power; small whole exponents become products.
     pub fn pow(&mut self, a: ExprId, b: ExprId) -> ExprId {
         match self.as_const(b) {
             Some(n) if n.fract() == 0.0 && n.abs() <= f64::from(LARGEST_WHOLE_POWER) => self.power(a, n as i32),
@@ -213,7 +212,7 @@ impl Graph {
         }
     }
 
-    /// A function of one argument.
+    /// Returns a function of one argument.
     pub fn unary(&mut self, function: Unary, a: ExprId) -> ExprId {
         let node = Node::Unary(function, a);
         if let Some(x) = self.as_const(a) {
@@ -233,7 +232,7 @@ impl Graph {
         }
     }
 
-    /// A function of two arguments.
+    /// Returns a function of two arguments.
     pub fn binary(&mut self, function: Binary, a: ExprId, b: ExprId) -> ExprId {
         if let (Some(x), Some(y)) = (self.as_const(a), self.as_const(b)) {
             return self.folded(binary_value(function, x, y), Node::Binary(function, a, b));
@@ -245,7 +244,7 @@ impl Graph {
         }
     }
 
-    /// 1 if the comparison holds, else 0.
+    /// Returns 1 if the comparison holds, else 0.
     pub fn compare(&mut self, comparison: Comparison, a: ExprId, b: ExprId) -> ExprId {
         match (self.as_const(a), self.as_const(b)) {
             (Some(x), Some(y)) => self.constant(compare(comparison, x, y)),
@@ -253,7 +252,7 @@ impl Graph {
         }
     }
 
-    /// 1 if both hold.
+    /// Returns 1 if both hold, else 0.
     pub fn and(&mut self, a: ExprId, b: ExprId) -> ExprId {
         match (self.as_const(a), self.as_const(b)) {
             (Some(x), _) => {
@@ -275,7 +274,7 @@ impl Graph {
         }
     }
 
-    /// 1 if one holds.
+    /// Returns 1 if at least one holds, else 0.
     pub fn or(&mut self, a: ExprId, b: ExprId) -> ExprId {
         match (self.as_const(a), self.as_const(b)) {
             (Some(x), _) => {
@@ -297,7 +296,7 @@ impl Graph {
         }
     }
 
-    /// 1 if it does not hold.
+    /// Returns 1 if `a` does not hold, else 0.
     pub fn not(&mut self, a: ExprId) -> ExprId {
         match self.node(a) {
             Node::Const(bits) => self.constant(f64::from(f64::from_bits(bits) == 0.0)),
@@ -306,7 +305,7 @@ impl Graph {
         }
     }
 
-    /// `a` if the condition holds, else `b`.
+    /// Returns `a` if the condition holds, else `b`.
     pub fn select(&mut self, condition: ExprId, a: ExprId, b: ExprId) -> ExprId {
         match self.node(condition) {
             _ if a == b => a,
@@ -322,12 +321,12 @@ impl Graph {
         }
     }
 
-    /// `a − b·⌊a/b⌋`
+    /// Returns `a − b·⌊a/b⌋`.
     pub fn modulo(&mut self, a: ExprId, b: ExprId) -> ExprId {
         self.binary(Binary::Mod, a, b)
     }
 
-    /// The same operation on other operands.
+    /// Returns the operation of a node on other operands.
     pub(super) fn rebuild(&mut self, node: Node, mut operand: impl FnMut(ExprId) -> ExprId) -> ExprId {
         match node {
             Node::Const(_) | Node::Symbol(_) => self.intern(node),

@@ -1,18 +1,17 @@
-//! The one set of derivative rules of the project, and the two ways of applying it.
+//! Derivative rules of the expression graph: the only ones of the project, applied forward and backward.
 //!
-//! Piecewise functions are differentiated by branch: at a switch the derivative is that of the branch which counts
-//! there.
+//! Piecewise functions are differentiated by branch: at a switch the derivative is that of the branch that is taken there.
 
-use super::vary::VariedTables;
+use super::table_derivatives::VariedTables;
 use super::{Binary, Comparison, Dependence, ExprId, Graph, Node, Symbol, Unary};
 use rustc_hash::{FxBuildHasher, FxHashMap};
 
-/// A sum of numbers is what rounding leaves of them where it is no more than this part of the larger.
+/// A sum of slopes is rounding if its size is no more than this part of the larger slope.
 const CANCELLED: f64 = 4.0 * f64::EPSILON;
 
 impl Graph {
-    /// Forward: the derivatives of the roots along a direction that gives each symbol its own derivative
-    /// (`None` for a symbol that does not change).
+    /// Returns the derivatives of the roots along a direction (forward mode). `direction` gives the derivative of each symbol, or `None`
+    /// for a constant one.
     ///
     /// With `Time ↦ 1`, `q ↦ q̇`, `q̇ ↦ q̈` this is the total time derivative.
     pub fn derivatives(
@@ -23,7 +22,7 @@ impl Graph {
         self.along(roots, &mut direction, &mut None)
     }
 
-    /// As [`Graph::derivatives`]; what tables are made of changes too, where `varied` holds those that are known.
+    /// Returns the derivatives as [`Graph::derivatives`] does; with `varied` also through the cells of tables, whose derivatives it caches.
     pub(super) fn along(
         &mut self,
         roots: &[ExprId],
@@ -31,58 +30,59 @@ impl Graph {
         varied: &mut Option<VariedTables>,
     ) -> Vec<ExprId> {
         let reachable = self.reachable(roots);
-        let mut known: FxHashMap<ExprId, ExprId> = FxHashMap::with_capacity_and_hasher(reachable.len(), FxBuildHasher);
+        let mut derivatives: FxHashMap<ExprId, ExprId> =
+            FxHashMap::with_capacity_and_hasher(reachable.len(), FxBuildHasher);
         for id in reachable {
             let node = self.node(id);
             let derivative = match node {
                 Node::Symbol(symbol) => direction(self, symbol),
                 Node::Select(condition, a, b) => {
-                    let (da, db) = (known.get(&a).copied(), known.get(&b).copied());
+                    let (da, db) = (derivatives.get(&a).copied(), derivatives.get(&b).copied());
                     self.select_derivative(condition, da, db)
                 }
                 Node::Table(table, order, x) if varied.is_some() => {
-                    let by_argument = self.chain_rule(id, &known);
-                    let by_cells = self.derivative_by_cells((table, order, x), direction, varied);
+                    let by_argument = self.chain_rule(id, &derivatives);
+                    let by_cells = self.derivative_by_cells(table, order, x, direction, varied);
                     match (by_argument, by_cells) {
                         (Some(a), Some(b)) => Some(self.add(a, b)),
                         (one, other) => one.or(other),
                     }
                 }
-                _ => self.chain_rule(id, &known),
+                _ => self.chain_rule(id, &derivatives),
             };
             if let Some(derivative) = derivative
                 && !self.is_zero(derivative)
             {
-                known.insert(id, derivative);
+                derivatives.insert(id, derivative);
             }
         }
         let zero = self.constant(0.0);
-        roots.iter().map(|root| known.get(root).copied().unwrap_or(zero)).collect()
+        roots.iter().map(|root| derivatives.get(root).copied().unwrap_or(zero)).collect()
     }
 
-    /// The partial derivatives of one root by the coordinates, or by their time derivatives of an order, that do not vanish: each with
-    /// the number of its coordinate.
+    /// Returns the nonzero partial derivatives of a root with respect to the coordinates, or to their time derivatives of an order, each
+    /// with the number of its coordinate.
     pub fn slopes(&mut self, root: ExprId, order: u8) -> impl Iterator<Item = (u32, ExprId)> + use<> {
         let gradient = self.gradient(root, Dependence::coordinates(order));
         gradient.into_iter().filter_map(move |(symbol, slope)| match symbol {
-            Symbol::Coordinate { index, order: own } if own == order => Some((index, slope)),
+            Symbol::Coordinate { index, order: other } if other == order => Some((index, slope)),
             _ => None,
         })
     }
 
-    /// Backward: the partial derivatives of one root by every symbol that `wanted` holds, in the symbols' order;
-    /// those that vanish identically are left out.
-    pub fn gradient(&mut self, root: ExprId, wanted: Dependence) -> Vec<(Symbol, ExprId)> {
+    /// Returns the partial derivatives of a root with respect to every symbol of some kinds, in the order of symbols (backward
+    /// mode). Derivatives that vanish identically are left out.
+    pub fn gradient(&mut self, root: ExprId, kinds: Dependence) -> Vec<(Symbol, ExprId)> {
         let reachable = self.reachable(&[root]);
-        if reachable.iter().any(|&id| self.is_piecewise(id) && self.dependence(id).on(wanted)) {
-            return self.gradient_by_branches(root, wanted);
+        if reachable.iter().any(|&id| self.is_piecewise(id) && self.dependence(id).on(kinds)) {
+            return self.gradient_by_branches(root, kinds);
         }
         let mut adjoints: FxHashMap<ExprId, ExprId> = FxHashMap::default();
         let one = self.constant(1.0);
         adjoints.insert(root, one);
         let mut gradient = Vec::new();
         for id in reachable.into_iter().rev() {
-            if !self.dependence(id).on(wanted) {
+            if !self.dependence(id).on(kinds) {
                 continue;
             }
             let Some(&adjoint) = adjoints.get(&id) else {
@@ -93,15 +93,15 @@ impl Graph {
                 gradient.push((symbol, adjoint));
                 continue;
             }
-            for (place, &child) in node.children().as_slice().iter().enumerate() {
-                if !self.dependence(child).on(wanted) {
+            for (operand, &child) in node.children().as_slice().iter().enumerate() {
+                if !self.dependence(child).on(kinds) {
                     continue;
                 }
-                let Some(share) = self.share(id, place, adjoint) else {
+                let Some(share) = self.partial(id, operand, adjoint) else {
                     continue;
                 };
                 let sum = match adjoints.get(&child) {
-                    Some(&already) => self.sum_of_slopes(already, share),
+                    Some(&sum) => self.sum_of_slopes(sum, share),
                     None => share,
                 };
                 adjoints.insert(child, sum);
@@ -112,7 +112,7 @@ impl Graph {
         gradient
     }
 
-    /// The sum of two slopes. What rounding leaves of numbers that cancel is no slope: `0.1 x + 0.2 x - 0.3 x` has none.
+    /// Adds two slopes. A sum that is only rounding is zero: `0.1 x + 0.2 x - 0.3 x` has no slope.
     fn sum_of_slopes(&mut self, a: ExprId, b: ExprId) -> ExprId {
         let sum = self.add(a, b);
         let values = [a, b, sum].map(|id| self.as_const(id));
@@ -126,12 +126,12 @@ impl Graph {
         matches!(self.node(id), Node::Select(..) | Node::Binary(Binary::Min | Binary::Max, ..))
     }
 
-    /// The gradient of a formula with branches, symbol by symbol: forward, the branch that counts is chosen after it has
-    /// been differentiated. Backward, it would be a zero times the slope of the other branch, which need not be finite.
-    fn gradient_by_branches(&mut self, root: ExprId, wanted: Dependence) -> Vec<(Symbol, ExprId)> {
+    /// Returns the gradient of a formula with branches, symbol by symbol in forward mode, so that the branch is selected after
+    /// differentiation. Backward mode would multiply the slope of the other branch, which need not be finite, by zero.
+    fn gradient_by_branches(&mut self, root: ExprId, kinds: Dependence) -> Vec<(Symbol, ExprId)> {
         let symbols = self.symbols(root);
-        let wanted = symbols.into_iter().filter(|&symbol| Dependence::of(symbol).on(wanted));
-        let slopes: Vec<(Symbol, ExprId)> = wanted
+        let varying = symbols.into_iter().filter(|&symbol| Dependence::of(symbol).on(kinds));
+        let slopes: Vec<(Symbol, ExprId)> = varying
             .map(|symbol| {
                 let slope = self.derivatives(&[root], |graph, other| (other == symbol).then(|| graph.constant(1.0)));
                 (symbol, slope[0])
@@ -140,20 +140,20 @@ impl Graph {
         slopes.into_iter().filter(|&(_, slope)| !self.is_zero(slope)).collect()
     }
 
-    /// Whether an expression is the constant nothing.
+    /// Returns whether an expression is the constant 0.
     #[must_use]
     pub fn is_zero(&self, id: ExprId) -> bool {
         self.as_const(id) == Some(0.0)
     }
 
-    /// Σ ∂node/∂childₖ · childₖ'
-    fn chain_rule(&mut self, id: ExprId, known: &FxHashMap<ExprId, ExprId>) -> Option<ExprId> {
+    /// Returns Σ ∂node/∂childₖ · childₖ′; `None` if it vanishes.
+    fn chain_rule(&mut self, id: ExprId, derivatives: &FxHashMap<ExprId, ExprId>) -> Option<ExprId> {
         let mut sum = None;
-        for (place, child) in self.node(id).children().as_slice().iter().enumerate() {
-            let Some(&inner) = known.get(child) else {
+        for (operand, child) in self.node(id).children().as_slice().iter().enumerate() {
+            let Some(&inner) = derivatives.get(child) else {
                 continue;
             };
-            let Some(term) = self.share(id, place, inner) else {
+            let Some(term) = self.partial(id, operand, inner) else {
                 continue;
             };
             sum = Some(match sum {
@@ -172,14 +172,14 @@ impl Graph {
         Some(self.select(condition, a.unwrap_or(zero), b.unwrap_or(zero)))
     }
 
-    /// `factor` times the partial derivative of a node by one of its operands; `None` where that is zero.
-    fn share(&mut self, id: ExprId, place: usize, factor: ExprId) -> Option<ExprId> {
+    /// Returns `factor` times the partial derivative of a node with respect to one of its operands; `None` if it vanishes.
+    fn partial(&mut self, id: ExprId, operand: usize, factor: ExprId) -> Option<ExprId> {
         let node = self.node(id);
-        Some(match (node, place) {
+        Some(match (node, operand) {
             (Node::Add(..), _) | (Node::Sub(..), 0) => factor,
             (Node::Sub(..) | Node::Neg(_), _) => self.neg(factor),
             (Node::Mul(a, b), _) => {
-                let other = if place == 0 { b } else { a };
+                let other = if operand == 0 { b } else { a };
                 self.mul(factor, other)
             }
             (Node::Div(_, b), 0) => self.div(factor, b),
@@ -194,13 +194,13 @@ impl Graph {
                 let slope = self.mul(degree, lower);
                 self.mul(factor, slope)
             }
-            (Node::Unary(function, a), _) => return self.unary_share(function, id, a, factor),
-            (Node::Binary(function, a, b), _) => self.binary_share(function, id, [a, b], place, factor),
+            (Node::Unary(function, a), _) => return self.unary_partial(function, id, a, factor),
+            (Node::Binary(function, a, b), _) => self.binary_partial(function, id, [a, b], operand, factor),
             (Node::Table(table, order, a), _) if order < 3 => {
                 let slope = self.table(table, order + 1, a);
                 self.mul(factor, slope)
             }
-            // conditions are constant between their switches, third derivatives of tables between their knots
+            // conditions are constant between their switches, and third derivatives of tables between their knots
             (
                 Node::Select(..)
                 | Node::Compare(..)
@@ -215,7 +215,7 @@ impl Graph {
         })
     }
 
-    fn unary_share(&mut self, function: Unary, id: ExprId, a: ExprId, factor: ExprId) -> Option<ExprId> {
+    fn unary_partial(&mut self, function: Unary, id: ExprId, a: ExprId, factor: ExprId) -> Option<ExprId> {
         let one = self.constant(1.0);
         Some(match function {
             Unary::Sin => {
@@ -272,32 +272,32 @@ impl Graph {
             Unary::Abs => {
                 let zero = self.constant(0.0);
                 let negative = self.compare(Comparison::Less, a, zero);
-                let turned = self.neg(factor);
-                self.select(negative, turned, factor)
+                let negated = self.neg(factor);
+                self.select(negative, negated, factor)
             }
             Unary::Sign | Unary::Floor => return None,
         })
     }
 
-    fn binary_share(
+    fn binary_partial(
         &mut self,
         function: Binary,
         id: ExprId,
         [a, b]: [ExprId; 2],
-        place: usize,
+        operand: usize,
         factor: ExprId,
     ) -> ExprId {
         let zero = self.constant(0.0);
-        match (function, place) {
+        match (function, operand) {
             (Binary::Atan2, _) => {
                 let (aa, bb) = (self.power(a, 2), self.power(b, 2));
                 let square = self.add(aa, bb);
-                let other = if place == 0 { b } else { self.neg(a) };
+                let other = if operand == 0 { b } else { self.neg(a) };
                 let slope = self.div(other, square);
                 self.mul(factor, slope)
             }
             (Binary::Hypot, _) => {
-                let slope = self.div(if place == 0 { a } else { b }, id);
+                let slope = self.div(if operand == 0 { a } else { b }, id);
                 self.mul(factor, slope)
             }
             (Binary::Min | Binary::Max, _) => {
@@ -305,7 +305,7 @@ impl Graph {
                     Binary::Min => self.compare(Comparison::Less, a, b),
                     _ => self.compare(Comparison::Less, b, a),
                 };
-                match place {
+                match operand {
                     0 => self.select(first, factor, zero),
                     _ => self.select(first, zero, factor),
                 }
@@ -324,7 +324,7 @@ impl Graph {
                 let share = self.mul(factor, whole);
                 self.neg(share)
             }
-            // 0 to any power stays 0, and has no logarithm
+            // 0 to any power stays 0, and ln 0 does not exist
             (Binary::Pow, _) if self.is_zero(a) => zero,
             (Binary::Pow, _) => {
                 let logarithm = self.unary(Unary::Ln, a);

@@ -1,9 +1,9 @@
-//! Values of single operations, and of whole formulas where speed does not matter.
+//! Evaluation of single operations, and of whole formulas where speed does not matter.
 
 use super::{Binary, Comparison, ExprId, Graph, Node, Symbol, Unary};
 use crate::math;
 
-/// The value of a function of one argument.
+/// Returns the value of a function of one argument.
 #[must_use]
 pub fn unary_value(function: Unary, x: f64) -> f64 {
     match function {
@@ -26,7 +26,7 @@ pub fn unary_value(function: Unary, x: f64) -> f64 {
     }
 }
 
-/// The value of a function of two arguments.
+/// Returns the value of a function of two arguments.
 #[must_use]
 pub fn binary_value(function: Binary, x: f64, y: f64) -> f64 {
     match function {
@@ -39,20 +39,20 @@ pub fn binary_value(function: Binary, x: f64, y: f64) -> f64 {
     }
 }
 
-/// 1 if the comparison holds, else 0.
+/// Returns 1 if the comparison holds, else 0.
 #[must_use]
 pub fn compare(comparison: Comparison, x: f64, y: f64) -> f64 {
     f64::from(match comparison {
         Comparison::Less => x < y,
         Comparison::LessEqual => x <= y,
-        // exact, as the user wrote it
+        // exact, as the text states it
         #[allow(clippy::float_cmp)]
         Comparison::Equal => x == y,
     })
 }
 
 impl Graph {
-    /// The value of one node from the values of its operands.
+    /// Returns the value of a node from the values of its operands.
     #[must_use]
     pub fn node_value(&self, node: Node, operand: impl Fn(ExprId) -> f64, symbol: impl Fn(Symbol) -> f64) -> f64 {
         match node {
@@ -84,7 +84,7 @@ impl Graph {
         }
     }
 
-    /// The values of all nodes, appended to those that `values` holds of a shorter graph.
+    /// Extends `values`, which holds the values of the first nodes, to all nodes.
     pub fn extend_values(&self, values: &mut Vec<f64>, symbol: impl Fn(Symbol) -> f64) {
         for k in values.len()..self.len() {
             let value = self.node_value(self.nodes[k], |id| values[id.index()], &symbol);
@@ -92,16 +92,16 @@ impl Graph {
         }
     }
 
-    /// The value of one formula. For tests and set-up; the time loop runs programs.
+    /// Returns the value of a formula. For tests and set-up; the time loop runs programs.
     #[must_use]
     pub fn value(&self, root: ExprId, symbol: impl Fn(Symbol) -> f64) -> f64 {
         self.value_by(root, |node, operand| self.node_value(node, operand, &symbol))
     }
 
-    /// The value of a formula whose symbols may be no number, as what is not known is; no number where it depends on one of these. So a
-    /// condition over what is not known, or not finite, neither holds nor does not.
+    /// Returns the value of a formula whose symbols may be unknown (NaN); NaN if it depends on an unknown. Conditions are three-valued: a
+    /// comparison with an operand that is unknown or not finite is unknown.
     #[must_use]
-    pub fn known_value(&self, root: ExprId, symbol: impl Fn(Symbol) -> f64) -> f64 {
+    pub fn value_if_known(&self, root: ExprId, symbol: impl Fn(Symbol) -> f64) -> f64 {
         self.value_by(root, |node, operand| {
             let holds = |id| match operand(id) {
                 value if value.is_nan() => None,
@@ -124,11 +124,11 @@ impl Graph {
         })
     }
 
-    /// The value of a formula, from that of each operation on operands.
-    fn value_by(&self, root: ExprId, of: impl Fn(Node, &dyn Fn(ExprId) -> f64) -> f64) -> f64 {
+    /// Returns the value of a formula, with a rule for the value of each node.
+    fn value_by(&self, root: ExprId, rule: impl Fn(Node, &dyn Fn(ExprId) -> f64) -> f64) -> f64 {
         let mut values: rustc_hash::FxHashMap<ExprId, f64> = rustc_hash::FxHashMap::default();
         for id in self.reachable_with_tables(&[root]) {
-            let value = of(self.node(id), &|child| values[&child]);
+            let value = rule(self.node(id), &|child| values[&child]);
             values.insert(id, value);
         }
         values[&root]

@@ -1,9 +1,8 @@
-//! The expression graph: the one representation of every formula, from the checked model to emitted code.
+//! The expression graph: the representation of every formula from the checked model to emitted code.
 //!
-//! Nodes are hash-consed, so that equal formulas are one node and sharing costs nothing; children have smaller ids
-//! than their parents, so that a walk by id needs no recursion. Constructors simplify (`build`), derivatives come
-//! from one set of rules (`derive`), values from one evaluator (`evaluate`); what is to be read is put in order first
-//! (`tidy`). What a symbol stands for is decided by the crate that owns the graph.
+//! Nodes are hash-consed, so equal formulas are one node. Children have smaller ids than their parents, so a walk by id needs no recursion.
+//! Constructors simplify (`build`), derivatives come from one set of rules (`derive`, `table_derivatives`), values from one evaluator
+//! (`evaluate`), and formulas to be read are put in order first (`tidy`). The owner of a graph decides what its symbols stand for.
 
 mod build;
 mod derive;
@@ -12,42 +11,42 @@ pub mod math;
 mod motion;
 mod print;
 mod table;
+mod table_derivatives;
 mod tidy;
-mod vary;
 
 pub use evaluate::{binary_value, compare, unary_value};
 pub use motion::MotionLaw;
 pub use print::{Printer, number};
 pub use table::{Table, TableId, piece};
-pub use vary::VARIED_TABLE;
+pub use table_derivatives::VARIED_TABLE;
 
 use indexmap::IndexSet;
 use rustc_hash::{FxBuildHasher, FxHashMap, FxHashSet};
 
-/// A node of a [`Graph`].
+/// Id of a node in a [`Graph`].
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub struct ExprId(u32);
 
 impl ExprId {
-    /// Position in the graph, from 0.
+    /// Returns the position in the graph, from 0.
     #[must_use]
     pub fn index(self) -> usize {
         self.0 as usize
     }
 }
 
-/// What a formula is about.
+/// A leaf of formulas.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub enum Symbol {
     /// A parameter, by its number.
     Param(u32),
     /// Time, in seconds.
     Time,
-    /// A signal, or its time derivative of the given order: an input that is not inlined.
+    /// An input signal, or its time derivative of the given order.
     Signal {
         /// Number of the signal.
         index: u32,
-        /// 0 for its value, 1 for its rate, 2 for its acceleration, 3 for what nobody gives.
+        /// 0 for its value, 1 for its rate, 2 for its acceleration, 3 for a derivative that is never given.
         order: u8,
     },
     /// A generalized coordinate, or its time derivative of the given order.
@@ -57,31 +56,31 @@ pub enum Symbol {
         /// 0 for `q`, 1 for `q̇`, 2 for `q̈`, 3 for `q⃛`.
         order: u8,
     },
-    /// Something that the owner of the graph has given a meaning to.
+    /// A symbol whose meaning the owner of the graph defines.
     Named(u32),
-    /// A number that is always 0, by its number: what it is added to can be differentiated by.
+    /// A number that is always 0, by its number; formulas that contain it can be differentiated with respect to it.
     Shift(u32),
-    /// The derivative of a coordinate, or of its time derivative of the given order, by something else than time.
+    /// The derivative of a coordinate, or of its time derivative of the given order, with respect to a variable other than time.
     Varied {
         /// Number of the coordinate.
         index: u32,
         /// 0 for `q`, 1 for `q̇`, 2 for `q̈`.
         order: u8,
-        /// By what; the owner of the graph gives these numbers.
+        /// Number of the variation, given by the owner of the graph.
         variation: u32,
     },
     /// The Lagrange multiplier of an equation, by the number of its row.
     Multiplier(u32),
-    /// Its derivative by something else than time.
+    /// The derivative of a Lagrange multiplier with respect to a variable other than time.
     VariedMultiplier {
         /// Number of the row.
         row: u32,
-        /// By what; the owner of the graph gives these numbers.
+        /// Number of the variation, given by the owner of the graph.
         variation: u32,
     },
 }
 
-/// The number of the signal that time is where inputs are signals: its rate is 1, but along a way on which it is one of them.
+/// Signal number of time in systems with input signals. Its rate is 1, except along a path whose parameter replaces time.
 pub const TIME_SIGNAL: u32 = u32::MAX;
 
 /// Functions of one argument.
@@ -120,21 +119,21 @@ pub enum Binary {
     Mod,
 }
 
-/// Comparisons; the other four are these with sides exchanged or negated.
+/// Comparisons; the others are these with operands exchanged or the result negated.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
-#[allow(missing_docs)] // each says itself
+#[allow(missing_docs)] // the names are self-explanatory
 pub enum Comparison {
     Less,
     LessEqual,
     Equal,
 }
 
-/// A formula's outermost operation.
+/// The outermost operation of a formula.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub enum Node {
-    /// A number, by its bits; always finite, and never −0.
+    /// A number by its bits; always finite, and never −0.
     Const(u64),
-    /// A leaf.
+    /// A symbol.
     Symbol(Symbol),
     /// `a + b`
     Add(ExprId, ExprId),
@@ -146,28 +145,28 @@ pub enum Node {
     Div(ExprId, ExprId),
     /// `−a`
     Neg(ExprId),
-    /// `aⁿ`, n a whole number but 0 and 1.
+    /// `aⁿ` for a whole n other than 0 and 1.
     Power(ExprId, i32),
     /// A function of one argument.
     Unary(Unary, ExprId),
     /// A function of two arguments.
     Binary(Binary, ExprId, ExprId),
-    /// 1 if it holds, else 0.
+    /// 1 if the comparison holds, else 0.
     Compare(Comparison, ExprId, ExprId),
-    /// 1 if both hold.
+    /// 1 if both hold, else 0.
     And(ExprId, ExprId),
-    /// 1 if one holds.
+    /// 1 if at least one holds, else 0.
     Or(ExprId, ExprId),
-    /// 1 if it does not hold.
+    /// 1 if the operand does not hold, else 0.
     Not(ExprId),
-    /// The second if the first holds, else the third; only that one counts.
+    /// The second operand if the first holds, else the third; the other one is not evaluated for its value.
     Select(ExprId, ExprId, ExprId),
-    /// A table's derivative of some order, 0 to 3, at an argument. What the table is made of is not among the operands.
+    /// A table, or its derivative of order 1 to 3, at an argument. The cells of the table are not among the operands.
     Table(TableId, u8, ExprId),
 }
 
 impl Node {
-    /// The operands, in order.
+    /// Returns the operands, in order.
     #[must_use]
     pub fn children(self) -> Children {
         match self {
@@ -188,7 +187,7 @@ impl Node {
     }
 }
 
-/// At most three operands, without an allocation.
+/// Up to three operands, without allocation.
 #[derive(Clone, Copy, Debug)]
 pub struct Children {
     list: [ExprId; 3],
@@ -202,74 +201,74 @@ impl Children {
         Children { list, len: ids.len() }
     }
 
-    /// In order.
+    /// Returns the operands, in order.
     #[must_use]
     pub fn as_slice(&self) -> &[ExprId] {
         &self.list[..self.len]
     }
 }
 
-/// Which kinds of symbols a formula holds.
+/// Set of kinds of symbols that a formula contains.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub struct Dependence(u16);
 
 impl Dependence {
-    /// On parameters.
+    /// Parameters.
     pub const PARAMS: Dependence = Dependence(1);
-    /// On time.
+    /// Time and signals.
     pub const TIME: Dependence = Dependence(2);
-    /// On named symbols.
+    /// Named symbols.
     pub const NAMED: Dependence = Dependence(4);
-    /// On multipliers.
+    /// Lagrange multipliers.
     pub const MULTIPLIERS: Dependence = Dependence(1024);
-    /// On what multipliers are differentiated to.
+    /// Derivatives of multipliers with respect to variables other than time.
     pub const VARIED_MULTIPLIERS: Dependence = Dependence(2048);
-    /// Of forces: multipliers, or their derivatives.
+    /// Multipliers and their derivatives.
     pub const FORCES: Dependence = Dependence(1024 | 2048);
 
-    /// On the coordinates' derivatives of one order.
+    /// Returns the kind of the coordinates' time derivatives of an order.
     #[must_use]
     pub fn coordinates(order: u8) -> Dependence {
         Dependence(8 << order)
     }
 
-    /// On what coordinates' derivatives of one order are differentiated to by something else than time.
+    /// Returns the kind of the derivatives of these with respect to variables other than time.
     #[must_use]
     pub fn varied(order: u8) -> Dependence {
         Dependence(128 << order)
     }
 
-    /// On either.
+    /// Returns the union of both sets.
     #[must_use]
     pub fn or(self, other: Dependence) -> Dependence {
         Dependence(self.0 | other.0)
     }
 
-    /// Whether any of `kinds` is among these.
+    /// Returns whether the set contains any of `kinds`.
     #[must_use]
     pub fn on(self, kinds: Dependence) -> bool {
         self.0 & kinds.0 != 0
     }
 
-    /// Whether only parameters are, if anything.
+    /// Returns whether the set contains at most parameters.
     #[must_use]
     pub fn is_constant(self) -> bool {
         self.0 & !Self::PARAMS.0 == 0
     }
 
-    /// The highest order of coordinates among these.
+    /// Returns the highest order of time derivatives of coordinates in the set.
     #[must_use]
     pub fn highest_order(self) -> Option<u8> {
         (0..4).rev().find(|&order| self.on(Self::coordinates(order)))
     }
 
-    /// The highest time derivative among those that are differentiated by something else too.
+    /// Returns the highest order of time derivatives among varied coordinates in the set.
     #[must_use]
     pub fn highest_varied_order(self) -> Option<u8> {
         (0..3).rev().find(|&order| self.on(Self::varied(order)))
     }
 
-    /// Whether anything among these is differentiated by something else than time.
+    /// Returns whether the set contains derivatives with respect to variables other than time.
     #[must_use]
     pub fn is_varied(self) -> bool {
         self.highest_varied_order().is_some() || self.on(Self::VARIED_MULTIPLIERS)
@@ -278,7 +277,7 @@ impl Dependence {
     fn of(symbol: Symbol) -> Dependence {
         match symbol {
             Symbol::Param(_) | Symbol::Shift(_) => Self::PARAMS,
-            // of what it is nothing is known but that it changes with time
+            // a signal is only known to change with time
             Symbol::Time | Symbol::Signal { .. } => Self::TIME,
             Symbol::Named(_) => Self::NAMED,
             Symbol::Coordinate { order, .. } => Self::coordinates(order),
@@ -289,55 +288,55 @@ impl Dependence {
     }
 }
 
-/// Where a graph has more nodes than this for each root, few of them are likely to be needed.
+/// If a graph has more nodes per root than this, few of them are likely to be reachable.
 const SPARSE: usize = 64;
 
-/// An arena of formulas.
+/// An arena of hash-consed formulas.
 #[derive(Clone, Debug, Default)]
 pub struct Graph {
-    /// Each once, by its number.
+    /// All nodes, by id.
     nodes: IndexSet<Node, FxBuildHasher>,
     dependence: Vec<Dependence>,
     tables: Vec<Table>,
 }
 
 impl Graph {
-    /// An empty one.
+    /// Creates an empty graph.
     #[must_use]
     pub fn new() -> Graph {
         Graph::default()
     }
 
-    /// How many nodes there are.
+    /// Returns the number of nodes.
     #[must_use]
     pub fn len(&self) -> usize {
         self.nodes.len()
     }
 
-    /// Whether there are none.
+    /// Returns whether the graph is empty.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.nodes.is_empty()
     }
 
-    /// A formula's outermost operation.
+    /// Returns the outermost operation of a formula.
     #[must_use]
     pub fn node(&self, id: ExprId) -> Node {
         self.nodes[id.index()]
     }
 
-    /// All nodes, children before parents.
+    /// Iterates over all nodes, children before parents.
     pub fn nodes(&self) -> impl Iterator<Item = (ExprId, Node)> {
         self.nodes.iter().enumerate().map(|(k, node)| (ExprId(k as u32), *node))
     }
 
-    /// Which kinds of symbols a formula holds.
+    /// Returns the kinds of symbols that a formula contains.
     #[must_use]
     pub fn dependence(&self, id: ExprId) -> Dependence {
         self.dependence[id.index()]
     }
 
-    /// The number that a formula is, if it is one.
+    /// Returns the value of a formula that is a number.
     #[must_use]
     pub fn as_const(&self, id: ExprId) -> Option<f64> {
         match self.node(id) {
@@ -346,16 +345,16 @@ impl Graph {
         }
     }
 
-    /// The node of a function of one argument, if the graph has it.
+    /// Returns the node of a function of one argument, if the graph contains it.
     #[must_use]
     pub fn find_unary(&self, function: Unary, argument: ExprId) -> Option<ExprId> {
-        let known = self.nodes.get_index_of(&Node::Unary(function, argument));
-        known.map(|index| ExprId(index as u32))
+        let index = self.nodes.get_index_of(&Node::Unary(function, argument));
+        index.map(|index| ExprId(index as u32))
     }
 
-    /// As [`Graph::reachable`], with all that the tables among them are made of.
+    /// Returns the nodes of [`Graph::reachable`] and those in the cells of reachable tables, children before parents.
     #[must_use]
-    pub fn reachable_with_tables(&self, roots: &[ExprId]) -> Vec<ExprId> {
+    pub(crate) fn reachable_with_tables(&self, roots: &[ExprId]) -> Vec<ExprId> {
         let list = self.reachable(roots);
         let mut tables: Vec<TableId> = list
             .iter()
@@ -374,14 +373,14 @@ impl Graph {
         self.reachable(&roots)
     }
 
-    /// Every node that the roots are built of, children before parents.
+    /// Returns every node that the roots depend on, children before parents.
     #[must_use]
     pub fn reachable(&self, roots: &[ExprId]) -> Vec<ExprId> {
         let last = roots.iter().max().map_or(0, |id| id.index() + 1);
         if last / SPARSE <= roots.len() { self.reachable_of_many(roots, last) } else { self.reachable_of_few(roots) }
     }
 
-    /// Of roots that need much of the graph: all nodes are gone through, parents before children.
+    /// Marks reachable nodes in an array over all nodes: for roots that need much of the graph.
     fn reachable_of_many(&self, roots: &[ExprId], last: usize) -> Vec<ExprId> {
         let mut is_needed = vec![false; last];
         for root in roots {
@@ -398,27 +397,27 @@ impl Graph {
         (0..last).filter(|&k| is_needed[k]).map(|k| ExprId(k as u32)).collect()
     }
 
-    /// Of roots that need little of it.
+    /// Searches from the roots: for roots that need little of the graph.
     fn reachable_of_few(&self, roots: &[ExprId]) -> Vec<ExprId> {
-        let mut seen = FxHashSet::default();
+        let mut visited = FxHashSet::default();
         let mut open: Vec<ExprId> = roots.to_vec();
         while let Some(id) = open.pop() {
-            if seen.insert(id) {
+            if visited.insert(id) {
                 open.extend_from_slice(self.node(id).children().as_slice());
             }
         }
-        let mut list: Vec<ExprId> = seen.into_iter().collect();
+        let mut list: Vec<ExprId> = visited.into_iter().collect();
         list.sort_unstable();
         list
     }
 
-    /// The symbols that a formula holds, in their order.
+    /// Returns the symbols in a formula and its tables, in order.
     #[must_use]
     pub fn symbols(&self, root: ExprId) -> Vec<Symbol> {
         self.symbols_of_all(&[root])
     }
 
-    /// The symbols in some formulas and the tables that they hold, each once, ordered.
+    /// Returns the symbols in formulas and their tables, each once, in order.
     #[must_use]
     pub fn symbols_of_all(&self, roots: &[ExprId]) -> Vec<Symbol> {
         let mut list: Vec<Symbol> = self
@@ -433,7 +432,7 @@ impl Graph {
         list
     }
 
-    /// The terms of a formula's outermost sum, signs left out.
+    /// Returns the terms of a formula's outermost sum, without signs.
     #[must_use]
     pub fn terms(&self, root: ExprId) -> Vec<ExprId> {
         let mut terms = Vec::new();
@@ -448,19 +447,19 @@ impl Graph {
         terms
     }
 
-    /// Rebuilds formulas of another graph in this one, its symbols replaced.
+    /// Copies formulas of another graph into this one, with symbols replaced.
     ///
-    /// `known` keeps what has been rebuilt already, so that several calls share their work.
+    /// `copied` maps nodes that have been copied, so that several calls share their work.
     pub fn import(
         &mut self,
         from: &Graph,
         roots: &[ExprId],
-        known: &mut FxHashMap<ExprId, ExprId>,
+        copied: &mut FxHashMap<ExprId, ExprId>,
         mut replace: impl FnMut(&mut Graph, Symbol) -> ExprId,
     ) {
         let mut open: Vec<(ExprId, bool)> = roots.iter().map(|&id| (id, false)).collect();
         while let Some((id, children_done)) = open.pop() {
-            if known.contains_key(&id) {
+            if copied.contains_key(&id) {
                 continue;
             }
             let node = from.node(id);
@@ -471,56 +470,56 @@ impl Graph {
             }
             let rebuilt = match node {
                 Node::Symbol(symbol) => replace(self, symbol),
-                _ => self.rebuild(node, |child| known[&child]),
+                _ => self.rebuild(node, |child| copied[&child]),
             };
-            known.insert(id, rebuilt);
+            copied.insert(id, rebuilt);
         }
     }
 
-    /// A formula with something else in the place of some operations: what a rule makes of an operation as it stands, and as it is once its
-    /// operands have been rewritten.
+    /// Rewrites a formula bottom-up. `rule` gets a node and its operation on rewritten operands, and may return a replacement for the latter.
     pub fn rewritten(
         &mut self,
         root: ExprId,
         mut rule: impl FnMut(&mut Graph, Node, ExprId) -> Option<ExprId>,
     ) -> ExprId {
-        let mut known: FxHashMap<ExprId, ExprId> = FxHashMap::default();
+        let mut rewritten: FxHashMap<ExprId, ExprId> = FxHashMap::default();
         // children come before their parents
         for id in self.reachable(&[root]) {
             let node = self.node(id);
-            let plain = self.rebuild(node, |child| known[&child]);
-            let found = rule(self, node, plain).unwrap_or(plain);
-            known.insert(id, found);
+            let plain = self.rebuild(node, |child| rewritten[&child]);
+            let result = rule(self, node, plain).unwrap_or(plain);
+            rewritten.insert(id, result);
         }
-        known[&root]
+        rewritten[&root]
     }
 
-    /// Formulas with other formulas of this graph in the place of some symbols.
+    /// Replaces symbols in formulas by other formulas of this graph.
     pub fn substituted(&mut self, roots: &[ExprId], with: impl Fn(Symbol) -> Option<ExprId>) -> Vec<ExprId> {
-        let mut known: FxHashMap<ExprId, ExprId> = FxHashMap::default();
+        let mut replaced: FxHashMap<ExprId, ExprId> = FxHashMap::default();
         // children come before their parents
         for id in self.reachable(roots) {
             let node = self.node(id);
-            let found = match node {
+            let result = match node {
                 Node::Symbol(symbol) => with(symbol).unwrap_or(id),
-                _ if node.children().as_slice().iter().all(|child| known.get(child) == Some(child)) => id,
-                _ => self.rebuild(node, |child| known[&child]),
+                _ if node.children().as_slice().iter().all(|child| replaced.get(child) == Some(child)) => id,
+                _ => self.rebuild(node, |child| replaced[&child]),
             };
-            known.insert(id, found);
+            replaced.insert(id, result);
         }
-        roots.iter().map(|root| known[root]).collect()
+        roots.iter().map(|root| replaced[root]).collect()
     }
 
     fn intern(&mut self, node: Node) -> ExprId {
         let (index, is_new) = self.nodes.insert_full(node);
         if is_new {
-            let own = match node {
+            let symbol_kinds = match node {
                 Node::Symbol(symbol) => Dependence::of(symbol),
                 Node::Table(table, ..) => self.tables[table.index()].dependence,
                 _ => Dependence::default(),
             };
             let children = node.children();
-            self.dependence.push(children.as_slice().iter().fold(own, |all, &child| all.or(self.dependence(child))));
+            let all = children.as_slice().iter().fold(symbol_kinds, |all, &child| all.or(self.dependence(child)));
+            self.dependence.push(all);
         }
         ExprId(index as u32)
     }

@@ -1,12 +1,12 @@
-//! The motion functions of cam and drive design, as formulas.
+//! Motion functions of cam and drive design, as formulas.
 //!
-//! Each goes from `v0` at `u0` to `v1` at `u1` and is flat outside; with `s = (u − u0)/(u1 − u0)` it is
-//! `v0 + (v1 − v0) f(s)`. At an edge the piece that begins there counts.
+//! Each rises from `v0` at `u0` to `v1` at `u1` and is constant outside: with `s = (u − u0)/(u1 − u0)` it is `v0 + (v1 − v0) f(s)`. At `u0`
+//! and `u1` the piece that begins there is taken.
 
 use super::{Comparison, ExprId, Graph, Unary};
 use std::f64::consts::PI;
 
-/// Which law `f(s)` the motion follows.
+/// The law `f(s)` of a motion function.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum MotionLaw {
     /// Cubic, `3s² − 2s³`.
@@ -19,7 +19,7 @@ pub enum MotionLaw {
     Harmonic,
     /// `s − sin(2πs)/(2π)`
     Cycloidal,
-    /// Modified sine.
+    /// Modified sine: sections of a fast sine at both ends, and of a slow one between.
     ModifiedSine,
 }
 
@@ -33,7 +33,7 @@ impl MotionLaw {
         MotionLaw::ModifiedSine,
     ];
 
-    /// As in the language.
+    /// Returns the word of the language.
     #[must_use]
     pub fn word(self) -> &'static str {
         match self {
@@ -46,21 +46,21 @@ impl MotionLaw {
         }
     }
 
-    /// The law of a word.
+    /// Returns the law of a word.
     #[must_use]
     pub fn named(word: &str) -> Option<MotionLaw> {
-        Self::ALL.into_iter().find(|motion| motion.word() == word)
+        Self::ALL.into_iter().find(|law| law.word() == word)
     }
 }
 
 impl Graph {
-    /// A motion from `v0` at `u0` to `v1` at `u1`.
-    pub fn motion(&mut self, motion: MotionLaw, u: ExprId, from: [ExprId; 2], to: [ExprId; 2]) -> ExprId {
+    /// Returns a motion function from `v0` at `u0` to `v1` at `u1`, with `from = [u0, v0]` and `to = [u1, v1]`.
+    pub fn motion(&mut self, law: MotionLaw, u: ExprId, from: [ExprId; 2], to: [ExprId; 2]) -> ExprId {
         let ([u0, v0], [u1, v1]) = (from, to);
-        let way = self.sub(u, u0);
+        let offset = self.sub(u, u0);
         let length = self.sub(u1, u0);
-        let s = self.div(way, length);
-        let f = match motion {
+        let s = self.div(offset, length);
+        let f = match law {
             MotionLaw::Step => self.polynomial(s, &[0.0, 0.0, 3.0, -2.0]),
             MotionLaw::Step5 => self.polynomial(s, &[0.0, 0.0, 0.0, 10.0, -15.0, 6.0]),
             MotionLaw::Step7 => self.polynomial(s, &[0.0, 0.0, 0.0, 0.0, 35.0, -84.0, 70.0, -20.0]),
@@ -87,7 +87,7 @@ impl Graph {
         self.select(before, v0, later)
     }
 
-    /// `Σ cₖ uᵏ`, by Horner's rule.
+    /// Returns `Σ cₖ uᵏ`, by Horner's rule.
     pub fn polynomial_of(&mut self, u: ExprId, coefficients: &[ExprId]) -> ExprId {
         let zero = self.constant(0.0);
         coefficients.iter().rev().fold(zero, |sum, &c| {
@@ -101,15 +101,15 @@ impl Graph {
         self.polynomial_of(s, &ids)
     }
 
-    /// `f(ω s)`
+    /// Returns `f(ω s)`.
     fn wave(&mut self, function: Unary, omega: f64, s: ExprId) -> ExprId {
         let omega = self.constant(omega);
         let angle = self.mul(omega, s);
         self.unary(function, angle)
     }
 
-    /// With `k = 1/(4 + π)`: `k(πs − sin(4πs)/4)` up to s = 1/8, `k(2 + πs − (9/4) sin((π + 4πs)/3))` up to 7/8, then
-    /// `k(4 + πs − sin(4πs)/4)`.
+    /// Returns the modified sine. With `k = 1/(4 + π)` it is `k(πs − sin(4πs)/4)` up to s = 1/8, `k(2 + πs − (9/4) sin((π + 4πs)/3))` up to
+    /// 7/8, and then `k(4 + πs − sin(4πs)/4)`.
     fn modified_sine(&mut self, s: ExprId) -> ExprId {
         let [k, quarter, nine_quarters, pi] = [1.0 / (4.0 + PI), 0.25, 2.25, PI].map(|c| self.constant(c));
         let linear = self.mul(pi, s);

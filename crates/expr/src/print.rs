@@ -1,19 +1,19 @@
-//! Formulas as text: by precedence, with as few parentheses as needed, in the syntax of the language.
+//! Formulas as text in the syntax of the language, with as few parentheses as needed.
 //!
-//! What is printed reads back to the same expression: the constructors of this crate make the same nodes of it. A formula
-//! shares its parts and a text does not, so large parts that stand in several places can be given names.
+//! Printed text reads back to the same expression: the constructors of this crate build the same nodes from it. A graph shares
+//! subexpressions and a text does not, so large shared subexpressions can be given names.
 
 use super::{Binary, Comparison, ExprId, Graph, Node, Symbol, Unary};
 use rustc_hash::FxHashMap;
 use std::borrow::Cow;
 
-/// Parts smaller than this are written out wherever they stand.
+/// Smaller subexpressions are written out wherever they occur.
 const SMALL: u32 = 12;
 
-/// A number that is shorter by more digits than this with 15 of them has them from rounding.
+/// If 15 digits shorten a number by more characters than this, its last digits are rounding.
 const ROUNDING: usize = 3;
 
-/// How tightly a form binds; an operand that binds less tightly than its place needs parentheses.
+/// Binding strength of a form; an operand that binds less tightly than its position requires needs parentheses.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Tightness {
     Conditional,
@@ -29,7 +29,7 @@ enum Tightness {
 }
 
 impl Unary {
-    /// All of them.
+    /// All functions.
     pub const ALL: [Unary; 16] = [
         Unary::Sin,
         Unary::Cos,
@@ -49,13 +49,13 @@ impl Unary {
         Unary::Floor,
     ];
 
-    /// The function of a word.
+    /// Returns the function of a word.
     #[must_use]
     pub fn named(word: &str) -> Option<Unary> {
         Self::ALL.into_iter().find(|function| function.word() == word)
     }
 
-    /// As in the language, which has no `floor`: `x - mod(x, 1)`.
+    /// Returns the word of the language; `floor`, which the language lacks, is written as `x - mod(x, 1)`.
     #[must_use]
     pub fn word(self) -> &'static str {
         match self {
@@ -80,7 +80,7 @@ impl Unary {
 }
 
 impl Binary {
-    /// As in the language; a power has no word there.
+    /// Returns the word of the language; a power has none there.
     #[must_use]
     pub fn word(self) -> &'static str {
         match self {
@@ -94,36 +94,36 @@ impl Binary {
     }
 }
 
-/// Prints formulas of one graph.
+/// Printer for the formulas of one graph.
 pub struct Printer<'g, S: Fn(Symbol) -> String> {
     graph: &'g Graph,
     symbol: S,
     names: FxHashMap<ExprId, String>,
-    /// Whether it is for readers alone: signs are drawn together, and numbers lose the rounding of their last digits.
+    /// True for display only: signs are merged, and rounding in the last digits is removed.
     is_for_readers: bool,
 }
 
 impl<'g, S: Fn(Symbol) -> String> Printer<'g, S> {
-    /// A printer that writes symbols as it is told, and every part out.
+    /// Creates a printer that writes symbols by a function, and all subexpressions in full.
     pub fn new(graph: &'g Graph, symbol: S) -> Printer<'g, S> {
         Printer { graph, symbol, names: FxHashMap::default(), is_for_readers: false }
     }
 
-    /// The same printer for readers: what it prints is the same formula, and need not read back to the same expression.
+    /// Returns the printer for display: the text is equivalent, but need not read back to the same expression.
     #[must_use]
     pub fn for_readers(self) -> Printer<'g, S> {
         Printer { is_for_readers: true, ..self }
     }
 
-    /// The same printer with names for some parts.
+    /// Returns the printer with names for some subexpressions.
     #[must_use]
     pub fn with_names(mut self, names: &FxHashMap<ExprId, String>) -> Printer<'g, S> {
         self.names.clone_from(names);
         self
     }
 
-    /// Gives a name to every large part that several of the roots, or several places of one, share; returns the parts in
-    /// an order in which each holds only names of those before it.
+    /// Names every large subexpression that occurs several times in the roots. Returns the named subexpressions, each after those whose
+    /// names it contains.
     pub fn name_shared(&mut self, roots: &[ExprId], name: impl Fn(usize) -> String) -> Vec<(String, ExprId)> {
         let mut uses: FxHashMap<ExprId, u32> = FxHashMap::default();
         let reachable = self.graph.reachable(roots);
@@ -145,7 +145,7 @@ impl<'g, S: Fn(Symbol) -> String> Printer<'g, S> {
                 let name = name(shared.len());
                 shared.push((name.clone(), id));
                 self.names.insert(id, name);
-                // its name is as short as a symbol
+                // a name is as short as a symbol
                 sizes.insert(id, 1);
             } else {
                 sizes.insert(id, size);
@@ -154,18 +154,18 @@ impl<'g, S: Fn(Symbol) -> String> Printer<'g, S> {
         shared
     }
 
-    /// How often the text of an operation holds its operands: there is no `floor` to write.
+    /// Returns how often the text of an operation contains its operands: twice for `floor`, which the language lacks.
     fn times_written(&self, id: ExprId) -> u32 {
         if matches!(self.graph.node(id), Node::Unary(Unary::Floor, _)) { 2 } else { 1 }
     }
 
-    /// A formula as text.
+    /// Returns a formula as text.
     #[must_use]
     pub fn text(&self, root: ExprId) -> String {
         self.written(vec![Part::Formula(root, Tightness::Conditional, false)])
     }
 
-    /// The formula behind a name that [`Printer::name_shared`] gave, written out one level.
+    /// Returns the text of a formula that [`Printer::name_shared`] has named, without its own name.
     #[must_use]
     pub fn definition(&self, id: ExprId) -> String {
         let mut parts = Parts::default();
@@ -174,19 +174,19 @@ impl<'g, S: Fn(Symbol) -> String> Printer<'g, S> {
         self.written(parts.0)
     }
 
-    /// The text of some parts, of which the first is the last in the list. A sum of very many terms is very deep: so no call waits for
-    /// another one.
+    /// Returns the text of some parts; the last part in the list is written first. A sum of many terms nests deeply, so the printer keeps
+    /// its own stack instead of recursing.
     fn written(&self, mut open: Vec<Part>) -> String {
         let mut out = String::new();
         let mut parts = Parts::default();
         while let Some(part) = open.pop() {
             match part {
                 Part::Text(text) => out.push_str(&text),
-                Part::Formula(id, wanted, is_negated) => {
+                Part::Formula(id, required, is_negated) => {
                     if let Some(name) = self.names.get(&id) {
                         out.push_str(name);
                     } else {
-                        self.write_node(id, wanted, is_negated, &mut parts);
+                        self.write_node(id, required, is_negated, &mut parts);
                         open.extend(parts.0.drain(..).rev());
                     }
                 }
@@ -195,9 +195,9 @@ impl<'g, S: Fn(Symbol) -> String> Printer<'g, S> {
         out
     }
 
-    /// Writes a formula, or, of one that begins with a negative number, its negative.
-    fn write_node(&self, id: ExprId, wanted: Tightness, is_negated: bool, out: &mut Parts) {
-        let needs_parentheses = self.tightness(id) < wanted && !(is_negated && self.graph.as_const(id).is_some());
+    /// Writes a formula; with `is_negated`, one that begins with a negative number without its sign.
+    fn write_node(&self, id: ExprId, required: Tightness, is_negated: bool, out: &mut Parts) {
+        let needs_parentheses = self.tightness(id) < required && !(is_negated && self.graph.as_const(id).is_some());
         if needs_parentheses {
             out.text("(");
         }
@@ -213,7 +213,7 @@ impl<'g, S: Fn(Symbol) -> String> Printer<'g, S> {
             Node::Binary(Binary::Pow, ..) | Node::Power(..) => Tightness::Power,
             Node::Add(..) | Node::Sub(..) | Node::Unary(Unary::Floor, _) => Tightness::Sum,
             Node::Mul(..) | Node::Div(..) => Tightness::Product,
-            // the sign of a product stands before its first factor
+            // the sign of a product is written before its first factor
             Node::Neg(a) if self.takes_sign_in_front(a) => Tightness::Product,
             Node::Neg(_) => Tightness::Negation,
             Node::Const(_) | Node::Symbol(_) | Node::Unary(..) | Node::Binary(..) | Node::Table(..) => Tightness::Atom,
@@ -237,10 +237,10 @@ impl<'g, S: Fn(Symbol) -> String> Printer<'g, S> {
             Node::Mul(a, b) => {
                 let (first, second) = self.factors(a, b);
                 let is_scaled = self.graph.as_const(first).is_some() && self.is_row_of_products(second);
-                let wanted = if is_scaled { Tightness::Product } else { Tightness::Negation };
+                let required = if is_scaled { Tightness::Product } else { Tightness::Negation };
                 out.signed(first, Tightness::Product, is_negated);
                 out.text(" * ");
-                out.formula(second, wanted);
+                out.formula(second, required);
             }
             Node::Div(a, b) => {
                 out.signed(a, Tightness::Product, is_negated);
@@ -249,8 +249,8 @@ impl<'g, S: Fn(Symbol) -> String> Printer<'g, S> {
             }
             Node::Neg(a) => {
                 out.text("-");
-                let wanted = if self.takes_sign_in_front(a) { Tightness::Product } else { Tightness::Negation };
-                out.formula(a, wanted);
+                let required = if self.takes_sign_in_front(a) { Tightness::Product } else { Tightness::Negation };
+                out.formula(a, required);
             }
             Node::Power(a, n) => {
                 out.formula(a, Tightness::Atom);
@@ -294,7 +294,7 @@ impl<'g, S: Fn(Symbol) -> String> Printer<'g, S> {
         }
     }
 
-    /// A sum with its sums first, and a negative number as a subtraction.
+    /// Writes a sum with nested sums first, and a negative number as a subtraction.
     fn write_sum(&self, a: ExprId, b: ExprId, out: &mut Parts) {
         let is_number = |id: ExprId| self.graph.as_const(id).is_some();
         let is_sum = |id: ExprId| self.tightness(id) == Tightness::Sum && !self.names.contains_key(&id);
@@ -319,7 +319,7 @@ impl<'g, S: Fn(Symbol) -> String> Printer<'g, S> {
         out.signed(b, Tightness::Product, is_sum);
     }
 
-    /// Whether a negative number is the first of a row of factors, or stands alone.
+    /// Returns whether a negative number stands alone or is the first factor of a chain.
     fn begins_with_a_sign(&self, id: ExprId) -> bool {
         let mut first = id;
         loop {
@@ -344,10 +344,10 @@ impl<'g, S: Fn(Symbol) -> String> Printer<'g, S> {
         if rounded.len() + ROUNDING < exact.len() { rounded } else { exact }
     }
 
-    fn write_pair(a: ExprId, operator: &'static str, b: ExprId, wanted: [Tightness; 2], out: &mut Parts) {
-        out.formula(a, wanted[0]);
+    fn write_pair(a: ExprId, operator: &'static str, b: ExprId, required: [Tightness; 2], out: &mut Parts) {
+        out.formula(a, required[0]);
         out.text(operator);
-        out.formula(b, wanted[1]);
+        out.formula(b, required[1]);
     }
 
     fn write_call(word: impl Into<Cow<'static, str>>, arguments: &[ExprId], out: &mut Parts) {
@@ -362,14 +362,14 @@ impl<'g, S: Fn(Symbol) -> String> Printer<'g, S> {
         out.text(")");
     }
 
-    /// The operands of a product in the order of printing: a number before a row of products, which it is gathered with
-    /// wherever it stands; else a product or quotient first, where it needs no parentheses.
+    /// Returns the operands of a product in the order of printing: a number before a chain of products, which merge with it when read; else
+    /// a product or quotient first, where it needs no parentheses.
     fn factors(&self, a: ExprId, b: ExprId) -> (ExprId, ExprId) {
         let scaled = self.graph.as_const(a).is_some() && self.is_row_of_products(b);
         if self.is_chain(b) && !self.is_chain(a) && !scaled { (b, a) } else { (a, b) }
     }
 
-    /// Whether an operand is printed as products without a quotient among them.
+    /// Returns whether an operand is printed as a chain of products without quotients.
     fn is_row_of_products(&self, id: ExprId) -> bool {
         let mut first = id;
         while self.is_chain(first) {
@@ -381,8 +381,8 @@ impl<'g, S: Fn(Symbol) -> String> Printer<'g, S> {
         first != id
     }
 
-    /// Whether the sign of a row of factors can stand before the first of them: not where that is a difference, which it
-    /// would turn round, nor where a number is among them, which would take it up.
+    /// Returns whether the sign of a chain of factors can be written before the first factor. It cannot before a difference, whose operands
+    /// it would exchange, nor before a number, which would absorb it.
     fn takes_sign_in_front(&self, id: ExprId) -> bool {
         let mut first = id;
         while self.is_chain(first) {
@@ -395,23 +395,23 @@ impl<'g, S: Fn(Symbol) -> String> Printer<'g, S> {
         }
         let takes_up_a_sign = match self.graph.node(first) {
             Node::Sub(..) | Node::Const(_) => true,
-            // behind a name
+            // inside a named subexpression
             Node::Mul(a, _) => self.graph.as_const(a).is_some(),
             _ => false,
         };
         first != id && !takes_up_a_sign
     }
 
-    /// Whether an operand is a row of factors itself.
+    /// Returns whether an operand is printed as a chain of factors.
     fn is_chain(&self, id: ExprId) -> bool {
         self.tightness(id) == Tightness::Product && !self.names.contains_key(&id)
     }
 }
 
-/// A piece of a text that is still to be written.
+/// A piece of text that is still to be written.
 enum Part {
     Text(Cow<'static, str>),
-    /// A formula in a place that wants at least some tightness; whether its negative is written.
+    /// A formula in a position that requires some tightness; true if its negative is written.
     Formula(ExprId, Tightness, bool),
 }
 
@@ -424,16 +424,16 @@ impl Parts {
         self.0.push(Part::Text(text.into()));
     }
 
-    fn formula(&mut self, id: ExprId, wanted: Tightness) {
-        self.signed(id, wanted, false);
+    fn formula(&mut self, id: ExprId, required: Tightness) {
+        self.signed(id, required, false);
     }
 
-    fn signed(&mut self, id: ExprId, wanted: Tightness, is_negated: bool) {
-        self.0.push(Part::Formula(id, wanted, is_negated));
+    fn signed(&mut self, id: ExprId, required: Tightness, is_negated: bool) {
+        self.0.push(Part::Formula(id, required, is_negated));
     }
 }
 
-/// The shortest decimal that reads back, without a point for whole numbers.
+/// Returns the shortest decimal that reads back to the same number, without a point for whole numbers.
 #[must_use]
 pub fn number(value: f64) -> String {
     let text = zmij::Buffer::new().format(value).to_owned();

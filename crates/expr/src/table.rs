@@ -1,51 +1,51 @@
-//! Tables: piecewise cubic functions of one argument, the interpolating splines of the language.
+//! Tables: piecewise cubic functions of one argument, such as the interpolating splines of the language.
 //!
-//! Between two knots a table is `c₀ + d (c₁ + d (c₂ + d c₃))`, `d` the way from the knot before. The coefficients are
-//! formulas of parameters like any other; a table that holds numbers alone is folded to numbers.
+//! Between two knots a table is `c₀ + d (c₁ + d (c₂ + d c₃))`, with `d` the offset from the lower knot. The coefficients are formulas of
+//! parameters; a table of numbers alone is folded to numbers.
 
 use super::{Dependence, ExprId, Graph, Node, Symbol};
 use crate::math;
 use rustc_hash::FxHashMap;
 
-/// Which of a graph's tables.
+/// Index of a table in a graph.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub struct TableId(pub(super) u32);
 
 impl TableId {
-    /// Position among the graph's tables, from 0.
+    /// Returns the position among the graph's tables, from 0.
     #[must_use]
     pub fn index(self) -> usize {
         self.0 as usize
     }
 }
 
-/// An interpolating cubic spline.
+/// A piecewise cubic function.
 #[derive(Clone, Debug)]
 pub struct Table {
     /// Its name.
     pub name: String,
-    /// Whether it repeats, with the length of its range for a period.
+    /// True if it repeats; the period is the length of its range.
     pub periodic: bool,
-    /// Arguments, rising: one more than there are pieces.
+    /// Arguments in ascending order, one more than pieces.
     pub knots: Vec<ExprId>,
     /// Values at the knots.
     pub values: Vec<ExprId>,
     /// `c₀` to `c₃` of each piece.
     pub coefficients: [Vec<ExprId>; 4],
-    /// The table whose derivative this is, with the same pieces.
+    /// The table whose derivative with respect to its cells this is; it has the same pieces.
     pub derived_from: Option<TableId>,
-    /// On what all this depends: parameters, or nothing.
+    /// Kinds of symbols in its cells: parameters or none.
     pub(super) dependence: Dependence,
 }
 
 impl Table {
-    /// Everything that a value is computed from.
+    /// Returns the formulas that a value is computed from: knots and coefficients.
     pub fn cells(&self) -> impl Iterator<Item = ExprId> + '_ {
         self.knots.iter().chain(self.coefficients.iter().flatten()).copied()
     }
 }
 
-/// The piece that an argument lies in, of so many: the one that begins at the last knot not above it.
+/// Returns the piece that contains an argument: the one that begins at the last knot not above it.
 #[must_use]
 pub fn piece(pieces: usize, knot: impl Fn(usize) -> f64, x: f64) -> usize {
     let (mut low, mut high) = (0, pieces);
@@ -61,14 +61,13 @@ pub fn piece(pieces: usize, knot: impl Fn(usize) -> f64, x: f64) -> usize {
 }
 
 impl Graph {
-    /// The tables, by their number.
+    /// Returns the tables, by index.
     #[must_use]
     pub fn tables(&self) -> &[Table] {
         &self.tables
     }
 
-    /// The natural or periodic cubic spline through points, two at least, three if periodic (the last one repeats the
-    /// first value).
+    /// Adds the natural or periodic cubic spline through points: at least two, or three if periodic, where the last point repeats the first value.
     ///
     /// Source: C. de Boor, *A Practical Guide to Splines*, 1978, chapter IV.
     pub fn spline(&mut self, name: &str, periodic: bool, points: &[[ExprId; 2]]) -> TableId {
@@ -85,7 +84,7 @@ impl Graph {
         let mut coefficients = [values[..widths.len()].to_vec(), Vec::new(), Vec::new(), Vec::new()];
         let [two, three, six] = [2.0, 3.0, 6.0].map(|c| self.constant(c));
         for k in 0..widths.len() {
-            // slope − h (2 M + M₊)/6, M/2, (M₊ − M)/(6 h)
+            // c₁ = slope − h (2 M + M₊)/6, c₂ = M/2, c₃ = (M₊ − M)/(6 h)
             let (bend, next) = (bends[k], bends[k + 1]);
             let double = self.mul(two, bend);
             let sum = self.add(double, next);
@@ -115,17 +114,17 @@ impl Graph {
         TableId(self.tables.len() as u32 - 1)
     }
 
-    /// Rebuilds the tables of another graph in this one, which has none yet, as [`Graph::import`] does formulas.
+    /// Copies the tables of another graph into this one, which has none yet; see [`Graph::import`].
     pub fn import_tables(
         &mut self,
         from: &Graph,
-        known: &mut FxHashMap<ExprId, ExprId>,
+        copied: &mut FxHashMap<ExprId, ExprId>,
         mut replace: impl FnMut(&mut Graph, Symbol) -> ExprId,
     ) {
         for table in &from.tables {
             let cells: Vec<ExprId> = table.cells().chain(table.values.iter().copied()).collect();
-            self.import(from, &cells, known, &mut replace);
-            let rebuilt = |list: &[ExprId]| list.iter().map(|cell| known[cell]).collect::<Vec<ExprId>>();
+            self.import(from, &cells, copied, &mut replace);
+            let rebuilt = |list: &[ExprId]| list.iter().map(|cell| copied[cell]).collect::<Vec<ExprId>>();
             let [c0, c1, c2, c3] = &table.coefficients;
             self.add_table(Table {
                 name: table.name.clone(),
@@ -139,29 +138,29 @@ impl Graph {
         }
     }
 
-    /// `6 (slope − slope before)`, the right side of the equation for the second derivative at a knot.
-    fn bend_wanted(&mut self, before: ExprId, after: ExprId) -> ExprId {
+    /// Returns `6 (slope − slope before)`, the right side of the equation for the second derivative at a knot.
+    fn bend_right_side(&mut self, before: ExprId, after: ExprId) -> ExprId {
         let six = self.constant(6.0);
         let change = self.sub(after, before);
         self.mul(six, change)
     }
 
-    /// `2 (h₋ + h)`
+    /// Returns `2 (h₋ + h)`.
     fn double_width(&mut self, before: ExprId, after: ExprId) -> ExprId {
         let two = self.constant(2.0);
         let sum = self.add(before, after);
         self.mul(two, sum)
     }
 
-    /// Second derivatives at the knots, zero at both ends: `h₋ M₋ + 2 (h₋ + h) M + h M₊ = 6 (s − s₋)`, by elimination
-    /// from left to right.
+    /// Returns the second derivatives at the knots, zero at both ends: the solution of `h₋ M₋ + 2 (h₋ + h) M + h M₊ = 6 (s − s₋)` by
+    /// elimination from left to right.
     fn natural_bends(&mut self, widths: &[ExprId], slopes: &[ExprId]) -> Vec<ExprId> {
         let zero = self.constant(0.0);
         let mut pivots: Vec<ExprId> = Vec::new();
         let mut rights: Vec<ExprId> = Vec::new();
         for k in 1..widths.len() {
             let mut pivot = self.double_width(widths[k - 1], widths[k]);
-            let mut right = self.bend_wanted(slopes[k - 1], slopes[k]);
+            let mut right = self.bend_right_side(slopes[k - 1], slopes[k]);
             if let (Some(&above), Some(&right_above)) = (pivots.last(), rights.last()) {
                 let factor = self.div(widths[k - 1], above);
                 let (a, b) = (self.mul(factor, widths[k - 1]), self.mul(factor, right_above));
@@ -179,14 +178,14 @@ impl Graph {
         bends
     }
 
-    /// Second derivatives at the knots where the first follows the last: the same equations on a ring, the last unknown
-    /// kept as a column of its own until the end.
+    /// Returns the second derivatives at the knots of a periodic spline: the same equations on a ring, with the last unknown as a separate
+    /// column until the end.
     fn periodic_bends(&mut self, widths: &[ExprId], slopes: &[ExprId]) -> Vec<ExprId> {
         let n = widths.len();
         let zero = self.constant(0.0);
         let before = |k: usize| if k == 0 { n - 1 } else { k - 1 };
         let diagonal: Vec<ExprId> = (0..n).map(|k| self.double_width(widths[before(k)], widths[k])).collect();
-        let mut rights: Vec<ExprId> = (0..n).map(|k| self.bend_wanted(slopes[before(k)], slopes[k])).collect();
+        let mut rights: Vec<ExprId> = (0..n).map(|k| self.bend_right_side(slopes[before(k)], slopes[k])).collect();
         let mut pivots = diagonal;
         // the column of the last unknown, and the last row
         let mut column = vec![zero; n];
@@ -227,7 +226,7 @@ impl Graph {
         bends
     }
 
-    /// A table's value, or a derivative of it by its argument, of an order up to 3.
+    /// Returns a table, or its derivative of an order up to 3, at an argument.
     pub fn table(&mut self, table: TableId, order: u8, x: ExprId) -> ExprId {
         let node = Node::Table(table, order, x);
         let is_number = |id: ExprId| self.as_const(id).is_some();
@@ -239,7 +238,7 @@ impl Graph {
         self.intern(node)
     }
 
-    /// The value of a table at an argument, or of one of its derivatives, from the values of its cells.
+    /// Returns the value of a table or of one of its derivatives at an argument, from the values of its cells.
     pub(super) fn table_value(&self, table: TableId, order: u8, x: f64, cell: impl Fn(ExprId) -> f64) -> f64 {
         let Table { knots, coefficients, periodic, .. } = &self.tables[table.index()];
         let pieces = coefficients[0].len();

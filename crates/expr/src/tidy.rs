@@ -1,24 +1,23 @@
-//! Formulas as a person would write them down.
+//! Formulas in the form in which a person would write them.
 //!
-//! The constructors see one operation at a time; this looks at whole sums and whole products: equal terms are gathered,
-//! numbers stand in front, equal factors are powers, a sum begins with a term that is added. Nothing is cancelled against
-//! a denominator, and nothing is multiplied out but numbers and what Horner's rule left. Only what is printed goes through
-//! here: what is computed stays as it is.
+//! The constructors look at one operation at a time; this file looks at whole sums and products. It gathers equal terms, puts numbers in
+//! front, writes equal factors as powers, and begins a sum with a positive term. It cancels nothing against a denominator, and multiplies
+//! out only numbers and the result of Horner's rule. Only printed formulas are tidied; computed ones stay as they are.
 
 use super::{ExprId, Graph, Node, number};
 use rustc_hash::FxHashMap;
 
-/// Exponents beyond this are left as they stand.
+/// Larger exponents are left as they are.
 const LARGEST_EXPONENT: i32 = 64;
 
-/// Operations within each other that are put in order by recursion.
+/// Nesting depth up to which formulas are tidied by recursion.
 const DEEPEST: u32 = 50;
 
-/// Whole numbers beyond this are no longer exact.
+/// Larger whole numbers are not exact.
 const LARGEST_WHOLE: f64 = 9_007_199_254_740_992.0;
 
 impl Graph {
-    /// How many parts formulas have, written out one by one.
+    /// Returns the number of nodes of formulas when written out without sharing.
     #[must_use]
     pub fn written_size(&self, roots: &[ExprId]) -> u64 {
         let mut sizes: FxHashMap<ExprId, u64> = FxHashMap::default();
@@ -30,26 +29,26 @@ impl Graph {
         roots.iter().map(|root| sizes[root]).fold(0, u64::saturating_add)
     }
 
-    /// The same formula with its sums and products in order. Takes time by the size that is written, so it is for formulas that
-    /// somebody will read.
+    /// Returns the formula with its sums and products in order. Takes time in proportion to the written size, so it is for formulas that
+    /// are displayed.
     pub fn tidied(&mut self, root: ExprId) -> ExprId {
         let cuts = self.cuts(root, DEEPEST);
-        let mut tidying = Tidying { graph: self, known: FxHashMap::default() };
+        let mut tidying = Tidying { graph: self, tidied: FxHashMap::default() };
         for id in cuts {
             tidying.tidy(id);
         }
         tidying.tidy(root)
     }
 
-    /// Parts of a formula at which it can be cut, those within others first: between them at most so many operations are within each
-    /// other, where those in a row count as one. What recurses takes them in this order, and needs little stack.
+    /// Returns subexpressions at which a formula can be cut, inner ones first, so that at most `deepest` operations are nested between
+    /// them; a chain of terms or factors counts as one. Recursive algorithms that handle the cuts in this order need little stack.
     #[must_use]
     pub fn cuts(&self, root: ExprId, deepest: u32) -> Vec<ExprId> {
         let mut heights: FxHashMap<ExprId, u32> = FxHashMap::default();
         let mut cuts = Vec::new();
         for id in self.reachable(&[root]) {
             let node = self.node(id);
-            let above = |child: &ExprId| heights[child] + u32::from(!is_one_row(node, self.node(*child)));
+            let above = |child: &ExprId| heights[child] + u32::from(!is_one_chain(node, self.node(*child)));
             let height = node.children().as_slice().iter().map(above).max().unwrap_or(0);
             let is_cut = height >= deepest && id != root;
             if is_cut {
@@ -61,8 +60,8 @@ impl Graph {
     }
 }
 
-/// Whether an operand stands in one row of terms or factors with its operation.
-fn is_one_row(node: Node, operand: Node) -> bool {
+/// Returns whether an operand belongs to one chain of terms or factors with its operation.
+fn is_one_chain(node: Node, operand: Node) -> bool {
     use Node::{Add, Div, Mul, Neg, Sub};
     match node {
         Add(..) | Sub(..) => matches!(operand, Add(..) | Sub(..) | Neg(_)),
@@ -73,19 +72,18 @@ fn is_one_row(node: Node, operand: Node) -> bool {
 
 struct Tidying<'g> {
     graph: &'g mut Graph,
-    known: FxHashMap<ExprId, ExprId>,
+    tidied: FxHashMap<ExprId, ExprId>,
 }
 
-/// Terms with their coefficients in the order in which they were met, and the numbers among them in one.
+/// Terms with their coefficients, in the order of their first occurrence, and the sum of all numbers.
 #[derive(Default)]
 struct Sum {
     terms: Vec<(f64, ExprId)>,
-    places: FxHashMap<ExprId, usize>,
+    positions: FxHashMap<ExprId, usize>,
     number: f64,
 }
 
-/// Factors with their exponents in the order in which they were met, and the numbers among them as one fraction. What is
-/// above and what is below the line stays apart.
+/// Factors with their exponents, in the order of their first occurrence, and all numbers as a fraction. Numerator and denominator are kept apart.
 struct Product {
     factors: Vec<(ExprId, i32)>,
     above: f64,
@@ -94,11 +92,11 @@ struct Product {
 
 impl Tidying<'_> {
     fn tidy(&mut self, id: ExprId) -> ExprId {
-        if let Some(&known) = self.known.get(&id) {
-            return known;
+        if let Some(&tidied) = self.tidied.get(&id) {
+            return tidied;
         }
         let tidied = self.tidy_node(id);
-        self.known.insert(id, tidied);
+        self.tidied.insert(id, tidied);
         tidied
     }
 
@@ -116,19 +114,19 @@ impl Tidying<'_> {
         gathered.unwrap_or_else(|| self.rebuilt(id))
     }
 
-    /// The same operation on tidied operands.
+    /// Returns the operation on tidied operands.
     fn rebuilt(&mut self, id: ExprId) -> ExprId {
         let node = self.graph.node(id);
         for &child in node.children().as_slice() {
             self.tidy(child);
         }
-        let known = &self.known;
-        self.graph.rebuild(node, |child| known.get(&child).copied().unwrap_or(child))
+        let tidied = &self.tidied;
+        self.graph.rebuild(node, |child| tidied.get(&child).copied().unwrap_or(child))
     }
 
     fn sum(&mut self, root: ExprId) -> Sum {
         let mut sum = self.terms_of(root);
-        // a number is multiplied into a sum where that brings equal terms together
+        // a number is multiplied into a sum where that lets terms be gathered
         while let Some(at) = self.worth_multiplying_out(&sum) {
             let (c, term) = sum.take(at);
             let (scale, inner) = self.scaled_sum(term).unwrap_or((1.0, term));
@@ -142,11 +140,11 @@ impl Tidying<'_> {
         sum
     }
 
-    /// The terms of the outermost sum, tidied.
+    /// Returns the tidied terms of the outermost sum.
     fn terms_of(&mut self, root: ExprId) -> Sum {
         let mut sum = Sum::default();
-        // with its coefficient, and whether it has been tidied
-        let mut open = vec![(root, 1.0, self.known.get(&root) == Some(&root))];
+        // each with its coefficient, and whether it has been tidied
+        let mut open = vec![(root, 1.0, self.tidied.get(&root) == Some(&root))];
         while let Some((id, c, is_tidy)) = open.pop() {
             match self.graph.node(id) {
                 Node::Add(a, b) => open.extend([(b, c, is_tidy), (a, c, is_tidy)]),
@@ -163,7 +161,7 @@ impl Tidying<'_> {
         sum
     }
 
-    /// A sum as a term of another one, with the number that divides it where its inverse is exact.
+    /// Splits a term into a sum and its factor: 1, or the inverse of a divisor if it is exact.
     fn scaled_sum(&self, term: ExprId) -> Option<(f64, ExprId)> {
         let (scale, sum) = match self.graph.node(term) {
             Node::Div(a, b) => (1.0 / self.graph.as_const(b)?, a),
@@ -175,7 +173,7 @@ impl Tidying<'_> {
         (is_exact && is_sum).then_some((scale, sum))
     }
 
-    /// A term that is a sum and shares a term of it with another one.
+    /// Returns the position of a term that is a sum and shares one of its terms with another one.
     fn worth_multiplying_out(&mut self, sum: &Sum) -> Option<usize> {
         let parts: Vec<Vec<ExprId>> = sum
             .terms
@@ -196,7 +194,7 @@ impl Tidying<'_> {
             .position(|(&(_, term), parts)| self.scaled_sum(term).is_some() && parts.iter().any(shares))
     }
 
-    /// A term as a number and the rest; of a quotient only the sign is taken out.
+    /// Splits a term into a number and the rest; from a quotient only the sign is taken.
     fn split(&mut self, id: ExprId) -> (f64, ExprId) {
         match self.graph.node(id) {
             Node::Mul(a, b) => match self.graph.as_const(a) {
@@ -219,7 +217,7 @@ impl Tidying<'_> {
         }
     }
 
-    /// `None` where a number has left the range of numbers.
+    /// Builds a sum; `None` if a number has overflowed.
     fn build_sum(&mut self, mut sum: Sum) -> Option<ExprId> {
         if !sum.number.is_finite() || sum.terms.iter().any(|(c, _)| !c.is_finite()) {
             return None;
@@ -251,7 +249,7 @@ impl Tidying<'_> {
         Some(if leads { total } else { self.graph.add(total, number) })
     }
 
-    /// The terms as one quotient, where all are quotients with one divisor.
+    /// Returns a sum of quotients with one divisor as a single quotient.
     fn over_one_line(&mut self, sum: &Sum) -> Option<ExprId> {
         let divisor = |id: ExprId| match self.graph.node(id) {
             Node::Div(_, b) => Some(b),
@@ -270,11 +268,11 @@ impl Tidying<'_> {
         }
         let above = self.tidy(above);
         let quotient = self.graph.div(above, below);
-        // a number may have come out of the sum
+        // the tidied numerator may have a numeric factor
         Some(self.tidy(quotient))
     }
 
-    /// `-1 / t` rather than `-(1 / t)`.
+    /// Returns `-1 / t` rather than `-(1 / t)`.
     fn negated(&mut self, id: ExprId) -> ExprId {
         match self.graph.node(id) {
             Node::Div(a, b) if self.graph.as_const(a).is_some() || self.split(a).1 != a => {
@@ -285,10 +283,10 @@ impl Tidying<'_> {
         }
     }
 
-    /// `None` where it is better left as it is.
+    /// Returns the factors of a product; `None` if it is better left as it is.
     fn product(&mut self, root: ExprId) -> Option<Product> {
         let mut product = Product { factors: Vec::new(), above: 1.0, below: 1.0 };
-        // with its exponent, and whether it has been tidied
+        // each with its exponent, and whether it has been tidied
         let mut open = vec![(root, 1_i32, false)];
         while let Some((id, e, is_tidy)) = open.pop() {
             match self.graph.node(id) {
@@ -315,7 +313,7 @@ impl Tidying<'_> {
         product.is_sound().then_some(product)
     }
 
-    /// Whether a product holds a number whose powers are easy to read.
+    /// Returns whether a product contains a number whose powers are easy to read.
     fn has_whole_number(&self, id: ExprId) -> bool {
         match self.graph.node(id) {
             Node::Mul(a, _) => self.graph.as_const(a).is_some_and(|c| c.fract() == 0.0 && c.abs() < 1e3),
@@ -323,7 +321,7 @@ impl Tidying<'_> {
         }
     }
 
-    /// A power times a polynomial of the same, as Horner's rule leaves it: multiplied out.
+    /// Multiplies a power into a polynomial of the same base, as Horner's rule leaves it.
     fn build_polynomial(&mut self, product: &Product) -> Option<ExprId> {
         let &[(x, e), (y, f)] = product.factors.as_slice() else { return None };
         let is_sum = |id: ExprId| matches!(self.graph.node(id), Node::Add(..) | Node::Sub(..));
@@ -356,7 +354,7 @@ impl Tidying<'_> {
             return Some(polynomial);
         }
         let graph = &*self.graph;
-        // what is long stands last
+        // long factors come last
         product.factors.sort_by_key(|&(id, _)| match graph.node(id) {
             Node::Symbol(_) => 0,
             Node::Add(..) | Node::Sub(..) | Node::Select(..) => 2,
@@ -370,7 +368,7 @@ impl Tidying<'_> {
         Some(self.graph.div(above, below))
     }
 
-    /// The factors above or below the line.
+    /// Returns the product of the factors of the numerator or of the denominator.
     fn row(&mut self, product: &Product, above: bool) -> Option<ExprId> {
         let mut row = self.graph.constant(1.0);
         for &(id, e) in product.factors.iter().filter(|(_, e)| (*e > 0) == above) {
@@ -386,27 +384,27 @@ impl Tidying<'_> {
 
 impl Sum {
     fn put(&mut self, c: f64, term: ExprId) {
-        let known = self.places.get(&term).and_then(|&place| self.terms.get_mut(place));
-        if let Some((coefficient, _)) = known {
+        let present = self.positions.get(&term).and_then(|&position| self.terms.get_mut(position));
+        if let Some((coefficient, _)) = present {
             *coefficient += c;
         } else {
-            self.places.insert(term, self.terms.len());
+            self.positions.insert(term, self.terms.len());
             self.terms.push((c, term));
         }
     }
 
-    /// Takes a term out.
+    /// Removes a term and returns it with its coefficient.
     fn take(&mut self, at: usize) -> (f64, ExprId) {
         let taken = self.terms.remove(at);
-        self.places = self.terms.iter().enumerate().map(|(k, &(_, term))| (term, k)).collect();
+        self.positions = self.terms.iter().enumerate().map(|(k, &(_, term))| (term, k)).collect();
         taken
     }
 }
 
 impl Product {
     fn put(&mut self, id: ExprId, exponent: i32) {
-        // what is above the line may be zero where what is below it is, and is not cancelled
-        let same = |&&mut (known, e): &&mut (ExprId, i32)| known == id && (e > 0) == (exponent > 0);
+        // a factor of the numerator may be zero where one of the denominator is, so they are not cancelled
+        let same = |&&mut (factor, e): &&mut (ExprId, i32)| factor == id && (e > 0) == (exponent > 0);
         match self.factors.iter_mut().find(same) {
             Some((_, e)) => *e += exponent,
             None => self.factors.push((id, exponent)),
@@ -418,7 +416,7 @@ impl Product {
         is_number(self.above) && is_number(self.below)
     }
 
-    /// One number above the line where that is as short, and exact.
+    /// Reduces the fraction of numbers: to one number if that is as short, and exact.
     fn reduce(&mut self) {
         if self.below < 0.0 {
             (self.above, self.below) = (-self.above, -self.below);
@@ -431,7 +429,7 @@ impl Product {
         }
     }
 
-    /// `2 / 6` as `1 / 3`.
+    /// Reduces `2 / 6` to `1 / 3`.
     fn reduce_whole(&mut self) {
         let is_whole = |x: f64| x.fract() == 0.0 && x.abs() < LARGEST_WHOLE;
         if !is_whole(self.above) || !is_whole(self.below) {

@@ -1,10 +1,10 @@
-//! What can be done about a place: fixes of what is wrong there, and changes that keep what the text means.
+//! Code actions: fixes of diagnostics, and refactorings that keep the meaning of the text.
 
-use super::completion::{free, free_name};
-use super::diagnostics::{DiagnosticStage, ProposedFix, Said, diagnostics};
-use super::edits::{applied, faults, first_new, text_of};
-use super::place::{Change, Place, Stretch};
+use super::completion::{free_name, free_quantities};
+use super::diagnostics::{DiagnosticStage, EditorDiagnostic, ProposedFix, diagnostics};
+use super::location::{Change, FilePosition, FileRange};
 use super::snapshot::Snapshot;
+use super::trial_edits::{apply, first_new, text_of, word_diagnostics};
 use mechc_syntax::ast::{Expr, ExprKind, Factor, Item, ItemKind, Mechanism};
 use mechc_text::cancel::Cancel;
 use mechc_text::source::Span;
@@ -13,122 +13,123 @@ use std::ops::Range;
 use std::path::Path;
 use std::sync::Arc;
 
-/// What can be done.
+/// A code action.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Action {
-    /// As it is offered.
+    /// The title in menus.
     pub title: String,
-    /// What it is.
+    /// The kind of action.
     pub kind: ActionKind,
-    /// Whether it is what was meant, beyond doubt.
+    /// True if it is certainly what the user intends.
     pub is_preferred: bool,
-    /// What it mends.
-    pub mends: Option<Said>,
-    /// What it changes.
+    /// The diagnostic that it fixes.
+    pub fixes: Option<EditorDiagnostic>,
+    /// The changes that it makes.
     pub changes: Vec<Change>,
 }
 
-/// What an action is.
+/// The kinds of actions.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum ActionKind {
-    /// Mends a fault.
+    /// Fixes a diagnostic.
     Fix,
-    /// Makes all fixes of a file that always apply.
+    /// Applies all fixes of a file that always apply.
     FixAll,
-    /// Gives a number a name.
+    /// Extracts a number into a param.
     Extract,
-    /// Adds what takes a freedom.
+    /// Adds a driver for a free joint.
     Drive,
 }
 
-/// What can be done about a stretch of a file: fixes of what its words and the proof say there, and refactorings.
+/// Returns the actions for a range of a file: fixes of the diagnostics of the first two stages, and refactorings.
 #[must_use]
 pub fn actions(snapshot: &Snapshot, path: &Arc<Path>, range: &Range<u32>) -> Option<Vec<Action>> {
     let words = diagnostics(snapshot, path, DiagnosticStage::Words, &Cancel::default)?;
     let proof = diagnostics(snapshot, path, DiagnosticStage::Proof, &Cancel::default)?;
-    let mut all: Vec<&Said> = words.iter().collect();
-    all.extend(proof.iter().filter(|said| !words.contains(said)));
-    let touches = |said: &&Said| said.range.start <= range.end && range.start <= said.range.end;
-    let mut found: Vec<Action> = all.iter().copied().filter(touches).flat_map(of_fault).collect();
-    found.extend(fix_all(path, &all));
-    found.extend(extract_param(snapshot, path, range));
-    let place = Place { path: Arc::clone(path), offset: range.start };
-    found.extend(drive_joint(snapshot, &place).unwrap_or_default());
-    Some(found)
+    let mut all: Vec<&EditorDiagnostic> = words.iter().collect();
+    all.extend(proof.iter().filter(|diagnostic| !words.contains(diagnostic)));
+    let touches =
+        |diagnostic: &&EditorDiagnostic| diagnostic.range.start <= range.end && range.start <= diagnostic.range.end;
+    let mut actions: Vec<Action> = all.iter().copied().filter(touches).flat_map(fixes_of).collect();
+    actions.extend(fix_all(path, &all));
+    actions.extend(extract_param(snapshot, path, range));
+    let position = FilePosition { path: Arc::clone(path), offset: range.start };
+    actions.extend(drive_joint(snapshot, &position).unwrap_or_default());
+    Some(actions)
 }
 
-fn of_fault(said: &Said) -> Vec<Action> {
+fn fixes_of(diagnostic: &EditorDiagnostic) -> Vec<Action> {
     let action = |fix: &ProposedFix| Action {
-        title: if fix.message.is_empty() { format!("mend: {}", said.message) } else { fix.message.clone() },
+        title: if fix.message.is_empty() { format!("mend: {}", diagnostic.message) } else { fix.message.clone() },
         kind: ActionKind::Fix,
         is_preferred: fix.is_certain,
-        mends: Some(said.clone()),
+        fixes: Some(diagnostic.clone()),
         changes: fix.changes.clone(),
     };
-    said.fixes.iter().map(action).collect()
+    diagnostic.fixes.iter().map(action).collect()
 }
 
-/// All fixes of a file that always apply; of those that overlap the first one.
-fn fix_all(path: &Arc<Path>, all: &[&Said]) -> Option<Action> {
+/// Returns an action that applies all certain fixes of a file; of fixes that overlap, only the first is applied.
+fn fix_all(path: &Arc<Path>, all: &[&EditorDiagnostic]) -> Option<Action> {
     let mut changes: Vec<Change> = Vec::new();
-    for fix in all.iter().flat_map(|said| &said.fixes).filter(|fix| fix.is_certain) {
-        let is_free = |new: &Change| changes.iter().all(|old| !overlap(&old.place, &new.place));
-        let is_here = |change: &Change| change.place.path == *path;
+    for fix in all.iter().flat_map(|diagnostic| &diagnostic.fixes).filter(|fix| fix.is_certain) {
+        let is_free = |new: &Change| changes.iter().all(|old| !overlap(&old.location, &new.location));
+        let is_here = |change: &Change| change.location.path == *path;
         if fix.changes.iter().all(|change| is_here(change) && is_free(change)) {
             changes.extend(fix.changes.iter().cloned());
         }
     }
-    changes.sort_by_key(|change| change.place.start);
+    changes.sort_by_key(|change| change.location.start);
     let title = "make all fixes that always apply".to_owned();
     (!changes.is_empty()).then_some(Action {
         title,
         kind: ActionKind::FixAll,
         is_preferred: false,
-        mends: None,
+        fixes: None,
         changes,
     })
 }
 
-/// Whether two stretches share text, or a place where something would be put in.
-fn overlap(a: &Stretch, b: &Stretch) -> bool {
+/// Returns whether two ranges share text or a point of insertion.
+fn overlap(a: &FileRange, b: &FileRange) -> bool {
     a.path == b.path && (a.start < b.end && b.start < a.end || a.start == b.start)
 }
 
-/// A number with its unit becomes a param, in front of the declaration that needs it, if the text then checks as before.
+/// Extracts a number with its unit into a param before the declaration that uses it, if this adds no diagnostic.
 fn extract_param(snapshot: &Snapshot, path: &Arc<Path>, range: &Range<u32>) -> Option<Action> {
     let parsed = snapshot.parsed(path)?;
     let holds = |start: u32, end: u32| start <= range.start && range.end <= end;
     let mechanism = parsed.tree().mechanisms.iter().find(|one| holds(one.span.start, one.span.end))?;
     let item = mechanism.items.iter().find(|item| holds(item.span.start, item.span.end))?;
     let Quantity { span, dimension } = quantities(item).into_iter().find(|one| holds(one.span.start, one.span.end))?;
-    // a param that is only this number has a name already
+    // a param whose value is only this number names it already
     if matches!(&item.kind, ItemKind::Param { value, .. } if value.bare().span == span) {
         return None;
     }
-    let name = free_name(mechanism, &[name_for(item, span, dimension)]);
+    let name = free_name(mechanism, &[suggest_name(item, span, dimension)]);
     let text = text_of(snapshot, path)?;
     let value = text.get(span.start as usize..span.end as usize)?;
-    let (at, before, behind) = place_for_param(mechanism, item, &text)?;
-    let stretch = |start: u32, end: u32| Stretch { path: Arc::clone(path), start, end };
+    let Insertion { at, before, behind } = param_insertion(mechanism, item, &text)?;
+    let range_at = |start: u32, end: u32| FileRange { path: Arc::clone(path), start, end };
     let changes = vec![
-        Change { place: stretch(at, at), text: format!("{before}param {name} = {value}{behind}") },
-        Change { place: stretch(span.start, span.end), text: name.clone() },
+        Change { location: range_at(at, at), text: format!("{before}param {name} = {value}{behind}") },
+        Change { location: range_at(span.start, span.end), text: name.clone() },
     ];
-    let after = applied(snapshot, &changes)?;
+    let after = apply(snapshot, &changes)?;
     let files = [Arc::clone(path)];
-    let is_as_before = first_new(&faults(snapshot, &files), &faults(&after, &files)).is_none();
+    let is_as_before = first_new(&word_diagnostics(snapshot, &files), &word_diagnostics(&after, &files)).is_none();
     let title = format!("extract `{value}` into a param");
-    is_as_before.then_some(Action { title, kind: ActionKind::Extract, is_preferred: false, mends: None, changes })
+    is_as_before.then_some(Action { title, kind: ActionKind::Extract, is_preferred: false, fixes: None, changes })
 }
 
-/// A number with all of its unit: `90 deg/s`.
+/// A number with its whole unit: `90 deg/s`.
 #[derive(Clone, Copy)]
 struct Quantity {
     span: Span,
     dimension: Dimension,
 }
 
-/// The numbers with units in the formulas of a declaration; of a product its longest stretch first.
+/// Returns the numbers with units in the formulas of a declaration, in order; of nested ones the longest first.
 fn quantities(item: &Item) -> Vec<Quantity> {
     let mut found = Vec::new();
     for e in item.formulas().into_iter().flat_map(Expr::parts) {
@@ -141,24 +142,24 @@ fn quantities(item: &Item) -> Vec<Quantity> {
     found
 }
 
-/// A number with the unit right behind it.
+/// Returns a number that is directly followed by its unit.
 fn plain(e: &Expr) -> Option<Quantity> {
     let ExprKind::Literal { unit: Some((unit, power)), .. } = &e.kind else { return None };
     let dimension = Unit::named(&unit.text)?.dimension.to_the(f64::from(*power));
     Some(Quantity { span: e.span, dimension })
 }
 
-/// The numbers of a product that units are multiplied with, or divided by, behind them. One that something is divided by ends with its
-/// own unit: `1 / 2 s * m` multiplies with metres.
+/// Returns the numbers of a product with the units that multiply or divide them. A number in a divisor ends with its direct unit:
+/// `1 / 2 s * m` multiplies by metres.
 fn compound(first: &Expr, rest: &[(Factor, Expr)]) -> Vec<Quantity> {
     let mut found: Vec<Quantity> = plain(first).into_iter().collect();
     let mut is_open = !found.is_empty();
     for (factor, operand) in rest {
-        let begun = plain(operand).filter(|_| *factor == Factor::Times);
+        let number = plain(operand).filter(|_| *factor == Factor::Times);
         let last = found.last_mut().filter(|_| is_open).zip(unit(operand));
-        is_open = begun.is_some() || last.is_some();
-        match (begun, last) {
-            (Some(begun), _) => found.push(begun),
+        is_open = number.is_some() || last.is_some();
+        match (number, last) {
+            (Some(number), _) => found.push(number),
             (None, Some((last, dimension))) => {
                 last.span = last.span.to(operand.span);
                 last.dimension = match factor {
@@ -172,7 +173,7 @@ fn compound(first: &Expr, rest: &[(Factor, Expr)]) -> Vec<Quantity> {
     found
 }
 
-/// The dimension of a unit that stands alone, with its power.
+/// Returns the dimension of a unit with its power, without a number.
 fn unit(e: &Expr) -> Option<Dimension> {
     match &e.kind {
         ExprKind::Name(name) => Some(Unit::named(&name.text)?.dimension),
@@ -181,8 +182,8 @@ fn unit(e: &Expr) -> Option<Dimension> {
     }
 }
 
-/// A name for a number of a declaration.
-fn name_for(item: &Item, quantity: Span, dimension: Dimension) -> &'static str {
+/// Suggests a name for a number of a declaration.
+fn suggest_name(item: &Item, quantity: Span, dimension: Dimension) -> &'static str {
     const NAMES: &[(Dimension, &str)] = &[
         (Dimension::PURE, "angle"),
         (Dimension::LENGTH, "length"),
@@ -196,40 +197,48 @@ fn name_for(item: &Item, quantity: Span, dimension: Dimension) -> &'static str {
         ItemKind::Analysis { every, .. } if every.span.start <= quantity.start => "time_step",
         ItemKind::Analysis { from, .. } if quantity.end <= from.span.end => "start_time",
         ItemKind::Analysis { .. } => "end_time",
-        _ => NAMES.iter().find(|(known, _)| known.is(dimension)).map_or("amount", |(_, name)| name),
+        _ => NAMES.iter().find(|(other, _)| other.is(dimension)).map_or("amount", |(_, name)| name),
     }
 }
 
-/// Where a param goes, and what stands around it: behind the last one before a declaration, else in front of what comes first.
-fn place_for_param(mechanism: &Mechanism, item: &Item, text: &str) -> Option<(u32, String, String)> {
+/// An offset for new text, with the white space before and behind it.
+struct Insertion {
+    at: u32,
+    before: String,
+    behind: String,
+}
+
+/// Returns where to insert a param: after the last param before a declaration, else before the first declaration.
+fn param_insertion(mechanism: &Mechanism, item: &Item, text: &str) -> Option<Insertion> {
+    let insertion = |at, before, behind| Some(Insertion { at, before, behind });
     let is_before = |other: &&Item| matches!(other.kind, ItemKind::Param { .. }) && other.span.end <= item.span.start;
     let end = if text.contains("\r\n") { "\r\n" } else { "\n" };
     if let Some(param) = mechanism.items.iter().rfind(is_before) {
         let Some(indent) = indent_of(text, param.span) else {
-            return Some((param.span.end, " ".to_owned(), String::new()));
+            return insertion(param.span.end, " ".to_owned(), String::new());
         };
-        // a comment behind the param stays on its line
-        return Some((end_of_line(text, param.span)?, format!("{end}{indent}"), String::new()));
+        // a trailing comment of the param stays on its line
+        return insertion(end_of_line(text, param.span)?, format!("{end}{indent}"), String::new());
     }
     let first = mechanism.items.first()?;
     let Some(indent) = indent_of(text, first.span) else {
-        return Some((first.span.start, String::new(), " ".to_owned()));
+        return insertion(first.span.start, String::new(), " ".to_owned());
     };
-    // the lines of documentation above belong to the declaration
+    // doc comments above belong to the declaration
     let line = first.span.start as usize - indent.len();
     let lines = text.get(..line)?.split_inclusive('\n').rev();
     let docs = lines.take_while(|line| line.trim_start().starts_with("///")).map(str::len).sum::<usize>();
-    Some(((line - docs) as u32, indent.to_owned(), end.to_owned()))
+    insertion((line - docs) as u32, indent.to_owned(), end.to_owned())
 }
 
-/// What stands before a declaration on its line, where that is only white space.
+/// Returns the text before a declaration on its line, if it is only white space.
 fn indent_of(text: &str, declaration: Span) -> Option<&str> {
     let before = text.get(..declaration.start as usize)?;
     let indent = before.get(before.rfind('\n')? + 1..)?;
     indent.trim().is_empty().then_some(indent)
 }
 
-/// The end of a declaration, or of the comment behind it.
+/// Returns the end of a declaration, including a trailing comment.
 fn end_of_line(text: &str, declaration: Span) -> Option<u32> {
     let behind = text.get(declaration.end as usize..)?;
     let rest = behind.find(['\n', '\r']).unwrap_or(behind.len());
@@ -237,14 +246,14 @@ fn end_of_line(text: &str, declaration: Span) -> Option<u32> {
     Some(declaration.end + if is_comment { rest as u32 } else { 0 })
 }
 
-/// Drivers for the joint at a place, each for one of its copies, where the proof says that they would take what is left free.
-fn drive_joint(snapshot: &Snapshot, place: &Place) -> Option<Vec<Action>> {
-    let parsed = snapshot.parsed(&place.path)?;
-    let holds = |start: u32, end: u32| start <= place.offset && place.offset <= end;
+/// Returns actions that drive the joint at a position, one per copy, if the proof suggests them.
+fn drive_joint(snapshot: &Snapshot, position: &FilePosition) -> Option<Vec<Action>> {
+    let parsed = snapshot.parsed(&position.path)?;
+    let holds = |start: u32, end: u32| start <= position.offset && position.offset <= end;
     let mechanism = parsed.tree().mechanisms.iter().find(|one| holds(one.span.start, one.span.end))?;
     let item = mechanism.items.iter().find(|item| holds(item.span.start, item.span.end))?;
     let ItemKind::Joint { name, .. } = &item.kind else { return None };
-    let text = text_of(snapshot, &place.path)?;
+    let text = text_of(snapshot, &position.path)?;
     let last = mechanism.items.iter().rfind(|item| matches!(item.kind, ItemKind::Joint { .. }))?;
     let end = if text.contains("\r\n") { "\r\n" } else { "\n" };
     let before = indent_of(&text, last.span).map_or(" ".to_owned(), |indent| format!("{end}{indent}"));
@@ -252,15 +261,15 @@ fn drive_joint(snapshot: &Snapshot, place: &Place) -> Option<Vec<Action>> {
     let at = end_of_line(&text, last.span)?;
     let action = |(driven, formula): (String, String)| {
         let copy = copy_of(&name.text, &driven)?;
-        let place = Stretch { path: Arc::clone(&place.path), start: at, end: at };
-        let changes = vec![Change { place, text: format!("{before}driver {driver}: {driven} = {formula}") }];
+        let location = FileRange { path: Arc::clone(&position.path), start: at, end: at };
+        let changes = vec![Change { location, text: format!("{before}driver {driver}: {driven} = {formula}") }];
         let title = format!("drive `{copy}`");
-        Some(Action { title, kind: ActionKind::Drive, is_preferred: false, mends: None, changes })
+        Some(Action { title, kind: ActionKind::Drive, is_preferred: false, fixes: None, changes })
     };
-    Some(free(snapshot, place)?.into_iter().filter_map(action).collect())
+    Some(free_quantities(snapshot, position)?.into_iter().filter_map(action).collect())
 }
 
-/// The joint that a quantity is about, if it is the one of a name, or a copy of it: `pin[1]` of `rotation(pin[1])`.
+/// Returns the joint of a driven quantity, if it is a given joint or a copy of it: `pin[1]` of `rotation(pin[1])`.
 fn copy_of<'d>(name: &str, driven: &'d str) -> Option<&'d str> {
     let joint = driven.split_once('(')?.1.strip_suffix(')')?;
     let numbers = joint.strip_prefix(name)?;
@@ -270,30 +279,30 @@ fn copy_of<'d>(name: &str, driven: &'d str) -> Option<&'d str> {
 #[cfg(test)]
 mod tests {
     use super::{Action, actions};
-    use crate::edits::{applied, text_of};
     use crate::testing::{FOUR_BAR, at_cursor};
+    use crate::trial_edits::{apply, text_of};
     use crate::{DiagnosticStage, Snapshot, diagnostics};
     use mechc_text::cancel::Cancel;
     use std::path::Path;
 
-    /// All that is offered at a cursor, each with the lines that it writes.
+    /// Lists the actions at a cursor, each with the lines that it writes.
     fn offered(text: &str) -> String {
-        let (snapshot, place) = at_cursor(text);
-        let range = place.offset..place.offset;
-        let found = actions(&snapshot, &place.path, &range).expect("a file");
-        let before = count(&snapshot, &place.path);
-        let told = |action: &Action| {
-            let after = applied(&snapshot, &action.changes).expect("it can be made");
-            assert!(count(&after, &place.path) <= before, "{} brings faults", action.title);
-            let [old, new] = [&snapshot, &after].map(|one| text_of(one, &place.path).expect("a text"));
+        let (snapshot, position) = at_cursor(text);
+        let range = position.offset..position.offset;
+        let found = actions(&snapshot, &position.path, &range).expect("a file");
+        let before = count(&snapshot, &position.path);
+        let describe = |action: &Action| {
+            let after = apply(&snapshot, &action.changes).expect("it can be made");
+            assert!(count(&after, &position.path) <= before, "{} adds a diagnostic", action.title);
+            let [old, new] = [&snapshot, &after].map(|one| text_of(one, &position.path).expect("a text"));
             let mark = if action.is_preferred { "!" } else { "" };
             let written = new.lines().filter(|line| !old.lines().any(|old| old == *line));
             format!("{:?}{mark} {}\n{}", action.kind, action.title, written.collect::<Vec<_>>().join("\n"))
         };
-        found.iter().map(told).collect::<Vec<_>>().join("\n")
+        found.iter().map(describe).collect::<Vec<_>>().join("\n")
     }
 
-    /// How many faults the first two stages find.
+    /// Counts the diagnostics of the first two stages.
     fn count(snapshot: &Snapshot, path: &Path) -> usize {
         let of = |stage| diagnostics(snapshot, path, stage, &Cancel::default).expect("a file").len();
         of(DiagnosticStage::Words) + of(DiagnosticStage::Proof)
@@ -305,7 +314,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_wrong_is_mended() {
+    fn diagnostics_are_fixed() {
         insta::assert_snapshot!(offered(&with("crank.B, c", "crnk$0.B, c")), @r"
         Fix was `crank` meant?
             joint pin:   revolute(crank.B, coupler.B)
@@ -378,7 +387,7 @@ mod tests {
     }
 
     #[test]
-    fn a_joint_is_driven_from_where_it_is_drawn() {
+    fn a_joint_is_driven_from_its_drawn_position() {
         let free = with("    driver motor: rotation(main) = 60 deg + 90 deg/s * t\n", "");
         insta::assert_snapshot!(offered(&free.replacen("joint main", "joint ma$0in", 1)), @r"
         Drive drive `main`
@@ -388,7 +397,7 @@ mod tests {
         Drive drive `pivot`
             driver motor: rotation(pivot) = 100 deg + 60 deg/s * t
         ");
-        // of a repeated joint each copy
+        // each copy of a repeated joint can be driven
         let chain = "\
 mechanism chain {
     ground { point O = (0, 0) }
@@ -405,7 +414,7 @@ mechanism chain {
         Drive drive `pin[0]`
             driver drive: rotation(pin[0]) = 60 deg/s * t
         ");
-        // all is driven already
+        // nothing is free
         assert_eq!(offered(&with("joint main", "joint ma$0in")), "");
     }
 }

@@ -1,4 +1,4 @@
-//! The files as an editor has them: its open texts, before those behind them.
+//! The files as an editor has them: open texts take precedence over the files on disk.
 
 use mechc_text::world::{Contents, World};
 use std::collections::BTreeMap;
@@ -6,22 +6,22 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// Open texts over a world.
+/// Open texts, with a world for all other files.
 #[derive(Clone)]
 pub struct Buffers {
-    /// By their identity.
+    /// The open texts, by the identity of their files.
     open: BTreeMap<Arc<Path>, Arc<str>>,
     behind: Arc<dyn World>,
 }
 
 impl Buffers {
-    /// Without any open text.
+    /// Creates buffers without an open text.
     #[must_use]
     pub fn new(behind: Arc<dyn World>) -> Buffers {
         Buffers { open: BTreeMap::new(), behind }
     }
 
-    /// Opens a text, or changes one that is open; `None` closes it.
+    /// Opens a text or changes an open one; `None` closes it.
     pub fn set(&mut self, path: &Arc<Path>, text: Option<Arc<str>>) {
         match text {
             Some(text) => drop(self.open.insert(Arc::clone(path), text)),
@@ -29,18 +29,18 @@ impl Buffers {
         }
     }
 
-    /// The text of a file, if it is open.
+    /// Returns the text of a file, if it is open.
     #[must_use]
     pub fn open(&self, path: &Path) -> Option<&Arc<str>> {
         self.open.get(path)
     }
 
-    /// The files that are open, by their identity.
+    /// Returns the open files, by identity.
     pub fn paths(&self) -> impl Iterator<Item = &Arc<Path>> {
         self.open.keys()
     }
 
-    /// The open text of a path, by whichever way it leads to the file.
+    /// Returns the open text of a path; the path may be any that leads to the file.
     fn text(&self, path: &Path) -> Option<&Arc<str>> {
         self.open.get(path).or_else(|| self.open.get(self.behind.identity(path).as_path()))
     }

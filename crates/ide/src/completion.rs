@@ -1,65 +1,66 @@
-//! What could be written at a place.
+//! Completion at a position.
 //!
-//! By the words before the cursor, for the text there is half-typed; what the names are tells the rest of the text, which is whole.
+//! The words before the cursor decide what fits, since the text there is unfinished; the names come from the checked rest of the text.
 
 mod cursor;
+mod expected;
 mod item;
 mod proposals;
 mod scope;
 mod units;
-mod wanted;
 
 pub use item::{CompletionItem, CompletionItemKind, Template};
-pub(super) use proposals::{free, free_name};
+pub(super) use proposals::{free_name, free_quantities};
 
-use super::place::Place;
-use super::snapshot::{Analysed, Snapshot};
+use super::lexical::matches_letters;
+use super::location::FilePosition;
+use super::snapshot::{CheckedFile, Snapshot};
 use super::workspace::is_mech;
-use super::written::holds_letters;
 use cursor::{Block, Call, Cursor};
+use expected::{Expected, expected};
 use mechc_pipeline::Checked;
 use mechc_syntax::ast::Mechanism;
 use mechc_text::vocabulary::{
-    FUNCTIONS, Group, JOINTS, KEYWORDS, Keyword, QUANTITIES, REDUCTIONS, ReductionWord, Role, Word, is_before_a_name,
+    FUNCTIONS, Group, JOINTS, KEYWORDS, Keyword, QUANTITIES, REDUCTIONS, ReductionWord, Role, Word, declares_name,
 };
 use mechc_text::world::{World, beside};
-use proposals::Whole;
-use scope::{Scope, Sieve};
+use proposals::OtherDeclarations;
+use scope::{NameFilter, Scope};
 use std::path::Path;
-use wanted::{Wanted, wanted};
 
-/// More items than these nobody reads.
-const MOST: usize = 200;
+/// The maximum number of items in a list.
+const MAX_ITEMS: usize = 200;
 
-/// What fits at a place.
+/// The completions at a position.
 #[derive(Clone, PartialEq, Debug, Default)]
 pub struct Completions {
-    /// The best first.
+    /// The items, best first.
     pub items: Vec<CompletionItem>,
-    /// There are more than anybody reads: of those that go with the letters typed the best are here.
+    /// True if items were left out: the list then holds the best of those that match the letters typed.
     pub is_incomplete: bool,
 }
 
-/// What fits at a place. In a comment nothing does, nor where a new name stands.
+/// Returns the completions at a position. There are none in a comment or where a new name is declared.
 #[must_use]
-pub fn completions(snapshot: &Snapshot, place: &Place) -> Option<Completions> {
-    let parsed = snapshot.parsed(&place.path)?;
+pub fn completions(snapshot: &Snapshot, position: &FilePosition) -> Option<Completions> {
+    let parsed = snapshot.parsed(&position.path)?;
     let text = &parsed.sources().get(parsed.file()).text;
-    let Some(cursor) = Cursor::at(text, place.offset as usize) else { return Some(Completions::default()) };
-    let analysed = snapshot.checked(&place.path)?;
-    let checked = around(&analysed, place.offset);
-    let letters = text.get(cursor.word.start..place.offset as usize).unwrap_or_default();
-    let sieve = Sieve::of(checked.and_then(Checked::tree), letters);
-    let here = Here { snapshot, place, checked, cursor, sieve };
-    let mut items = here.items();
+    let Some(cursor) = Cursor::new(text, position.offset as usize) else { return Some(Completions::default()) };
+    let file = snapshot.checked(&position.path)?;
+    let checked = mechanism_before(&file, position.offset);
+    let letters = text.get(cursor.word.start..position.offset as usize).unwrap_or_default();
+    let filter = NameFilter::new(checked.and_then(Checked::tree), letters);
+    let context = CompletionContext { snapshot, position, checked, cursor, filter };
+    let mut items = context.items();
     items.sort_by_key(|item| item.rank);
-    let is_incomplete = here.sieve.is_needed() || items.len() > MOST;
+    let is_incomplete = context.filter.is_needed() || items.len() > MAX_ITEMS;
     if is_incomplete {
-        items.retain(|item| holds_letters(&item.label, letters));
-        items.truncate(MOST);
+        items.retain(|item| matches_letters(&item.label, letters));
+        items.truncate(MAX_ITEMS);
     }
-    let replaces = here.cursor.word.start as u32..here.cursor.word.end as u32;
-    let is_behind_comma = here.cursor.text[..here.cursor.word.start].ends_with(',') && !here.cursor.is_in_string;
+    let replaces = context.cursor.word.start as u32..context.cursor.word.end as u32;
+    let is_behind_comma =
+        context.cursor.text[..context.cursor.word.start].ends_with(',') && !context.cursor.is_in_string;
     for item in &mut items {
         item.replaces = replaces.clone();
         if is_behind_comma {
@@ -69,32 +70,32 @@ pub fn completions(snapshot: &Snapshot, place: &Place) -> Option<Completions> {
     Some(Completions { items, is_incomplete })
 }
 
-/// The mechanism that a place is in, be its end not written yet.
-fn around(analysed: &Analysed, offset: u32) -> Option<&Checked> {
+/// Returns the mechanism at an offset; its end need not be written yet.
+fn mechanism_before(file: &CheckedFile, offset: u32) -> Option<&Checked> {
     let begins = |checked: &&Checked| checked.span().is_some_and(|span| span.start <= offset);
-    analysed.mechanisms.iter().rfind(begins)
+    file.mechanisms.iter().rfind(begins)
 }
 
-/// A place with what is known there.
-struct Here<'s> {
+/// The cursor with the snapshot and the mechanism around it.
+struct CompletionContext<'s> {
     snapshot: &'s Snapshot,
-    place: &'s Place,
+    position: &'s FilePosition,
     checked: Option<&'s Checked>,
     cursor: Cursor<'s>,
-    sieve: Sieve<'s>,
+    filter: NameFilter<'s>,
 }
 
-impl Here<'_> {
+impl CompletionContext<'_> {
     fn items(&self) -> Vec<CompletionItem> {
         let cursor = &self.cursor;
         if cursor.is_in_string {
             return self.files();
         }
         if let Some(path) = cursor.path() {
-            return self.inside(&path);
+            return self.members(&path);
         }
-        if let Some(begun) = cursor.unit() {
-            return units::going_on(&begun);
+        if let Some(partial) = cursor.unit() {
+            return units::continuations(&partial);
         }
         let is_open = cursor.call().is_some();
         if cursor.may_begin() || cursor.is_first_on_line() && cursor.block == Block::File {
@@ -103,17 +104,17 @@ impl Here<'_> {
             return items;
         }
         if cursor.is_behind_number() && !cursor.has("columns") {
-            let mut items = units::behind_number(self.snapshot, self.place, cursor);
+            let mut items = units::after_number(self.snapshot, self.position, cursor);
             items.extend(if is_open { self.joining_in_window() } else { self.joining() });
             return items;
         }
         if cursor.is_behind_operand() && !is_open && cursor.declaration().len() > 1 {
             return self.joining();
         }
-        self.of_declaration()
+        self.in_declaration()
     }
 
-    /// Whole declarations, those first that the mechanism lacks.
+    /// Proposes whole declarations, first those that the mechanism lacks.
     fn declarations(&self) -> Vec<CompletionItem> {
         let block = self.cursor.block;
         let fits = |keyword: &&Keyword| match (block, keyword.role) {
@@ -124,14 +125,14 @@ impl Here<'_> {
         };
         let mut items: Vec<CompletionItem> = KEYWORDS.iter().filter(fits).map(declaration).collect();
         if block == Block::Mechanism
-            && let Some((whole, tree)) = self.whole().zip(self.tree())
+            && let Some((others, tree)) = self.other_declarations().zip(self.tree())
         {
-            items.extend(proposals::declarations(&whole, tree));
+            items.extend(proposals::declarations(&others, tree));
         }
         items
     }
 
-    /// What joins the parts of the declaration, where an operand has ended.
+    /// Proposes the keywords that may follow an operand in the declaration.
     fn joining(&self) -> Vec<CompletionItem> {
         let cursor = &self.cursor;
         let words: &[&str] = match cursor.head() {
@@ -157,21 +158,19 @@ impl Here<'_> {
         words.iter().filter(is_new).filter_map(|word| Some(joining(Keyword::named(word)?))).collect()
     }
 
-    /// What an unfinished declaration asks for.
-    fn of_declaration(&self) -> Vec<CompletionItem> {
+    /// Proposes what may continue an unfinished declaration.
+    fn in_declaration(&self) -> Vec<CompletionItem> {
         let cursor = &self.cursor;
         let is_behind_colon = cursor.last() == Some(":");
         match (cursor.head(), cursor.last()) {
-            // a new name
-            (head, Some(last)) if head == last && cursor.declaration().len() == 1 && is_before_a_name(head) => {
-                Vec::new()
-            }
+            // a new name is declared here
+            (head, Some(last)) if head == last && cursor.declaration().len() == 1 && declares_name(head) => Vec::new(),
             ("analysis", Some("analysis")) => self.joining(),
             ("measure" | "trace" | "result", Some("in")) => units::printed(),
             ("joint", _) if is_behind_colon => self.joints(),
             ("driver", _) if is_behind_colon => {
-                let mut items = self.whole().map(|whole| proposals::drivers(&whole)).unwrap_or_default();
-                items.extend(self.formula(&[Wanted::Number(None)]));
+                let mut items = self.other_declarations().map(|others| proposals::drivers(&others)).unwrap_or_default();
+                items.extend(self.formula(&[Expected::Number(None)]));
                 items
             }
             ("part", _) if is_behind_colon => self.mechanisms(None),
@@ -181,14 +180,14 @@ impl Here<'_> {
             }
             ("table", Some("spline")) | ("part", Some("at")) => Vec::new(),
             _ => {
-                let mut items = self.formula(&wanted(cursor));
+                let mut items = self.formula(&expected(cursor));
                 items.extend(self.joining_in_window());
                 items
             }
         }
     }
 
-    /// What begins the window of a reduction, or goes on with it.
+    /// Proposes the keywords of the window of a reduction.
     fn joining_in_window(&self) -> Vec<CompletionItem> {
         let cursor = &self.cursor;
         let takes_window = |call: &Call<'_>| ReductionWord::named(call.name).is_some_and(|word| !word.takes_time());
@@ -207,21 +206,21 @@ impl Here<'_> {
         self.checked?.tree()
     }
 
-    fn whole(&self) -> Option<Whole> {
-        Whole::of(self.snapshot, self.place, &self.cursor)
+    fn other_declarations(&self) -> Option<OtherDeclarations> {
+        OtherDeclarations::new(self.snapshot, self.position, &self.cursor)
     }
 
     fn scope(&self) -> Option<Scope<'_>> {
         let declared_at = self.cursor.start() as u32;
-        Some(Scope { checked: self.checked?, tree: self.tree()?, declared_at, sieve: &self.sieve })
+        Some(Scope { checked: self.checked?, tree: self.tree()?, declared_at, filter: &self.filter })
     }
 
-    /// Kinds of joints, and joints between points that lie on each other.
+    /// Proposes kinds of joints, and joints between coincident points.
     fn joints(&self) -> Vec<CompletionItem> {
-        let mut items = self.whole().map(|whole| proposals::joints(&whole)).unwrap_or_default();
+        let mut items = self.other_declarations().map(|others| proposals::joints(&others)).unwrap_or_default();
         items.extend(JOINTS.iter().map(|joint| {
             let item = CompletionItem::word(&joint.word, 1);
-            // what they join is asked for when they are there
+            // the arguments are proposed one by one after the parenthesis
             let plural = if joint.equations == 1 { "" } else { "s" };
             let detail = format!("{} · {} equation{plural}", joint.takes, joint.equations);
             item.detail(detail)
@@ -229,7 +228,7 @@ impl Here<'_> {
         items
     }
 
-    /// The name of the mechanism of a part, where the cursor is among what is bound of it.
+    /// Returns the mechanism of a part as prefix and name, if the cursor is among its bindings.
     fn part_call(&self) -> Option<(Option<&str>, &str)> {
         let tokens = self.cursor.declaration();
         let colon = tokens.iter().position(|token| token.text == ":")?;
@@ -242,7 +241,7 @@ impl Here<'_> {
         .filter(|(_, name)| self.cursor.call().is_some_and(|call| call.name == *name))
     }
 
-    /// What can be bound of the part.
+    /// Proposes the names of the part that can be bound.
     fn bindings(&self) -> Vec<CompletionItem> {
         let (Some(scope), Some((prefix, name))) = (self.scope(), self.part_call()) else { return Vec::new() };
         let taken = self.cursor.call().map(|call| self.cursor.arguments(call)).unwrap_or_default();
@@ -256,31 +255,31 @@ impl Here<'_> {
         self.checked.map(|checked| scope::mechanisms(checked, prefix)).unwrap_or_default()
     }
 
-    /// What stands behind the dot of a path.
-    fn inside(&self, path: &[&str]) -> Vec<CompletionItem> {
+    /// Proposes the members after the dot of a path.
+    fn members(&self, path: &[&str]) -> Vec<CompletionItem> {
         let cursor = &self.cursor;
         if cursor.head() == "part" && cursor.call().is_none() && !cursor.has("on") {
             return self.mechanisms(path.first().copied());
         }
         let Some(scope) = self.scope() else { return Vec::new() };
-        let wanted = wanted(cursor);
-        let fitting = scope.inside(path, &wanted);
-        // a number can begin with a point, as its x
-        if fitting.is_empty() || wanted.iter().any(|wanted| matches!(wanted, Wanted::Number(_))) {
-            return scope.inside(path, &[]);
+        let expected = expected(cursor);
+        let fitting = scope.members(path, &expected);
+        // a number may be a coordinate of a point
+        if fitting.is_empty() || expected.iter().any(|kind| matches!(kind, Expected::Number(_))) {
+            return scope.members(path, &[]);
         }
         fitting
     }
 
-    /// What a formula can go on with.
-    fn formula(&self, wanted: &[Wanted]) -> Vec<CompletionItem> {
+    /// Proposes what may continue a formula.
+    fn formula(&self, expected: &[Expected]) -> Vec<CompletionItem> {
         let Some(scope) = self.scope() else { return Vec::new() };
         let cursor = &self.cursor;
         let mut items = Vec::new();
         let other = cursor.call().map(|call| cursor.arguments(call)).unwrap_or_default();
-        for wanted in wanted {
-            items.extend(scope.fitting(*wanted, cursor));
-            if *wanted == Wanted::Side {
+        for kind in expected {
+            items.extend(scope.fitting(*kind, cursor));
+            if *kind == Expected::Side {
                 items.extend(
                     ["left", "right"]
                         .iter()
@@ -288,55 +287,54 @@ impl Here<'_> {
                 );
             }
         }
-        // on one body nothing is joined
+        // a joint connects two different bodies
         if cursor.head() == "joint"
             && let Some((body, _)) = other.first().and_then(|first| first.rsplit_once('.'))
         {
-            let is_of_it = |item: &CompletionItem| item.label.rsplit_once('.').is_some_and(|(own, _)| own == body);
+            let is_of_it = |item: &CompletionItem| item.label.rsplit_once('.').is_some_and(|(owner, _)| owner == body);
             items.retain(|item| !is_of_it(item));
-            self.prefer_touching(other.first().copied().unwrap_or_default(), &mut items);
+            self.prefer_coincident(other.first().copied().unwrap_or_default(), &mut items);
         }
-        let is_number = wanted.iter().any(|wanted| match wanted {
-            Wanted::Number(_) => true,
-            // points of drawings are calculated with
-            Wanted::Point => is_drawn(cursor.head()),
+        let is_number = expected.iter().any(|kind| match kind {
+            Expected::Number(_) => true,
+            // a point may be a formula of points in a declaration that is drawn
+            Expected::Point => is_drawn(cursor.head()),
             _ => false,
         });
         if is_number && cursor.head() != "joint" {
-            items.extend(called(cursor.head()).map(|word| CompletionItem::word(word, 4)));
+            items.extend(callable_words(cursor.head()).map(|word| CompletionItem::word(word, 4)));
             items.extend(Keyword::named("if").map(declaration));
         }
-        let mut seen = std::collections::BTreeSet::new();
-        items.retain(|item| seen.insert((item.label.clone(), item.kind as u8)));
+        let mut unique = std::collections::BTreeSet::new();
+        items.retain(|item| unique.insert((item.label.clone(), item.kind as u8)));
         items
     }
 
-    /// Puts the points first that lie on another one.
-    fn prefer_touching(&self, point: &str, items: &mut [CompletionItem]) {
-        let touching = self.whole().map(|whole| whole.touching()).unwrap_or_default();
+    /// Ranks the points first that coincide with a given one.
+    fn prefer_coincident(&self, point: &str, items: &mut [CompletionItem]) {
+        let pairs = self.other_declarations().map(|others| others.coincident_points()).unwrap_or_default();
         for item in items {
-            let lies_there =
-                touching.iter().any(|pair| pair.contains(&item.label) && pair.iter().any(|one| one == point));
-            if lies_there {
+            let coincides = pairs.iter().any(|pair| pair.contains(&item.label) && pair.iter().any(|one| one == point));
+            if coincides {
                 item.rank = 0;
                 item.detail = format!("lies on `{point}`");
             }
         }
     }
 
-    /// The files beside the text that can stand in a string.
+    /// Proposes the files in the folder of the text that a string may name.
     fn files(&self) -> Vec<CompletionItem> {
         let cursor = &self.cursor;
         let fits = |name: &str| match cursor.head() {
-            "use" => is_mech(name) && Path::new(name).file_name() != self.place.path.file_name(),
+            "use" => is_mech(name) && Path::new(name).file_name() != self.position.path.file_name(),
             _ => Path::new(name).extension().is_some_and(|ending| ending.eq_ignore_ascii_case("csv")),
         };
         if !matches!(cursor.head(), "use" | "table") {
             return Vec::new();
         }
-        let typed = &cursor.text[cursor.word.start..self.place.offset as usize];
+        let typed = &cursor.text[cursor.word.start..self.position.offset as usize];
         let within = typed.rfind('/').map_or("", |end| &typed[..=end]);
-        let folder = beside(&self.place.path.to_string_lossy(), within);
+        let folder = beside(&self.position.path.to_string_lossy(), within);
         let world = self.snapshot.buffers();
         let files = world.names_in(&folder).into_iter().filter(|name| fits(name));
         let mut items: Vec<CompletionItem> =
@@ -348,13 +346,13 @@ impl Here<'_> {
     }
 }
 
-/// Whether formulas of points may stand in a declaration.
+/// Returns whether a declaration may contain formulas of points.
 fn is_drawn(head: &str) -> bool {
     matches!(head, "param" | "point" | "axis" | "circle" | "curve" | "body")
 }
 
-/// The words that a formula of a declaration may call.
-fn called(head: &str) -> impl Iterator<Item = &'static Word> {
+/// Returns the words that a formula of a declaration may call.
+fn callable_words(head: &str) -> impl Iterator<Item = &'static Word> {
     let has_quantities = matches!(head, "measure" | "trace" | "result" | "driver" | "constraint" | "load" | "part");
     let has_forces = matches!(head, "measure" | "result");
     let has_reductions = head == "result";
@@ -362,21 +360,21 @@ fn called(head: &str) -> impl Iterator<Item = &'static Word> {
     let quantities = QUANTITIES.iter().filter(move |quantity| has_quantities && (has_forces || !quantity.is_force));
     let quantities = quantities.map(|quantity| &quantity.word);
     let reductions = REDUCTIONS.iter().filter(move |_| has_reductions).map(|reduction| &reduction.word);
-    let is_there = move |function: &&mechc_text::vocabulary::Function| match function.group {
+    let is_available = move |function: &&mechc_text::vocabulary::Function| match function.group {
         Group::Points => is_drawn,
         Group::Derivative => !is_drawn,
         _ => true,
     };
-    reductions.chain(quantities).chain(FUNCTIONS.iter().filter(is_there).map(|function| &function.word))
+    reductions.chain(quantities).chain(FUNCTIONS.iter().filter(is_available).map(|function| &function.word))
 }
 
-/// A whole declaration by its keyword.
+/// Returns an item that inserts a whole declaration.
 fn declaration(keyword: &'static Keyword) -> CompletionItem {
     let form = keyword.word.forms.first().copied().unwrap_or(keyword.word.name);
-    CompletionItem::word(&keyword.word, 2).inserts(Template::of_form(form))
+    CompletionItem::word(&keyword.word, 2).inserts(Template::from_form(form))
 }
 
-/// A word that joins two parts of a declaration.
+/// Returns an item for a keyword within a declaration.
 fn joining(keyword: &'static Keyword) -> CompletionItem {
     CompletionItem::word(&keyword.word, 1).inserts(Template::plain(format!("{} ", keyword.word.name)))
 }

@@ -1,55 +1,59 @@
-//! The style of a text: what to change for it.
+//! Formatting of a file, as a list of changes.
 
-use super::place::{Change, Stretch};
+use super::location::{Change, FileRange};
 use super::snapshot::Snapshot;
 use mechc_text::source::Span;
 use std::ops::Range;
 use std::path::Path;
 
-/// What of a file is formatted.
+/// The part of a file to format.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub enum Formatted {
-    /// All of it.
+pub enum FormatScope {
+    /// The whole file.
     Whole,
-    /// The lines that have a part in a stretch.
-    In(Range<u32>),
-    /// The block that a brace closes which ends at a byte, as when it has just been typed.
+    /// The lines that touch a range.
+    Lines(Range<u32>),
+    /// The block whose closing brace ends at a byte, as when it has just been typed.
     AtBrace(u32),
 }
 
-/// What to change so that a file is formatted: the least that does it. What does not follow the grammar stays as it is.
+/// Returns the minimal changes that format a file. Text that does not follow the grammar stays as it is.
 #[must_use]
-pub fn formatting(snapshot: &Snapshot, path: &Path, what: &Formatted) -> Option<Vec<Change>> {
+pub fn formatting(snapshot: &Snapshot, path: &Path, scope: &FormatScope) -> Option<Vec<Change>> {
     let parsed = snapshot.parsed(path)?;
-    let edits = match what {
-        Formatted::Whole => parsed.formatting(),
-        Formatted::In(range) => parsed.formatting_in(Span { file: parsed.file(), start: range.start, end: range.end }),
-        Formatted::AtBrace(end) => parsed.formatting_at_brace(*end),
+    let edits = match scope {
+        FormatScope::Whole => parsed.formatting(),
+        FormatScope::Lines(range) => {
+            parsed.formatting_in(Span { file: parsed.file(), start: range.start, end: range.end })
+        }
+        FormatScope::AtBrace(end) => parsed.formatting_at_brace(*end),
     };
-    let change =
-        |edit: mechc_text::diag::Edit| Change { place: Stretch::of(edit.span, parsed.sources()), text: edit.text };
+    let change = |edit: mechc_text::diag::Edit| Change {
+        location: FileRange::from_span(edit.span, parsed.sources()),
+        text: edit.text,
+    };
     Some(edits.into_iter().map(change).collect())
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{Formatted, formatting};
-    use crate::edits::{applied, text_of};
+    use super::{FormatScope, formatting};
     use crate::testing::at_cursor;
+    use crate::trial_edits::{apply, text_of};
 
     const TEXT: &str =
         "mechanism m {\nparam  a = 3 mm\n  param bcd=4 mm\n    body b {\npoint P=(a,0)\n}$0\n joint k revolute(\n}\n";
 
-    fn formatted(what: impl Fn(u32) -> Formatted) -> String {
-        let (snapshot, place) = at_cursor(TEXT);
-        let changes = formatting(&snapshot, &place.path, &what(place.offset)).expect("a file");
-        let after = applied(&snapshot, &changes).expect("it can be made");
-        text_of(&after, &place.path).expect("a text")
+    fn formatted(scope: impl Fn(u32) -> FormatScope) -> String {
+        let (snapshot, position) = at_cursor(TEXT);
+        let changes = formatting(&snapshot, &position.path, &scope(position.offset)).expect("a file");
+        let after = apply(&snapshot, &changes).expect("it can be made");
+        text_of(&after, &position.path).expect("a text")
     }
 
     #[test]
-    fn what_is_whole_is_formatted() {
-        insta::assert_snapshot!(formatted(|_| Formatted::Whole), @r"
+    fn sound_text_is_formatted() {
+        insta::assert_snapshot!(formatted(|_| FormatScope::Whole), @r"
         mechanism m {
             param a   = 3 mm
             param bcd = 4 mm
@@ -59,7 +63,7 @@ mod tests {
          joint k revolute(
         }
         ");
-        insta::assert_snapshot!(formatted(|_| Formatted::In(20..30)), @r"
+        insta::assert_snapshot!(formatted(|_| FormatScope::Lines(20..30)), @r"
         mechanism m {
             param a   = 3 mm
           param bcd=4 mm
@@ -69,7 +73,7 @@ mod tests {
          joint k revolute(
         }
         ");
-        insta::assert_snapshot!(formatted(Formatted::AtBrace), @r"
+        insta::assert_snapshot!(formatted(FormatScope::AtBrace), @r"
         mechanism m {
         param  a = 3 mm
           param bcd=4 mm

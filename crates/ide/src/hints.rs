@@ -1,26 +1,26 @@
-//! What stands between the words of a text without being written there: how many coordinates and equations declarations bring, and values.
+//! Inlay hints: the coordinates and equations that declarations add, and the values of formulas.
 
 use super::numbers::{degrees, in_unit, short, si_unit, signed, with_unit};
 use super::snapshot::Snapshot;
-use mechc_lang::check::{Amount, Count, Index, KnownValue};
+use mechc_lang::check::{Amount, ConstantValue, DeclarationCount, Index};
 use mechc_pipeline::Checked;
 use mechc_text::vocabulary::Dimension;
 use std::ops::Range;
 use std::path::Path;
 
-/// What is shown at a place.
+/// An inlay hint.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Hint {
-    /// Behind which byte of the file.
+    /// The offset in the file after which it is shown.
     pub offset: u32,
-    /// What is shown.
+    /// The text of the hint.
     pub label: String,
-    /// What that means.
+    /// The explanation of the label.
     pub meaning: String,
 }
 
-/// The hints of a stretch of a file, in order. They are made of what each declaration says by itself: what a mistake elsewhere leaves open
-/// is not shown.
+/// Returns the hints of a range of a file, in order. Each depends on its declaration alone; a value that an error elsewhere leaves open
+/// has no hint.
 #[must_use]
 pub fn hints(snapshot: &Snapshot, path: &Path, range: &Range<u32>) -> Option<Vec<Hint>> {
     let checked = snapshot.checked(path)?;
@@ -31,13 +31,13 @@ pub fn hints(snapshot: &Snapshot, path: &Path, range: &Range<u32>) -> Option<Vec
 }
 
 fn of_mechanism(checked: &Checked) -> Vec<Hint> {
-    let known = checked.known();
+    let info = checked.declaration_info();
     let name = checked.symbols().iter().next().map(|(_, mechanism)| mechanism.span.end);
     let mut hints: Vec<Hint> =
-        known.freedom.zip(name).map(|(freedom, end)| of_freedom(freedom, end)).into_iter().collect();
-    hints.extend(known.counts.iter().map(of_count));
-    hints.extend(known.indices.iter().map(of_index));
-    hints.extend(known.values.iter().filter_map(of_value));
+        info.freedom.zip(name).map(|(freedom, end)| of_freedom(freedom, end)).into_iter().collect();
+    hints.extend(info.counts.iter().map(of_count));
+    hints.extend(info.indices.iter().map(of_index));
+    hints.extend(info.values.iter().filter_map(of_value));
     hints
 }
 
@@ -51,10 +51,10 @@ fn of_freedom(freedom: i64, offset: u32) -> Hint {
     Hint { offset, label: format!("NDOF = {number}"), meaning }
 }
 
-fn of_count(count: &Count) -> Hint {
-    let Count { freedom, copies, .. } = *count;
+fn of_count(count: &DeclarationCount) -> Hint {
+    let DeclarationCount { freedom, copies, .. } = *count;
     let label = match copies {
-        // copies that bring different numbers are parts
+        // copies of a part may differ in their numbers, and then only the total is shown
         Some(copies) if copies > 0 && freedom % copies.cast_signed() as i64 == 0 => {
             format!("{} × {copies}", signed(freedom / copies.cast_signed() as i64))
         }
@@ -79,8 +79,8 @@ fn of_index(index: &Index) -> Hint {
     Hint { offset: range.end, label: format!("{name} = {numbers}"), meaning: "the numbers of the copies".to_owned() }
 }
 
-/// What a formula comes to; nothing where that is what is written.
-fn of_value(value: &KnownValue) -> Option<Hint> {
+/// Returns a hint with the value of a formula; `None` if the formula is that value.
+fn of_value(value: &ConstantValue) -> Option<Hint> {
     let label = match &value.amount {
         Amount::Point(_) if value.is_number => return None,
         Amount::Point([x, y]) => format!("= ({}, {}) m", short(*x), short(*y)),
@@ -89,12 +89,12 @@ fn of_value(value: &KnownValue) -> Option<Hint> {
             let in_si = with_unit(*si, &si_unit(*dimension, *is_angle));
             let written = unit.as_ref().and_then(|unit| in_unit(*si, unit));
             let is_in_degrees = unit.as_ref().is_some_and(|unit| unit.per_second(0) == "deg");
-            let turned = (*is_angle && dimension.is(Dimension::PURE) && !is_in_degrees).then(|| degrees(*si));
+            let in_degrees = (*is_angle && dimension.is(Dimension::PURE) && !is_in_degrees).then(|| degrees(*si));
             let mut forms: Vec<String> = Vec::new();
-            // a number is in the unit written, be it one of SI or none
+            // a number already shows its value in the written unit
             forms.extend((!value.is_number || written.is_some()).then_some(in_si));
             forms.extend(written.filter(|_| !value.is_number));
-            forms.extend(turned);
+            forms.extend(in_degrees);
             forms.dedup();
             forms.first()?;
             format!("= {}", forms.join(" = "))
@@ -108,11 +108,11 @@ mod tests {
     use super::hints;
     use crate::testing::{FOUR_BAR, at_cursor};
 
-    /// The lines that hints stand in, with these in brackets.
+    /// Returns the lines with hints, each hint in brackets.
     fn shown(text: &str) -> String {
-        let (snapshot, place) = at_cursor(&format!("{text}$0"));
-        let found = hints(&snapshot, &place.path, &(0..u32::MAX)).expect("hints");
-        let parsed = snapshot.parsed(&place.path).expect("a file");
+        let (snapshot, position) = at_cursor(&format!("{text}$0"));
+        let found = hints(&snapshot, &position.path, &(0..u32::MAX)).expect("hints");
+        let parsed = snapshot.parsed(&position.path).expect("a file");
         let mut text = parsed.sources().get(parsed.file()).text.clone();
         for hint in found.iter().rev() {
             text.insert_str(hint.offset as usize, &format!("⟨{}⟩", hint.label));
@@ -121,7 +121,7 @@ mod tests {
     }
 
     #[test]
-    fn declarations_show_what_they_bring() {
+    fn declarations_show_their_counts() {
         insta::assert_snapshot!(shown(FOUR_BAR), @r"
         mechanism four_bar⟨NDOF = 0⟩ {
         param crank_length = 30 mm⟨= 0.03 m⟩
@@ -148,12 +148,12 @@ mod tests {
         assert_eq!(of("60 deg + 90", "60 deg + nothing + 90"), "mechanism four_bar⟨NDOF = 0⟩ {");
         assert_eq!(of("    analysis", "    measure half = 2 *\n\n    analysis"), "mechanism four_bar⟨NDOF = 0⟩ {");
         assert_eq!(of("= 30 mm", "= 30 mm +"), "mechanism four_bar⟨NDOF = 0⟩ {");
-        // it may be a joint of any kind
+        // without a kind the joint's equations cannot be counted
         assert_eq!(of("joint pin:   revolute(", "joint pin:   ("), "nothing");
         assert_eq!(of("revolute(crank.B", "pinned(crank.B"), "nothing");
         let twice = "joint pivot: revolute(ground.D, rocker.D)";
-        let again = format!("{twice}\n joint again: revolute(ground.D, rocker.D)");
-        assert_eq!(of(twice, &again), "mechanism four_bar⟨NDOF = −2⟩ {");
+        let both = format!("{twice}\n joint again: revolute(ground.D, rocker.D)");
+        assert_eq!(of(twice, &both), "mechanism four_bar⟨NDOF = −2⟩ {");
     }
 
     #[test]
@@ -196,7 +196,7 @@ mechanism m {
     }
 
     #[test]
-    fn what_is_repeated_and_parts_are_counted_in_all() {
+    fn copies_and_parts_are_counted_in_total() {
         insta::assert_snapshot!(shown("\
 mechanism leg {
     param n = 3
@@ -238,10 +238,10 @@ mechanism walker {
     }
 
     #[test]
-    fn only_what_is_asked_for_is_shown() {
-        let (snapshot, place) = at_cursor(&format!("{FOUR_BAR}$0"));
+    fn only_hints_in_the_range_are_returned() {
+        let (snapshot, position) = at_cursor(&format!("{FOUR_BAR}$0"));
         let start = FOUR_BAR.find("joint pin").expect("a joint") as u32;
-        let found = hints(&snapshot, &place.path, &(start..start + 45)).expect("hints");
+        let found = hints(&snapshot, &position.path, &(start..start + 45)).expect("hints");
         assert_eq!(found.iter().map(|hint| hint.label.as_str()).collect::<Vec<_>>(), ["−2"]);
     }
 }

@@ -1,101 +1,109 @@
-//! What a name or word is, where the pointer rests on it.
+//! Hover text of names, words and codes.
 
-use super::facts::{Subject, facts};
-use super::place::{Place, Stretch};
-use super::snapshot::{Analysed, Snapshot};
-use super::words::told;
-use super::written::{is_in_comment, path_at, word_at};
+use super::declaration_info::{Subject, declaration_info};
+use super::lexical::{is_in_comment, path_at, word_at};
+use super::location::{FilePosition, FileRange};
+use super::snapshot::{CheckedFile, Snapshot};
+use super::word_docs::word_docs;
 use mechc_lang::check::{DeclaredName, Meaning, NameKind};
 use mechc_pipeline::{Checked, Declaration, Interface};
 use mechc_text::diag::Code;
 use mechc_text::vocabulary::{Category, words};
 use std::ops::Range;
 
-/// What is to be shown of a place.
+/// The hover text of a word.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Hover {
-    /// What is spoken of.
-    pub place: Stretch,
-    /// Markdown.
+    /// The range of the word.
+    pub location: FileRange,
+    /// The text, in Markdown.
     pub text: String,
 }
 
-/// What stands at a place.
+/// Returns the hover text at a position.
 #[must_use]
-pub fn hover(snapshot: &Snapshot, place: &Place) -> Option<Hover> {
-    let analysed = snapshot.checked(&place.path)?;
-    let parsed = snapshot.parsed(&place.path)?;
+pub fn hover(snapshot: &Snapshot, position: &FilePosition) -> Option<Hover> {
+    let file = snapshot.checked(&position.path)?;
+    let parsed = snapshot.parsed(&position.path)?;
     let text = &parsed.sources().get(parsed.file()).text;
-    let word = word_at(text, place.offset as usize)?;
-    let told = of_code(&text[word.clone()]).or_else(|| {
-        let at = At { snapshot, place, text, word: &word };
-        if is_in_comment(text, word.start) { None } else { at.meant(&analysed) }
+    let word = word_at(text, position.offset as usize)?;
+    let text_of_word = of_code(&text[word.clone()]).or_else(|| {
+        let hovered = HoveredWord { snapshot, position, text, word: &word };
+        if is_in_comment(text, word.start) { None } else { hovered.describe(&file) }
     })?;
-    let place = Stretch { path: place.path.clone(), start: word.start as u32, end: word.end as u32 };
-    Some(Hover { place, text: told })
+    let location = FileRange { path: position.path.clone(), start: word.start as u32, end: word.end as u32 };
+    Some(Hover { location, text: text_of_word })
 }
 
-/// The page of a diagnostic's code, which may stand in a comment.
+/// Returns the page of a diagnostic code, which may be in a comment.
 fn of_code(word: &str) -> Option<String> {
     Code::named(word).filter(|code| code.as_str() == word).map(|code| code.page().to_owned())
 }
 
-/// A word of a text.
-struct At<'a> {
+/// The word under the pointer.
+struct HoveredWord<'a> {
     snapshot: &'a Snapshot,
-    place: &'a Place,
+    position: &'a FilePosition,
     text: &'a str,
     word: &'a Range<usize>,
 }
 
-impl At<'_> {
-    fn meant(&self, analysed: &Analysed) -> Option<String> {
-        let checked = analysed.mechanism_at(self.place.offset).or(analysed.mechanisms.first())?;
+impl HoveredWord<'_> {
+    fn describe(&self, file: &CheckedFile) -> Option<String> {
+        let checked = file.mechanism_at(self.position.offset).or(file.mechanisms.first())?;
         let symbols = checked.symbols();
         match symbols.at(checked.file(), self.word.start as u32).filter(|used| used.span.end as usize == self.word.end)
         {
             Some(used) => match used.meaning {
-                Meaning::Word(word) => Some(told(word)),
+                Meaning::Word(word) => Some(word_docs(word)),
                 Meaning::Declared(id) => Some(self.declared(checked, symbols.get(id))),
             },
             None => self.in_part(checked).or_else(|| self.mechanism(checked)).or_else(|| self.by_letters(checked)),
         }
     }
 
-    /// A name of the mechanism itself.
+    /// Describes a name that the mechanism declares.
     fn declared(&self, checked: &Checked, name: &DeclaredName) -> String {
         let symbols = checked.symbols();
         let owner = name.owner.map(|owner| symbols.get(owner)).filter(|_| name.kind != NameKind::Argument);
         let names: Vec<&str> = owner.map(|owner| owner.name.as_str()).into_iter().chain([name.name.as_str()]).collect();
         let written = self.written();
-        let is_written = without_numbers(&written) == names.join(".");
+        let is_written = without_indices(&written) == names.join(".");
         let path = if is_written { written } else { names.join(".") };
         let declaration = match name.kind {
             NameKind::Mechanism => checked.interface(None, &name.name).map(|interface| interface.docs),
-            _ => checked.declared(&names).map(|declaration| declaration.docs),
+            _ => checked.find_declaration(&names).map(|declaration| declaration.docs),
         };
         let code = head(checked.sources().text(name.declaration), name.kind);
         let mut parts =
             declaration.filter(|docs| !docs.is_empty()).map(|docs| docs.join("\n")).into_iter().collect::<Vec<_>>();
         parts.push(code);
         parts.extend(owner.map(|owner| format!("of `{}`", owner.name)));
-        parts.extend(facts(self.snapshot, &self.place.path, &Subject { kind: name.kind, path: &path, checked }));
+        parts.extend(declaration_info(
+            self.snapshot,
+            &self.position.path,
+            &Subject { kind: name.kind, path: &path, checked },
+        ));
         parts.join("\n\n")
     }
 
-    /// A name in a part: `front.crank.A`.
+    /// Describes a name in a part: `front.crank.A`.
     fn in_part(&self, checked: &Checked) -> Option<String> {
         let path = path_at(self.text, self.word);
         let names: Vec<&str> = path.iter().map(|(name, _)| name.as_str()).collect();
-        let Declaration { kind, span, docs } = checked.declared(&names).filter(|_| names.len() > 1)?;
+        let Declaration { kind, span, docs } = checked.find_declaration(&names).filter(|_| names.len() > 1)?;
         let mut parts: Vec<String> = (!docs.is_empty()).then(|| docs.join("\n")).into_iter().collect();
         parts.push(head(checked.sources().text(span), kind));
         parts.push(format!("of `{}`", names[..names.len() - 1].join(".")));
-        parts.extend(facts(self.snapshot, &self.place.path, &Subject { kind, path: &self.written(), checked }));
+        parts.extend(declaration_info(
+            self.snapshot,
+            &self.position.path,
+            &Subject { kind, path: &self.written(), checked },
+        ));
         Some(parts.join("\n\n"))
     }
 
-    /// The mechanism of a part.
+    /// Describes the mechanism of a part.
     fn mechanism(&self, checked: &Checked) -> Option<String> {
         let path = path_at(self.text, self.word);
         let interface = match path.as_slice() {
@@ -106,16 +114,16 @@ impl At<'_> {
         interface.map(|interface| of_interface(&interface))
     }
 
-    /// A word in what cannot be read: a name of the mechanism, or a word of the language.
+    /// Describes a word in text that cannot be parsed: a name of the mechanism, or a word of the language.
     fn by_letters(&self, checked: &Checked) -> Option<String> {
         let word = &self.text[self.word.clone()];
         let is_alone = path_at(self.text, self.word).len() == 1;
         let name = checked.symbols().iter().find(|(_, name)| name.name == word && name.owner.is_none() && is_alone);
-        let of_language = || words().find(|known| known.name == word && known.category != Category::Unit && is_alone);
-        name.map(|(_, name)| self.declared(checked, name)).or_else(|| of_language().map(told))
+        let of_language = || words().find(|other| other.name == word && other.category != Category::Unit && is_alone);
+        name.map(|(_, name)| self.declared(checked, name)).or_else(|| of_language().map(word_docs))
     }
 
-    /// The path as it is written, with those numbers that are numbers.
+    /// Returns the path as it is written, with the indices that are literal numbers.
     fn written(&self) -> String {
         let number = |numbers: &String| {
             let inside = numbers.trim_start_matches('[').trim_end_matches(']');
@@ -127,8 +135,8 @@ impl At<'_> {
     }
 }
 
-/// A path without the numbers of copies.
-fn without_numbers(path: &str) -> String {
+/// Returns a path without its indices.
+fn without_indices(path: &str) -> String {
     let mut depth = 0;
     let is_outside = |c: &char| {
         depth += i32::from(*c == '[');
@@ -139,7 +147,7 @@ fn without_numbers(path: &str) -> String {
     path.chars().filter(is_outside).collect()
 }
 
-/// A declaration as it is written; of what has a block its head is enough.
+/// Formats a declaration as it is written, without its block.
 fn head(text: &str, kind: NameKind) -> String {
     let has_block = matches!(kind, NameKind::Mechanism | NameKind::Ground | NameKind::Body);
     let head = if has_block { text.split('{').next().unwrap_or(text) } else { text };
@@ -160,15 +168,15 @@ mod tests {
     use super::hover;
     use crate::testing::{FOUR_BAR, at_cursor, shown};
 
-    fn told(text: &str) -> String {
-        let (snapshot, place) = at_cursor(text);
-        let hover = hover(&snapshot, &place);
-        hover.map_or("nothing".to_owned(), |hover| format!("{}\n\n{}", shown(&snapshot, &hover.place), hover.text))
+    fn hover_text(text: &str) -> String {
+        let (snapshot, position) = at_cursor(text);
+        let hover = hover(&snapshot, &position);
+        hover.map_or("nothing".to_owned(), |hover| format!("{}\n\n{}", shown(&snapshot, &hover.location), hover.text))
     }
 
     fn of(from: &str, to: &str) -> String {
         assert!(FOUR_BAR.contains(from), "{from}");
-        told(&FOUR_BAR.replacen(from, to, 1))
+        hover_text(&FOUR_BAR.replacen(from, to, 1))
     }
 
     #[test]
@@ -223,9 +231,9 @@ mod tests {
 
         At t = 0 s: `crank.B` = (0.015, 0.0259808) m, `coupler.B` = (0.015, 0.0259808) m
         ");
-        // not determined, and so without a place
+        // a mechanism that is not determined has no position
         let free = FOUR_BAR.replacen("    driver motor: rotation(main) = 60 deg + 90 deg/s * t\n", "", 1);
-        insta::assert_snapshot!(told(&free.replacen("joint knee", "joint kn$0ee", 1)), @r"
+        insta::assert_snapshot!(hover_text(&free.replacen("joint knee", "joint kn$0ee", 1)), @r"
         main.mech:23
             joint knee:  revolute(coupler.C, rocker.C)
                   ^^^^
@@ -262,7 +270,7 @@ mod tests {
 
     #[test]
     fn values_are_those_of_the_start() {
-        let with = |more: &str| told(&FOUR_BAR.replacen("    analysis", &format!("    {more}\n    analysis"), 1));
+        let with = |more: &str| hover_text(&FOUR_BAR.replacen("    analysis", &format!("    {more}\n    analysis"), 1));
         insta::assert_snapshot!(of("param crank", "param cra$0nk"), @r"
         main.mech:2
             param crank_length = 30 mm
@@ -337,7 +345,7 @@ mod tests {
     }
 
     #[test]
-    fn words_show_what_they_mean() {
+    fn words_show_their_documentation() {
         insta::assert_snapshot!(of("revolute", "revo$0lute"), @r"
         main.mech:21
             joint main:  revolute(ground.A, crank.A)
@@ -406,7 +414,7 @@ mod tests {
     }
 
     #[test]
-    fn names_in_parts_and_copies_are_known() {
+    fn names_in_parts_and_copies_are_described() {
         let text = "\
 /// Swings.
 mechanism lever {
@@ -424,7 +432,7 @@ mechanism two {
     measure b = x(back[1].arm.tip)
 }
 ";
-        let at = |from: &str, to: &str| told(&text.replacen(from, to, 1));
+        let at = |from: &str, to: &str| hover_text(&text.replacen(from, to, 1));
         insta::assert_snapshot!(at("front.arm.tip", "front.arm.ti$0p"), @r"
         main.mech:13
             measure a = x(front.arm.tip)
@@ -451,10 +459,10 @@ mechanism two {
 
         At t = 0 s: x = 0.2 m, y = 0 m, phi = 0.523599 rad = 30°
         ");
-        // what is bound of a param, and what it is where nothing is
+        // the bound value of a param, and its default
         assert!(at("x(back[1].arm.tip)", "x(back[1].arm.tip) + back[1].rea$0ch").ends_with("= 0.06 m, a length"));
         assert!(at("x(front.arm.tip)", "x(front.arm.tip) + front.rea$0ch").ends_with("= 0.08 m, a length"));
-        // the mechanism that is a part has a position by itself
+        // the mechanism of a part has a position by itself
         let tip = at("point tip", "point ti$0p");
         assert!(tip.ends_with("At t = 0 s: x = 0.069282 m, y = 0.04 m in the ground's frame"), "{tip}");
         assert!(at("joint pivot", "joint piv$0ot").contains("At t = 0 s: `ground.O` = (0, 0) m"));
@@ -483,7 +491,7 @@ mechanism two {
     }
 
     #[test]
-    fn a_broken_text_is_told_of_as_far_as_it_goes() {
+    fn a_broken_text_has_hovers_too() {
         insta::assert_snapshot!(of("joint pin:   revolute(crank.B, coupler.B)", "joint pin:   revolute(cra$0nk."), @r"
         main.mech:22
             joint pin:   revolute(crank.

@@ -1,18 +1,18 @@
-//! What stands above declarations: what can be done with a mechanism, and what its results came to.
+//! Code lenses: commands for mechanisms, and values of results.
 
 use super::numbers::with_unit;
-use super::snapshot::{Followed, Snapshot};
+use super::snapshot::{MotionOutcome, ResultValue, Snapshot};
 use mechc_lang::check::NameKind;
 use mechc_pipeline::Checked;
 use std::ops::Range;
 use std::path::Path;
 
-/// What stands above a declaration.
+/// A line above a declaration.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Lens {
-    /// The name of that.
+    /// The range of the declaration's name.
     pub range: Range<u32>,
-    /// What it is.
+    /// The kind of lens.
     pub kind: LensKind,
 }
 
@@ -21,51 +21,51 @@ pub struct Lens {
 pub enum LensKind {
     /// `mechc run` of a mechanism, by its name.
     Run(String),
-    /// `mechc check` of it.
+    /// `mechc check` of a mechanism.
     Check(String),
-    /// `mechc view` of it.
+    /// `mechc view` of a mechanism.
     View(String),
-    /// What a result came to.
+    /// The values of a result.
     Result(String),
 }
 
-/// The lenses of a file. Nothing is computed for them: results are those of the last motion that was followed to its end, with `…` behind
-/// them where the text is another one by now.
+/// Returns the lenses of a file. They compute nothing: results are those of the last complete motion, followed by `…` if the text has
+/// changed since.
 #[must_use]
 pub fn lenses(snapshot: &Snapshot, path: &Path) -> Option<Vec<Lens>> {
     let checked = snapshot.checked(path)?;
-    let (moved, is_of_before) = snapshot.moved_last(path);
+    let (motions, is_outdated) = snapshot.last_motions(path);
     let mut lenses = Vec::new();
     for checked in &checked.mechanisms {
         let Some((_, mechanism)) = checked.symbols().iter().next() else { continue };
         let range = mechanism.span.start..mechanism.span.end;
         let name = &mechanism.name;
         let of = |kind: LensKind| Lens { range: range.clone(), kind };
-        let own = [LensKind::View(name.clone()), LensKind::Run(name.clone()), LensKind::Check(name.clone())];
-        lenses.extend(own.map(of));
-        let moved = moved.iter().flat_map(|all| all.iter()).find(|moved| moved.mechanism == *name);
+        let commands = [LensKind::View(name.clone()), LensKind::Run(name.clone()), LensKind::Check(name.clone())];
+        lenses.extend(commands.map(of));
+        let motion = motions.iter().flat_map(|all| all.iter()).find(|motion| motion.mechanism == *name);
         lenses.extend(
-            moved.map(|moved| of_results(checked, moved, is_of_before || moved.is_cut_short)).unwrap_or_default(),
+            motion.map(|motion| of_results(checked, motion, is_outdated || motion.is_cut_short)).unwrap_or_default(),
         );
     }
     Some(lenses)
 }
 
-fn of_results(checked: &Checked, moved: &Followed, is_of_before: bool) -> Vec<Lens> {
+fn of_results(checked: &Checked, motion: &MotionOutcome, is_outdated: bool) -> Vec<Lens> {
     let declared = checked.symbols().iter().filter(|(_, name)| name.kind == NameKind::Result);
     let lens = |name: &str, range: Range<u32>| {
-        let copies =
+        let is_copy =
             |result: &str| result.strip_prefix(name).is_some_and(|rest| rest.is_empty() || rest.starts_with('['));
-        let found: Vec<String> = moved.results.iter().filter(|(result, ..)| copies(result)).map(value_of).collect();
-        let behind = if is_of_before { " …" } else { "" };
-        let title = format!("{}{behind}", found.join(", "));
-        (!found.is_empty()).then_some(Lens { range, kind: LensKind::Result(title) })
+        let values: Vec<String> = motion.results.iter().filter(|result| is_copy(&result.name)).map(value_of).collect();
+        let behind = if is_outdated { " …" } else { "" };
+        let title = format!("{}{behind}", values.join(", "));
+        (!values.is_empty()).then_some(Lens { range, kind: LensKind::Result(title) })
     };
     declared.filter_map(|(_, name)| lens(&name.name, name.span.start..name.span.end)).collect()
 }
 
-fn value_of((_, value, unit): &(String, Option<f64>, String)) -> String {
-    value.map_or_else(|| "no value".to_owned(), |value| with_unit(value, unit))
+fn value_of(result: &ResultValue) -> String {
+    result.value.map_or_else(|| "no value".to_owned(), |value| with_unit(value, &result.unit))
 }
 
 #[cfg(test)]
@@ -85,18 +85,18 @@ mod tests {
     }
 
     #[test]
-    fn results_come_behind_the_motion_and_stay_while_the_text_is_edited() {
+    fn results_stay_while_the_text_is_edited() {
         let results =
             "    result swing = max(angle(rocker)) - min(angle(rocker)) in deg\n    result none = 1 / (max(t) - 4 s)\n";
         let text = FOUR_BAR.replacen("    analysis", &format!("{results}    analysis"), 1);
-        let (snapshot, place) = at_cursor(&format!("{text}$0"));
-        let now = |snapshot: &crate::Snapshot| shown(&lenses(snapshot, &place.path).expect("lenses"));
+        let (snapshot, position) = at_cursor(&format!("{text}$0"));
+        let now = |snapshot: &crate::Snapshot| shown(&lenses(snapshot, &position.path).expect("lenses"));
         assert_eq!(now(&snapshot), ["view four_bar", "run four_bar", "check four_bar"]);
-        snapshot.moved(&place.path, &Cancel::default).expect("it moves");
+        snapshot.motions(&position.path, &Cancel::default).expect("it moves");
         assert_eq!(now(&snapshot), ["view four_bar", "run four_bar", "check four_bar", "60.4876 deg", "no value"]);
-        let edited = snapshot.with_text(&place.path, Some(text.replacen("swing", "swung", 1).into()));
+        let edited = snapshot.with_text(&position.path, Some(text.replacen("swing", "swung", 1).into()));
         assert_eq!(now(&edited), ["view four_bar", "run four_bar", "check four_bar", "no value …"]);
-        let edited = edited.with_text(&place.path, Some(text.replacen("60 deg +", "60 dg +", 1).into()));
+        let edited = edited.with_text(&position.path, Some(text.replacen("60 deg +", "60 dg +", 1).into()));
         assert_eq!(now(&edited), ["view four_bar", "run four_bar", "check four_bar", "60.4876 deg …", "no value …"]);
     }
 }

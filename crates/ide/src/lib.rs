@@ -1,36 +1,37 @@
-//! What an editor asks about texts, as pure functions over a snapshot of them.
+//! Editor features as pure functions over a snapshot of texts.
 //!
-//! No protocol, no input or output, no clock and no thread is known here. A [`Snapshot`] holds the open texts, and gives the stages of
-//! each file, made when first asked for and kept. A place is a byte of a file ([`Place`], [`Stretch`]); whoever speaks a protocol turns
-//! it into lines and columns. What gives nothing was cancelled, or there is nothing to say.
+//! This crate knows no protocol, input, output, clock or thread, except in `lsp`. A [`Snapshot`] holds the open texts and computes the
+//! stages of each file on first use. A position is a byte of a file ([`FilePosition`], [`FileRange`]); a protocol turns it into lines and
+//! columns. `None` means that the snapshot was cancelled, or that there is no result.
 //!
 //! # How a feature is added
 //!
-//! - A file in `crates/ide/src` with one public function, `pub fn hover(snapshot: &Snapshot, place: &Place) -> Option<Hover>`, plain data as its
-//!   answer, and its tests: a text with a cursor (`$0`, see `testing.rs`) and the answer as the user sees it, in one snapshot of `insta`.
-//! - Its module and its public names here.
-//! - In `lsp/answers.rs` a function that reads the request's params, calls the feature and turns the answer into the protocol's words,
-//!   and a line in `TABLE`.
-//! - In `lsp/capabilities.rs` that the server has it.
+//! - Add a file in `crates/ide/src` with one public function, `pub fn hover(snapshot: &Snapshot, position: &FilePosition) ->
+//!   Option<Hover>`, that returns plain data, and its tests: a text with a cursor (`$0`, see `testing.rs`) and the result as the user sees
+//!   it, in one snapshot of `insta`.
+//! - Export its module and its public names here.
+//! - Add to `lsp/handlers.rs` a function that converts the request's params, calls the feature and converts the result, and a line in
+//!   `TABLE`.
+//! - Announce it in `lsp/capabilities.rs`.
 
 mod actions;
 mod buffers;
 mod completion;
+mod declaration_info;
 mod diagnostics;
-mod edits;
-mod facts;
 mod formatting;
 mod hints;
 mod hover;
-mod kept;
 mod lenses;
+mod lexical;
+mod location;
 #[cfg(feature = "lsp")]
 pub mod lsp;
-mod names;
+mod memo;
 mod navigate;
 mod numbers;
+mod occurrences;
 mod outline;
-mod place;
 mod rename;
 mod signature;
 mod snapshot;
@@ -38,24 +39,24 @@ mod structure;
 #[cfg(test)]
 mod testing;
 mod tokens;
-mod words;
+mod trial_edits;
+mod word_docs;
 mod workspace;
-mod written;
 
 pub use actions::{Action, ActionKind, actions};
 pub use buffers::Buffers;
 pub use completion::{CompletionItem, CompletionItemKind, Completions, Template, completions};
-pub use diagnostics::{DiagnosticStage, ProposedFix, Related, Said, Severity, diagnostics};
-pub use formatting::{Formatted, formatting};
+pub use diagnostics::{DiagnosticStage, EditorDiagnostic, ProposedFix, Related, Severity, diagnostics};
+pub use formatting::{FormatScope, formatting};
 pub use hints::{Hint, hints};
 pub use hover::{Hover, hover};
 pub use lenses::{Lens, LensKind, lenses};
+pub use location::{Change, FilePosition, FileRange};
 pub use navigate::{FileLink, Highlight, Link, definition, file_links, highlights, references};
-pub use outline::{Entry, outline};
-pub use place::{Change, Place, Stretch};
+pub use outline::{OutlineEntry, outline};
 pub use rename::{prepare_rename, rename};
 pub use signature::{Signature, Signatures, signatures};
-pub use snapshot::{Analysed, Followed, Proven, Snapshot, learn_names};
-pub use structure::{Fold, FoldKind, around, folds};
+pub use snapshot::{CheckedFile, MotionOutcome, Proof, ResultValue, Snapshot, index_names};
+pub use structure::{Fold, FoldKind, folds, selection_ranges};
 pub use tokens::{SemanticToken, TokenKind, tokens};
-pub use workspace::{Found, files_in, is_mech, workspace_names};
+pub use workspace::{WorkspaceName, files_in, is_mech, workspace_names};

@@ -1,79 +1,79 @@
-//! From a name to its declaration, and to all places where it is used.
+//! Definitions, references and highlights of names, and links to files.
 
-use super::names::{Occurrence, Role, Target, files_with, name_at, occurrences};
-use super::place::{Place, Stretch};
+use super::location::{FilePosition, FileRange};
+use super::occurrences::{Occurrence, Role, Target, files_containing, name_at, occurrence_at, occurrences};
 use super::snapshot::Snapshot;
 use mechc_text::world::World;
 use std::ops::Range;
 use std::path::Path;
 use std::sync::Arc;
 
-/// A way from a name to its declaration.
+/// A link from a name to its declaration.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Link {
-    /// The name that it begins at.
-    pub from: Stretch,
-    /// The name that is declared, or the beginning of a file.
-    pub to: Stretch,
+    /// The range of the name.
+    pub from: FileRange,
+    /// The range of the declared name, or the beginning of a file.
+    pub to: FileRange,
 }
 
-/// A place of a name in its file.
+/// An occurrence of a name in its file.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Highlight {
-    /// Where.
+    /// The range of the name.
     pub range: Range<u32>,
-    /// Whether it is the declaration.
+    /// True if it is the declaration.
     pub declares: bool,
 }
 
 /// A name of a file in a text.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct FileLink {
-    /// Where the text names it.
+    /// The range of the name in the text.
     pub range: Range<u32>,
     /// The file.
     pub file: Arc<Path>,
 }
 
-/// Where the name at a place is declared. What declares and takes another name, `point A` alone, leads to that.
+/// Returns the declaration of the name at a position. A name that both uses and declares, as in `point A`, leads to the used one.
 #[must_use]
-pub fn definition(snapshot: &Snapshot, place: &Place) -> Option<Link> {
-    let all = occurrences(snapshot, &place.path)?;
-    let at = super::names::at(&all, place.offset)?;
-    let is_taken = |other: &&Occurrence| other.range == at.range && other.role == Role::Uses;
-    let at = all.iter().find(is_taken).unwrap_or(at);
+pub fn definition(snapshot: &Snapshot, position: &FilePosition) -> Option<Link> {
+    let all = occurrences(snapshot, &position.path)?;
+    let at = occurrence_at(&all, position.offset)?;
+    let is_use = |other: &&Occurrence| other.range == at.range && other.role == Role::Uses;
+    let at = all.iter().find(is_use).unwrap_or(at);
     let to = match &at.target {
         Target::Name(name) => name.clone(),
-        Target::File(path) => Stretch { path: Arc::clone(path), start: 0, end: 0 },
+        Target::File(path) => FileRange { path: Arc::clone(path), start: 0, end: 0 },
     };
-    // a file that is not there leads nowhere
+    // a missing file has no location
     snapshot.buffers().read(&to.path).ok()?;
-    Some(Link { from: at.stretch(&place.path), to })
+    Some(Link { from: at.location(&position.path), to })
 }
 
-/// All places of the name at a place, its declaration among them where that is asked for, in all files that are known.
+/// Returns the uses of the name at a position in all files of the snapshot, and its declaration if requested.
 #[must_use]
-pub fn references(snapshot: &Snapshot, place: &Place, with_declaration: bool) -> Option<Vec<Stretch>> {
-    let at = name_at(snapshot, place)?;
-    let mut found = Vec::new();
-    for path in files_with(snapshot, &place.path, &[&word_of(snapshot, &at, place)?]) {
-        let wanted = |one: &Occurrence| one.target == at.target && (with_declaration || one.role == Role::Uses);
+pub fn references(snapshot: &Snapshot, position: &FilePosition, with_declaration: bool) -> Option<Vec<FileRange>> {
+    let at = name_at(snapshot, position)?;
+    let mut references = Vec::new();
+    for path in files_containing(snapshot, &position.path, &[&search_word(snapshot, &at, position)?]) {
+        let matches = |one: &Occurrence| one.target == at.target && (with_declaration || one.role == Role::Uses);
         let here = occurrences(snapshot, &path).unwrap_or_default();
-        found.extend(here.iter().filter(|one| wanted(one)).map(|one| one.stretch(&path)));
+        references.extend(here.iter().filter(|one| matches(one)).map(|one| one.location(&path)));
     }
-    Some(found)
+    Some(references)
 }
 
-/// The places of the name at a place in its own file.
+/// Returns the occurrences of the name at a position in its file.
 #[must_use]
-pub fn highlights(snapshot: &Snapshot, place: &Place) -> Option<Vec<Highlight>> {
-    let all = occurrences(snapshot, &place.path)?;
-    let at = super::names::at(&all, place.offset)?;
+pub fn highlights(snapshot: &Snapshot, position: &FilePosition) -> Option<Vec<Highlight>> {
+    let all = occurrences(snapshot, &position.path)?;
+    let at = occurrence_at(&all, position.offset)?;
     let same = all.iter().filter(|one| one.target == at.target);
     Some(same.map(|one| Highlight { range: one.range.range(), declares: one.role == Role::Declares }).collect())
 }
 
-/// The files that a text names and that are there.
+/// Returns the existing files that a text names.
 #[must_use]
 pub fn file_links(snapshot: &Snapshot, path: &Path) -> Option<Vec<FileLink>> {
     let link = |one: Occurrence| match one.target {
@@ -85,11 +85,11 @@ pub fn file_links(snapshot: &Snapshot, path: &Path) -> Option<Vec<FileLink>> {
     Some(occurrences(snapshot, path)?.into_iter().filter_map(link).collect())
 }
 
-/// What a text must hold to name what is meant: the name, or that of the file.
-fn word_of(snapshot: &Snapshot, at: &Occurrence, place: &Place) -> Option<String> {
+/// Returns the text by which files with references are found: the name, or the file name.
+fn search_word(snapshot: &Snapshot, at: &Occurrence, position: &FilePosition) -> Option<String> {
     match &at.target {
         Target::Name(_) => {
-            let parsed = snapshot.parsed(&place.path)?;
+            let parsed = snapshot.parsed(&position.path)?;
             let text = &parsed.sources().get(parsed.file()).text;
             text.get(at.range.start as usize..at.range.end as usize).map(str::to_owned)
         }
@@ -104,8 +104,8 @@ mod tests {
 
     fn defined(from: &str, to: &str, text: &str) -> String {
         assert!(text.contains(from), "{from}");
-        let (snapshot, place) = at_cursor(&text.replacen(from, to, 1));
-        definition(&snapshot, &place).map_or("nothing".to_owned(), |link| shown(&snapshot, &link.to))
+        let (snapshot, position) = at_cursor(&text.replacen(from, to, 1));
+        definition(&snapshot, &position).map_or("nothing".to_owned(), |link| shown(&snapshot, &link.to))
     }
 
     #[test]
@@ -129,7 +129,7 @@ mod tests {
     }
 
     #[test]
-    fn they_lead_into_parts_and_other_files() {
+    fn names_lead_into_parts_and_other_files() {
         insta::assert_snapshot!(defined("front.arm.tip", "front.arm.$0tip", TWO_FILES), @r"
         lever.mech:7
                 point tip = (reach, 0)
@@ -168,9 +168,9 @@ mod tests {
     }
 
     fn used(from: &str, to: &str) -> String {
-        let (snapshot, place) = at_cursor(&TWO_FILES.replacen(from, to, 1));
-        let found = references(&snapshot, &place, true).unwrap_or_default();
-        found.iter().map(|place| shown(&snapshot, place)).collect::<Vec<_>>().join("\n")
+        let (snapshot, position) = at_cursor(&TWO_FILES.replacen(from, to, 1));
+        let found = references(&snapshot, &position, true).unwrap_or_default();
+        found.iter().map(|position| shown(&snapshot, position)).collect::<Vec<_>>().join("\n")
     }
 
     #[test]
@@ -215,8 +215,8 @@ mod tests {
 
     #[test]
     fn a_name_is_shown_in_its_file() {
-        let (snapshot, place) = at_cursor(&FOUR_BAR.replacen("rotation(main)", "rotation($0main)", 1));
-        let found = highlights(&snapshot, &place).expect("a name");
+        let (snapshot, position) = at_cursor(&FOUR_BAR.replacen("rotation(main)", "rotation($0main)", 1));
+        let found = highlights(&snapshot, &position).expect("a name");
         let text =
             |range: &std::ops::Range<u32>| FOUR_BAR.get(range.start as usize - 4..range.end as usize).expect("it");
         let found: Vec<_> = found.iter().map(|one| (text(&one.range), one.declares)).collect();
@@ -225,9 +225,9 @@ mod tests {
 
     #[test]
     fn files_that_are_there_are_linked() {
-        let (snapshot, place) =
+        let (snapshot, position) =
             at_cursor(&TWO_FILES.replacen("use \"lever.mech\"", "$0use \"none.mech\" as n\nuse \"lever.mech\"", 1));
-        let links = file_links(&snapshot, &place.path).expect("a file");
+        let links = file_links(&snapshot, &position.path).expect("a file");
         let files: Vec<_> = links.iter().map(|link| link.file.display().to_string()).collect();
         assert_eq!(files, ["lever.mech"]);
     }

@@ -1,26 +1,26 @@
-//! Values as a reader wants them beside a text: short, with a unit.
+//! Short formats of values with units, for display next to a text.
 
 use mechc_text::diag::readable;
 use mechc_text::vocabulary::{CompoundUnit, Dimension};
 
-/// A number to six digits.
+/// Formats a number to six digits.
 pub(super) fn short(value: f64) -> String {
     let rounded = format!("{value:.5e}").parse().unwrap_or(value);
     // −0 would surprise a reader
     readable(rounded + 0.0)
 }
 
-/// With a unit; `1` is none.
+/// Formats a number with a unit; `1` stands for no unit.
 pub(super) fn with_unit(value: f64, unit: &str) -> String {
     match unit {
         "" | "1" => short(value),
-        // `60/s`
+        // as in `60/s`
         unit if unit.starts_with("1/") => format!("{}{}", short(value), &unit[1..]),
         unit => format!("{} {unit}", short(value)),
     }
 }
 
-/// The SI unit of a value; radians are told where it is an angle.
+/// Returns the SI unit of a value, with radians for an angle.
 pub(super) fn si_unit(dimension: Dimension, is_angle: bool) -> String {
     match dimension.unit() {
         unit if !is_angle => unit,
@@ -29,19 +29,19 @@ pub(super) fn si_unit(dimension: Dimension, is_angle: bool) -> String {
     }
 }
 
-/// A value in SI, in another unit; nothing where that is SI as well.
+/// Formats an SI value in another unit; `None` if that unit is SI too.
 pub(super) fn in_unit(si: f64, unit: &CompoundUnit) -> Option<String> {
     let scale = unit.scale();
     let is_si = scale.iter().all(|part| part.to_bits() == 1.0_f64.to_bits());
     (!is_si).then(|| with_unit(si / scale[0] * scale[1] / scale[2], &unit.per_second(0)))
 }
 
-/// An angle (rad) in degrees.
+/// Formats an angle (rad) in degrees.
 pub(super) fn degrees(angle: f64) -> String {
     format!("{}°", short(angle.to_degrees()))
 }
 
-/// A number with its sign, as a text has it: `+3`, `−2`.
+/// Formats a number with its sign: `+3`, `−2`, `±0`.
 pub(super) fn signed(number: i64) -> String {
     let sign = match number {
         0 => "±",

@@ -5,29 +5,29 @@ use mechc_lang::check::{NameId, NameKind, Symbols};
 use std::ops::Range;
 use std::path::Path;
 
-/// A declaration.
+/// An entry of the outline.
 #[derive(Clone, PartialEq, Debug)]
-pub struct Entry {
-    /// Its name.
+pub struct OutlineEntry {
+    /// The name of the declaration.
     pub name: String,
-    /// What it is.
+    /// The kind of declaration.
     pub kind: NameKind,
-    /// All of it, in bytes of the file.
+    /// The range of the whole declaration, in bytes.
     pub range: Range<u32>,
-    /// Its name's place.
+    /// The range of its name, in bytes.
     pub name_range: Range<u32>,
-    /// What is declared in it.
-    pub inside: Vec<Entry>,
+    /// The declarations in it.
+    pub inside: Vec<OutlineEntry>,
 }
 
-/// The declarations of a file: its mechanisms, with what they declare.
+/// Returns the mechanisms of a file with their declarations.
 #[must_use]
-pub fn outline(snapshot: &Snapshot, path: &Path) -> Option<Vec<Entry>> {
+pub fn outline(snapshot: &Snapshot, path: &Path) -> Option<Vec<OutlineEntry>> {
     let checked = snapshot.checked(path)?;
     Some(checked.mechanisms.iter().filter_map(|checked| of_mechanism(checked.symbols())).collect())
 }
 
-fn of_mechanism(symbols: &Symbols) -> Option<Entry> {
+fn of_mechanism(symbols: &Symbols) -> Option<OutlineEntry> {
     let mut inside: Vec<(NameId, Option<NameId>)> = Vec::new();
     for (id, name) in symbols.iter() {
         if !matches!(name.kind, NameKind::Mechanism | NameKind::Argument | NameKind::Prefix) {
@@ -39,44 +39,44 @@ fn of_mechanism(symbols: &Symbols) -> Option<Entry> {
     for &(id, _) in inside.iter().filter(|(_, owner)| owner.is_none()) {
         entry.inside.push(of_name(symbols, id));
     }
-    let places: Vec<NameId> = inside.iter().filter(|(_, owner)| owner.is_none()).map(|(id, _)| *id).collect();
+    let top_level: Vec<NameId> = inside.iter().filter(|(_, owner)| owner.is_none()).map(|(id, _)| *id).collect();
     for (id, owner) in inside.iter().filter_map(|&(id, owner)| Some((id, owner?))) {
-        // declarations have numbers in their order
-        if let Ok(at) = places.binary_search(&owner) {
+        // ids are in the order of declaration, so the list is sorted
+        if let Ok(at) = top_level.binary_search(&owner) {
             entry.inside[at].inside.push(of_name(symbols, id));
         }
     }
     Some(entry)
 }
 
-fn of_name(symbols: &Symbols, id: NameId) -> Entry {
+fn of_name(symbols: &Symbols, id: NameId) -> OutlineEntry {
     let name = symbols.get(id);
-    let (all, own) = (name.declaration, name.span);
-    Entry {
+    let (declaration, name_span) = (name.declaration, name.span);
+    OutlineEntry {
         name: name.name.clone(),
         kind: name.kind,
-        range: all.start..all.end,
-        name_range: own.start..own.end,
+        range: declaration.start..declaration.end,
+        name_range: name_span.start..name_span.end,
         inside: Vec::new(),
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{Entry, outline};
+    use super::{OutlineEntry, outline};
     use crate::testing::{FOUR_BAR, at_cursor};
 
-    fn written(entries: &[Entry], depth: usize) -> String {
-        let line = |entry: &Entry| {
+    fn written(entries: &[OutlineEntry], depth: usize) -> String {
+        let line = |entry: &OutlineEntry| {
             format!("{}{:?} {}\n{}", "  ".repeat(depth), entry.kind, entry.name, written(&entry.inside, depth + 1))
         };
         entries.iter().map(line).collect()
     }
 
     #[test]
-    fn points_stand_below_their_bodies() {
-        let (snapshot, place) = at_cursor(&format!("{FOUR_BAR}$0"));
-        insta::assert_snapshot!(written(&outline(&snapshot, &place.path).expect("an outline"), 0), @r"
+    fn points_are_nested_in_their_bodies() {
+        let (snapshot, position) = at_cursor(&format!("{FOUR_BAR}$0"));
+        insta::assert_snapshot!(written(&outline(&snapshot, &position.path).expect("an outline"), 0), @r"
         Mechanism four_bar
           Param crank_length
           Ground ground

@@ -1,59 +1,59 @@
-//! Gives a name another one, wherever it stands, if every name then still means what it meant.
+//! Renames a declaration everywhere, if every name then still refers to the same declaration.
 //!
-//! No rule of names is written here: the changes are made on a copy, the files are checked anew, and it is looked whether there are new
-//! faults and whether each name leads where it led.
+//! This module contains no scoping rules: it applies the changes to a copy, checks the files again, and refuses if there are new
+//! diagnostics or if a name refers to something else.
 
-use super::edits::{applied, faults, first_new};
-use super::names::{Bytes, Occurrence, Role, Target, files_with, occurrences};
-use super::place::{Change, Place, Stretch};
+use super::location::{Change, FilePosition, FileRange};
+use super::occurrences::{Bytes, Occurrence, Role, Target, files_containing, occurrences};
 use super::snapshot::Snapshot;
+use super::trial_edits::{apply, first_new, word_diagnostics};
 use mechc_lang::check::Meaning;
 use mechc_syntax::is_name;
 use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::Arc;
 
-/// The name at a place, which can have another one; or why not.
+/// Returns the range of the name at a position, if it can be renamed.
 ///
 /// # Errors
-/// What to tell the user.
-pub fn prepare_rename(snapshot: &Snapshot, place: &Place) -> Result<Stretch, String> {
-    named(snapshot, place).map(|at| at.stretch(&place.path))
+/// The reason why it cannot, for the user.
+pub fn prepare_rename(snapshot: &Snapshot, position: &FilePosition) -> Result<FileRange, String> {
+    renamable_name(snapshot, position).map(|at| at.location(&position.path))
 }
 
-/// The changes that give the name at a place another one; or why they cannot be made.
+/// Returns the changes that rename the name at a position.
 ///
 /// # Errors
-/// What to tell the user.
-pub fn rename(snapshot: &Snapshot, place: &Place, new: &str) -> Result<Vec<Change>, String> {
-    let at = named(snapshot, place)?;
-    let old = text_at(snapshot, &at.stretch(&place.path));
+/// The reason why they cannot be made, for the user.
+pub fn rename(snapshot: &Snapshot, position: &FilePosition, new: &str) -> Result<Vec<Change>, String> {
+    let at = renamable_name(snapshot, position)?;
+    let old = text_at(snapshot, &at.location(&position.path));
     if !is_name(new) {
         return Err(format!("`{new}` is not a name: letters, digits and `_`, no digit first, and no keyword"));
     }
-    let files = files_with(snapshot, &place.path, &words(&old, new, &at.target));
+    let files = files_containing(snapshot, &position.path, &search_words(&old, new, &at.target));
     let renaming = Renaming::new(snapshot, &at.target, &old, new, &files);
     let changes = renaming.changes();
-    let after = applied(snapshot, &changes).ok_or("a file cannot be read any more")?;
-    if let Some(fault) = first_new(&faults(snapshot, &files), &faults(&after, &files)) {
-        return Err(format!("`{old}` cannot be called `{new}`: {}", fault.message));
+    let after = apply(snapshot, &changes).ok_or("a file cannot be read any more")?;
+    if let Some(error) = first_new(&word_diagnostics(snapshot, &files), &word_diagnostics(&after, &files)) {
+        return Err(format!("`{old}` cannot be called `{new}`: {}", error.message));
     }
-    match files.iter().find_map(|path| renaming.other_meaning(&after, path)) {
+    match files.iter().find_map(|path| renaming.changed_name(&after, path)) {
         Some(word) => Err(format!("`{old}` cannot be called `{new}`: `{word}` would mean something else somewhere")),
         None => Ok(changes),
     }
 }
 
-/// What the texts hold that the new name may concern: it itself, the old one, and the name of the file that is used elsewhere.
-fn words<'w>(old: &'w str, new: &'w str, target: &'w Target) -> Vec<&'w str> {
+/// Returns the words by which affected files are found: both names, and the name of the declaring file, which other files use.
+fn search_words<'w>(old: &'w str, new: &'w str, target: &'w Target) -> Vec<&'w str> {
     let Target::Name(declared) = target else { return vec![old, new] };
     let file = declared.path.file_name().and_then(|name| name.to_str());
     [Some(old), Some(new), file].into_iter().flatten().collect()
 }
 
-/// The name at a place, if it is one that can change.
-fn named(snapshot: &Snapshot, place: &Place) -> Result<Occurrence, String> {
-    match super::names::name_at(snapshot, place) {
+/// Returns the name at a position, if it can be renamed.
+fn renamable_name(snapshot: &Snapshot, position: &FilePosition) -> Result<Occurrence, String> {
+    match super::occurrences::name_at(snapshot, position) {
         Some(at) => match &at.target {
             Target::File(_) => Err("this is the name of a file".to_owned()),
             Target::Name(declared) if text_at(snapshot, declared) == "ground" => {
@@ -61,39 +61,40 @@ fn named(snapshot: &Snapshot, place: &Place) -> Result<Occurrence, String> {
             }
             Target::Name(_) => Ok(at),
         },
-        None => Err(word_at(snapshot, place)
+        None => Err(word_at(snapshot, position)
             .map_or("there is no name here".to_owned(), |word| format!("`{word}` is a word of the language"))),
     }
 }
 
-fn word_at(snapshot: &Snapshot, place: &Place) -> Option<&'static str> {
-    let analysed = snapshot.checked(&place.path)?;
-    let checked = analysed.mechanism_at(place.offset)?;
-    match checked.symbols().at(checked.file(), place.offset)?.meaning {
+fn word_at(snapshot: &Snapshot, position: &FilePosition) -> Option<&'static str> {
+    let file = snapshot.checked(&position.path)?;
+    let checked = file.mechanism_at(position.offset)?;
+    match checked.symbols().at(checked.file(), position.offset)?.meaning {
         Meaning::Word(word) => Some(word.name),
         Meaning::Declared(_) => None,
     }
 }
 
-fn text_at(snapshot: &Snapshot, place: &Stretch) -> String {
-    let text = super::edits::text_of(snapshot, &place.path).unwrap_or_default();
-    text.get(place.start as usize..place.end as usize).unwrap_or_default().to_owned()
+fn text_at(snapshot: &Snapshot, location: &FileRange) -> String {
+    let text = super::trial_edits::text_of(snapshot, &location.path).unwrap_or_default();
+    text.get(location.start as usize..location.end as usize).unwrap_or_default().to_owned()
 }
 
-/// All that a new name changes.
+/// A renaming in all affected files.
 struct Renaming {
-    /// Of each file its names as they were.
+    /// The occurrences of each file before the change.
     before: BTreeMap<Arc<Path>, Vec<Occurrence>>,
-    /// Of each file its changes, in order.
+    /// The edits of each file, in order.
     edits: BTreeMap<Arc<Path>, Vec<Edit>>,
 }
 
-/// What comes in the place of a name.
+/// The replacement of a name.
 struct Edit {
     at: Bytes,
     text: String,
-    /// Where in that the name is declared, and where it is used.
+    /// The range of the declared name in `text`.
     declared: Bytes,
+    /// The range of the used name in `text`.
     used: Bytes,
 }
 
@@ -112,7 +113,7 @@ impl Renaming {
     fn changes(&self) -> Vec<Change> {
         let of = |(path, edits): (&Arc<Path>, &Vec<Edit>)| {
             let change = |edit: &Edit| Change {
-                place: Stretch { path: Arc::clone(path), start: edit.at.start, end: edit.at.end },
+                location: FileRange { path: Arc::clone(path), start: edit.at.start, end: edit.at.end },
                 text: edit.text.clone(),
             };
             edits.iter().map(change).collect::<Vec<_>>()
@@ -120,14 +121,14 @@ impl Renaming {
         self.edits.iter().flat_map(of).collect()
     }
 
-    /// A name of a file that leads elsewhere after the changes, or that is there no more, or was not there before.
-    fn other_meaning(&self, after: &Snapshot, path: &Arc<Path>) -> Option<String> {
+    /// Returns a name of a file that refers to something else after the changes, has disappeared or is new.
+    fn changed_name(&self, after: &Snapshot, path: &Arc<Path>) -> Option<String> {
         let mut expected: Vec<Occurrence> = self.before.get(path)?.iter().map(|one| self.moved(one, path)).collect();
         expected.sort();
         let found = occurrences(after, path).unwrap_or_default();
         let other = found.iter().find(|one| expected.binary_search(one).is_err());
-        let gone = expected.iter().find(|one| found.binary_search(one).is_err());
-        other.or(gone).map(|one| text_at(after, &one.stretch(path)))
+        let missing = expected.iter().find(|one| found.binary_search(one).is_err());
+        other.or(missing).map(|one| text_at(after, &one.location(path)))
     }
 
     fn moved(&self, one: &Occurrence, path: &Arc<Path>) -> Occurrence {
@@ -135,7 +136,7 @@ impl Renaming {
             Target::Name(declared) => {
                 let at = Bytes { start: declared.start, end: declared.end };
                 let Bytes { start, end } = self.bytes(at, Role::Declares, &declared.path);
-                Target::Name(Stretch { path: Arc::clone(&declared.path), start, end })
+                Target::Name(FileRange { path: Arc::clone(&declared.path), start, end })
             }
             file @ Target::File(_) => file.clone(),
         };
@@ -145,10 +146,10 @@ impl Renaming {
     fn bytes(&self, at: Bytes, role: Role, path: &Path) -> Bytes {
         let edits = self.edits.get(path).map(Vec::as_slice).unwrap_or_default();
         let before = edits.iter().take_while(|edit| edit.at.end <= at.start && edit.at != at);
-        // more comes than goes, or less
-        let (came, went) = before
-            .fold((0, 0), |(came, went), edit| (came + edit.text.len() as u32, went + (edit.at.end - edit.at.start)));
-        let start = at.start + came - went;
+        let (added, removed) = before.fold((0, 0), |(added, removed), edit| {
+            (added + edit.text.len() as u32, removed + (edit.at.end - edit.at.start))
+        });
+        let start = at.start + added - removed;
         let within = match edits.iter().find(|edit| edit.at == at) {
             None => Bytes { start: 0, end: at.end - at.start },
             Some(edit) if role == Role::Declares => edit.declared,
@@ -158,8 +159,8 @@ impl Renaming {
     }
 }
 
-/// What to write in the place of a name. `point A` alone declares a point and takes another one: where only one of them has a new name,
-/// it is written out.
+/// Returns the replacement of an occurrence. `point A` both declares a point and uses another one; if only one of them is renamed, it is
+/// written out as `point B = A`.
 fn edit(one: &Occurrence, all: &[Occurrence], old: &str, new: &str) -> Edit {
     let bytes = |start: usize, length: usize| Bytes { start: start as u32, end: (start + length) as u32 };
     let is_both = all.iter().any(|other| other.range == one.range && other.role != one.role);
@@ -178,18 +179,18 @@ fn edit(one: &Occurrence, all: &[Occurrence], old: &str, new: &str) -> Edit {
 #[cfg(test)]
 mod tests {
     use super::{prepare_rename, rename};
-    use crate::edits::{applied, text_of};
     use crate::testing::{FOUR_BAR, TWO_FILES, at_cursor};
+    use crate::trial_edits::{apply, text_of};
 
-    /// The lines that a new name changes, or why it does not.
+    /// Lists the lines that a new name changes, or why it is refused.
     fn renamed(text: &str, from: &str, to: &str, new: &str) -> String {
         assert!(text.contains(from), "{from}");
-        let (snapshot, place) = at_cursor(&text.replacen(from, to, 1));
-        let changes = match rename(&snapshot, &place, new) {
+        let (snapshot, position) = at_cursor(&text.replacen(from, to, 1));
+        let changes = match rename(&snapshot, &position, new) {
             Ok(changes) => changes,
             Err(why) => return why,
         };
-        let after = applied(&snapshot, &changes).expect("it can be made");
+        let after = apply(&snapshot, &changes).expect("it can be made");
         let mut lines = Vec::new();
         for path in snapshot.files() {
             let texts = [&snapshot, &after].map(|snapshot| text_of(snapshot, path).expect("a text"));
@@ -200,7 +201,7 @@ mod tests {
     }
 
     #[test]
-    fn a_name_changes_wherever_it_stands() {
+    fn a_name_changes_in_all_places() {
         insta::assert_snapshot!(renamed(FOUR_BAR, "body crank", "body cra$0nk", "arm"), @r"
         main.mech: body arm at (0, 0, 60 deg) {
         main.mech: joint main:  revolute(ground.A, arm.A)
@@ -239,7 +240,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_declared_and_taken_at_once_is_written_out() {
+    fn a_name_that_uses_and_declares_is_written_out() {
         insta::assert_snapshot!(renamed(TWO_FILES, "param A", "param $0A", "B"), @r"
         main.mech: param B = (10 mm, 0)
         main.mech: point A = B
@@ -261,7 +262,7 @@ mod tests {
     }
 
     #[test]
-    fn what_would_clash_is_refused() {
+    fn clashing_names_are_refused() {
         let crank = |new| renamed(FOUR_BAR, "body crank", "body cra$0nk", new);
         insta::assert_snapshot!(crank("rocker"), @"`crank` cannot be called `rocker`: `rocker` is declared twice");
         insta::assert_snapshot!(crank("crank_length"), @"`crank` cannot be called `crank_length`: `crank_length` is declared twice");
@@ -277,10 +278,10 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_name_of_the_text_stays() {
+    fn words_and_files_cannot_be_renamed() {
         let why = |from: &str, to: &str| {
-            let (snapshot, place) = at_cursor(&TWO_FILES.replacen(from, to, 1));
-            prepare_rename(&snapshot, &place).expect_err("it stays")
+            let (snapshot, position) = at_cursor(&TWO_FILES.replacen(from, to, 1));
+            prepare_rename(&snapshot, &position).expect_err("it stays")
         };
         insta::assert_snapshot!(why("part front", "pa$0rt front"), @"`part` is a word of the language");
         insta::assert_snapshot!(why("ground", "gro$0und"), @"`ground` is a word of the language");

@@ -1,51 +1,51 @@
-//! How what is being called is called, while it is typed.
+//! Signature help for the call at the cursor.
 
-use super::place::Place;
+use super::lexical::{OpenCall, call_at, is_in_comment};
+use super::location::FilePosition;
 use super::snapshot::Snapshot;
-use super::written::{OpenCall, call_at, is_in_comment};
 use mechc_lang::check::NameKind;
 use mechc_pipeline::Checked;
 use mechc_text::vocabulary::{Category, Word, words};
 use std::ops::Range;
 
-/// The ways to call something.
+/// The signatures of a callee.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Signatures {
-    /// One at least.
+    /// The signatures, at least one.
     pub forms: Vec<Signature>,
-    /// The one that fits what is written.
+    /// The index of the signature that fits the arguments so far.
     pub active: usize,
-    /// The argument at the cursor, where the active form has one.
+    /// The argument at the cursor, if the active signature has it.
     pub argument: Option<usize>,
 }
 
-/// A way to call something.
+/// A signature.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Signature {
-    /// `weld(P, Q, angle)`
+    /// The text of the signature: `weld(P, Q, angle)`.
     pub label: String,
-    /// Its arguments, in bytes of the label.
+    /// The ranges of its arguments in the label.
     pub arguments: Vec<Range<usize>>,
-    /// What it means. Markdown.
+    /// Its documentation, in Markdown.
     pub meaning: String,
 }
 
-/// The signatures of the innermost call around a place.
+/// Returns the signatures of the innermost call around a position.
 #[must_use]
-pub fn signatures(snapshot: &Snapshot, place: &Place) -> Option<Signatures> {
-    let analysed = snapshot.checked(&place.path)?;
-    let parsed = snapshot.parsed(&place.path)?;
+pub fn signatures(snapshot: &Snapshot, position: &FilePosition) -> Option<Signatures> {
+    let file = snapshot.checked(&position.path)?;
+    let parsed = snapshot.parsed(&position.path)?;
     let text = &parsed.sources().get(parsed.file()).text;
-    let offset = place.offset as usize;
+    let offset = position.offset as usize;
     if !text.is_char_boundary(offset) || is_in_comment(text, offset) {
         return None;
     }
     let call = call_at(text, offset)?;
-    let checked = analysed.mechanism_at(place.offset).or(analysed.mechanisms.last())?;
-    of_part(&call, checked).or_else(|| of_own(&call, checked)).or_else(|| of_words(&call))
+    let checked = file.mechanism_at(position.offset).or(file.mechanisms.last())?;
+    of_part(&call, checked).or_else(|| of_declared_function(&call, checked)).or_else(|| of_words(&call))
 }
 
-/// Of a mechanism that is a part: what may be bound, the argument by its name.
+/// Returns the signature of a part's mechanism: the names that may be bound.
 fn of_part(call: &OpenCall, checked: &Checked) -> Option<Signatures> {
     let (prefix, name) = match call.name.rsplit_once('.') {
         Some((prefix, name)) => (Some(prefix), name),
@@ -59,11 +59,11 @@ fn of_part(call: &OpenCall, checked: &Checked) -> Option<Signatures> {
     Some(Signatures { forms: vec![signature(&call.name, &shown, interface.docs.join("\n"))], active: 0, argument })
 }
 
-/// Of a function or table of the mechanism, which come before words that give way.
-fn of_own(call: &OpenCall, checked: &Checked) -> Option<Signatures> {
+/// Returns the signature of a function or table that the mechanism declares; such a name takes precedence over a word of the language.
+fn of_declared_function(call: &OpenCall, checked: &Checked) -> Option<Signatures> {
     let symbols = checked.symbols();
-    let is_it = |kind: NameKind| matches!(kind, NameKind::Function | NameKind::Table);
-    let (id, function) = symbols.iter().find(|(_, name)| name.name == call.name && is_it(name.kind))?;
+    let is_callable = |kind: NameKind| matches!(kind, NameKind::Function | NameKind::Table);
+    let (id, function) = symbols.iter().find(|(_, name)| name.name == call.name && is_callable(name.kind))?;
     let argument = symbols.iter().find(|(_, name)| name.owner == Some(id)).map_or("u", |(_, argument)| &argument.name);
     let text = checked.sources().text(function.declaration);
     let meaning = format!("```mech\n{}\n```", text.trim_end());
@@ -79,7 +79,7 @@ fn of_words(call: &OpenCall) -> Option<Signatures> {
         word.name == call.name && is_called && is_joint == call.is_kind
     };
     let forms: Vec<Signature> = words().filter(is_called).flat_map(forms_of).collect();
-    let fits = |form: &Signature| call.argument < form.arguments.len() || is_open(form);
+    let fits = |form: &Signature| call.argument < form.arguments.len() || is_variadic(form);
     let active = forms.iter().position(fits).or(forms.len().checked_sub(1))?;
     let last = forms[active].arguments.len().saturating_sub(1);
     let argument = Some(call.argument).filter(|_| fits(&forms[active])).map(|argument| argument.min(last));
@@ -95,8 +95,8 @@ fn forms_of(word: &'static Word) -> impl Iterator<Item = Signature> {
     })
 }
 
-/// Whether it takes as many arguments as there are.
-fn is_open(form: &Signature) -> bool {
+/// Returns whether a signature takes any number of arguments.
+fn is_variadic(form: &Signature) -> bool {
     form.arguments.last().is_some_and(|last| &form.label[last.clone()] == "…")
 }
 
@@ -116,12 +116,12 @@ mod tests {
     use super::signatures;
     use crate::testing::at_cursor;
 
-    /// Each form, the active one with its argument in brackets.
+    /// Lists the forms, the active one with its argument in brackets.
     fn shown(inside: &str) -> String {
-        let (snapshot, place) = at_cursor(&format!(
+        let (snapshot, position) = at_cursor(&format!(
             "mechanism m {{\n{inside}\n}}\nmechanism lever {{ param reach = 80 mm\n input turn = t\n }}"
         ));
-        let Some(found) = signatures(&snapshot, &place) else { return "nothing".to_owned() };
+        let Some(found) = signatures(&snapshot, &position) else { return "nothing".to_owned() };
         let form = |(k, form): (usize, &super::Signature)| {
             let mut label = form.label.clone();
             if let Some(range) = found.argument.filter(|_| k == found.active).map(|argument| &form.arguments[argument])
@@ -152,7 +152,7 @@ mod tests {
     }
 
     #[test]
-    fn own_functions_tables_and_parts_have_signatures() {
+    fn declared_functions_tables_and_parts_have_signatures() {
         assert_eq!(shown("fn swing(v) = v^2\nmeasure k = swing($0"), "> swing(‹v›)");
         assert_eq!(shown("table law = spline [(0, 1), (1, 2)]\nmeasure k = law($0)"), "> law(‹u›)");
         assert_eq!(shown("part p: lever($0)"), "> lever(reach = 80 mm, turn = t)");
@@ -161,7 +161,7 @@ mod tests {
     }
 
     #[test]
-    fn where_nothing_is_called_nothing_is_shown() {
+    fn without_a_call_there_is_no_signature() {
         assert_eq!(shown("body b at (0, $0"), "nothing");
         assert_eq!(shown("param p = nothing($0"), "nothing");
         assert_eq!(shown("param p = sin(1) // max($0"), "nothing");

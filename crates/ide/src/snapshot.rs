@@ -1,7 +1,7 @@
-//! The texts at one moment, and the stages of each.
+//! A snapshot of the texts, and the stages of each file.
 
 use super::buffers::Buffers;
-use super::kept::Kept;
+use super::memo::Memo;
 use mechc_engine::analysis::Times;
 use mechc_pipeline::{Assembly, Checked, Compiled, Parsed, Redundant, RunOptions};
 use mechc_text::cancel::Cancel;
@@ -12,75 +12,85 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// The texts at one moment. A clone is the same; what is made of it is kept, and kept on in the next snapshot where an edit leaves it
-/// as it is.
+/// The texts at one moment. Results are computed once and shared with clones, and with later snapshots as far as edits do not affect them.
 #[derive(Clone)]
 pub struct Snapshot {
     buffers: Arc<Buffers>,
-    /// What is known of each file that may be asked about.
+    /// The stages of each file that the snapshot covers.
     files: BTreeMap<Arc<Path>, Arc<Stages>>,
     cancel: Cancel,
 }
 
-/// The stages of a file, as far as they were asked for.
+/// The stages of a file, as far as they are computed.
 #[derive(Default)]
 struct Stages {
-    /// The tree of the text before the last edit, of which most is still so.
+    /// The tree of the text before the last edit, most of which can be reused.
     before: Option<Arc<Parsed>>,
-    parsed: Kept<Parsed>,
-    checked: Kept<Analysed>,
-    proven: Kept<Vec<Proven>>,
-    /// What is proven of those that are parts of others, each by itself.
-    alone: Kept<Vec<Proven>>,
-    moved: Kept<Vec<Followed>>,
-    /// What was known of the motion of a text before this one.
-    moved_before: Option<Arc<Vec<Followed>>>,
+    parsed: Memo<Parsed>,
+    checked: Memo<CheckedFile>,
+    proofs: Memo<Vec<Proof>>,
+    /// The proofs of mechanisms that are parts of others, each by itself.
+    standalone_proofs: Memo<Vec<Proof>>,
+    motions: Memo<Vec<MotionOutcome>>,
+    /// The motions of an earlier text.
+    earlier_motions: Option<Arc<Vec<MotionOutcome>>>,
 }
 
-/// A file whose mechanisms were checked.
-pub struct Analysed {
-    /// Its mechanisms, in order; one alone without any where there is none.
+/// A file with its checked mechanisms.
+pub struct CheckedFile {
+    /// Its mechanisms, in order; an empty one if the file has none.
     pub mechanisms: Vec<Checked>,
-    /// What tells the files apart that it was made of, beside its own.
-    named: BTreeSet<PathBuf>,
+    /// The identities of the other files that it uses.
+    used_files: BTreeSet<PathBuf>,
 }
 
-/// A mechanism as far as it is proven: determined, and assembled at its first time.
-pub struct Proven {
-    /// The texts that its diagnostics speak of.
+/// The proof of a mechanism: that it is determined, and its assembly at the first time.
+pub struct Proof {
+    /// The texts that the diagnostics refer to.
     pub sources: Sources,
-    /// What is to be said of it.
-    pub said: Diagnostics,
-    /// Where it is determined.
+    /// The diagnostics of the proof.
+    pub diagnostics: Diagnostics,
+    /// The compiled mechanism, if it is determined.
     pub compiled: Option<Compiled>,
-    /// Where it can be assembled.
+    /// The assembly, if it exists.
     pub assembly: Option<Assembly>,
-    /// The row of that, once it was asked for.
-    first_row: Kept<Vec<f64>>,
+    /// The row of the assembly, once it is computed.
+    first_row: Memo<Vec<f64>>,
 }
 
-/// What came of following a mechanism over the times of its analysis.
-pub struct Followed {
-    /// Its name.
+/// The outcome of running a mechanism over the times of its analysis.
+pub struct MotionOutcome {
+    /// The name of the mechanism.
     pub mechanism: String,
-    /// What is to be said of its motion.
-    pub said: Diagnostics,
-    /// Its results: each with its value, where it has one, in the unit in which it is told.
-    pub results: Vec<(String, Option<f64>, String)>,
-    /// It took too long: the results are those of a text before this one, if any.
+    /// The diagnostics of the motion.
+    pub diagnostics: Diagnostics,
+    /// The results of the motion.
+    pub results: Vec<ResultValue>,
+    /// True if the motion took too long; the results are then those of an earlier text, if any.
     pub is_cut_short: bool,
 }
 
-impl Proven {
-    fn nothing(checked: &Checked) -> Proven {
-        let (sources, said) = (checked.sources().clone(), Diagnostics::default());
-        Proven { sources, said, compiled: None, assembly: None, first_row: Kept::default() }
+/// A result of a motion.
+#[derive(Clone, PartialEq, Debug)]
+pub struct ResultValue {
+    /// The name of the result.
+    pub name: String,
+    /// Its value in `unit`, if it has one.
+    pub value: Option<f64>,
+    /// The unit in which it is printed.
+    pub unit: String,
+}
+
+impl Proof {
+    fn empty(checked: &Checked) -> Proof {
+        let (sources, diagnostics) = (checked.sources().clone(), Diagnostics::default());
+        Proof { sources, diagnostics, compiled: None, assembly: None, first_row: Memo::default() }
     }
 
-    /// The row of the position in which it was assembled, in SI, by [`Compiled::columns`]; nothing where it has none.
+    /// Returns the row of the assembly in SI, in the order of [`Compiled::columns`]; `None` if there is none.
     #[must_use]
     pub fn first_row(&self) -> Option<Arc<Vec<f64>>> {
-        self.first_row.get_or(|| {
+        self.first_row.get_or_compute(|| {
             let (compiled, assembly) = (self.compiled.as_ref()?, self.assembly.as_ref()?);
             let (run, _) = compiled.run(&Times::listed(assembly.t, vec![assembly.t]), &RunOptions::default());
             run?.next()?.ok()
@@ -88,8 +98,8 @@ impl Proven {
     }
 }
 
-impl Analysed {
-    /// The mechanism that holds a byte of the file, or ends there.
+impl CheckedFile {
+    /// Returns the mechanism that contains an offset or ends there.
     #[must_use]
     pub fn mechanism_at(&self, offset: u32) -> Option<&Checked> {
         let holds = |checked: &&Checked| checked.span().is_some_and(|span| (span.start..=span.end).contains(&offset));
@@ -98,39 +108,39 @@ impl Analysed {
 }
 
 impl Snapshot {
-    /// Without any file.
+    /// Creates a snapshot without files.
     #[must_use]
     pub fn new(world: Arc<dyn World>) -> Snapshot {
         let buffers = Arc::new(Buffers::new(world));
         Snapshot { buffers, files: BTreeMap::new(), cancel: Cancel::default() }
     }
 
-    /// The same with another text in a file, or with that behind it where it is `None`. Work on this one is better cancelled.
+    /// Returns a snapshot with another text for a file; `None` closes it. The caller should cancel work on this one.
     #[must_use]
     pub fn with_text(&self, path: &Arc<Path>, text: Option<Arc<str>>) -> Snapshot {
         let mut buffers = (*self.buffers).clone();
-        let before = text.as_ref().map(|_| self.stages(path).before_an_edit());
+        let before = text.as_ref().map(|_| self.stages(path).to_be_edited());
         buffers.set(path, text);
-        let mut next = Snapshot { buffers: Arc::new(buffers), ..self.without(path) };
+        let mut next = Snapshot { buffers: Arc::new(buffers), ..self.invalidated(path) };
         next.files.insert(Arc::clone(path), Arc::new(before.unwrap_or_default()));
         next
     }
 
-    /// The same with another text in a file, to see what would be; work on it ends with that on this one.
+    /// Returns a snapshot with another text for a file, to try a change; cancelling this snapshot cancels work on it.
     #[must_use]
-    pub fn supposing(&self, path: &Arc<Path>, text: Arc<str>) -> Snapshot {
+    pub fn with_trial_text(&self, path: &Arc<Path>, text: Arc<str>) -> Snapshot {
         Snapshot { cancel: self.cancel.clone(), ..self.with_text(path, Some(text)) }
     }
 
-    /// The same without what was known of a file, and of those that were made of it: what is behind it has changed.
+    /// Returns a snapshot without the results of a file and of those that use it, after the file has changed on disk.
     #[must_use]
-    pub fn without(&self, path: &Arc<Path>) -> Snapshot {
+    pub fn invalidated(&self, path: &Arc<Path>) -> Snapshot {
         let mut files = BTreeMap::new();
         for (other, stages) in &self.files {
-            let is_made_of_it = || stages.checked.get().is_none_or(|checked| checked.named.contains(&**path));
+            let uses_it = || stages.checked.get().is_none_or(|checked| checked.used_files.contains(&**path));
             let kept = match other == path {
                 true => Arc::new(stages.without_text()),
-                false if is_made_of_it() => Arc::new(stages.parsed_alone()),
+                false if uses_it() => Arc::new(stages.only_parsed()),
                 false => Arc::clone(stages),
             };
             files.insert(Arc::clone(other), kept);
@@ -139,117 +149,116 @@ impl Snapshot {
         Snapshot { buffers: Arc::clone(&self.buffers), files, cancel: Cancel::default() }
     }
 
-    /// The same with files that may be asked about, though nobody has opened them, and without any others of that kind.
+    /// Returns a snapshot that covers given files besides the open ones, and no others.
     #[must_use]
     pub fn with_files(&self, paths: impl IntoIterator<Item = Arc<Path>>) -> Snapshot {
-        let wanted: BTreeSet<Arc<Path>> = paths.into_iter().chain(self.buffers.paths().cloned()).collect();
-        let known = |path: Arc<Path>| (Arc::clone(&path), self.files.get(&path).cloned().unwrap_or_default());
-        Snapshot { files: wanted.into_iter().map(known).collect(), ..self.clone() }
+        let covered: BTreeSet<Arc<Path>> = paths.into_iter().chain(self.buffers.paths().cloned()).collect();
+        let entry = |path: Arc<Path>| (Arc::clone(&path), self.files.get(&path).cloned().unwrap_or_default());
+        Snapshot { files: covered.into_iter().map(entry).collect(), ..self.clone() }
     }
 
-    /// Ends all work on it, soon: it gives nothing then.
+    /// Cancels all work on it; computations then return `None`.
     pub fn cancel(&self) {
         self.cancel.cancel();
     }
 
-    /// Whether it was cancelled.
+    /// Returns whether it was cancelled.
     #[must_use]
     pub fn is_cancelled(&self) -> bool {
         self.cancel.is_cancelled()
     }
 
-    /// Whether all that was known of a file in another snapshot still holds in this one.
+    /// Returns whether the results of a file in another snapshot still hold in this one.
     #[must_use]
-    pub fn is_same(&self, other: &Snapshot, path: &Path) -> bool {
+    pub fn shares_results(&self, other: &Snapshot, path: &Path) -> bool {
         let stages = |snapshot: &Snapshot| snapshot.files.get(path).cloned();
-        stages(self).zip(stages(other)).is_some_and(|(own, other)| Arc::ptr_eq(&own, &other))
+        stages(self).zip(stages(other)).is_some_and(|(this, other)| Arc::ptr_eq(&this, &other))
     }
 
-    /// The files as they are in it.
+    /// Returns the files of the snapshot.
     #[must_use]
     pub fn buffers(&self) -> &Arc<Buffers> {
         &self.buffers
     }
 
-    /// The files that it knows of, by their identity.
+    /// Returns the files that it covers, by identity.
     pub fn files(&self) -> impl Iterator<Item = &Arc<Path>> {
         self.files.keys()
     }
 
-    /// A file's tree.
+    /// Parses a file.
     #[must_use]
     pub fn parsed(&self, path: &Path) -> Option<Arc<Parsed>> {
         self.parsed_of(&self.stages(path), path)
     }
 
-    /// A file's mechanisms, whatever is wrong with them.
+    /// Checks a file's mechanisms, which may have errors.
     #[must_use]
-    pub fn checked(&self, path: &Path) -> Option<Arc<Analysed>> {
+    pub fn checked(&self, path: &Path) -> Option<Arc<CheckedFile>> {
         self.checked_of(&self.stages(path), path)
     }
 
-    /// What is proven of a file's mechanisms, in order. Of one that is not sound, and of one that is a part of another one of the file,
-    /// nothing is known by itself.
+    /// Proves a file's mechanisms, in order. The proof of an unsound mechanism, or of one that is a part of another in the file, is empty.
     #[must_use]
-    pub fn proven(&self, path: &Path) -> Option<Arc<Vec<Proven>>> {
-        self.proven_of(&self.stages(path), path)
+    pub fn proofs(&self, path: &Path) -> Option<Arc<Vec<Proof>>> {
+        self.proofs_of(&self.stages(path), path)
     }
 
-    /// The same of those mechanisms that are parts of others of the file, each by itself, for who asks what is in them; of the rest nothing.
+    /// Proves each mechanism that is a part of another in the file by itself; the proofs of the others are empty.
     #[must_use]
-    pub fn proven_alone(&self, path: &Path) -> Option<Arc<Vec<Proven>>> {
+    pub fn standalone_proofs(&self, path: &Path) -> Option<Arc<Vec<Proof>>> {
         let stages = self.stages(path);
         let checked = self.checked_of(&stages, path)?;
-        stages.alone.get_or(|| {
+        stages.standalone_proofs.get_or_compute(|| {
             self.unless_cancelled(())?;
             let is_part = Checked::is_part_of_another;
-            let alone = |checked: &Checked| {
-                if is_part(checked) { proven_by_itself(checked, &self.cancel) } else { Proven::nothing(checked) }
+            let prove = |checked: &Checked| {
+                if is_part(checked) { prove_standalone(checked, &self.cancel) } else { Proof::empty(checked) }
             };
-            let proven = checked.mechanisms.iter().map(alone).collect();
-            self.unless_cancelled(proven)
+            let proofs = checked.mechanisms.iter().map(prove).collect();
+            self.unless_cancelled(proofs)
         })
     }
 
-    /// The motion of each of a file's mechanisms over the times of its analysis. Each is begun with a flag that ends it, it alone.
+    /// Runs each of a file's mechanisms over the times of its analysis; `begin` supplies a flag that cancels that motion only.
     #[must_use]
-    pub fn moved(&self, path: &Path, begin: &dyn Fn() -> Cancel) -> Option<Arc<Vec<Followed>>> {
+    pub fn motions(&self, path: &Path, begin: &dyn Fn() -> Cancel) -> Option<Arc<Vec<MotionOutcome>>> {
         let stages = self.stages(path);
-        let proven = self.proven_of(&stages, path)?;
-        let before = |name: &str| stages.moved_before.as_ref()?.iter().find(|before| before.mechanism == name);
-        stages.moved.get_or(|| {
-            let followed = |proven: &Proven| {
+        let proofs = self.proofs_of(&stages, path)?;
+        let before = |name: &str| stages.earlier_motions.as_ref()?.iter().find(|before| before.mechanism == name);
+        stages.motions.get_or_compute(|| {
+            let run_or_cut_short = |proof: &Proof| {
                 self.unless_cancelled(())?;
-                Some(moved(proven, &begin()).unwrap_or_else(|| Followed::cut_short(proven, before)))
+                Some(run(proof, &begin()).unwrap_or_else(|| MotionOutcome::cut_short(proof, before)))
             };
-            let all = proven.iter().map(followed).collect::<Option<_>>()?;
+            let all = proofs.iter().map(run_or_cut_short).collect::<Option<_>>()?;
             self.unless_cancelled(all)
         })
     }
 
-    /// What is proven already.
+    /// Returns the proofs of a file if they are computed already.
     #[must_use]
-    pub fn proven_now(&self, path: &Path) -> Option<Arc<Vec<Proven>>> {
-        self.stages(path).proven.get()
+    pub fn cached_proofs(&self, path: &Path) -> Option<Arc<Vec<Proof>>> {
+        self.stages(path).proofs.get()
     }
 
-    /// What is known already of the motion, or what was known of that of a text before this one; and which of the two.
+    /// Returns the motions if they are computed already, else those of an earlier text, and whether they are of an earlier text.
     #[must_use]
-    pub fn moved_last(&self, path: &Path) -> (Option<Arc<Vec<Followed>>>, bool) {
+    pub fn last_motions(&self, path: &Path) -> (Option<Arc<Vec<MotionOutcome>>>, bool) {
         let stages = self.stages(path);
-        match stages.moved.get() {
-            Some(moved) => (Some(moved), false),
-            None => (stages.moved_before.clone(), true),
+        match stages.motions.get() {
+            Some(motions) => (Some(motions), false),
+            None => (stages.earlier_motions.clone(), true),
         }
     }
 
-    /// What is known of a file; of one that nobody spoke of before it is not kept.
+    /// Returns the stages of a file; those of a file that is not covered are not cached.
     fn stages(&self, path: &Path) -> Arc<Stages> {
         self.files.get(path).cloned().unwrap_or_default()
     }
 
     fn parsed_of(&self, stages: &Stages, path: &Path) -> Option<Arc<Parsed>> {
-        stages.parsed.get_or(|| {
+        stages.parsed.get_or_compute(|| {
             self.unless_cancelled(())?;
             let before = stages.before.as_ref().zip(self.buffers.open(path));
             let parsed = match before.filter(|(_, text)| text.len() <= LARGEST) {
@@ -260,123 +269,127 @@ impl Snapshot {
         })
     }
 
-    /// Whether there is anything to prove of a file.
+    /// Returns whether any mechanism of a file can be proven.
     #[must_use]
     pub fn may_be_proven(&self, path: &Path) -> Option<bool> {
-        let may_be = |checked: &Checked| checked.is_sound() || checked.is_sound_but_for_outputs();
+        let may_be = |checked: &Checked| checked.is_sound() || checked.has_only_output_errors();
         Some(self.checked(path)?.mechanisms.iter().any(may_be))
     }
 
-    fn checked_of(&self, stages: &Stages, path: &Path) -> Option<Arc<Analysed>> {
+    fn checked_of(&self, stages: &Stages, path: &Path) -> Option<Arc<CheckedFile>> {
         let parsed = self.parsed_of(stages, path)?;
-        stages.checked.get_or(|| {
+        stages.checked.get_or_compute(|| {
             self.unless_cancelled(())?;
             let mechanisms = parsed.check_each(&*self.buffers);
-            let named = mechanisms.first().map(Checked::named_files).unwrap_or_default();
-            let named = named.iter().map(|path| self.buffers.identity(path)).collect();
-            self.unless_cancelled(Analysed { mechanisms, named })
+            let used_files = mechanisms.first().map(Checked::named_files).unwrap_or_default();
+            let used_files = used_files.iter().map(|path| self.buffers.identity(path)).collect();
+            self.unless_cancelled(CheckedFile { mechanisms, used_files })
         })
     }
 
-    fn proven_of(&self, stages: &Stages, path: &Path) -> Option<Arc<Vec<Proven>>> {
+    fn proofs_of(&self, stages: &Stages, path: &Path) -> Option<Arc<Vec<Proof>>> {
         let checked = self.checked_of(stages, path)?;
-        stages.proven.get_or(|| {
+        stages.proofs.get_or_compute(|| {
             self.unless_cancelled(())?;
-            let whole = |checked: &Checked| checked.without_wrong_outputs(&*self.buffers);
-            let of = |checked: &Checked| {
-                let whole = if checked.is_sound() { None } else { whole(checked) };
-                proven(whole.as_ref().unwrap_or(checked), &self.cancel)
+            let prove = |checked: &Checked| {
+                let reduced = if checked.is_sound() { None } else { checked.without_faulty_outputs(&*self.buffers) };
+                prove(reduced.as_ref().unwrap_or(checked), &self.cancel)
             };
-            self.unless_cancelled(checked.mechanisms.iter().map(of).collect())
+            self.unless_cancelled(checked.mechanisms.iter().map(prove).collect())
         })
     }
 
-    fn unless_cancelled<T>(&self, made: T) -> Option<T> {
-        (!self.cancel.is_cancelled()).then_some(made)
+    fn unless_cancelled<T>(&self, value: T) -> Option<T> {
+        (!self.cancel.is_cancelled()).then_some(value)
     }
 }
 
 impl Stages {
-    /// What helps to know the file once it is edited.
-    fn before_an_edit(&self) -> Stages {
+    /// Returns the stages for an edited text: the old tree, for reuse, and earlier motions.
+    fn to_be_edited(&self) -> Stages {
         Stages { before: self.parsed.get().or_else(|| self.before.clone()), ..self.without_text() }
     }
 
-    /// What is known by a file's own text.
-    fn parsed_alone(&self) -> Stages {
+    /// Returns the stages that depend on the file's text alone.
+    fn only_parsed(&self) -> Stages {
         Stages { parsed: self.parsed.get().into(), ..self.without_text() }
     }
 
-    /// What was known and may be shown until it is known anew.
+    /// Returns only the results that are shown until they are computed anew.
     fn without_text(&self) -> Stages {
-        // of a motion that could not be followed to its end the one before it stays
-        Stages { moved_before: self.moved.get().or_else(|| self.moved_before.clone()), ..Stages::default() }
+        // motions that were not computed keep the earlier ones
+        Stages { earlier_motions: self.motions.get().or_else(|| self.earlier_motions.clone()), ..Stages::default() }
     }
 }
 
-/// Makes the list of names of each mechanism of a file, which is kept.
-pub fn learn_names(snapshot: &Snapshot, path: &Path) {
+/// Builds the list of names of each mechanism of a file, so that later requests find it cached.
+pub fn index_names(snapshot: &Snapshot, path: &Path) {
     let checked = snapshot.checked(path);
     for mechanism in checked.iter().flat_map(|checked| &checked.mechanisms).take_while(|_| !snapshot.is_cancelled()) {
         let _ = mechanism.symbols();
     }
 }
 
-/// Proves a mechanism that is no part of another one, and assembles it.
-fn proven(checked: &Checked, cancel: &Cancel) -> Proven {
-    if checked.is_part_of_another() { Proven::nothing(checked) } else { proven_by_itself(checked, cancel) }
+/// Proves and assembles a mechanism, unless it is a part of another one.
+fn prove(checked: &Checked, cancel: &Cancel) -> Proof {
+    if checked.is_part_of_another() { Proof::empty(checked) } else { prove_standalone(checked, cancel) }
 }
 
-fn proven_by_itself(checked: &Checked, cancel: &Cancel) -> Proven {
-    let mut proven = Proven::nothing(checked);
-    let (compiled, said) = checked.compile(Redundant::Refused, cancel);
-    proven.said = said;
-    let Some(compiled) = compiled else { return proven };
+fn prove_standalone(checked: &Checked, cancel: &Cancel) -> Proof {
+    let mut proof = Proof::empty(checked);
+    let (compiled, diagnostics) = checked.compile(Redundant::Refused, cancel);
+    proof.diagnostics = diagnostics;
+    let Some(compiled) = compiled else { return proof };
     let refused = compiled.analysis().map(|[from, to, _]| compiled.refused_results([from, to]));
-    proven.said.extend(refused.unwrap_or_default());
+    proof.diagnostics.extend(refused.unwrap_or_default());
     let options = RunOptions { cancel: cancel.clone(), ..RunOptions::default() };
     let from = compiled.analysis().map_or(0.0, |[from, ..]| from);
-    let (assembly, said) = compiled.assembled(from, &options);
-    proven.said.extend(said);
-    proven.assembly = assembly;
-    proven.sources = compiled.sources().clone();
-    proven.compiled = Some(compiled);
-    proven
+    let (assembly, diagnostics) = compiled.assemble_at(from, &options);
+    proof.diagnostics.extend(diagnostics);
+    proof.assembly = assembly;
+    proof.sources = compiled.sources().clone();
+    proof.compiled = Some(compiled);
+    proof
 }
 
-impl Followed {
-    fn nothing() -> Followed {
-        Followed { mechanism: String::new(), said: Diagnostics::default(), results: Vec::new(), is_cut_short: false }
+impl MotionOutcome {
+    fn empty() -> MotionOutcome {
+        let (mechanism, diagnostics, results) = Default::default();
+        MotionOutcome { mechanism, diagnostics, results, is_cut_short: false }
     }
 
-    /// Of a motion that was ended on its way only what was known of it before.
-    fn cut_short<'b>(proven: &Proven, before: impl Fn(&str) -> Option<&'b Followed>) -> Followed {
-        let mechanism = proven.compiled.as_ref().map(|compiled| compiled.name().to_owned()).unwrap_or_default();
+    /// Returns the outcome of a cancelled motion: the results of an earlier text.
+    fn cut_short<'b>(proof: &Proof, before: impl Fn(&str) -> Option<&'b MotionOutcome>) -> MotionOutcome {
+        let mechanism = proof.compiled.as_ref().map(|compiled| compiled.name().to_owned()).unwrap_or_default();
         let results = before(&mechanism).map(|before| before.results.clone()).unwrap_or_default();
-        Followed { mechanism, results, is_cut_short: true, ..Followed::nothing() }
+        MotionOutcome { mechanism, results, is_cut_short: true, ..MotionOutcome::empty() }
     }
 }
 
-/// Follows a motion to its end; nothing where it is cancelled on the way.
-fn moved(proven: &Proven, cancel: &Cancel) -> Option<Followed> {
-    let mut moved = Followed::nothing();
-    let compiled = proven.compiled.as_ref().filter(|_| !proven.said.has_errors());
+/// Runs a motion to its end; `None` if it is cancelled.
+fn run(proof: &Proof, cancel: &Cancel) -> Option<MotionOutcome> {
+    let mut outcome = MotionOutcome::empty();
+    let compiled = proof.compiled.as_ref().filter(|_| !proof.diagnostics.has_errors());
     let Some((compiled, times)) = compiled.and_then(|compiled| Some((compiled, compiled.times()?))) else {
-        return Some(moved);
+        return Some(outcome);
     };
-    compiled.name().clone_into(&mut moved.mechanism);
+    compiled.name().clone_into(&mut outcome.mechanism);
     let (run, _) = compiled.run(&times, &RunOptions { cancel: cancel.clone(), ..RunOptions::default() });
-    let Some(mut run) = run else { return (!cancel.is_cancelled()).then_some(moved) };
+    let Some(mut run) = run else { return (!cancel.is_cancelled()).then_some(outcome) };
     while let Some(row) = run.next_row() {
         if let Err(why) = row {
-            moved.said.push(*why);
+            outcome.diagnostics.push(*why);
         }
-        moved.said.extend(run.take_remarks());
+        outcome.diagnostics.extend(run.take_warnings());
     }
     let names = compiled.results();
     let answers = if cancel.is_cancelled() { None } else { run.results() }.unwrap_or_default();
     let results = names.into_iter().zip(&answers.values);
-    moved.results =
-        results.map(|((name, unit), value)| (name, value.map(|value| unit.printed(value)), unit.text)).collect();
-    (!cancel.is_cancelled()).then_some(moved)
+    let results = results.map(|((name, unit), value)| ResultValue {
+        value: value.map(|v| unit.printed(v)),
+        name,
+        unit: unit.text,
+    });
+    outcome.results = results.collect();
+    (!cancel.is_cancelled()).then_some(outcome)
 }

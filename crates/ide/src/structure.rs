@@ -1,6 +1,7 @@
-//! The shape of a text: what can be folded away, and what lies around a place.
+//! The structure of a text: folding ranges and selection ranges.
 
-use super::place::Place;
+use super::lexical::is_word_char;
+use super::location::FilePosition;
 use super::snapshot::Snapshot;
 use mechc_pipeline::Parsed;
 use mechc_syntax::ast::{Expr, Feature, Item, ItemKind, Mechanism, TableRows};
@@ -9,27 +10,27 @@ use mechc_text::source::Span;
 use std::ops::Range;
 use std::path::Path;
 
-/// What can be folded away.
+/// A folding range.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Fold {
-    /// What disappears; it begins and ends on different lines.
+    /// The range to hide; it begins and ends on different lines.
     pub range: Range<u32>,
-    /// What it is.
+    /// The kind of range.
     pub kind: FoldKind,
 }
 
-/// Why something is folded.
+/// The kinds of folding ranges.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum FoldKind {
-    /// What stands between braces or brackets.
-    Inside,
-    /// Comments on neighbouring lines.
+    /// Text between braces or brackets.
+    Block,
+    /// Comments on adjacent lines.
     Comment,
-    /// The files that a text uses.
+    /// The `use` declarations of a file.
     Uses,
 }
 
-/// What of a file can be folded away, in order.
+/// Returns the folding ranges of a file, in order.
 #[must_use]
 pub fn folds(snapshot: &Snapshot, path: &Path) -> Option<Vec<Fold>> {
     let parsed = snapshot.parsed(path)?;
@@ -45,7 +46,7 @@ pub fn folds(snapshot: &Snapshot, path: &Path) -> Option<Vec<Fold>> {
     Some(folds)
 }
 
-/// The insides of braces, brackets and parentheses, whatever else is wrong with the text.
+/// Returns the ranges between braces, brackets and parentheses; the text may have errors.
 fn between_brackets(text: &str) -> Vec<Fold> {
     let (mut open, mut folds) = (Vec::new(), Vec::new());
     for token in tokens(text) {
@@ -57,10 +58,10 @@ fn between_brackets(text: &str) -> Vec<Fold> {
                     "]" => "[",
                     _ => "(",
                 };
-                // what was not closed before a brace never is
+                // a closing brace also ends brackets that were left open in its block
                 while let Some((text, at)) = open.pop() {
                     if text == opener {
-                        folds.push(Fold { range: at as u32..token.start as u32, kind: FoldKind::Inside });
+                        folds.push(Fold { range: at as u32..token.start as u32, kind: FoldKind::Block });
                         break;
                     }
                     if opener != "{" {
@@ -88,41 +89,36 @@ fn comments(parsed: &Parsed) -> Vec<Fold> {
     folds
 }
 
-/// What lies around a place, from the word on: formulas, arguments, the declaration, its body, the mechanism, the file. Each holds the
-/// one before it.
+/// Returns the ranges around a position, each within the next: word, formulas, arguments, declaration, body, mechanism, file.
 #[must_use]
-pub fn around(snapshot: &Snapshot, place: &Place) -> Option<Vec<Range<u32>>> {
-    let parsed = snapshot.parsed(&place.path)?;
+pub fn selection_ranges(snapshot: &Snapshot, position: &FilePosition) -> Option<Vec<Range<u32>>> {
+    let parsed = snapshot.parsed(&position.path)?;
     let text = &parsed.sources().get(parsed.file()).text;
     let whole = 0..text.len() as u32;
-    let mut found: Vec<Range<u32>> = Vec::from([whole]);
+    let mut ranges: Vec<Range<u32>> = Vec::from([whole]);
     let mut add = |range: Range<u32>| {
-        if range.start <= place.offset && place.offset <= range.end && !range.is_empty() {
-            found.push(range);
+        if range.start <= position.offset && position.offset <= range.end && !range.is_empty() {
+            ranges.push(range);
         }
     };
-    for token in tokens(text).into_iter().filter(|token| token.text.starts_with(is_of_word)) {
+    for token in tokens(text).into_iter().filter(|token| token.text.starts_with(is_word_char)) {
         add(token.start as u32..token.end() as u32);
     }
     for fold in between_brackets(text) {
         add(fold.range);
     }
     for mechanism in &parsed.tree().mechanisms {
-        spans_of(mechanism, place.offset, &mut |span| add(span.start..span.end));
+        spans_of(mechanism, position.offset, &mut |span| add(span.start..span.end));
     }
-    found.sort_by_key(|range| (range.end - range.start, range.start));
-    found.dedup();
+    ranges.sort_by_key(|range| (range.end - range.start, range.start));
+    ranges.dedup();
     let mut nested: Vec<Range<u32>> = Vec::new();
-    for range in found {
+    for range in ranges {
         if nested.last().is_none_or(|inner| range.start <= inner.start && inner.end <= range.end) {
             nested.push(range);
         }
     }
     Some(nested)
-}
-
-fn is_of_word(c: char) -> bool {
-    c.is_alphanumeric() || c == '_'
 }
 
 fn spans_of(mechanism: &Mechanism, offset: u32, add: &mut impl FnMut(Span)) {
@@ -169,30 +165,30 @@ fn spans_of_feature(feature: &Feature, add: &mut impl FnMut(Span)) {
 
 #[cfg(test)]
 mod tests {
-    use super::{around, folds};
+    use super::{folds, selection_ranges};
     use crate::testing::{FOUR_BAR, at_cursor};
 
     #[test]
     fn blocks_comments_and_lists_are_folded() {
         let text = "use \"a.mech\"\nuse \"b.mech\" as b\n// one\n// two\n\nmechanism m { // no\n    ground {\n        point A = (0, 0)\n    }\n    table t1 = spline [\n        (0, 0), (1, 1)\n    ]\n    body x { point P = (0, 0) }\n    joint j: revolute(\n        x.P,\n}\n";
-        let (snapshot, place) = at_cursor(&format!("{text}$0"));
+        let (snapshot, position) = at_cursor(&format!("{text}$0"));
         let line = |at: u32| text[..at as usize].matches('\n').count() + 1;
-        let told = folds(&snapshot, &place.path).expect("a file").into_iter();
-        let told: Vec<_> =
-            told.map(|fold| format!("{}–{} {:?}", line(fold.range.start), line(fold.range.end), fold.kind)).collect();
-        insta::assert_snapshot!(told.join("\n"), @r"
+        let ranges = folds(&snapshot, &position.path).expect("a file").into_iter();
+        let ranges: Vec<_> =
+            ranges.map(|fold| format!("{}–{} {:?}", line(fold.range.start), line(fold.range.end), fold.kind)).collect();
+        insta::assert_snapshot!(ranges.join("\n"), @r"
         1–2 Uses
         3–4 Comment
-        6–16 Inside
-        7–9 Inside
-        10–12 Inside
+        6–16 Block
+        7–9 Block
+        10–12 Block
         ");
     }
 
     #[test]
     fn a_selection_grows_from_the_word_to_the_file() {
         let text = FOUR_BAR.replacen("point B = (crank_length, 0)", "point B = (crank_length + 2 * le$0n, 0)", 1);
-        let (snapshot, place) = at_cursor(&text);
+        let (snapshot, position) = at_cursor(&text);
         let text = text.replacen("$0", "", 1);
         let line = |range: &std::ops::Range<u32>| {
             let text = &text[range.start as usize..range.end as usize];
@@ -202,9 +198,12 @@ mod tests {
                 text.to_owned()
             }
         };
-        let told: Vec<_> =
-            around(&snapshot, &place).expect("a file").iter().map(|range| line(range).replace('\n', " ")).collect();
-        insta::assert_snapshot!(told.join("\n"), @r"
+        let ranges: Vec<_> = selection_ranges(&snapshot, &position)
+            .expect("a file")
+            .iter()
+            .map(|range| line(range).replace('\n', " "))
+            .collect();
+        insta::assert_snapshot!(ranges.join("\n"), @r"
         len
         2 * len
         crank_length + 2 * len

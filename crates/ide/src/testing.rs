@@ -1,15 +1,15 @@
-//! For tests of features: a text with a cursor.
+//! Texts with a cursor for tests of features.
 
-use super::place::{Place, Stretch};
+use super::location::{FilePosition, FileRange};
 use super::snapshot::Snapshot;
 use mechc_text::world::Memory;
 use std::path::Path;
 use std::sync::Arc;
 
-/// The file that the cursor is in, unless a text says something else.
+/// The name of the file of a text without `//- NAME` lines.
 pub const MAIN: &str = "main.mech";
 
-/// A crank-rocker without a mistake.
+/// A sound crank-rocker.
 pub const FOUR_BAR: &str = "\
 mechanism four_bar {
     param crank_length = 30 mm
@@ -41,7 +41,7 @@ mechanism four_bar {
 }
 ";
 
-/// A mechanism that uses one of another file.
+/// A mechanism that uses one from another file.
 pub const TWO_FILES: &str = "\
 //- main.mech
 use \"lever.mech\" as levers
@@ -71,16 +71,16 @@ mechanism lever {
 }
 ";
 
-/// A snapshot with files, each `//- NAME` a line of its own before its text (`main.mech` where there is no such line), all open; and the
-/// place of the cursor, `$0`.
-pub fn at_cursor(text: &str) -> (Snapshot, Place) {
+/// Creates a snapshot with open files, each after a line `//- NAME` (`main.mech` without such a line), and the position of the cursor,
+/// `$0`.
+pub fn at_cursor(text: &str) -> (Snapshot, FilePosition) {
     let mut snapshot = Snapshot::new(Arc::new(Memory::default()));
     let mut cursor = None;
     for (name, text) in files(text) {
         let path: Arc<Path> = Path::new(&name).into();
         let (before, behind) = text.split_once("$0").unwrap_or((&text, ""));
         if before.len() < text.len() {
-            cursor = Some(Place { path: Arc::clone(&path), offset: before.len() as u32 });
+            cursor = Some(FilePosition { path: Arc::clone(&path), offset: before.len() as u32 });
         }
         snapshot = snapshot.with_text(&path, Some(format!("{before}{behind}").into()));
     }
@@ -95,15 +95,15 @@ fn files(text: &str) -> Vec<(String, String)> {
     parts.map(|(name, text)| (name.trim().to_owned(), text.to_owned())).collect()
 }
 
-/// A stretch as a reader sees it: its line, with what is meant below it.
-pub fn shown(snapshot: &Snapshot, place: &Stretch) -> String {
-    let parsed = snapshot.parsed(&place.path).expect("a file");
+/// Formats a range as its line, with the range marked below it.
+pub fn shown(snapshot: &Snapshot, location: &FileRange) -> String {
+    let parsed = snapshot.parsed(&location.path).expect("a file");
     let source = parsed.sources().get(parsed.file());
-    let line = source.line_index(place.start as usize);
+    let line = source.line_index(location.start as usize);
     let range = source.line_range(line).expect("a line");
     let text = source.text[range.clone()].trim_end();
     let (start, end) =
-        (place.start as usize - range.start, (place.end as usize).min(range.start + text.len()) - range.start);
+        (location.start as usize - range.start, (location.end as usize).min(range.start + text.len()) - range.start);
     let (before, inside) = (text[..start].chars().count(), text[start..end].chars().count());
-    format!("{}:{}\n{text}\n{}{}", place.path.display(), line + 1, " ".repeat(before), "^".repeat(inside.max(1)))
+    format!("{}:{}\n{text}\n{}{}", location.path.display(), line + 1, " ".repeat(before), "^".repeat(inside.max(1)))
 }

@@ -1,4 +1,4 @@
-//! What each name and word of a text is, for its colours: what a grammar cannot know. Comments, numbers and signs it knows itself.
+//! Semantic tokens: the kind of each name and word, which an editor's grammar cannot tell. Comments, numbers and signs are left to it.
 
 use super::snapshot::Snapshot;
 use mechc_lang::check::{Meaning, NameKind};
@@ -7,18 +7,18 @@ use mechc_text::vocabulary::{Category, Word};
 use std::ops::Range;
 use std::path::Path;
 
-/// A name or word.
+/// A name or word of a text.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct SemanticToken {
-    /// Where.
+    /// The range of the token.
     pub range: Range<u32>,
-    /// What it is.
+    /// The kind of token.
     pub kind: TokenKind,
-    /// Whether it is declared here.
+    /// True if it is declared here.
     pub declares: bool,
-    /// Whether it has one value.
+    /// True if its value is constant.
     pub is_constant: bool,
-    /// Whether the language brings it along.
+    /// True if it is a word of the language.
     pub is_of_language: bool,
 }
 
@@ -37,7 +37,7 @@ pub enum TokenKind {
     Equation,
     /// A function or table, a quantity or reduction.
     Function,
-    /// The argument of a function, or the number of what is repeated.
+    /// The argument of a function, or the index of a repetition.
     Argument,
     /// A param, input, measure, trace or result, or a constant of the language.
     Value,
@@ -49,13 +49,13 @@ pub enum TokenKind {
     Keyword,
 }
 
-/// The names and words of a stretch of a file, in order, none over another.
+/// Returns the names and words of a range of a file, in order and without overlaps.
 #[must_use]
 pub fn tokens(snapshot: &Snapshot, path: &Path, range: &Range<u32>) -> Option<Vec<SemanticToken>> {
     let checked = snapshot.checked(path)?;
     let mut tokens: Vec<SemanticToken> = checked.mechanisms.iter().flat_map(of_mechanism).collect();
     tokens.retain(|token| range.start < token.range.end && token.range.start < range.end);
-    // where a name declares and is a use of another one, the declaration counts
+    // a name that both uses and declares, as in `point A`, counts as a declaration
     tokens.sort_by_key(|token| (token.range.start, !token.declares));
     let mut end = 0;
     tokens.retain(|token| {
@@ -67,7 +67,7 @@ pub fn tokens(snapshot: &Snapshot, path: &Path, range: &Range<u32>) -> Option<Ve
 }
 
 fn of_mechanism(checked: &Checked) -> Vec<SemanticToken> {
-    let (symbols, own) = (checked.symbols(), checked.file());
+    let (symbols, file) = (checked.symbols(), checked.file());
     let token = |used: mechc_lang::check::Use| {
         let (kind, is_constant, is_of_language) = match used.meaning {
             Meaning::Word(word) => of_word(word),
@@ -82,7 +82,7 @@ fn of_mechanism(checked: &Checked) -> Vec<SemanticToken> {
             if used.declares && checked.sources().text(used.span) == "ground" { TokenKind::Keyword } else { kind };
         Some(SemanticToken { range, kind, declares: used.declares, is_constant, is_of_language })
     };
-    symbols.uses().filter(|used| used.span.file == own && used.span.start < used.span.end).filter_map(token).collect()
+    symbols.uses().filter(|used| used.span.file == file && used.span.start < used.span.end).filter_map(token).collect()
 }
 
 fn of_name(kind: NameKind) -> Option<TokenKind> {
@@ -117,8 +117,8 @@ mod tests {
     use crate::testing::at_cursor;
 
     fn shown(text: &str) -> String {
-        let (snapshot, place) = at_cursor(&format!("{text}$0"));
-        let found = tokens(&snapshot, &place.path, &(0..u32::MAX)).expect("tokens");
+        let (snapshot, position) = at_cursor(&format!("{text}$0"));
+        let found = tokens(&snapshot, &position.path, &(0..u32::MAX)).expect("tokens");
         let line = |token: &SemanticToken| {
             let word = &text[token.range.start as usize..token.range.end as usize];
             let marks = [
@@ -133,7 +133,7 @@ mod tests {
     }
 
     #[test]
-    fn names_and_words_are_told_apart() {
+    fn names_and_words_have_kinds() {
         insta::assert_snapshot!(shown("\
 mechanism m {
     param A = (5 mm, 0)

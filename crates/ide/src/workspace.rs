@@ -1,9 +1,9 @@
-//! The files of a folder: which there are, and what they declare.
+//! The `.mech` files of folders, and search in their declarations.
 
-use super::outline::{Entry, outline};
-use super::place::Stretch;
+use super::lexical::matches_letters;
+use super::location::FileRange;
+use super::outline::{OutlineEntry, outline};
 use super::snapshot::Snapshot;
-use super::written::holds_letters;
 use mechc_lang::check::NameKind;
 use mechc_text::cancel::Cancel;
 use mechc_text::world::{World, is_own};
@@ -13,77 +13,88 @@ use std::sync::Arc;
 
 pub use mechc_text::world::is_mech;
 
-/// So many files are looked for; beyond them, names are not found in what is not open.
-const MOST_FILES: usize = 1_000;
+/// The maximum number of files to look for; names in further files are found only if these are open.
+const MAX_FILES: usize = 1_000;
 
-/// So many folders are looked into.
-const MOST_FOLDERS: usize = 10_000;
+/// The maximum number of folders to read.
+const MAX_FOLDERS: usize = 10_000;
 
-/// Folders within each other that are looked into; a link may lead round in a circle.
-const DEEPEST: usize = 16;
+/// The maximum depth of folders; links may form a cycle.
+const MAX_DEPTH: usize = 16;
 
-/// So many names are told.
-const MOST_NAMES: usize = 500;
+/// The maximum number of names in a result.
+const MAX_NAMES: usize = 500;
 
 /// A declaration of a file.
 #[derive(Clone, PartialEq, Debug)]
-pub struct Found {
-    /// Its name.
+pub struct WorkspaceName {
+    /// The name.
     pub name: String,
-    /// What it is.
+    /// The kind of declaration.
     pub kind: NameKind,
-    /// Where its name stands.
-    pub place: Stretch,
-    /// In what it is declared.
+    /// The range of its name.
+    pub location: FileRange,
+    /// The path of the declaration that holds it.
     pub within: Option<String>,
 }
 
-/// The `.mech` files in some folders and those in these, by their identity. What is hidden is left out, and folders of build
-/// results, as by `mechc fmt`.
+/// Returns the `.mech` files in folders and their subfolders, by identity. Hidden files and folders of build results are left out, as by
+/// `mechc fmt`.
 #[must_use]
 pub fn files_in(folders: &[PathBuf], world: &dyn World, cancel: &Cancel) -> Vec<Arc<Path>> {
-    let (mut found, mut seen) = (BTreeSet::new(), 0);
+    let (mut found, mut visited) = (BTreeSet::new(), 0);
     let mut next: Vec<(PathBuf, usize)> = folders.iter().map(|folder| (folder.clone(), 0)).collect();
     while let Some((folder, depth)) = next.pop() {
-        seen += 1;
-        if seen > MOST_FOLDERS || found.len() >= MOST_FILES || cancel.is_cancelled() {
+        visited += 1;
+        if visited > MAX_FOLDERS || found.len() >= MAX_FILES || cancel.is_cancelled() {
             break;
         }
         let files = world.names_in(&folder).into_iter().filter(|name| is_mech(name) && is_own(name));
         found.extend(files.map(|name| Arc::<Path>::from(world.identity(&folder.join(name)))));
-        if depth < DEEPEST {
+        if depth < MAX_DEPTH {
             let inner = world.folders_in(&folder).into_iter().filter(|name| is_own(name));
             next.extend(inner.map(|name| (folder.join(name), depth + 1)));
         }
     }
-    found.into_iter().take(MOST_FILES).collect()
+    found.into_iter().take(MAX_FILES).collect()
 }
 
-/// The declarations of all known files whose names hold the letters of a query, in their order.
+/// Returns the declarations of all files of a snapshot whose names contain the letters of a query in their order.
 #[must_use]
-pub fn workspace_names(snapshot: &Snapshot, query: &str) -> Vec<Found> {
+pub fn workspace_names(snapshot: &Snapshot, query: &str) -> Vec<WorkspaceName> {
     let query: String = query.chars().filter(|c| !c.is_whitespace()).collect();
     let mut found = Vec::new();
     let is_text = |path: &&Arc<Path>| snapshot.buffers().open(path).is_some() || is_mech(&path.to_string_lossy());
     for path in snapshot.files().filter(is_text) {
-        if found.len() >= MOST_NAMES || snapshot.is_cancelled() {
+        if found.len() >= MAX_NAMES || snapshot.is_cancelled() {
             break;
         }
         for entry in outline(snapshot, path).unwrap_or_default() {
-            take(&entry, None, path, &query, &mut found);
+            collect_matches(&entry, None, path, &query, &mut found);
         }
     }
-    found.truncate(MOST_NAMES);
+    found.truncate(MAX_NAMES);
     found
 }
 
-fn take(entry: &Entry, within: Option<&str>, path: &Arc<Path>, query: &str, found: &mut Vec<Found>) {
-    if holds_letters(&entry.name, query) && entry.kind != NameKind::Ground {
-        let place = Stretch { path: Arc::clone(path), start: entry.name_range.start, end: entry.name_range.end };
-        found.push(Found { name: entry.name.clone(), kind: entry.kind, place, within: within.map(str::to_owned) });
+fn collect_matches(
+    entry: &OutlineEntry,
+    within: Option<&str>,
+    path: &Arc<Path>,
+    query: &str,
+    found: &mut Vec<WorkspaceName>,
+) {
+    if matches_letters(&entry.name, query) && entry.kind != NameKind::Ground {
+        let location = FileRange { path: Arc::clone(path), start: entry.name_range.start, end: entry.name_range.end };
+        found.push(WorkspaceName {
+            name: entry.name.clone(),
+            kind: entry.kind,
+            location,
+            within: within.map(str::to_owned),
+        });
     }
-    let own = within.map_or(entry.name.clone(), |within| format!("{within}.{}", entry.name));
-    entry.inside.iter().for_each(|inner| take(inner, Some(&own), path, query, found));
+    let path_name = within.map_or(entry.name.clone(), |within| format!("{within}.{}", entry.name));
+    entry.inside.iter().for_each(|inner| collect_matches(inner, Some(&path_name), path, query, found));
 }
 
 #[cfg(test)]
@@ -117,10 +128,10 @@ mod tests {
     fn declarations_are_found_by_some_of_their_letters() {
         let (snapshot, _) = at_cursor(&format!("{TWO_FILES}$0"));
         let of = |query: &str| {
-            let line = |found: &super::Found| {
+            let line = |found: &super::WorkspaceName| {
                 format!(
                     "{} {:?} {}",
-                    found.place.path.display(),
+                    found.location.path.display(),
                     found.kind,
                     found.within.clone().map_or(found.name.clone(), |within| format!("{within}.{}", found.name))
                 )

@@ -1,35 +1,35 @@
-//! Features: what joints take hold of, fixed in a body or in the ground, as formulas of parameters in the frame of that body. What is the
-//! ground in a part is folded into what carries the part.
+//! Features that joints connect: points, axes and circles, fixed in a body or the ground, as formulas of parameters in the frame of that
+//! body. The ground of a part is folded into the body that carries the part.
 
 use super::{BodyId, PointId};
 use mechc_expr::ExprId;
 
-/// A point.
+/// A point of a body or the ground.
 #[derive(Clone, Debug)]
 pub struct Point {
-    /// Its body; none for the ground.
+    /// Its body; `None` for the ground.
     pub body: Option<BodyId>,
-    /// Its name; a literal point has none.
+    /// Its name; `None` for an unnamed point.
     pub name: Option<String>,
-    /// In the frame of its body (m).
+    /// Coordinates in the frame of its body (m).
     pub at: [ExprId; 2],
 }
 
-/// A directed line through a point, of whose body it is.
+/// A directed line through a point, fixed in the body of that point.
 #[derive(Clone, Debug)]
 pub struct Axis {
-    /// As it is written, `rod.slot`.
+    /// Full name, such as `rod.slot`.
     pub name: String,
-    /// A point of it.
+    /// A point of the axis.
     pub origin: PointId,
-    /// Its direction in the frame of its body, of length 1.
+    /// Unit direction in the frame of its body.
     pub direction: [ExprId; 2],
 }
 
-/// A circle around a point, of whose body it is.
+/// A circle around a point, fixed in the body of that point.
 #[derive(Clone, Debug)]
 pub struct Circle {
-    /// As it is written, `wheel.rim`.
+    /// Full name, such as `wheel.rim`.
     pub name: String,
     /// Its centre.
     pub center: PointId,

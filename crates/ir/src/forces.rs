@@ -1,8 +1,7 @@
-//! What holds a determined motion: the multipliers `λ` of `Φ_qᵀ λ = p`, of which each equation has one.
+//! Forces of a determined motion: the multipliers `λ` of `Φ_qᵀ λ = p`, one for each equation.
 //!
-//! `p = M q̈ + … − Q` is what the inertia of the bodies asks for, less what weights and loads give (Lagrange's equations of the first
-//! kind; E. J. Haug, *Computer-Aided Kinematics and Dynamics of Mechanical Systems*, 1989, 11.3). The equations exert `Φ_qᵀ λ`
-//! on the coordinates.
+//! `p = M q̈ + … − Q` is the inertia of the bodies, less weights and loads (Lagrange's equations of the first kind; E. J. Haug,
+//! *Computer-Aided Kinematics and Dynamics of Mechanical Systems*, 1989, 11.3). The equations exert `Φ_qᵀ λ` on the coordinates.
 
 use super::{Condition, ConstraintSystem, DeclarationId, SparseRows};
 use mechc_expr::{Dependence, ExprId, Symbol};
@@ -14,74 +13,74 @@ use rustc_hash::FxHashMap;
 pub struct Forces {
     /// `p`, one entry per coordinate [N for a length, N·m for an angle, J for a pure number].
     pub needed: Vec<ExprId>,
-    /// What is tabulated of all joints, constraints and drivers, where that is asked for.
+    /// Columns of reactions and efforts of all joints, constraints and drivers, if requested.
     pub reactions: Vec<Reaction>,
-    /// Whether they are there to be drawn, and may be left out where they are not determined.
-    pub are_pictured: bool,
+    /// True if the reactions only serve pictures, and may be omitted where they are not determined.
+    pub only_for_drawing: bool,
     /// The loads.
     pub loads: Vec<LoadForce>,
-    /// Of contacts.
-    pub presses: Vec<Press>,
+    /// Normal forces of contacts.
+    pub presses: Vec<ContactForce>,
 }
 
-/// A load, as its formula gives it.
+/// A load, as its formula gives it, before it is applied.
 #[derive(Clone, Debug)]
 pub struct LoadForce {
     /// Its name.
     pub name: String,
-    /// The place of that.
+    /// Span of the name.
     pub span: Span,
-    /// In SI.
+    /// Force or torque in SI.
     pub force: ExprId,
-    /// Of one on a distance: by how much that is longer than what has no direction (m).
+    /// Amount by which the distance of a load along a distance exceeds the length below which it has no direction (m).
     pub excess: Option<ExprId>,
-    /// What must hold for the formula to have a value.
+    /// Conditions under which the formula has a value.
     pub conditions: Vec<Condition>,
 }
 
-/// What a contact presses with.
+/// Normal force of a contact.
 #[derive(Clone, Copy, Debug)]
-pub struct Press {
+pub struct ContactForce {
     /// The contact.
     pub declaration: DeclarationId,
-    /// The normal force (N); below zero where it pulls. Where it is not known which side the bodies are on, to the left of the tangent.
+    /// Normal force (N), negative where the contact pulls. If the sides of the bodies are unknown, positive to the left of the tangent.
     pub force: ExprId,
-    /// Whether that is known.
+    /// True if the sides of the bodies are known.
     pub is_sided: bool,
 }
 
-/// A column of what a joint exerts, or of what a constraint or driver supplies; in pictures of what a load is, too.
+/// A column of what a joint exerts or a constraint or driver supplies; in pictures also of a load.
 #[derive(Clone, Debug)]
 pub struct Reaction {
-    /// `big_end.fx`, `motor.effort`
+    /// Name, such as `big_end.fx` or `motor.effort`.
     pub name: String,
     /// Its value in SI.
     pub value: ExprId,
-    /// Its SI unit: `N`, `N*m`.
+    /// SI unit: `N`, `N*m`.
     pub unit: String,
-    /// The place of the declaration's name.
+    /// Span of the declaration's name.
     pub span: Span,
 }
 
 impl LoadForce {
-    /// All formulas of it.
+    /// Returns the formulas of the load and its conditions.
     pub fn formulas(&self) -> impl Iterator<Item = ExprId> {
         let conditions = self.conditions.iter().map(|condition| condition.positive);
         [self.force].into_iter().chain(self.excess).chain(conditions)
     }
 }
 
-/// What multipliers have to hold, in the words of mechanics: `Φ_qᵀ λ = M q̈ − Q`.
+/// Inertia and applied forces: `Φ_qᵀ λ = M q̈ − Q`.
 #[derive(Clone, Debug)]
 pub struct Mechanics {
     /// `M`, by rows (kg, kg·m, kg·m²).
     pub mass_matrix: SparseRows,
-    /// `Q`, by coordinate (N, N·m): weights, loads, and what turning bodies need whose centres are not at their origins.
+    /// `Q`, by coordinate (N, N·m): weights, loads, and velocity terms of bodies whose centroids are off their origins.
     pub applied: Vec<ExprId>,
 }
 
 impl Forces {
-    /// All formulas of it.
+    /// Returns all formulas.
     pub fn formulas(&self) -> impl Iterator<Item = ExprId> {
         let loads = self.loads.iter().flat_map(LoadForce::formulas);
         let columns = self.reactions.iter().map(|of| of.value).chain(loads);
@@ -90,7 +89,7 @@ impl Forces {
 }
 
 impl ConstraintSystem {
-    /// What multipliers have to hold, in the words of mechanics; nothing where nobody asks for forces.
+    /// Returns the mass matrix and the applied forces; `None` if forces are not requested.
     pub fn mechanics(&mut self) -> Option<Mechanics> {
         let needed = self.forces.as_ref()?.needed.clone();
         let mut mass_matrix = SparseRows::new();
@@ -105,48 +104,48 @@ impl ConstraintSystem {
         Some(Mechanics { mass_matrix, applied })
     }
 
-    /// `p` of `Φ_qᵀ λ = p`, one entry per coordinate; none where nobody asks for forces.
+    /// Returns `p` of `Φ_qᵀ λ = p`, one entry per coordinate; empty if forces are not requested.
     #[must_use]
-    pub fn needed_forces(&self) -> &[ExprId] {
+    pub fn required_forces(&self) -> &[ExprId] {
         self.forces.as_ref().map_or(&[], |forces| &forces.needed)
     }
 
-    /// The columns of reactions and efforts; none where they are not asked for.
+    /// Returns the columns of reactions and efforts; empty if they are not requested.
     #[must_use]
     pub fn reactions(&self) -> &[Reaction] {
         self.forces.as_ref().map_or(&[], |forces| &forces.reactions)
     }
 
-    /// The loads, as their formulas give them; none where nobody asks for forces.
+    /// Returns the loads; empty if forces are not requested.
     #[must_use]
     pub fn loads(&self) -> &[LoadForce] {
         self.forces.as_ref().map_or(&[], |forces| &forces.loads)
     }
 
-    /// What contacts press with; none where nobody asks for forces.
+    /// Returns the normal forces of contacts; empty if forces are not requested.
     #[must_use]
-    pub fn presses(&self) -> &[Press] {
+    pub fn contact_forces(&self) -> &[ContactForce] {
         self.forces.as_ref().map_or(&[], |forces| &forces.presses)
     }
 
-    /// All that is told of forces: columns, measures, what results are of, and what contacts press with.
+    /// Returns all formulas of columns, measures, results and contact forces that contain multipliers.
     #[must_use]
     pub fn formulas_with_forces(&self) -> Vec<ExprId> {
-        let columns = self.reactions().iter().map(|of| of.value).chain(self.presses().iter().map(|of| of.force));
+        let columns = self.reactions().iter().map(|of| of.value).chain(self.contact_forces().iter().map(|of| of.force));
         let results = self.results.reductions.iter().map(|of| of.of);
         let all = columns.chain(self.measures.iter().map(|of| of.value)).chain(results);
         all.filter(|&id| self.graph.dependence(id).on(Dependence::FORCES)).collect()
     }
 
-    /// Leaves out what nobody asked for: columns of what is drawn, and what contacts press with.
+    /// Removes reactions that only serve pictures, and contact forces, unless `is_kept` returns true.
     pub fn retain_forces(&mut self, mut is_kept: impl FnMut(ExprId) -> bool) {
         if let Some(forces) = &mut self.forces {
-            forces.reactions.retain(|of| !forces.are_pictured || is_kept(of.value));
+            forces.reactions.retain(|of| !forces.only_for_drawing || is_kept(of.value));
             forces.presses.retain(|press| is_kept(press.force));
         }
     }
 
-    /// Multipliers get the numbers that their rows have when some are taken out; nobody asks for those of rows that are not kept.
+    /// Renumbers multipliers after rows have been removed; those of removed rows become zero.
     pub(super) fn renumber_multipliers(&mut self, kept: &[usize]) {
         if self.forces.is_none() {
             return;
@@ -171,22 +170,25 @@ impl ConstraintSystem {
         };
         let formulas = self.measures.iter_mut().map(|measure| &mut measure.value);
         let reduced = self.results.reductions.iter_mut().map(|reduction| &mut reduction.of);
-        let own = self.forces.iter_mut().flat_map(|Forces { reactions, presses, .. }| {
+        let of_forces = self.forces.iter_mut().flat_map(|Forces { reactions, presses, .. }| {
             let reactions = reactions.iter_mut().map(|reaction| &mut reaction.value);
             reactions.chain(presses.iter_mut().map(|press| &mut press.force))
         });
         let varied = [&mut self.variations, &mut self.results.variations].into_iter().flatten();
-        let places: Vec<&mut ExprId> =
-            formulas.chain(own).chain(reduced).chain(varied.flat_map(|varied| varied.formulas_with_forces())).collect();
-        let roots: Vec<ExprId> = places.iter().map(|place| **place).collect();
-        for (place, id) in places.into_iter().zip(self.graph.substituted(&roots, of)) {
-            *place = id;
+        let locations: Vec<&mut ExprId> = formulas
+            .chain(of_forces)
+            .chain(reduced)
+            .chain(varied.flat_map(|varied| varied.formulas_with_forces()))
+            .collect();
+        let roots: Vec<ExprId> = locations.iter().map(|location| **location).collect();
+        for (location, id) in locations.into_iter().zip(self.graph.substituted(&roots, of)) {
+            *location = id;
         }
     }
 
-    /// What is left of `Φ_qᵀ λ = p`, one entry per coordinate, where forces are asked for and varied.
+    /// Returns `p − Φ_qᵀ λ`, one entry per coordinate; empty unless forces are requested and varied.
     pub(super) fn open_forces(&mut self) -> Vec<ExprId> {
-        let mut open = self.needed_forces().to_vec();
+        let mut open = self.required_forces().to_vec();
         if open.is_empty() || self.variations.is_none() && self.results.variations.is_none() {
             return Vec::new();
         }

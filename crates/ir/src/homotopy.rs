@@ -1,24 +1,24 @@
-//! Equations along a homotopy: its parameter, which goes from 0 to 1, stands in the place of time.
+//! Equations along a homotopy, whose parameter from 0 to 1 takes the place of time.
 
 use super::{ConstraintSystem, Written};
 use mechc_expr::Symbol;
 
-/// What a homotopy changes along a straight line, `s` being its parameter.
+/// A change of the equations along a straight line, with parameter `s` from 0 to 1.
 #[derive(Clone, PartialEq, Debug)]
 pub enum Homotopy {
-    /// Time stands still, and the residuals of some rows go from one value to another: `Φ(q, t) = from + (to − from) s`.
+    /// Time is constant, and the residuals of some rows change linearly: `Φ(q, t) = from + (to − from) s`.
     Residuals {
-        /// That time (s).
+        /// The constant time (s).
         t: f64,
-        /// Rows of `Φ`, each with its residual at both ends.
+        /// Rows of `Φ`, each with its residuals at `s = 0` and `s = 1`.
         lines: Vec<(usize, [f64; 2])>,
     },
-    /// Time goes from one time to another (s).
+    /// Time changes from one value to another (s).
     Time([f64; 2]),
 }
 
 impl ConstraintSystem {
-    /// The equations along a homotopy, without what is asked of the motion: measures, results, forces.
+    /// Returns the equations along a homotopy, without measures, results and forces.
     #[must_use]
     pub fn along(&self, homotopy: &Homotopy) -> ConstraintSystem {
         let mut written = Written {
@@ -40,7 +40,7 @@ impl ConstraintSystem {
             open_contacts: Vec::new(),
             fits: self.fits.clone(),
             parts: Vec::new(),
-            asking_parts: Vec::new(),
+            parts_with_derivatives: Vec::new(),
             length: self.length,
             analysis: None,
         };

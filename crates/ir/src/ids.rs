@@ -1,7 +1,7 @@
-//! Which body, which point, which declaration: numbers that cannot be mistaken for each other, and lists that only take their own.
+//! Typed ids of bodies, points, axes, circles and declarations, and lists that are indexed by them.
 //!
-//! Rows and coordinates have no such types. Their numbers are places in `Φ` and `q`, and so in every vector and matrix of numbers behind
-//! this crate, where each would only be unwrapped again.
+//! Rows and coordinates have no such types: their numbers are positions in `Φ` and `q`, and thus in every numeric vector and matrix outside
+//! this crate, where each id would have to be unwrapped again.
 
 use std::marker::PhantomData;
 use std::ops::{Deref, DerefMut, Index, IndexMut};
@@ -13,7 +13,7 @@ macro_rules! ids {
         pub struct $id(u32);
 
         impl $id {
-            /// Its place in its list, from 0.
+            /// Returns the position in the list, from 0.
             #[must_use]
             pub fn index(self) -> usize {
                 self.0 as usize
@@ -47,7 +47,7 @@ ids! {
     DeclarationId
 }
 
-/// A list whose items are found by ids of one type.
+/// A list that is indexed by ids of one type.
 #[derive(Clone, Debug)]
 pub struct IdVec<I, T> {
     items: Vec<T>,
@@ -55,34 +55,34 @@ pub struct IdVec<I, T> {
 }
 
 impl<I: From<usize>, T> IdVec<I, T> {
-    /// The ids of all items, in order.
+    /// Returns the ids of all items, in order.
     pub fn ids(&self) -> impl DoubleEndedIterator<Item = I> + ExactSizeIterator + Clone + use<I, T> {
         (0..self.items.len()).map(I::from)
     }
 
-    /// All items with their ids, in order.
+    /// Returns all items with their ids, in order.
     #[must_use]
     pub fn pairs(&self) -> impl DoubleEndedIterator<Item = (I, &T)> {
         self.items.iter().enumerate().map(|(k, item)| (I::from(k), item))
     }
 
-    /// As many items, each made of one of these.
+    /// Maps each item to a new list with the same ids.
     pub fn map<U>(&self, of: impl Fn(&T) -> U) -> IdVec<I, U> {
         self.items.iter().map(of).collect()
     }
 
-    /// The first item for which something holds.
+    /// Returns the id of the first item that satisfies a predicate.
     pub fn find(&self, holds: impl Fn(&T) -> bool) -> Option<I> {
         self.items.iter().position(holds).map(I::from)
     }
 
-    /// The id that the next item will have.
+    /// Returns the id that the next item will have.
     #[must_use]
     pub fn next_id(&self) -> I {
         I::from(self.items.len())
     }
 
-    /// Adds an item behind all others.
+    /// Appends an item and returns its id.
     pub fn push(&mut self, item: T) -> I {
         self.items.push(item);
         I::from(self.items.len() - 1)

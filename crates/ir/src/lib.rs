@@ -1,6 +1,6 @@
-//! The constraint system: the mechanism as mathematics, and nothing else.
+//! The constraint system: a mechanism as equations, independent of syntax and solver.
 //!
-//! # What it means
+//! # Meaning
 //!
 //! With `n` generalized coordinates `q` (lengths in metres, angles in radians), time `t` (s) and parameters `p`:
 //!
@@ -9,135 +9,134 @@
 //! - acceleration: `Φ_q q̈ = γ`, `γ = −(Φ_q q̇)_q q̇ − 2 Φ_qt q̇ − Φ_tt`;
 //! - jerk:         `Φ_q q⃛ = ` [`ConstraintSystem::jerk`], where a measure needs it.
 //!
-//! Where inputs are signals `u(t)`, `Φ(q, u; p) = 0` and time is one of them; then `Φ_q q_u = −Φ_u` too (`signals`).
+//! With inputs as signals `u(t)`, the equations are `Φ(q, u; p) = 0` and time is one of the signals; then also `Φ_q q_u = −Φ_u`.
 //!
-//! `Φ` is what `lower` wrote; all else is derived from it by the rules of `expr`. Symbols of the graph are parameters,
-//! time, and coordinates with their derivatives; no named symbol is left.
+//! `lower` writes `Φ`; everything else is derived from it by the rules of `expr`. The symbols of the graph are parameters, time or signals,
+//! coordinates and multipliers with their derivatives, and named symbols for reductions in results.
 //!
-//! # What must hold
+//! # Invariants
 //!
-//! - Every expression is in the one graph; `Φ_q` holds exactly the entries that do not vanish identically.
-//! - Every row knows the declaration that wrote it, with its place in the text, and what it is measured in.
-//! - The estimates, and all that depends on parameters alone, hold no other symbol.
+//! - All expressions belong to one graph; `Φ_q` holds exactly the entries that do not vanish identically.
+//! - Every row has the declaration that wrote it, its source span and its unit.
+//! - Estimates, and everything else that depends on parameters alone, contain no other symbols.
 //!
-//! [`ConstraintSystem::validate`] looks at these and more.
+//! [`ConstraintSystem::validate`] checks these and more.
 
-mod declared;
-mod door;
-mod equations_of;
+mod accessors;
+mod builder;
+mod check_slopes;
+mod declarations;
+mod domain_boundaries;
 mod features;
 mod forces;
 mod homotopy;
 mod ids;
 pub mod layout;
+mod monitors;
 mod print;
 pub mod program;
 mod results;
 mod right_sides;
-mod rims;
 mod rows;
 mod scopes;
-mod signals;
 mod sparse;
 pub mod structure;
 pub mod tolerances;
 mod validate;
 mod variations;
-mod watched;
-mod written;
 
-pub use declared::{
+pub use builder::Written;
+pub use check_slopes::CheckSlopes;
+pub use declarations::{
     Body, Coordinate, CoordinateKind, Declaration, DeclarationKind, Input, Measure, Owner, Param, Units,
 };
+pub use domain_boundaries::DomainBoundary;
 pub use features::{Axis, Circle, Point};
-pub use forces::{Forces, LoadForce, Mechanics, Press, Reaction};
+pub use forces::{ContactForce, Forces, LoadForce, Mechanics, Reaction};
 pub use homotopy::Homotopy;
 pub use ids::{AxisId, BodyId, CircleId, DeclarationId, IdVec, PointId};
 pub use mechc_text::vocabulary::JointKind;
+pub use monitors::{Check, Condition, ConditionKind, Fit, Monitor, MonitorKind, OpenContact, PartStart};
 pub use results::{Outcome, Reduction, ReductionKind, Results};
 pub use right_sides::{RightSide, With};
-pub use rims::Rim;
 pub use rows::{Row, RowUnit};
-pub use scopes::{AskingPart, LEAF_ORDERS, Leaf, Scope, leaf};
-pub use signals::CheckSlopes;
+pub use scopes::{LEAF_ORDERS, Leaf, PartWithDerivatives, Scope, leaf};
 pub use sparse::SparseRows;
-pub use variations::{Appended, Variable, Variation, Variations};
-pub use watched::{Check, Condition, ConditionKind, Fit, OpenContact, PartStart, Watch, WatchKind};
-pub use written::Written;
+pub use variations::{DerivativeColumn, Variable, Variation, Variations};
 
 use mechc_expr::{Dependence, ExprId, Graph, Symbol, TIME_SIGNAL};
 use mechc_text::source::Span;
 
-/// A mechanism as equations.
+/// A mechanism as equations `Φ(q, t; p) = 0`, with what is derived from them.
 #[derive(Clone, Debug)]
 pub struct ConstraintSystem {
     /// The mechanism's name.
     name: String,
-    /// The place of that name.
+    /// Span of the name.
     span: Span,
-    /// Every expression.
+    /// Graph that holds every expression.
     graph: Graph,
     /// The parameters, by the number of their symbol.
     params: Vec<Param>,
-    /// The inputs, as they are declared; where the equations hold them as signals and time too, this as the last.
+    /// The inputs as declared; with signals, time follows as the last one.
     inputs: Vec<Input>,
-    /// Whether the equations hold inputs, and time, as signals rather than by their formulas.
+    /// True if the equations contain inputs and time as signals rather than by their formulas.
     has_signals: bool,
-    /// How equations that were left out change, where one of the two is there.
+    /// Slopes of the left-out equations, if there are left-out equations and inputs or parameters to differentiate by.
     check_slopes: CheckSlopes,
-    /// The bodies, each with three coordinates; those of the joints come after them.
+    /// The bodies, with three coordinates each; the coordinates of joints follow them in `coordinates`.
     bodies: IdVec<BodyId, Body>,
-    /// Their points and the ground's: the equations know of none, but what is said of them does.
+    /// Points of the bodies and the ground. No equation refers to them; messages and pictures do.
     points: IdVec<PointId, Point>,
-    /// Their axes, and the ground's.
+    /// Axes of the bodies and the ground.
     axes: IdVec<AxisId, Axis>,
-    /// Their circles, and the ground's.
+    /// Circles of the bodies and the ground.
     circles: IdVec<CircleId, Circle>,
     /// The generalized coordinates, by their number.
     coordinates: Vec<Coordinate>,
     /// The joints, constraints and drivers that wrote the rows.
     declarations: IdVec<DeclarationId, Declaration>,
-    /// The entries of `Φ`.
+    /// The equations, one entry of `Φ` each.
     rows: Vec<Row>,
     /// `Φ_q`, by rows.
     phi_q: SparseRows,
-    /// The right sides of the equations that follow from `Φ = 0`.
+    /// Right sides of the equations that follow from `Φ = 0` by differentiation.
     right_sides: Vec<RightSide>,
-    /// What holds the motion, where somebody asks for it.
+    /// Multipliers and reactions, if the model requests forces.
     forces: Option<Forces>,
-    /// Derivatives by inputs and parameters, where there are any.
+    /// Derivatives with respect to inputs and parameters, if any are requested.
     variations: Option<Box<Variations>>,
-    /// What is tabulated beside the coordinates.
+    /// Quantities that are tabulated in addition to the coordinates.
     measures: Vec<Measure>,
-    /// What is asked of the whole analysis.
+    /// Results over the whole analysis.
     results: Results,
-    /// Formulas that must stay positive.
+    /// Formulas that must stay positive along the motion.
     conditions: Vec<Condition>,
-    /// Equations that follow from the others, and are looked at instead of solved.
+    /// Redundant equations, which are checked instead of solved.
     checks: Vec<Check>,
-    /// What tells one branch of a gear or contact from another.
-    watches: Vec<Watch>,
-    /// Where formulas of the equations come to the end of what their functions take.
-    rims: Vec<Rim>,
-    /// Contacts that begin where nobody said; none once that is searched for.
+    /// Quantities whose signs distinguish the branches of gears and contacts.
+    watches: Vec<Monitor>,
+    /// Boundaries of the domains of functions in the equations.
+    rims: Vec<DomainBoundary>,
+    /// Contacts whose start has no estimate; empty once the start has been searched for.
     open_contacts: Vec<OpenContact>,
-    /// Distances that gears and racks are made for, but do not hold themselves.
+    /// Center distances that gears and racks require but do not enforce.
     fits: Vec<Fit>,
-    /// The parts of the mechanism, as far as their start asks for it.
+    /// Sub-mechanisms with what is needed to assemble them separately.
     parts: Vec<PartStart>,
-    /// Parts whose texts ask for derivatives by their own equations.
-    asking_parts: Vec<AskingPart>,
+    /// Parts that request derivatives with respect to their own equations alone.
+    parts_with_derivatives: Vec<PartWithDerivatives>,
     /// Characteristic length L (m): the size of the largest body.
     length: f64,
-    /// The file's analysis: first time, last time, step (s).
+    /// The analysis of the file: first time, last time, step (s).
     analysis: Option<[f64; 3]>,
-    /// Their formulas, of parameters alone, where they are known.
+    /// Formulas of these times over parameters alone, if available.
     analysis_formulas: Option<[ExprId; 3]>,
 }
 
 impl ConstraintSystem {
-    /// The total time derivative of expressions: `t ↦ 1`, `q ↦ q̇` and so on, up to the given order of `q`, the
-    /// derivatives above which are taken to be zero.
+    /// Returns the total time derivatives of expressions, by `t ↦ 1`, `q ↦ q̇` and so on. Derivatives of `q` above the order `highest` are
+    /// taken to be zero.
     pub fn time_derivatives(graph: &mut Graph, roots: &[ExprId], highest: u8) -> Vec<ExprId> {
         graph.derivatives(roots, |graph, symbol| match symbol {
             Symbol::Time => Some(graph.constant(1.0)),
@@ -153,7 +152,7 @@ impl ConstraintSystem {
         })
     }
 
-    /// `Φ_q`, `ν`, `γ`, and the jerk's right side if wanted, of rows of `Φ`.
+    /// Derives `Φ_q`, `ν`, `γ`, and with `with_jerk` the right side of the jerk equation.
     fn derive(&mut self, with_jerk: bool) {
         self.phi_q = SparseRows::new();
         for row in self.phi() {
@@ -162,38 +161,38 @@ impl ConstraintSystem {
         self.derive_by_time(with_jerk);
     }
 
-    /// `Φ`, row by row.
+    /// Returns `Φ`, row by row.
     #[must_use]
     pub fn phi(&self) -> Vec<ExprId> {
         self.rows.iter().map(|row| row.phi).collect()
     }
 
-    /// Where a signal stands among the inputs: time is the last.
+    /// Returns the position of a signal among the inputs; time is the last.
     #[must_use]
-    pub fn signal_place(&self, index: u32) -> usize {
+    pub(crate) fn signal_position(&self, index: u32) -> usize {
         if index == TIME_SIGNAL { self.inputs.len().saturating_sub(1) } else { index as usize }
     }
 
-    /// The declaration behind a row.
+    /// Returns the declaration that wrote a row.
     #[must_use]
     pub fn declaration_of(&self, row: usize) -> &Declaration {
         &self.declarations[self.rows[row].declaration]
     }
 
-    /// Whether a row is a driver's.
+    /// Returns whether a driver wrote a row.
     #[must_use]
     pub fn is_driver(&self, row: usize) -> bool {
         self.declaration_of(row).kind == DeclarationKind::Driver
     }
 
-    /// Whether an equation moves the mechanism: one of a driver does, and one that holds time.
+    /// Returns whether an equation moves the mechanism: it belongs to a driver or contains time.
     #[must_use]
     pub fn drives(&self, declaration: DeclarationId, phi: ExprId) -> bool {
         let is_driver = self.declarations[declaration].kind == DeclarationKind::Driver;
         is_driver || self.graph.dependence(phi).on(Dependence::TIME)
     }
 
-    /// Takes rows out, given ascending, which are checked from now on.
+    /// Removes rows, given in ascending order, and checks them from now on instead of solving them.
     pub fn leave_out(&mut self, rows: &[usize]) {
         let checks = self.checks_of(rows);
         let stays = |k: &usize| rows.binary_search(k).is_err();
@@ -211,7 +210,7 @@ impl ConstraintSystem {
         debug_assert_eq!(self.validate(), Ok(()));
     }
 
-    /// What some rows are checked by, judged by their slopes at the estimates.
+    /// Returns the checks for some rows. Their scales are the norms of the scaled slopes at the estimates.
     fn checks_of(&self, rows: &[usize]) -> Vec<Check> {
         let q: Vec<f64> = self.coordinates.iter().map(|coordinate| self.value_at(coordinate.estimate, &[])).collect();
         let check = |&row: &usize| {
@@ -228,7 +227,7 @@ impl ConstraintSystem {
         rows.iter().map(check).collect()
     }
 
-    /// The body that a coordinate is of, if it is of a body.
+    /// Returns the body that a coordinate belongs to; `None` for a coordinate of a joint.
     #[must_use]
     pub fn body_of(&self, coordinate: usize) -> Option<BodyId> {
         match self.coordinates[coordinate].owner {
@@ -237,20 +236,20 @@ impl ConstraintSystem {
         }
     }
 
-    /// The coordinates of a body: x, y, phi.
+    /// Returns the coordinates of a body: x, y, phi.
     #[must_use]
     pub fn pose_of(&self, body: BodyId) -> [usize; 3] {
         self.bodies[body].pose
     }
 
-    /// The size of a body (m): what a change of its place is judged against.
+    /// Returns the size of a body (m), the scale for changes of its position.
     #[must_use]
     pub fn size_of(&self, body: BodyId) -> f64 {
         let [x, ..] = self.pose_of(body);
         self.coordinates[x].scale
     }
 
-    /// How a point is written, `rod.pin`; a literal one has no name.
+    /// Returns the full name of a point, such as `rod.pin`; `None` for an unnamed point.
     #[must_use]
     pub fn point_name(&self, point: PointId) -> Option<String> {
         let point = &self.points[point];
@@ -258,7 +257,7 @@ impl ConstraintSystem {
         point.name.as_ref().map(|name| format!("{owner}.{name}"))
     }
 
-    /// The name of the body or joint that a coordinate is of.
+    /// Returns the name of the body or joint that a coordinate belongs to.
     #[must_use]
     pub fn owner_name(&self, coordinate: usize) -> &str {
         match self.coordinates[coordinate].owner {
@@ -267,7 +266,7 @@ impl ConstraintSystem {
         }
     }
 
-    /// The place of the body or joint that a coordinate is of.
+    /// Returns the span of the name of the body or joint that a coordinate belongs to.
     #[must_use]
     pub fn owner_span(&self, coordinate: usize) -> Span {
         match self.coordinates[coordinate].owner {
@@ -276,7 +275,7 @@ impl ConstraintSystem {
         }
     }
 
-    /// The value of a formula of parameters and coordinates, at a position. Walks the graph: not for the time loop.
+    /// Returns the value of a formula of parameters and coordinates at a position `q`. Walks the graph, so it is too slow for the time loop.
     #[must_use]
     pub fn value_at(&self, formula: ExprId, q: &[f64]) -> f64 {
         self.graph.value(formula, |symbol| match symbol {
@@ -287,7 +286,7 @@ impl ConstraintSystem {
         })
     }
 
-    /// Coordinates minus equations.
+    /// Returns the number of degrees of freedom: coordinates minus equations.
     #[must_use]
     pub fn ndof(&self) -> isize {
         self.coordinates.len().cast_signed() - self.rows.len().cast_signed()

@@ -1,17 +1,17 @@
-//! The constraint system as readable text.
+//! The constraint system as readable text, for `Display` and messages.
 
-use super::{ConditionKind, ConstraintSystem, DeclarationKind, ReductionKind, WatchKind};
+use super::{ConditionKind, ConstraintSystem, DeclarationKind, MonitorKind, ReductionKind};
 use mechc_expr::{ExprId, Printer, Symbol, number};
 
 impl ConstraintSystem {
-    /// A symbol as the result tables name it: `crank.phi`, `crank.phi.d`.
+    /// Returns the name of a symbol as in result tables: `crank.phi`, `crank.phi.d`.
     #[must_use]
     pub fn symbol_name(&self, symbol: Symbol) -> String {
         match symbol {
             Symbol::Param(k) => self.params[k as usize].name.clone(),
             Symbol::Time => "t".to_owned(),
             Symbol::Signal { index, order } => {
-                let name = self.inputs.get(self.signal_place(index)).map_or("t", |input| &input.name);
+                let name = self.inputs.get(self.signal_position(index)).map_or("t", |input| &input.name);
                 if order == 0 { name.to_owned() } else { format!("{name}.{}", "d".repeat(order as usize)) }
             }
             Symbol::Coordinate { index, order } => {
@@ -19,7 +19,7 @@ impl ConstraintSystem {
                 if order == 0 { name.clone() } else { format!("{name}.{}", "d".repeat(order as usize)) }
             }
             Symbol::Named(k) => format!("reduction_{}", k + 1),
-            // it is nothing, and may be varied
+            // it is zero, and may be varied
             Symbol::Shift(_) => "0".to_owned(),
             Symbol::Varied { index, order, variation } => {
                 let of = self.symbol_name(Symbol::Coordinate { index, order });
@@ -32,7 +32,7 @@ impl ConstraintSystem {
         }
     }
 
-    /// A row by the declaration that wrote it: `big`, or `big 2` where it wrote several.
+    /// Returns the name of a row by its declaration: `big`, or `big 2` if the declaration wrote several rows.
     #[must_use]
     pub fn row_name(&self, row: usize) -> String {
         let declaration = self.rows[row].declaration;
@@ -43,9 +43,33 @@ impl ConstraintSystem {
         let before = self.rows[..row].iter().rev().take_while(|other| other.declaration == declaration).count();
         format!("{name} {}", before + 1)
     }
+
+    /// Returns the rows of `Φ` that a joint, constraint or driver wrote, with their `ν` and `γ` and the shared subexpressions, one per line;
+    /// `None` if no declaration of that name wrote a row.
+    #[must_use]
+    pub fn equations_of(&self, name: &str) -> Option<String> {
+        let declaration = self.declarations.find(|declaration| declaration.name == name)?;
+        let rows: Vec<usize> = (0..self.rows.len()).filter(|&row| self.rows[row].declaration == declaration).collect();
+        let of = |list: &[ExprId]| rows.iter().map(|&row| list[row]).collect::<Vec<ExprId>>();
+        let phi: Vec<ExprId> = rows.iter().map(|&row| self.rows[row].phi).collect();
+        let columns = [("Φ", phi), ("ν", of(self.nu())), ("γ", of(self.gamma()))];
+        let mut printer = Printer::new(&self.graph, |symbol| self.symbol_name(symbol));
+        let roots: Vec<ExprId> = columns.iter().flat_map(|(_, list)| list.iter().copied()).collect();
+        let prefix = self.prefix_of_shared();
+        let shared = printer.name_shared(&roots, |k| format!("{prefix}{}", k + 1));
+        let mut lines: Vec<String> = Vec::new();
+        for (letter, list) in &columns {
+            for (k, &id) in list.iter().enumerate() {
+                let number = if list.len() > 1 { (k + 1).to_string() } else { String::new() };
+                lines.push(format!("{letter}{number} = {}", printer.text(id)));
+            }
+        }
+        lines.extend(shared.iter().map(|(name, id)| format!("{name} = {}", printer.definition(*id))));
+        (!rows.is_empty()).then(|| lines.join("\n"))
+    }
 }
 
-/// Every coordinate, every row of `Φ` with the declaration that wrote it, the entries of `Φ_q`, `ν`, `γ`, the measures.
+/// Prints the coordinates, the rows of `Φ` with their declarations, the entries of `Φ_q`, `ν`, `γ`, the measures and the results.
 impl std::fmt::Display for ConstraintSystem {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let mut printer = Printer::new(&self.graph, |symbol| self.symbol_name(symbol)).for_readers();
@@ -137,7 +161,7 @@ impl ConstraintSystem {
     ) -> impl Iterator<Item = (String, String)> + 's {
         self.results.reductions.iter().enumerate().map(|(k, reduction)| {
             let of = text(reduction.of);
-            let said = match reduction.kind {
+            let reduced = match reduction.kind {
                 ReductionKind::Extreme { largest, when } => {
                     let which = if largest { "largest" } else { "least" };
                     if when { format!("the time of the {which} {of}") } else { format!("the {which} {of}") }
@@ -150,8 +174,8 @@ impl ConstraintSystem {
             };
             let bounds = ["from", "to"].into_iter().zip(reduction.window);
             let bounds = bounds.filter_map(|(word, bound)| bound.map(|bound| format!(" {word} t = {} s", text(bound))));
-            let said = said + &bounds.collect::<String>();
-            (self.symbol_name(Symbol::Named(k as u32)), said)
+            let reduced = reduced + &bounds.collect::<String>();
+            (self.symbol_name(Symbol::Named(k as u32)), reduced)
         })
     }
 
@@ -173,9 +197,9 @@ impl ConstraintSystem {
     fn watch_lines<'s>(&'s self, text: &'s dyn Fn(ExprId) -> String) -> impl Iterator<Item = (String, String)> + 's {
         self.watches.iter().map(|watch| {
             let rule = match watch.kind {
-                WatchKind::LineOfCenters => "> 0, along the line of centres",
-                WatchKind::Tangents => "keeps its sign: the tangents",
-                WatchKind::Curvature => "keeps its sign: the relative curvature",
+                MonitorKind::LineOfCenters => "> 0, along the line of centres",
+                MonitorKind::Tangents => "keeps its sign: the tangents",
+                MonitorKind::Curvature => "keeps its sign: the relative curvature",
             };
             (self.declarations[watch.declaration].name.clone(), format!("{} {rule}", text(watch.value)))
         })
@@ -183,7 +207,7 @@ impl ConstraintSystem {
 }
 
 impl ConstraintSystem {
-    /// All that is printed, so that what it shares can be named.
+    /// Returns all printed formulas, so that shared subexpressions can be named.
     fn printed(&self) -> Vec<ExprId> {
         let mut roots: Vec<ExprId> = self.rows.iter().map(|row| row.phi).collect();
         roots.extend(self.coordinates.iter().map(|coordinate| coordinate.estimate));
@@ -198,14 +222,14 @@ impl ConstraintSystem {
         roots
     }
 
-    /// A letter for the names of shared parts that no parameter begins with.
-    pub(super) fn prefix_of_shared(&self) -> &'static str {
+    /// Returns a prefix for the names of shared subexpressions that no parameter name begins with.
+    fn prefix_of_shared(&self) -> &'static str {
         let free = |prefix: &&str| !self.params.iter().any(|param| param.name.starts_with(*prefix));
         ["k", "e", "u", "w"].into_iter().find(free).unwrap_or("shared_")
     }
 }
 
-/// A title, and lines of two columns; nothing where there are none.
+/// Writes a title and lines of two columns; nothing if there are no lines.
 fn section(
     f: &mut std::fmt::Formatter<'_>,
     title: &str,

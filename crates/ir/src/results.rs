@@ -1,58 +1,58 @@
-//! What is asked of a whole analysis, beside its rows.
+//! Results of the whole analysis, in addition to its rows.
 
 use super::{ConstraintSystem, Units, Variations};
 use mechc_expr::ExprId;
 use mechc_text::source::Span;
 
-/// Numbers for the whole analysis.
+/// Results of the whole analysis.
 #[derive(Clone, Debug, Default)]
 pub struct Results {
-    /// What they ask of the motion, by the number of its named symbol.
+    /// Reductions that the results need, by the number of their named symbol.
     pub reductions: Vec<Reduction>,
-    /// The numbers.
+    /// The results.
     pub outcomes: Vec<Outcome>,
-    /// The variations that the formulas hold, those of the rows first; where they hold any.
+    /// Variations in the formulas, those of the rows first; `None` if there are none.
     pub variations: Option<Box<Variations>>,
-    /// By the number of a variation: what holds only where the equations that were left out go on to hold.
-    pub varied_where: Vec<(u32, ExprId)>,
+    /// By number of a variation: the condition that the left-out equations keep holding along it.
+    pub variation_conditions: Vec<(u32, ExprId)>,
 }
 
-/// One number for the whole analysis.
+/// A result: one number for the whole analysis.
 #[derive(Clone, Debug)]
 pub struct Outcome {
     /// Its name.
     pub name: String,
-    /// The name's place.
+    /// Span of the name.
     pub span: Span,
-    /// Its formula, over parameters and reductions, which are named symbols.
+    /// Formula over parameters and reductions; these are named symbols.
     pub value: ExprId,
-    /// In what it is told.
+    /// Units for printing.
     pub units: Units,
-    /// Whether a condition over what is not known does not hold: elsewhere such a result is not known.
+    /// True if a condition over unknown values counts as false; otherwise the result is unknown.
     pub unknown_is_false: bool,
 }
 
-/// What becomes of a formula over the analysis, or over a part of it.
+/// A formula reduced to one number over the analysis, or over a window of it.
 #[derive(Clone, Copy, Debug)]
 pub struct Reduction {
     /// The formula, over parameters, time, coordinates with their derivatives and variations, and other reductions.
     pub of: ExprId,
-    /// Which number of it.
+    /// The kind of number.
     pub kind: ReductionKind,
-    /// From when to when it is taken (s): formulas of parameters and other reductions; `None` is the analysis' own end. An `At` has none.
+    /// First and last time (s), as formulas of parameters and other reductions; `None` is the respective end of the analysis. `At` has no window.
     pub window: [Option<ExprId>; 2],
-    /// Where it is written first.
+    /// Span of its first occurrence.
     pub span: Span,
 }
 
-/// The numbers that can be asked of a formula.
+/// Kinds of reductions.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum ReductionKind {
-    /// The largest value, or the least one.
+    /// The largest or the least value.
     Extreme {
-        /// Which of the two.
+        /// True for the largest value, false for the least.
         largest: bool,
-        /// Its first time (s), rather than the value itself.
+        /// True for the first time of the extremum (s) rather than the value.
         when: bool,
     },
     /// The mean over time.
@@ -63,14 +63,14 @@ pub enum ReductionKind {
     First,
     /// The value at the last time.
     Last,
-    /// The value at a time (s), a formula of parameters, or the time of an extremum.
+    /// The value at a time (s): a formula of parameters, or the time of an extremum.
     At(ExprId),
 }
 
 impl ConstraintSystem {
-    /// The same equations, whose variations are those that results need, and nothing that rows show; none where they need none.
+    /// Returns the same equations with the variations that results need, and without measures and results; `None` if results need no variations.
     #[must_use]
-    pub fn for_variations_of_results(&self) -> Option<ConstraintSystem> {
+    pub fn with_result_variations(&self) -> Option<ConstraintSystem> {
         let variations = self.results.variations.clone()?;
         let (measures, results) = (Vec::new(), Results::default());
         let system = ConstraintSystem { variations: Some(variations), measures, results, ..self.clone() };

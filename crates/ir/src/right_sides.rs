@@ -1,75 +1,74 @@
-//! What `Φ = 0` gives where it is differentiated: equations with the one matrix `Φ_q`, and a right side for each thing that it is
-//! differentiated with.
+//! Differentiated equations: they share the matrix `Φ_q` and differ in their right sides.
 
 use super::{ConstraintSystem, Input};
 use mechc_expr::{ExprId, Graph, Symbol};
 
-/// What `Φ = 0` is differentiated with.
+/// The variables by which `Φ = 0` is differentiated.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub enum With {
-    /// Time, so many times: once is `ν`, twice `γ`, three times the right side of the jerk equation.
+    /// Time, by the order: 1 gives `ν`, 2 gives `γ`, 3 the right side of the jerk equation.
     Time(u8),
-    /// An input, by its place among the inputs.
+    /// An input, by its position among the inputs.
     Input(usize),
     /// A parameter, by its number.
     Param(usize),
 }
 
-/// The right side of the equations for a derivative of `q`.
+/// Right side of the equations for one derivative of `q`.
 #[derive(Clone, Debug)]
 pub struct RightSide {
-    /// What that is by.
+    /// Variable of differentiation.
     pub with: With,
-    /// One entry per row [unit of the row / that of what it is by].
+    /// One entry per row [unit of the row / unit of the variable].
     pub entries: Vec<ExprId>,
 }
 
 impl RightSide {
-    /// Only the entries of some rows are left.
+    /// Keeps only the entries of the given rows.
     pub(super) fn keep(&mut self, rows: &[usize]) {
         self.entries = rows.iter().map(|&row| self.entries[row]).collect();
     }
 }
 
 impl ConstraintSystem {
-    /// `ν`, one entry per row [unit of the row / s].
+    /// Returns `ν`, one entry per row [unit of the row / s].
     #[must_use]
     pub fn nu(&self) -> &[ExprId] {
         self.right_side(With::Time(1)).unwrap_or_default()
     }
 
-    /// `γ`, one entry per row [unit of the row / s²].
+    /// Returns `γ`, one entry per row [unit of the row / s²].
     #[must_use]
     pub fn gamma(&self) -> &[ExprId] {
         self.right_side(With::Time(2)).unwrap_or_default()
     }
 
-    /// Right side of the jerk equation, where a measure needs it [unit of the row / s³].
+    /// Returns the right side of the jerk equation, if a measure needs it [unit of the row / s³].
     #[must_use]
     pub fn jerk(&self) -> Option<&[ExprId]> {
         self.right_side(With::Time(3))
     }
 
-    /// By input, where the equations hold these as signals: `−Φ_u` [unit of the row / that of the input].
+    /// Returns `−Φ_u` for each input, if the equations contain inputs as signals [unit of the row / unit of the input].
     #[must_use]
     pub fn by_inputs(&self) -> impl ExactSizeIterator<Item = &[ExprId]> {
         self.all_with(|with| matches!(with, With::Input(_)))
     }
 
-    /// By parameter, where that is asked for: `−Φ_p` [unit of the row / that of the parameter].
+    /// Returns `−Φ_p` for each parameter, if requested [unit of the row / unit of the parameter].
     #[must_use]
     pub fn by_params(&self) -> impl ExactSizeIterator<Item = &[ExprId]> {
         self.all_with(|with| matches!(with, With::Param(_)))
     }
 
-    /// What `q` is differentiated by other than time: the inputs, and behind them the parameters.
+    /// Returns the variables other than time that `q` is differentiated by: inputs, then parameters.
     #[must_use]
     pub fn slopes(&self) -> Vec<With> {
         let all = self.right_sides.iter().map(|side| side.with);
         all.filter(|with| !matches!(with, With::Time(_))).collect()
     }
 
-    /// All right sides that there are.
+    /// Returns all right sides, in the order of [`With`].
     #[must_use]
     pub fn right_sides(&self) -> &[RightSide] {
         &self.right_sides
@@ -79,19 +78,19 @@ impl ConstraintSystem {
         self.right_sides.iter().find(|side| side.with == with).map(|side| side.entries.as_slice())
     }
 
-    fn all_with(&self, is_wanted: impl Fn(With) -> bool) -> impl ExactSizeIterator<Item = &[ExprId]> {
-        let found = self.right_sides.iter().filter(|side| is_wanted(side.with)).map(|side| side.entries.as_slice());
-        found.collect::<Vec<&[ExprId]>>().into_iter()
+    fn all_with(&self, is_selected: impl Fn(With) -> bool) -> impl ExactSizeIterator<Item = &[ExprId]> {
+        let entries = self.right_sides.iter().filter(|side| is_selected(side.with)).map(|side| side.entries.as_slice());
+        entries.collect::<Vec<&[ExprId]>>().into_iter()
     }
 
-    /// Puts right sides in the place of what there is of their kind; all stand in the order of [`With`].
+    /// Replaces right sides; all stay in the order of [`With`].
     fn set_right_sides(&mut self, is_replaced: impl Fn(With) -> bool, sides: impl IntoIterator<Item = RightSide>) {
         self.right_sides.retain(|side| !is_replaced(side.with));
         self.right_sides.extend(sides);
         self.right_sides.sort_by_key(|side| side.with);
     }
 
-    /// `ν`, `γ`, and the jerk's right side if wanted.
+    /// Derives `ν`, `γ`, and with `with_jerk` the right side of the jerk equation.
     pub(super) fn derive_by_time(&mut self, with_jerk: bool) {
         let phi = self.phi();
         let graph = &mut self.graph;
@@ -109,7 +108,7 @@ impl ConstraintSystem {
         self.set_right_sides(|with| matches!(with, With::Time(_)), sides);
     }
 
-    /// The right sides of the equations for the derivatives of `q` by each input, which they hold as a signal.
+    /// Derives the right sides for the derivatives of `q` with respect to each input signal.
     pub(super) fn derive_by_inputs(&mut self) {
         let signals: Vec<Symbol> = self.inputs.iter().map(Input::symbol).collect();
         let sides = signals.into_iter().enumerate().map(|(k, symbol)| self.by(With::Input(k), symbol));
@@ -117,7 +116,7 @@ impl ConstraintSystem {
         self.set_right_sides(|with| matches!(with, With::Input(_)), sides);
     }
 
-    /// The right sides of the equations for the derivatives of `q` by each parameter, those by which tables change too.
+    /// Derives the right sides for the derivatives of `q` with respect to each parameter, through tables too.
     pub fn derive_by_params(&mut self) {
         let sides = (0..self.params.len()).map(|k| self.by(With::Param(k), Symbol::Param(k as u32)));
         let sides: Vec<RightSide> = sides.collect();
@@ -125,7 +124,7 @@ impl ConstraintSystem {
         self.derive_checks();
     }
 
-    /// The partial derivatives of `Φ` by a symbol, negated.
+    /// Returns the negated partial derivatives of `Φ` with respect to a symbol.
     fn by(&mut self, with: With, symbol: Symbol) -> RightSide {
         let phi = self.phi();
         let slopes = slopes_by(&mut self.graph, &phi, symbol);
@@ -133,9 +132,9 @@ impl ConstraintSystem {
     }
 }
 
-/// The partial derivatives of formulas by a symbol, those by which tables change too.
-pub(super) fn slopes_by(graph: &mut Graph, formulas: &[ExprId], own: Symbol) -> Vec<ExprId> {
-    graph.variations(formulas, |graph, symbol| (symbol == own).then(|| graph.constant(1.0)))
+/// Returns the partial derivatives of formulas with respect to a symbol, through tables too.
+pub(super) fn slopes_by(graph: &mut Graph, formulas: &[ExprId], variable: Symbol) -> Vec<ExprId> {
+    graph.variations(formulas, |graph, symbol| (symbol == variable).then(|| graph.constant(1.0)))
 }
 
 fn negated(graph: &mut Graph, with: With, slopes: Vec<ExprId>) -> RightSide {

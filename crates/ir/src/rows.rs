@@ -1,4 +1,4 @@
-//! The entries of `Φ`, each with what it is measured in.
+//! The equations, with their units.
 
 use super::DeclarationId;
 use mechc_expr::ExprId;
@@ -7,32 +7,32 @@ use mechc_text::vocabulary::Dimension;
 /// An equation.
 #[derive(Clone, Copy, Debug)]
 pub struct Row {
-    /// The declaration that wrote it.
+    /// Declaration that wrote the row.
     pub declaration: DeclarationId,
-    /// The entry of `Φ`.
+    /// Entry of `Φ`.
     pub phi: ExprId,
-    /// What that is measured in.
+    /// Unit of `phi`.
     pub unit: RowUnit,
 }
 
-/// What an entry of `Φ` is measured in, in SI. It comes from what the row is, or from what `check` knows of an equation of the text: a
-/// graph in which plain numbers may stand for lengths does not tell it.
+/// SI unit of an entry of `Φ`. It comes from the element that writes the row, or from the dimensions that `check` found for an equation of
+/// the text; the graph cannot tell it, since plain numbers may stand for lengths.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct RowUnit {
     /// Its dimension; angles are pure numbers.
     pub dimension: Dimension,
-    /// Whether an angle is a factor: what has no length is told in radians then.
+    /// True if an angle is a factor; a unit without length is then printed in radians.
     pub is_angle: bool,
 }
 
 impl RowUnit {
-    /// m
+    /// Metres.
     pub const LENGTH: RowUnit = RowUnit { dimension: Dimension::LENGTH, is_angle: false };
-    /// m², of a squared distance or of the product of two tangents.
+    /// Square metres, of a squared distance or of the product of two tangents.
     pub const AREA: RowUnit = RowUnit { dimension: Dimension::AREA, is_angle: false };
-    /// rad
+    /// Radians.
     pub const ANGLE: RowUnit = RowUnit { dimension: Dimension::PURE, is_angle: true };
-    /// A pure number, as the sine between two axes.
+    /// A pure number, such as the sine of the angle between two axes.
     pub const NUMBER: RowUnit = RowUnit { dimension: Dimension::PURE, is_angle: false };
 }
 

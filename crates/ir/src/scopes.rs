@@ -1,38 +1,38 @@
-//! Parts that move together with what is around them, and derivatives inside them: by a part's own equations, seen from its own ground,
-//! with its inputs held.
+//! Scopes: derivatives inside parts that move together with their surroundings, taken by a part's own equations, relative to its own
+//! ground, with its inputs held.
 //!
-//! Where derivatives are made, an input that a part may hold is a symbol of its own, a *leaf* ([`leaf`]). Held, it does not change; else it
-//! changes as what it is bound to. When all is made, each stands again for that. With `F` the rows of the part, over its leaves, and `q` its
-//! coordinates alone, `F_q q_p = −D_p F`.
+//! While derivatives are formed, an input that a part may hold is a symbol of its own, a *leaf* ([`leaf`]). A held leaf is constant; any
+//! other varies as the formula that it is bound to. Afterwards each leaf is replaced by that formula. With `F` the rows of the part, over
+//! its leaves, and `q` its own coordinates, `F_q q_p = −D_p F`.
 
 use super::{DeclarationId, SparseRows};
 use mechc_expr::{ExprId, Graph, Symbol};
 use mechc_text::source::Span;
 
-/// The signals from this number on are leaves.
+/// Signal numbers from this one on denote leaves.
 const FIRST_LEAF: u32 = 1 << 30;
 
-/// The orders in time of a leaf that are ever met.
+/// Number of time derivatives of a leaf that may occur, with order 0.
 pub const LEAF_ORDERS: usize = 4;
 
-/// An input of a part, as a symbol of its own while derivatives are made.
+/// An input of a part, as a symbol of its own while derivatives are formed.
 #[derive(Clone, Debug)]
 pub struct Leaf {
-    /// The number of the scope that holds it.
+    /// Index of the scope that holds it.
     pub scope: u32,
-    /// What it is bound to, with time derivatives, over leaves.
+    /// Its binding and the time derivatives of it, as formulas that may contain leaves.
     pub over_leaves: [ExprId; LEAF_ORDERS],
-    /// The same without leaves.
+    /// Binding and time derivatives with all leaves replaced.
     pub plain: [ExprId; LEAF_ORDERS],
 }
 
-/// The symbol of a leaf.
+/// Returns the symbol of a leaf.
 #[must_use]
 pub fn leaf(number: usize) -> Symbol {
     Symbol::Signal { index: FIRST_LEAF + number as u32, order: 0 }
 }
 
-/// The number of the leaf that a symbol is, and its order in time.
+/// Returns the number of the leaf that a symbol denotes, and the order of its time derivative.
 pub(super) fn as_leaf(symbol: Symbol) -> Option<(usize, usize)> {
     match symbol {
         Symbol::Signal { index, order } if (FIRST_LEAF..u32::MAX).contains(&index) => {
@@ -42,38 +42,38 @@ pub(super) fn as_leaf(symbol: Symbol) -> Option<(usize, usize)> {
     }
 }
 
-/// Equations that stand for themselves where derivatives are taken: those of a part.
+/// The equations of a part, which derivatives follow on their own.
 #[derive(Clone, Debug)]
 pub struct Scope {
-    /// The part's name.
+    /// Name of the part.
     pub name: String,
     /// The coordinates that vary, ascending.
     pub columns: Vec<u32>,
-    /// The part's entries of `Φ`, over leaves.
+    /// The part's entries of `Φ`, which may contain leaves.
     pub phi: Vec<ExprId>,
-    /// Their derivatives by the coordinates that vary; the columns are these coordinates' numbers. Without leaves.
+    /// Their derivatives with respect to `columns`, without leaves; columns are coordinate numbers.
     pub phi_q: SparseRows,
 }
 
 impl Scope {
-    /// Finds the derivatives of the rows by what varies.
+    /// Derives `phi_q`.
     pub(super) fn derive(&mut self, graph: &mut Graph, leaves: &[Leaf]) {
         self.phi_q = SparseRows::new();
         for &row in &self.phi {
-            let own = graph.slopes(row, 0).filter(|&(column, _)| self.varies(column));
-            let (columns, slopes): (Vec<u32>, Vec<ExprId>) = own.unzip();
+            let varying = graph.slopes(row, 0).filter(|&(column, _)| self.varies(column));
+            let (columns, slopes): (Vec<u32>, Vec<ExprId>) = varying.unzip();
             let slopes = without_leaves(graph, leaves, &slopes);
             self.phi_q.push(columns.into_iter().zip(slopes));
         }
     }
 
-    /// Whether a coordinate varies.
+    /// Returns whether a coordinate varies.
     pub(super) fn varies(&self, column: u32) -> bool {
         self.columns.binary_search(&column).is_ok()
     }
 }
 
-/// Formulas with what leaves are bound to in their places.
+/// Replaces leaves in formulas by their bindings.
 pub(super) fn without_leaves(graph: &mut Graph, leaves: &[Leaf], roots: &[ExprId]) -> Vec<ExprId> {
     if leaves.is_empty() {
         return roots.to_vec();
@@ -81,20 +81,20 @@ pub(super) fn without_leaves(graph: &mut Graph, leaves: &[Leaf], roots: &[ExprId
     graph.substituted(roots, |symbol| as_leaf(symbol).map(|(number, order)| leaves[number].plain[order]))
 }
 
-/// A part whose text asks for derivatives by its own equations.
+/// A part whose text requests derivatives by its own equations.
 #[derive(Clone, Debug)]
-pub struct AskingPart {
+pub struct PartWithDerivatives {
     /// Its name.
     pub name: String,
-    /// The names of it and of the parts around it, from the inside out, and where they are used.
+    /// Names of the part and the parts around it, innermost first, with the spans of their declarations.
     pub used_at: Vec<(String, Span)>,
-    /// Where derivatives are asked for, in its text.
+    /// Spans in its text that request derivatives.
     pub places: Vec<Span>,
-    /// The first place where that is the derivative of a force.
+    /// First span that requests the derivative of a force.
     pub of_force: Option<Span>,
     /// Its coordinates, ascending.
     pub columns: Vec<u32>,
-    /// What its inputs are bound to.
+    /// Bindings of its inputs.
     pub inputs: Vec<ExprId>,
     /// Its joints, constraints and drivers, ascending.
     pub declarations: Vec<DeclarationId>,

@@ -1,4 +1,4 @@
-//! A matrix that has few entries.
+//! Sparse matrices of expressions.
 
 use mechc_expr::ExprId;
 use std::ops::Range;
@@ -11,31 +11,31 @@ pub struct SparseRows {
 }
 
 impl SparseRows {
-    /// One without rows.
+    /// Creates a matrix without rows.
     #[must_use]
     pub fn new() -> SparseRows {
         SparseRows { starts: vec![0], entries: Vec::new() }
     }
 
-    /// Adds a row; columns in ascending order.
+    /// Appends a row; columns must be in ascending order.
     pub fn push(&mut self, row: impl IntoIterator<Item = (u32, ExprId)>) {
         self.entries.extend(row);
         self.starts.push(self.entries.len());
     }
 
-    /// The entries of a row: column and expression.
+    /// Returns the entries of a row: column and expression.
     #[must_use]
     pub fn row(&self, row: usize) -> &[(u32, ExprId)] {
         &self.entries[self.range(row)]
     }
 
-    /// Positions of a row's entries in [`SparseRows::entries`].
+    /// Returns the positions of a row's entries in [`SparseRows::entries`].
     #[must_use]
     pub fn range(&self, row: usize) -> Range<usize> {
         self.starts[row]..self.starts[row + 1]
     }
 
-    /// Some of its rows.
+    /// Returns the matrix of some of its rows.
     #[must_use]
     pub fn of_rows(&self, rows: &[usize]) -> SparseRows {
         let mut kept = SparseRows::new();
@@ -45,19 +45,19 @@ impl SparseRows {
         kept
     }
 
-    /// The row that a position in [`SparseRows::entries`] belongs to.
+    /// Returns the row that a position in [`SparseRows::entries`] belongs to.
     #[must_use]
     pub fn row_of(&self, position: usize) -> usize {
         self.starts.partition_point(|&start| start <= position) - 1
     }
 
-    /// How many rows it has.
+    /// Returns the number of rows.
     #[must_use]
     pub fn rows(&self) -> usize {
         self.starts.len().saturating_sub(1)
     }
 
-    /// All entries, row by row.
+    /// Returns all entries, row by row.
     #[must_use]
     pub fn entries(&self) -> &[(u32, ExprId)] {
         &self.entries

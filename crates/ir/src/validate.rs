@@ -1,8 +1,8 @@
-//! What must hold of a constraint system, put to the test. What passes here, later stages accept without checks.
+//! Validation of a constraint system: what passes here, later stages accept without further checks.
 //!
-//! Looked at: that all ids and symbols are of something; poses, rows and their units, `Φ_q`, right sides; variations, those of results
-//! too, with their right sides; multipliers, reductions; which symbols may stand in `Φ`, in what is fixed, in what is watched. Not looked
-//! at: units of measures and reactions, what formulas are worth, and that derivatives are those of their formulas.
+//! Checked are ids and symbols; poses; rows and their units; `Φ_q`; right sides; variations with their right sides, also those of results;
+//! multipliers and reductions; and the symbols allowed in `Φ`, in constant formulas and in monitored ones. Not checked are the units of
+//! measures and reactions, the values of formulas, and that derivatives belong to their formulas.
 
 use super::scopes::as_leaf;
 use super::{
@@ -12,164 +12,166 @@ use super::{
 use mechc_expr::{ExprId, Symbol, TIME_SIGNAL};
 
 impl ConstraintSystem {
-    /// Looks at all that must hold, and says the first thing that does not, in the words of who works on the compiler. Takes about as long
-    /// as printing the system: for tests and debug builds.
+    /// Checks all invariants and returns the first violation, in terms of the compiler's internals. Takes about as long as printing the
+    /// system, so it serves tests and debug builds.
     pub fn validate(&self) -> Result<(), String> {
-        self.every_id_is_of_something()?;
-        self.poses_are_of_their_bodies()?;
-        self.rows_are_counted()?;
-        self.phi_q_is_sparse()?;
-        self.right_sides_are_whole()?;
-        self.variations_are_whole(self.variations.as_deref())?;
-        self.variations_are_whole(self.results.variations.as_deref())?;
-        self.symbols_are_of_something()?;
-        self.formulas_hold_what_they_may()?;
-        self.rows_are_measured_in_their_units()
+        self.check_ids()?;
+        self.check_poses()?;
+        self.check_row_counts()?;
+        self.check_pattern()?;
+        self.check_right_sides()?;
+        self.check_variations(self.variations.as_deref())?;
+        self.check_variations(self.results.variations.as_deref())?;
+        self.check_symbols()?;
+        self.check_dependences()?;
+        self.check_row_units()
     }
 
-    fn every_id_is_of_something(&self) -> Result<(), String> {
+    fn check_ids(&self) -> Result<(), String> {
         let declarations = self.rows.iter().map(|row| ("row", row.declaration));
         let declarations = declarations
             .chain(self.checks.iter().map(|check| ("check", check.declaration)))
             .chain(self.watches.iter().map(|watch| ("watch", watch.declaration)))
             .chain(self.fits.iter().map(|fit| ("fit", fit.declaration)))
-            .chain(self.presses().iter().map(|press| ("press", press.declaration)))
+            .chain(self.contact_forces().iter().map(|press| ("press", press.declaration)))
             .chain(self.open_contacts.iter().map(|contact| ("contact", contact.declaration)))
             .chain(self.rims.iter().flat_map(|rim| &rim.declarations).map(|id| ("rim", *id)))
-            .chain(self.asking_parts.iter().flat_map(|part| &part.declarations).map(|id| ("part", *id)));
+            .chain(self.parts_with_derivatives.iter().flat_map(|part| &part.declarations).map(|id| ("part", *id)));
         for (what, declaration) in declarations {
-            holds(declaration.index() < self.declarations.len(), || format!("a {what} of no declaration"))?;
+            ensure(declaration.index() < self.declarations.len(), || format!("a {what} of no declaration"))?;
         }
         let points = self.declarations.iter().flat_map(|of| of.points.iter().chain(&of.features));
         for point in points {
-            holds(point.index() < self.points.len(), || "a declaration at no point".to_owned())?;
+            ensure(point.index() < self.points.len(), || "a declaration at no point".to_owned())?;
         }
         let axes = self.declarations.iter().flat_map(|of| &of.axes);
-        holds(axes.into_iter().all(|id| id.index() < self.axes.len()), || "a declaration at no axis".to_owned())?;
+        ensure(axes.into_iter().all(|id| id.index() < self.axes.len()), || "a declaration at no axis".to_owned())?;
         let circles = self.declarations.iter().flat_map(|of| &of.circles);
-        holds(circles.into_iter().all(|id| id.index() < self.circles.len()), || {
+        ensure(circles.into_iter().all(|id| id.index() < self.circles.len()), || {
             "a declaration at no circle".to_owned()
         })?;
         let through = self.axes.iter().map(|axis| axis.origin).chain(self.circles.iter().map(|circle| circle.center));
-        holds(through.into_iter().all(|id| id.index() < self.points.len()), || {
+        ensure(through.into_iter().all(|id| id.index() < self.points.len()), || {
             "an axis or circle at no point".to_owned()
         })?;
         let bodies = self.points.iter().filter_map(|point| point.body);
         for body in bodies.chain(self.parts.iter().flat_map(|part| part.bodies.iter().copied())) {
-            holds(body.index() < self.bodies.len(), || "a point or part of no body".to_owned())?;
+            ensure(body.index() < self.bodies.len(), || "a point or part of no body".to_owned())?;
         }
         let columns = self.parts.iter().flat_map(|part| part.poses.clone().chain(part.own.clone()));
-        let asked = self.asking_parts.iter().flat_map(|part| &part.columns).map(|&column| column as usize);
-        for column in columns.chain(asked) {
-            holds(column < self.coordinates.len(), || "a part with no such coordinate".to_owned())?;
+        let requested =
+            self.parts_with_derivatives.iter().flat_map(|part| &part.columns).map(|&column| column as usize);
+        for column in columns.chain(requested) {
+            ensure(column < self.coordinates.len(), || "a part with no such coordinate".to_owned())?;
         }
         Ok(())
     }
 
-    /// Three coordinates of each body, and the others of joints.
-    fn poses_are_of_their_bodies(&self) -> Result<(), String> {
+    /// Checks that each body has three coordinates and that all others belong to joints.
+    fn check_poses(&self) -> Result<(), String> {
         const KINDS: [CoordinateKind; 3] = [CoordinateKind::Length, CoordinateKind::Length, CoordinateKind::Angle];
         let is_of = |column: usize, body: BodyId, kind: CoordinateKind| {
             self.coordinates.get(column).is_some_and(|of| of.owner == Owner::Body(body) && of.kind == kind)
         };
         for (id, body) in self.bodies.pairs() {
             let is_whole = body.pose.into_iter().zip(KINDS).all(|(column, kind)| is_of(column, id, kind));
-            holds(is_whole, || format!("the pose of `{}` is not its own", body.name))?;
+            ensure(is_whole, || format!("the pose of `{}` is not its own", body.name))?;
         }
         let of_bodies = self.coordinates.iter().filter(|of| matches!(of.owner, Owner::Body(_))).count();
-        holds(of_bodies == 3 * self.bodies.len(), || "a body with more than a pose".to_owned())?;
+        ensure(of_bodies == 3 * self.bodies.len(), || "a body with more than a pose".to_owned())?;
         let is_joint = |id: DeclarationId| matches!(self.declarations.get(id.index()), Some(of) if matches!(of.kind, DeclarationKind::Joint(_)));
         for coordinate in &self.coordinates {
             let is_owned = match coordinate.owner {
                 Owner::Body(_) => true,
                 Owner::Joint(joint) => is_joint(joint),
             };
-            holds(is_owned, || format!("`{}` is of no joint", coordinate.name))?;
+            ensure(is_owned, || format!("`{}` is of no joint", coordinate.name))?;
         }
         Ok(())
     }
 
-    /// The rows of a declaration stand together, and are as many as it says.
-    fn rows_are_counted(&self) -> Result<(), String> {
+    /// Checks that the rows of a declaration are adjacent, and their number.
+    fn check_row_counts(&self) -> Result<(), String> {
         let mut next = self.rows.iter().peekable();
         for (id, declaration) in self.declarations.pairs() {
             let mut count = 0;
             while next.next_if(|row| row.declaration == id).is_some() {
                 count += 1;
             }
-            holds(count == declaration.rows, || format!("{count} rows of `{}`", declaration.name))?;
+            ensure(count == declaration.rows, || format!("{count} rows of `{}`", declaration.name))?;
         }
-        holds(next.next().is_none(), || "rows out of the order of their declarations".to_owned())
+        ensure(next.next().is_none(), || "rows out of the order of their declarations".to_owned())
     }
 
-    /// The rows of a joint are measured in what its kind has, those that are left of them.
-    fn rows_are_measured_in_their_units(&self) -> Result<(), String> {
-        let mut coming = self.declarations.map(|declaration| match declaration.kind {
+    /// Checks that the rows of a joint that are left have the units of its kind.
+    fn check_row_units(&self) -> Result<(), String> {
+        let mut expected_units = self.declarations.map(|declaration| match declaration.kind {
             DeclarationKind::Joint(kind) => Some(units_of(kind).iter()),
             DeclarationKind::Constraint | DeclarationKind::Driver => None,
         });
         for (k, Row { declaration, unit, .. }) in self.rows.iter().enumerate() {
-            holds(unit.dimension.is_finite(), || format!("a unit of row {k} that is none"))?;
-            let is_its = coming[*declaration].as_mut().is_none_or(|units| units.any(|wanted| wanted == unit));
-            holds(is_its, || format!("row {k} is in {unit}"))?;
+            ensure(unit.dimension.is_finite(), || format!("a unit of row {k} that is none"))?;
+            let matches_kind =
+                expected_units[*declaration].as_mut().is_none_or(|units| units.any(|expected| expected == unit));
+            ensure(matches_kind, || format!("row {k} is in {unit}"))?;
         }
         Ok(())
     }
 
-    fn phi_q_is_sparse(&self) -> Result<(), String> {
-        holds(self.phi_q.rows() == self.rows.len(), || "`Φ_q` has other rows than `Φ`".to_owned())?;
+    fn check_pattern(&self) -> Result<(), String> {
+        ensure(self.phi_q.rows() == self.rows.len(), || "`Φ_q` has other rows than `Φ`".to_owned())?;
         for row in 0..self.rows.len() {
             let entries = self.phi_q.row(row);
             let is_sorted = entries.windows(2).all(|pair| pair[0].0 < pair[1].0);
             let is_inside = entries.iter().all(|&(column, _)| (column as usize) < self.coordinates.len());
-            holds(is_sorted && is_inside, || format!("the pattern of row {row}"))?;
+            ensure(is_sorted && is_inside, || format!("the pattern of row {row}"))?;
             let is_zero = |&(_, id): &(u32, ExprId)| self.graph.as_const(id) == Some(0.0);
-            holds(!entries.iter().any(is_zero), || format!("an entry of row {row} that vanishes"))?;
+            ensure(!entries.iter().any(is_zero), || format!("an entry of row {row} that vanishes"))?;
         }
         Ok(())
     }
 
-    fn right_sides_are_whole(&self) -> Result<(), String> {
+    fn check_right_sides(&self) -> Result<(), String> {
         for (k, side) in self.right_sides.iter().enumerate() {
             let is_whole = side.entries.len() == self.rows.len();
-            holds(is_whole, || format!("{} entries with {:?}", side.entries.len(), side.with))?;
+            ensure(is_whole, || format!("{} entries with {:?}", side.entries.len(), side.with))?;
             let is_new = self.right_sides[..k].iter().all(|other| other.with != side.with);
-            let is_of_something = match side.with {
+            let is_defined = match side.with {
                 With::Time(order) => (1..=3).contains(&order),
                 With::Input(k) => k < self.inputs.len(),
                 With::Param(k) => k < self.params.len(),
             };
-            holds(is_new && is_of_something, || format!("a right side with {:?}", side.with))?;
+            ensure(is_new && is_defined, || format!("a right side with {:?}", side.with))?;
         }
         let is_determined_by_time = !self.nu().is_empty() && !self.gamma().is_empty();
-        holds(self.rows.is_empty() || is_determined_by_time, || "no `ν` or no `γ`".to_owned())
+        ensure(self.rows.is_empty() || is_determined_by_time, || "no `ν` or no `γ`".to_owned())
     }
 
-    /// Variations are by what there is, and have a right side for each row, or for each of the part that they are of.
-    fn variations_are_whole(&self, variations: Option<&Variations>) -> Result<(), String> {
+    /// Checks that variations refer to existing variables and scopes, and have a right side for each row of the system or of their scope.
+    fn check_variations(&self, variations: Option<&Variations>) -> Result<(), String> {
         let Some(variations) = variations else { return Ok(()) };
         let is_scope = |scope: Option<u32>| scope.is_none_or(|scope| (scope as usize) < variations.scopes.len());
         let is_variable = |variable: u32| (variable as usize) < variations.variables.len();
         for variable in &variations.variables {
-            holds(is_scope(variable.scope), || format!("`{}` of no part", variable.name))?;
+            ensure(is_scope(variable.scope), || format!("`{}` of no part", variable.name))?;
         }
         for (k, variation) in variations.listed().iter().enumerate() {
             let (first, second) = variation.by;
-            let is_of_something = is_variable(first) && second.is_none_or(is_variable) && is_scope(variation.scope);
-            holds(is_of_something, || format!("variation {k} by nothing"))?;
+            let is_defined = is_variable(first) && second.is_none_or(is_variable) && is_scope(variation.scope);
+            ensure(is_defined, || format!("variation {k} by nothing"))?;
             let of_scope = variation.scope.map(|scope| &variations.scopes[scope as usize]);
             let rows = of_scope.map_or(self.rows.len(), |scope| scope.phi.len());
             let is_whole = variation.rights.iter().all(|right| right.len() == rows);
-            holds(is_whole, || format!("variation {k} with other right sides than rows"))?;
+            ensure(is_whole, || format!("variation {k} with other right sides than rows"))?;
             let is_whole = variation.forces.is_empty() || variation.forces.len() == self.coordinates.len();
-            holds(is_whole, || format!("variation {k} with other forces than coordinates"))?;
+            ensure(is_whole, || format!("variation {k} with other forces than coordinates"))?;
         }
         let columns = &mut variations.appended.iter();
-        holds(columns.all(|column| is_variable(column.variable)), || "a column by nothing".to_owned())
+        ensure(columns.all(|column| is_variable(column.variable)), || "a column by nothing".to_owned())
     }
 
-    /// All symbols in formulas that are looked at beside the equations are of something.
-    fn symbols_are_of_something(&self) -> Result<(), String> {
+    /// Checks that all symbols in formulas other than equations are defined.
+    fn check_symbols(&self) -> Result<(), String> {
         let of_forces = self.forces.iter().flat_map(Forces::formulas);
         let of_rows = self.conditions.iter().map(|of| of.positive);
         let of_rows = of_rows.chain(self.watches.iter().map(|of| of.value)).chain(of_forces);
@@ -177,7 +179,7 @@ impl ConstraintSystem {
         let of_rows: Vec<ExprId> = of_rows.chain(self.measures.iter().map(|measure| measure.value)).collect();
         let variations = self.variations.as_deref();
         for symbol in self.graph.symbols_of_all(&of_rows) {
-            holds(self.is_of_something(symbol, variations), || format!("{symbol:?} is of nothing"))?;
+            ensure(self.is_defined(symbol, variations), || format!("{symbol:?} is of nothing"))?;
         }
         let of_results = self.results.reductions.iter().flat_map(|reduction| {
             let time = if let ReductionKind::At(time) = reduction.kind { Some(time) } else { None };
@@ -187,15 +189,15 @@ impl ConstraintSystem {
         let variations = self.results.variations.as_deref();
         for symbol in self.graph.symbols_of_all(&of_results) {
             let is_reduction = matches!(symbol, Symbol::Named(k) if (k as usize) < self.results.reductions.len());
-            holds(is_reduction || self.is_of_something(symbol, variations), || {
+            ensure(is_reduction || self.is_defined(symbol, variations), || {
                 format!("{symbol:?} in results is of nothing")
             })?;
         }
         let needed = self.forces.as_ref().is_none_or(|forces| forces.needed.len() == self.coordinates.len());
-        holds(needed, || "other forces than coordinates".to_owned())
+        ensure(needed, || "other forces than coordinates".to_owned())
     }
 
-    fn is_of_something(&self, symbol: Symbol, variations: Option<&Variations>) -> bool {
+    fn is_defined(&self, symbol: Symbol, variations: Option<&Variations>) -> bool {
         let is_variation = |k: u32| variations.is_some_and(|all| (k as usize) < all.listed().len());
         match symbol {
             Symbol::Param(k) => (k as usize) < self.params.len(),
@@ -215,17 +217,17 @@ impl ConstraintSystem {
         }
     }
 
-    fn formulas_hold_what_they_may(&self) -> Result<(), String> {
+    fn check_dependences(&self) -> Result<(), String> {
         let fixed = self.coordinates.iter().map(|coordinate| coordinate.estimate);
         let fixed = fixed.chain(self.points.iter().flat_map(|point| point.at));
         let fixed = fixed.chain(self.axes.iter().flat_map(|axis| axis.direction));
         for formula in fixed.chain(self.circles.iter().map(|circle| circle.radius)) {
             let dependence = self.graph.dependence(formula);
-            holds(dependence.is_constant(), || "an estimate or feature that is not of parameters alone".to_owned())?;
+            ensure(dependence.is_constant(), || "an estimate or feature that is not of parameters alone".to_owned())?;
         }
         let of_equations: Vec<ExprId> = self.phi().into_iter().chain(self.checks.iter().map(|of| of.phi)).collect();
         for symbol in self.graph.symbols_of_all(&of_equations) {
-            holds(self.may_stand_in_phi(symbol), || format!("{symbol:?} in `Φ`"))?;
+            ensure(self.may_stand_in_phi(symbol), || format!("{symbol:?} in `Φ`"))?;
         }
         Ok(())
     }
@@ -244,7 +246,7 @@ impl ConstraintSystem {
     }
 }
 
-/// What the rows of a joint are measured in, in their order.
+/// Returns the units of the rows of a joint, in order.
 fn units_of(kind: JointKind) -> &'static [RowUnit] {
     const LENGTH: RowUnit = RowUnit::LENGTH;
     match kind {
@@ -261,8 +263,8 @@ fn units_of(kind: JointKind) -> &'static [RowUnit] {
     }
 }
 
-fn holds(it: bool, fault: impl Fn() -> String) -> Result<(), String> {
-    if it { Ok(()) } else { Err(fault()) }
+fn ensure(holds: bool, fault: impl Fn() -> String) -> Result<(), String> {
+    if holds { Ok(()) } else { Err(fault()) }
 }
 
 #[cfg(test)]
@@ -272,12 +274,13 @@ mod tests {
         Variations, With,
     };
     use crate::{
-        Body, Coordinate, Declaration, Measure, Outcome, Point, Rim, Units, Variable, Watch, WatchKind, Written,
+        Body, Coordinate, Declaration, DomainBoundary, Measure, Monitor, MonitorKind, Outcome, Point, Units, Variable,
+        Written,
     };
     use mechc_expr::{ExprId, Graph, Symbol, Unary};
     use mechc_text::source::{Sources, Span};
 
-    /// Two arms, the first pinned to the ground and turned by a driver, the second pinned to its tip, with a measure.
+    /// Returns two arms with a measure: the first is pinned to the ground and driven, the second pinned to its tip.
     fn system() -> ConstraintSystem {
         let mut sources = Sources::default();
         let file = sources.add("arms.mech", "");
@@ -314,7 +317,7 @@ mod tests {
             circles: Vec::new(),
             at: None,
             written: None,
-            is_spoken_of: false,
+            is_referenced: false,
         };
         let revolute = DeclarationKind::Joint(JointKind::Revolute);
         let units = Units { si: "m".to_owned(), printed: ["m", "m/s", "m/s^2"].map(str::to_owned), scale: [1.0; 3] };
@@ -340,7 +343,7 @@ mod tests {
             open_contacts: Vec::new(),
             fits: Vec::new(),
             parts: Vec::new(),
-            asking_parts: Vec::new(),
+            parts_with_derivatives: Vec::new(),
             length: 1.0,
             analysis: None,
             graph,
@@ -348,7 +351,7 @@ mod tests {
         ConstraintSystem::of(written, false)
     }
 
-    /// What is said of a system that something was done to.
+    /// Returns what `validate` reports for a system after a modification.
     fn broken(how: impl Fn(&mut ConstraintSystem)) -> String {
         let mut system = system();
         assert_eq!(system.validate(), Ok(()));
@@ -357,7 +360,7 @@ mod tests {
     }
 
     #[test]
-    fn ids_are_of_something() {
+    fn ids_refer_to_something() {
         assert_eq!(broken(|s| s.rows[0].declaration = DeclarationId::from(99)), "a row of no declaration");
         assert_eq!(broken(|s| s.points[1.into()].body = Some(99.into())), "a point or part of no body");
         assert_eq!(broken(|s| s.declarations[0.into()].points.push(99.into())), "a declaration at no point");
@@ -365,16 +368,16 @@ mod tests {
 
     #[test]
     fn a_body_has_its_three_coordinates() {
-        let said = broken(|s| s.bodies[0.into()].pose.swap(1, 2));
-        assert!(said.starts_with("the pose of"), "{said}");
-        let said = broken(|s| s.coordinates[4].owner = Owner::Body(0.into()));
-        assert!(said.starts_with("the pose of"), "{said}");
+        let fault = broken(|s| s.bodies[0.into()].pose.swap(1, 2));
+        assert!(fault.starts_with("the pose of"), "{fault}");
+        let fault = broken(|s| s.coordinates[4].owner = Owner::Body(0.into()));
+        assert!(fault.starts_with("the pose of"), "{fault}");
     }
 
     #[test]
-    fn rows_are_those_of_their_declarations() {
-        let said = broken(|s| s.declarations[0.into()].rows += 1);
-        assert!(said.starts_with("2 rows of"), "{said}");
+    fn rows_follow_their_declarations() {
+        let fault = broken(|s| s.declarations[0.into()].rows += 1);
+        assert!(fault.starts_with("2 rows of"), "{fault}");
         assert!(broken(|s| s.rows.swap(0, 2)).starts_with("0 rows of"));
     }
 
@@ -386,42 +389,42 @@ mod tests {
 
     #[test]
     fn right_sides_have_an_entry_for_each_row() {
-        let said = broken(|s| s.right_sides[0].entries.truncate(1));
-        assert!(said.ends_with("entries with Time(1)"), "{said}");
+        let fault = broken(|s| s.right_sides[0].entries.truncate(1));
+        assert!(fault.ends_with("entries with Time(1)"), "{fault}");
         assert_eq!(broken(|s| s.right_sides[1].with = With::Param(99)), "a right side with Param(99)");
         assert_eq!(broken(|s| s.right_sides.truncate(1)), "no `ν` or no `γ`");
     }
 
     #[test]
-    fn what_is_looked_at_beside_the_equations_is_of_something() {
+    fn symbols_outside_the_equations_are_defined() {
         let named = |s: &mut ConstraintSystem| s.graph.symbol(Symbol::Named(7));
         let coordinate = |s: &mut ConstraintSystem| s.graph.symbol(Symbol::Coordinate { index: 999, order: 1 });
-        let said = broken(|s| {
+        let fault = broken(|s| {
             let value = named(s);
             s.measures[0].value = value;
         });
-        assert_eq!(said, "Named(7) is of nothing");
-        let said = broken(|s| {
+        assert_eq!(fault, "Named(7) is of nothing");
+        let fault = broken(|s| {
             let (gauge, slope) = (coordinate(s), coordinate(s));
-            s.rims.push(Rim { gauge, slope, declarations: Vec::new() });
+            s.rims.push(DomainBoundary { gauge, slope, declarations: Vec::new() });
         });
-        assert!(said.starts_with("Coordinate { index: 999"), "{said}");
-        let said = broken(|s| {
+        assert!(fault.starts_with("Coordinate { index: 999"), "{fault}");
+        let fault = broken(|s| {
             let value = named(s);
             let units = s.measures[0].units.clone();
             let outcome = Outcome { name: String::new(), span: s.span, value, units, unknown_is_false: false };
             s.results.outcomes.push(outcome);
         });
-        assert_eq!(said, "Named(7) in results is of nothing");
-        let said = broken(|s| {
+        assert_eq!(fault, "Named(7) in results is of nothing");
+        let fault = broken(|s| {
             let force = s.graph.symbol(Symbol::Multiplier(0));
-            s.watches.push(Watch { value: force, kind: WatchKind::Tangents, scale: 1.0, declaration: 0.into() });
+            s.watches.push(Monitor { value: force, kind: MonitorKind::Tangents, scale: 1.0, declaration: 0.into() });
         });
-        assert_eq!(said, "Multiplier(0) is of nothing", "nobody asks for forces");
+        assert_eq!(fault, "Multiplier(0) is of nothing", "no forces are requested");
     }
 
     #[test]
-    fn variations_are_by_something() {
+    fn variables_have_existing_scopes() {
         let variable = |scope| Variable {
             name: "turn".to_owned(),
             symbol: Symbol::Param(0),
@@ -434,7 +437,7 @@ mod tests {
     }
 
     #[test]
-    fn a_matrix_holds_no_zeros_and_is_in_order() {
+    fn a_pattern_is_sorted_and_without_zeros() {
         let with = |s: &mut ConstraintSystem, entries: &[(u32, f64)]| {
             let entries: Vec<_> = entries.iter().map(|&(column, x)| (column, s.graph.constant(x))).collect();
             let rest: Vec<Vec<_>> = (1..s.rows.len()).map(|row| s.phi_q.row(row).to_vec()).collect();
@@ -450,10 +453,10 @@ mod tests {
     }
 
     #[test]
-    fn formulas_hold_nothing_else() {
+    fn forbidden_symbols_are_found() {
         let coordinate = Symbol::Coordinate { index: 0, order: 0 };
-        let said = broken(|s| s.coordinates[0].estimate = s.graph.symbol(coordinate));
-        assert!(said.starts_with("an estimate"), "{said}");
+        let fault = broken(|s| s.coordinates[0].estimate = s.graph.symbol(coordinate));
+        assert!(fault.starts_with("an estimate"), "{fault}");
         assert_eq!(broken(|s| s.rows[0].phi = s.graph.symbol(Symbol::Named(0))), "Named(0) in `Φ`");
         let velocity = Symbol::Coordinate { index: 0, order: 1 };
         assert!(broken(|s| s.rows[0].phi = s.graph.symbol(velocity)).ends_with("in `Φ`"));

@@ -1,12 +1,12 @@
-//! Derivatives by inputs and parameters, at fixed time and along the branch: the *variations* of `q`, `q̇` and `q̈`.
+//! Derivatives with respect to inputs and parameters at fixed time, along the branch: the *variations* (sensitivities) of `q`, `q̇` and `q̈`.
 //!
-//! With `F₀ = Φ`, `F₁ = Φ̇`, `F₂ = Φ̈` and `D_p` the derivative by `p` through all that depends on it,
+//! With `F₀ = Φ`, `F₁ = Φ̇`, `F₂ = Φ̈` and `D_p` the total derivative with respect to `p`,
 //!
-//! - `Φ_q q_p = −D_p F₀`, `Φ_q q̇_p = −D_p F₁`, `Φ_q q̈_p = −D_p F₂`, each right side without the variation that is solved for;
-//! - `Φ_q q_ab = −D_b D_a F₀`, and so on, likewise.
+//! - `Φ_q q_p = −D_p F₀`, `Φ_q q̇_p = −D_p F₁`, `Φ_q q̈_p = −D_p F₂`, where each right side omits the variation that is solved for;
+//! - `Φ_q q_ab = −D_b D_a F₀`, and correspondingly for the second derivatives of `q̇` and `q̈`.
 //!
-//! All have the matrix of the position. Source: E. J. Haug, K. K. Choi, V. Komkov, *Design Sensitivity Analysis of Structural
-//! Systems*, 1986, by direct differentiation.
+//! All share the matrix of the position equations. Source: E. J. Haug, K. K. Choi, V. Komkov, *Design Sensitivity Analysis of Structural
+//! Systems*, 1986, direct differentiation.
 
 use super::scopes::{Leaf, Scope, as_leaf, without_leaves};
 use super::{Check, ConstraintSystem};
@@ -15,102 +15,101 @@ use mechc_expr::{Comparison, ExprId, Graph, Symbol, Unary};
 use mechc_text::source::Span;
 use rustc_hash::FxHashMap;
 
-/// What derivatives are taken by, and the variations that this needs.
+/// The variables of differentiation and the variations that the requested derivatives need.
 #[derive(Clone, Debug, Default)]
 pub struct Variations {
-    /// What derivatives may be taken by, by its number.
+    /// Variables of differentiation, by number.
     pub variables: Vec<Variable>,
-    /// Each behind those that it needs.
+    /// The variations, each after those that it depends on.
     list: Vec<Variation>,
     numbers: FxHashMap<(u32, Option<u32>), u32>,
-    /// So many have their right sides.
+    /// Number of variations whose right sides have been derived.
     written: usize,
-    /// Parts whose own equations derivatives are taken by, and what these hold.
+    /// Parts whose own equations derivatives are taken by.
     pub scopes: Vec<Scope>,
-    /// Inputs of these parts, by the number of their leaf.
+    /// Inputs of these parts, by the number of their leaf symbol.
     pub leaves: Vec<Leaf>,
-    /// Columns of derivatives, behind all others of the table.
-    pub appended: Vec<Appended>,
+    /// Columns of derivatives, after all others of the table.
+    pub appended: Vec<DerivativeColumn>,
 }
 
-/// An input or parameter.
+/// An input or parameter that derivatives are taken with respect to.
 #[derive(Clone, Debug)]
 pub struct Variable {
     /// Its name.
     pub name: String,
-    /// What of the formulas changes.
+    /// The symbol in the formulas that varies.
     pub symbol: Symbol,
-    /// Its SI unit: `m`, `1/s`, `rad`, or `1` for a pure number.
+    /// SI unit: `m`, `1/s`, `rad`, or `1` for a pure number.
     pub unit: String,
-    /// The place of its declaration.
+    /// Span of its declaration.
     pub span: Span,
-    /// The part whose equations alone it is by, by its number among the scopes.
+    /// Index of the scope if the derivative follows the equations of one part alone.
     pub scope: Option<u32>,
 }
 
-/// How all coordinates, or those of a part, change by one variable, or by two.
+/// Derivatives of all coordinates, or those of a part, with respect to one or two variables.
 #[derive(Clone, Debug)]
 pub struct Variation {
-    /// By what, and by what again.
+    /// The first variable, and the second one for a second derivative.
     pub by: (u32, Option<u32>),
-    /// The part whose equations alone it follows, by its number among the scopes: that of the first variable.
+    /// Index of the scope if the variation follows the equations of one part alone: that of the first variable.
     pub scope: Option<u32>,
-    /// The right sides for `q`, `q̇` and `q̈`, one entry per row, of the part if it is of one [unit of the row, per time, per unit of the
-    /// variables].
+    /// Right sides for `q`, `q̇` and `q̈`, one entry per row of the system or of the scope [unit of the row, per time, per unit of the variables].
     pub rights: [Vec<ExprId>; 3],
-    /// The right sides of the equations for the multipliers, one entry per coordinate, where somebody asks for these [unit of the
+    /// Right sides of the equations for the multipliers, one entry per coordinate, if forces are requested; else empty [unit of the
     /// coordinate's force per unit of the variables].
     pub forces: Vec<ExprId>,
-    /// Whether a formula holds how multipliers change by it.
+    /// True if a formula contains the variation of a multiplier.
     is_of_forces: bool,
 }
 
-/// A derivative that is a column of its own.
+/// A derivative with a column of its own.
 #[derive(Clone, Debug)]
-pub struct Appended {
-    /// The name of the column: `crank.x.d.by.turn`.
+pub struct DerivativeColumn {
+    /// Name of the column, such as `crank.x.d.by.turn`.
     pub name: String,
     /// Its value in SI.
     pub value: ExprId,
-    /// By which variable.
+    /// Index of the variable of differentiation.
     pub variable: u32,
-    /// The unit that it is printed in.
+    /// Unit of the printed values.
     pub unit: String,
-    /// What SI is divided by, multiplied with and divided by to be in this unit.
+    /// Factors `[a, b, c]` from SI to the printed unit: `value / a * b / c`.
     pub scale: [f64; 3],
 }
 
 impl Variations {
-    /// None yet, by some variables.
+    /// Creates an empty list of variations with respect to some variables.
     #[must_use]
     pub fn of(variables: Vec<Variable>) -> Variations {
         Variations { variables, ..Variations::default() }
     }
 
-    /// The derivatives of formulas by a variable, through the coordinates too.
+    /// Returns the total derivatives of formulas with respect to a variable, through the coordinates too.
     ///
-    /// The formulas hold no third derivative of a coordinate, and nothing that has been differentiated by two variables.
+    /// The formulas must not contain third time derivatives of coordinates, nor second variations.
     pub fn derivatives(&mut self, graph: &mut Graph, roots: &[ExprId], variable: u32) -> Vec<ExprId> {
         self.along(graph, roots, variable, &|_| false)
     }
 
-    /// A formula with what leaves are bound to in their places.
+    /// Replaces leaves by the formulas that they are bound to.
     pub fn without_leaves(&self, graph: &mut Graph, root: ExprId) -> ExprId {
         without_leaves(graph, &self.leaves, &[root])[0]
     }
 
-    /// The number of a variable within a part whose equations alone it is by.
+    /// Returns the index of the same variable restricted to the equations of a scope; adds it if it is new.
     pub fn within(&mut self, variable: u32, scope: u32) -> u32 {
         let of = self.variables[variable as usize].clone();
-        let is_it = |known: &Variable| known.symbol == of.symbol && known.scope == Some(scope);
-        let known = self.variables.iter().position(is_it);
-        known.unwrap_or_else(|| {
+        let is_same = |other: &Variable| other.symbol == of.symbol && other.scope == Some(scope);
+        let existing = self.variables.iter().position(is_same);
+        existing.unwrap_or_else(|| {
             self.variables.push(Variable { scope: Some(scope), ..of });
             self.variables.len() - 1
         }) as u32
     }
 
-    /// Those that have their right sides, by their numbers.
+    /// The variations that have right sides, by number.
     pub(super) fn listed(&self) -> &[Variation] {
         &self.list[..self.written]
     }
@@ -119,7 +118,7 @@ impl Variations {
         self.variables[variable as usize].scope
     }
 
-    /// The same, as if some symbols did not change.
+    /// Returns the derivatives as [`Variations::derivatives`] does, with some symbols held constant.
     fn along(
         &mut self,
         graph: &mut Graph,
@@ -127,11 +126,11 @@ impl Variations {
         variable: u32,
         stays: &dyn Fn(Symbol) -> bool,
     ) -> Vec<ExprId> {
-        let own = self.variables[variable as usize].symbol;
+        let varied = self.variables[variable as usize].symbol;
         let scope = self.scope_of(variable);
         graph.variations(roots, |graph, symbol| match symbol {
             _ if stays(symbol) => None,
-            _ if symbol == own => Some(graph.constant(1.0)),
+            _ if symbol == varied => Some(graph.constant(1.0)),
             Symbol::Coordinate { index, .. }
                 if scope.is_some_and(|scope| !self.scopes[scope as usize].varies(index)) =>
             {
@@ -166,15 +165,15 @@ impl Variations {
         })
     }
 
-    /// The number of a variation, which is asked for.
+    /// Returns the number of a variation; adds it if it is new.
     fn number(&mut self, first: u32, second: Option<u32>) -> u32 {
-        // by one set of equations it means nothing which comes first
+        // with one set of equations the order of the two variables is irrelevant
         let by = match second {
             Some(second) if second < first && self.scope_of(first) == self.scope_of(second) => (second, Some(first)),
             _ => (first, second),
         };
-        if let Some(&known) = self.numbers.get(&by) {
-            return known;
+        if let Some(&number) = self.numbers.get(&by) {
+            return number;
         }
         if let (a, Some(b)) = by {
             self.number(a, None);
@@ -192,14 +191,14 @@ impl Variations {
         number
     }
 
-    /// The number of a variation of which it is asked how it changes multipliers.
+    /// Returns the number of a variation and requests the variation of the multipliers.
     fn number_of_forces(&mut self, first: u32, second: Option<u32>) -> u32 {
         let number = self.number(first, second);
         self.list[number as usize].is_of_forces = true;
         number
     }
 
-    /// How many times a formula is differentiated by variables already.
+    /// Returns how many times a formula has been differentiated with respect to variables.
     #[must_use]
     pub fn times(&self, graph: &Graph, formula: ExprId) -> usize {
         if !graph.dependence(formula).is_varied() {
@@ -214,7 +213,7 @@ impl Variations {
         graph.symbols(formula).into_iter().map(times).max().unwrap_or(0)
     }
 
-    /// The right sides of all variations that have none yet, for rows of `Φ`.
+    /// Derives the right sides of all variations that have none yet, from the rows of `Φ`.
     fn write_rights(&mut self, graph: &mut Graph, phi: &[ExprId]) {
         for scope in &mut self.scopes {
             scope.derive(graph, &self.leaves);
@@ -223,27 +222,29 @@ impl Variations {
         if first_open == self.list.len() {
             return;
         }
-        let of_whole = with_rates(graph, phi);
-        let of_scopes: Vec<[Vec<ExprId>; 3]> = self.scopes.iter().map(|scope| with_rates(graph, &scope.phi)).collect();
-        let mut whole: FxHashMap<(u32, usize), Vec<ExprId>> = FxHashMap::default();
+        let system_orders = with_rates(graph, phi);
+        let scope_orders: Vec<[Vec<ExprId>; 3]> =
+            self.scopes.iter().map(|scope| with_rates(graph, &scope.phi)).collect();
+        let mut first_derivatives: FxHashMap<(u32, usize), Vec<ExprId>> = FxHashMap::default();
         for number in first_open..self.list.len() {
             let (first, second) = self.list[number].by;
-            let orders = self.list[number].scope.map_or(&of_whole, |scope| &of_scopes[scope as usize]);
+            let orders = self.list[number].scope.map_or(&system_orders, |scope| &scope_orders[scope as usize]);
             for (order, roots) in orders.iter().enumerate() {
                 let top = order as u8;
                 let slopes = match second {
                     None => self.along(graph, roots, first, &|symbol| is_coordinate(symbol, top)),
                     Some(second) => {
                         let inner = self.number(first, None);
-                        let roots =
-                            whole.entry((first, order)).or_insert_with(|| self.derivatives(graph, roots, first));
+                        let roots = first_derivatives
+                            .entry((first, order))
+                            .or_insert_with(|| self.derivatives(graph, roots, first));
                         let roots = std::mem::take(roots);
                         let is_solved_for = |symbol| match symbol {
                             Symbol::Varied { order, variation, .. } => order == top && variation == inner,
                             _ => false,
                         };
                         let slopes = self.along(graph, &roots, second, &is_solved_for);
-                        whole.insert((first, order), roots);
+                        first_derivatives.insert((first, order), roots);
                         slopes
                     }
                 };
@@ -253,7 +254,7 @@ impl Variations {
         }
     }
 
-    /// The right sides of the equations for how multipliers change, as far as somebody asks for that and they are not there yet.
+    /// Derives the right sides of the equations for varied multipliers that are needed and missing.
     fn write_rights_of_forces(&mut self, graph: &mut Graph, open_forces: &[ExprId]) {
         for number in 0..self.list.len() {
             if self.list[number].scope.is_none() && self.list[number].forces.is_empty() {
@@ -262,8 +263,7 @@ impl Variations {
         }
     }
 
-    /// The right sides of the equations for how multipliers change: `D_a (p − Φ_qᵀ λ)` without `λ_a`, and by two `D_b` of all that,
-    /// without `λ_ab`.
+    /// Returns the right sides for varied multipliers: `D_a (p − Φ_qᵀ λ)` without `λ_a`; for second derivatives `D_b` of the whole, without `λ_ab`.
     fn rights_of_forces(&mut self, graph: &mut Graph, open_forces: &[ExprId], number: usize) -> Vec<ExprId> {
         match self.list[number].by {
             (first, None) => self.along(graph, open_forces, first, &|symbol| matches!(symbol, Symbol::Multiplier(_))),
@@ -278,20 +278,20 @@ impl Variations {
         }
     }
 
-    /// Formulas that may hold multipliers: of columns, and of the equations for how multipliers change.
+    /// Formulas that may contain multipliers: derivative columns, and right sides for varied multipliers.
     pub(super) fn formulas_with_forces(&mut self) -> impl Iterator<Item = &mut ExprId> {
         let columns = self.appended.iter_mut().map(|column| &mut column.value);
         columns.chain(self.list.iter_mut().flat_map(|variation| &mut variation.forces))
     }
 
-    /// How many there are.
+    /// Number of variations.
     pub(super) fn count(&self) -> usize {
         self.list.len()
     }
 }
 
 impl Variations {
-    /// Only the right sides of some rows are left.
+    /// Keeps only the right sides of the given rows.
     fn keep(&mut self, kept: &[usize]) {
         let of_whole = self.list.iter_mut().filter(|variation| variation.scope.is_none());
         for rights in of_whole.flat_map(|variation| &mut variation.rights) {
@@ -299,7 +299,7 @@ impl Variations {
         }
     }
 
-    /// The same without columns of their own.
+    /// Returns a copy without derivative columns.
     #[must_use]
     pub fn without_columns(&self) -> Variations {
         Variations { appended: Vec::new(), ..self.clone() }
@@ -310,7 +310,7 @@ fn is_coordinate(symbol: Symbol, of: u8) -> bool {
     matches!(symbol, Symbol::Coordinate { order, .. } if order == of)
 }
 
-/// Rows of `Φ`, their first and their second time derivatives.
+/// Returns `[Φ, Φ̇, Φ̈]`, row by row.
 fn with_rates(graph: &mut Graph, phi: &[ExprId]) -> [Vec<ExprId>; 3] {
     let first = ConstraintSystem::time_derivatives(graph, phi, 1);
     let second = ConstraintSystem::time_derivatives(graph, &first, 2);
@@ -318,34 +318,34 @@ fn with_rates(graph: &mut Graph, phi: &[ExprId]) -> [Vec<ExprId>; 3] {
 }
 
 impl ConstraintSystem {
-    /// The variations that measures or columns need.
+    /// Returns the variations that measures or columns need.
     #[must_use]
     pub fn variations(&self) -> &[Variation] {
         self.variations.as_ref().map_or(&[], |variations| &variations.list)
     }
 
-    /// The parts by whose own equations there are variations.
+    /// Returns the parts with variations of their own equations.
     #[must_use]
     pub fn scopes(&self) -> &[Scope] {
         self.variations.as_ref().map_or(&[], |variations| &variations.scopes)
     }
 
-    /// Columns of derivatives, behind all others of the table.
+    /// Returns the columns of derivatives, which follow all others of the table.
     #[must_use]
-    pub fn appended(&self) -> &[Appended] {
+    pub fn derivative_columns(&self) -> &[DerivativeColumn] {
         self.variations.as_ref().map_or(&[], |variations| &variations.appended)
     }
 
-    /// What a variation of a column is called: `crank.x.by.turn`.
+    /// Returns the name of a varied quantity: `crank.x` gives `crank.x.by.turn`.
     #[must_use]
-    pub fn variation_name(&self, of: &str, variation: u32) -> String {
+    pub(crate) fn variation_name(&self, of: &str, variation: u32) -> String {
         let Some(variations) = &self.variations else { return of.to_owned() };
         let (first, second) = variations.list[variation as usize].by;
         let names = std::iter::once(first).chain(second).map(|by| &variations.variables[by as usize].name);
         names.fold(of.to_owned(), |text, name| format!("{text}.by.{name}"))
     }
 
-    /// The right sides of the variations.
+    /// Derives the right sides of the variations.
     pub(super) fn derive_variations(&mut self) {
         let phi: Vec<ExprId> = self.rows.iter().map(|row| row.phi).collect();
         let open_forces = self.open_forces();
@@ -355,7 +355,7 @@ impl ConstraintSystem {
         }
     }
 
-    /// The right sides of the variations that only results need.
+    /// Derives the right sides of the variations that only results need.
     pub(super) fn derive_variations_of_results(&mut self) {
         let phi: Vec<ExprId> = self.rows.iter().map(|row| row.phi).collect();
         let open_forces = self.open_forces();
@@ -365,8 +365,8 @@ impl ConstraintSystem {
         }
     }
 
-    /// Only some rows are left. What is varied in a way in which an equation that was left out would cease to hold has no derivative: the
-    /// mechanism cannot be assembled beside where it is.
+    /// Restricts the variations to the rows that are kept. A variation along which a left-out equation would cease to hold does not exist,
+    /// since the mechanism cannot be assembled nearby: its columns and measures become non-finite there.
     pub(super) fn leave_out_of_variations(&mut self, kept: &[usize]) {
         self.leave_out_of_variations_of_results(kept);
         let Some(mut variations) = self.variations.take() else { return };
@@ -388,20 +388,20 @@ impl ConstraintSystem {
         let Some(mut variations) = self.results.variations.take() else { return };
         variations.keep(kept);
         let hold = self.where_checks_hold(&mut variations).into_iter().enumerate();
-        self.results.varied_where = hold.filter_map(|(number, hold)| Some((number as u32, hold?))).collect();
+        self.results.variation_conditions = hold.filter_map(|(number, hold)| Some((number as u32, hold?))).collect();
         self.results.variations = Some(variations);
     }
 
-    /// By variation: whether all equations that were left out go on to hold.
+    /// Returns, by variation, the condition that all left-out equations keep holding; `None` if there is nothing to check.
     fn where_checks_hold(&mut self, variations: &mut Variations) -> Vec<Option<ExprId>> {
         let mut hold: Vec<Option<ExprId>> = Vec::new();
         for number in 0..variations.list.len() {
             let (first, second) = variations.list[number].by;
             let mut all = Vec::new();
             for check in 0..self.checks.len() {
-                all.push(self.goes_on_to_hold(variations, check, number as u32));
+                all.push(self.holds_nearby(variations, check, number as u32));
                 if second.is_none() {
-                    all.push(self.goes_on_to_hold_for_a_while(variations, check, number as u32));
+                    all.push(self.rate_holds_nearby(variations, check, number as u32));
                 }
             }
             if let Some(second) = second {
@@ -413,37 +413,37 @@ impl ConstraintSystem {
         hold
     }
 
-    /// Whether an equation that was left out holds beside a position: `|D_p Φ| ≤ ε ‖Φ_q‖ Σ |q_p|`, all scaled, and likewise by two.
-    fn goes_on_to_hold(&mut self, variations: &mut Variations, check: usize, number: u32) -> ExprId {
+    /// Returns the condition that a left-out equation holds near a position: `|D_p Φ| ≤ ε ‖Φ_q‖ Σ |q_p|`, all scaled; analogously for two variables.
+    fn holds_nearby(&mut self, variations: &mut Variations, check: usize, number: u32) -> ExprId {
         let Check { phi, scale, .. } = self.checks[check];
         let (first, second) = variations.list[number as usize].by;
         let slope = variations.derivatives(&mut self.graph, &[phi], first)[0];
-        let own = self.size(|index| Symbol::Varied { index, order: 0, variation: number });
+        let variation_size = self.size(|index| Symbol::Varied { index, order: 0, variation: number });
         let Some(second) = second else {
-            return self.is_next_to_nothing(slope, scale, own);
+            return self.is_negligible(slope, scale, variation_size);
         };
         let bend = variations.derivatives(&mut self.graph, &[slope], second)[0];
         let parts = [first, second].map(|by| variations.numbers[&(by, None)]);
         let [a, b] = parts.map(|variation| self.size(|index| Symbol::Varied { index, order: 0, variation }));
         let product = self.graph.mul(a, b);
-        let size = self.graph.add(own, product);
-        self.is_next_to_nothing(bend, scale, size)
+        let size = self.graph.add(variation_size, product);
+        self.is_negligible(bend, scale, size)
     }
 
-    /// The same of its time derivative, so that it does not hold by chance: `|D_p Φ̇| ≤ ε ‖Φ_q‖ (Σ |q̇_p| + Σ |q_p| Σ |q̇|)`.
-    fn goes_on_to_hold_for_a_while(&mut self, variations: &mut Variations, check: usize, variation: u32) -> ExprId {
+    /// Returns the condition for the time derivative, which excludes coincidences: `|D_p Φ̇| ≤ ε ‖Φ_q‖ (Σ |q̇_p| + Σ |q_p| Σ |q̇|)`.
+    fn rate_holds_nearby(&mut self, variations: &mut Variations, check: usize, variation: u32) -> ExprId {
         let Check { phi, scale, .. } = self.checks[check];
         let (by, _) = variations.list[variation as usize].by;
         let rate = ConstraintSystem::time_derivatives(&mut self.graph, &[phi], 1)[0];
         let slope = variations.derivatives(&mut self.graph, &[rate], by)[0];
-        let [place, speed] = [0, 1].map(|order| self.size(|index| Symbol::Varied { index, order, variation }));
+        let [position, speed] = [0, 1].map(|order| self.size(|index| Symbol::Varied { index, order, variation }));
         let motion = self.size(|index| Symbol::Coordinate { index, order: 1 });
-        let turned = self.graph.mul(place, motion);
+        let turned = self.graph.mul(position, motion);
         let size = self.graph.add(speed, turned);
-        self.is_next_to_nothing(slope, scale, size)
+        self.is_negligible(slope, scale, size)
     }
 
-    /// `Σ |x| / s` over all coordinates, s being what a change of each is judged against.
+    /// Returns `Σ |x| / s` over all coordinates, where `s` is the scale of each.
     fn size(&mut self, symbol: impl Fn(u32) -> Symbol) -> ExprId {
         let graph = &mut self.graph;
         let zero = graph.constant(0.0);
@@ -455,7 +455,7 @@ impl ConstraintSystem {
         })
     }
 
-    fn is_next_to_nothing(&mut self, off: ExprId, scale: f64, size: ExprId) -> ExprId {
+    fn is_negligible(&mut self, off: ExprId, scale: f64, size: ExprId) -> ExprId {
         let graph = &mut self.graph;
         let part = graph.constant(MISSES * scale);
         let (off, limit) = (graph.unary(Unary::Abs, off), graph.mul(part, size));
@@ -463,7 +463,7 @@ impl ConstraintSystem {
     }
 }
 
-/// A formula where all holds that its variations need, elsewhere nothing finite.
+/// Returns a formula that equals `id` where the conditions of its variations hold, and is not finite elsewhere.
 fn only_where(graph: &mut Graph, hold: &[Option<ExprId>], id: ExprId) -> ExprId {
     if !graph.dependence(id).is_varied() {
         return id;

@@ -1,4 +1,4 @@
-//! What a live page asks of the program that it is a part of: files, times, a place to write to.
+//! The interface of a live page to the program that serves it: files, output times, and writing.
 
 use mechc_engine::analysis::Times;
 use mechc_pipeline::Compiled;
@@ -7,24 +7,24 @@ use mechc_text::source::Sources;
 use mechc_text::world::World;
 use std::sync::Arc;
 
-/// Whoever has a workshop: a command, an editor.
+/// The program that owns a live session: the command line or an editor's server.
 pub trait Host: Send + Sync {
-    /// The files.
+    /// Returns the files.
     fn world(&self) -> Arc<dyn World>;
 
-    /// The times of a mechanism.
+    /// Returns the output times of a mechanism.
     ///
     /// # Errors
-    /// They cannot be told.
+    /// The times are invalid or missing.
     fn times(&self, compiled: &Compiled, sources: &mut Sources) -> Result<Times, Diagnostics>;
 
-    /// Puts a text in the place of the one that the file has, if that is still due when nothing else is left to do; says whether it was.
+    /// Replaces the text of the file if `is_due` still holds immediately before; returns whether it did.
     ///
     /// # Errors
-    /// Why it cannot be written, in words.
+    /// The reason why the file cannot be written, for the user.
     fn write(&self, text: &str, is_due: &dyn Fn() -> bool) -> Result<bool, String>;
 
-    /// Shows a place of the file (UTF-16), where there is something to show it in.
+    /// Shows a position of the file (UTF-16) in the editor, if the host has one.
     fn show(&self, at: u32) {
         let _ = at;
     }

@@ -1,131 +1,131 @@
-//! Requests and responses, as bytes on a connection. Whoever sends too much, or too slowly, is sent away.
+//! HTTP requests and responses as bytes on a connection. A client that sends too much, or too slowly, is disconnected.
 
 use std::io::{self, Read, Write};
 use std::time::{Duration, Instant};
 
-/// No head is longer (bytes).
-const LONGEST_HEAD: usize = 16 << 10;
-/// Nor has more headers.
-const MOST_HEADERS: usize = 64;
-/// No body is longer (bytes).
-const LONGEST_BODY: usize = 1 << 20;
-/// A request that has begun is there within this time.
-const PATIENCE: Duration = Duration::from_secs(5);
-/// So long a connection may wait for its next request.
-const IDLE: Duration = Duration::from_secs(30);
+/// The maximum length of a head (bytes).
+const MAX_HEAD: usize = 16 << 10;
+/// The maximum number of headers.
+const MAX_HEADERS: usize = 64;
+/// The maximum length of a body (bytes).
+const MAX_BODY: usize = 1 << 20;
+/// The time within which a request must arrive, from its first byte.
+const REQUEST_TIMEOUT: Duration = Duration::from_secs(5);
+/// The time that a connection may wait for its next request.
+const IDLE_TIMEOUT: Duration = Duration::from_secs(30);
 
-/// The first lines of a request.
+/// The request line and headers of a request.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub(super) struct Head {
-    /// As it is written.
+    /// The method, as it is written.
     pub method: String,
-    /// As it is written.
+    /// The target, as it is written.
     pub target: String,
-    /// Names in small letters.
+    /// Headers, with names in lower case.
     pub headers: Vec<(String, String)>,
-    /// Of the body (bytes).
+    /// The length of the body (bytes).
     pub length: usize,
-    /// Whether the connection is to stay.
-    pub keeps: bool,
+    /// True if the connection stays open after the response.
+    pub keep_alive: bool,
 }
 
-/// Why there is no request.
+/// The reason why a request cannot be read.
 #[derive(Debug)]
 pub(super) enum Fault {
-    /// It is told so, with this status.
+    /// The client gets a response with this status.
     Refused(u16),
-    /// There is nobody to tell.
-    Gone,
+    /// The client has closed the connection.
+    Closed,
 }
 
 impl From<io::Error> for Fault {
     fn from(error: io::Error) -> Fault {
         match error.kind() {
             io::ErrorKind::WouldBlock | io::ErrorKind::TimedOut => Fault::Refused(408),
-            _ => Fault::Gone,
+            _ => Fault::Closed,
         }
     }
 }
 
-/// What can be waited for so long and no longer.
-pub(super) trait Patient: Read + Write {
-    /// Reading ends with an error after this time.
-    fn wait_at_most(&mut self, time: Duration) -> io::Result<()>;
+/// A stream whose reads can be limited in time.
+pub(super) trait TimedStream: Read + Write {
+    /// Makes reads fail after this time.
+    fn limit_reads(&mut self, time: Duration) -> io::Result<()>;
 }
 
-/// A connection, with what has been read of it and not been used.
+/// A connection, with the bytes that were read and not used yet.
 pub(super) struct Connection<S> {
     stream: S,
-    read: Vec<u8>,
+    buffer: Vec<u8>,
 }
 
-impl<S: Patient> Connection<S> {
+impl<S: TimedStream> Connection<S> {
     pub fn new(stream: S) -> Connection<S> {
-        Connection { stream, read: Vec::new() }
+        Connection { stream, buffer: Vec::new() }
     }
 
     pub fn stream(&mut self) -> &mut S {
         &mut self.stream
     }
 
-    /// The head of the next request. The time for it begins with its first byte.
+    /// Reads the head of the next request; returns it with the instant by which the whole request must arrive.
     pub fn head(&mut self) -> Result<(Head, Instant), Fault> {
-        let mut until = Instant::now() + if self.read.is_empty() { IDLE } else { PATIENCE };
-        let mut has_begun = !self.read.is_empty();
+        let mut until = Instant::now() + if self.buffer.is_empty() { IDLE_TIMEOUT } else { REQUEST_TIMEOUT };
+        let mut has_begun = !self.buffer.is_empty();
         loop {
-            if let Some((head, used)) = parsed(&self.read)? {
-                self.read.drain(..used);
+            if let Some((head, used)) = parse_head(&self.buffer)? {
+                self.buffer.drain(..used);
                 return Ok((head, until));
             }
-            if self.read.len() >= LONGEST_HEAD {
+            if self.buffer.len() >= MAX_HEAD {
                 return Err(Fault::Refused(431));
             }
-            match self.more(until, LONGEST_HEAD) {
-                // nobody waits for an answer to nothing
-                Err(Fault::Refused(408)) if !has_begun => return Err(Fault::Gone),
+            match self.fill(until, MAX_HEAD) {
+                // a client that has sent nothing waits for no response
+                Err(Fault::Refused(408)) if !has_begun => return Err(Fault::Closed),
                 other => other?,
             }
             if !has_begun {
-                (has_begun, until) = (true, Instant::now() + PATIENCE);
+                (has_begun, until) = (true, Instant::now() + REQUEST_TIMEOUT);
             }
         }
     }
 
-    /// The body of a request whose head was read.
+    /// Reads the body of a request whose head was read.
     pub fn body(&mut self, head: &Head, until: Instant) -> Result<Vec<u8>, Fault> {
-        if head.length > LONGEST_BODY {
+        if head.length > MAX_BODY {
             return Err(Fault::Refused(413));
         }
-        while self.read.len() < head.length {
-            self.more(until, head.length)?;
+        while self.buffer.len() < head.length {
+            self.fill(until, head.length)?;
         }
-        let rest = self.read.split_off(head.length);
-        Ok(std::mem::replace(&mut self.read, rest))
+        let rest = self.buffer.split_off(head.length);
+        Ok(std::mem::replace(&mut self.buffer, rest))
     }
 
-    /// Reads on, up to so many bytes in all.
-    fn more(&mut self, until: Instant, most: usize) -> Result<(), Fault> {
+    /// Reads more bytes into the buffer, up to `max` in all.
+    fn fill(&mut self, until: Instant, max: usize) -> Result<(), Fault> {
         let left = until.saturating_duration_since(Instant::now());
         if left.is_zero() {
             return Err(Fault::Refused(408));
         }
-        self.stream.wait_at_most(left)?;
+        self.stream.limit_reads(left)?;
         let mut buffer = [0; 4096];
-        let wanted = buffer.len().min(most.saturating_sub(self.read.len()).max(1));
-        match self.stream.read(&mut buffer[..wanted])? {
-            0 => Err(Fault::Gone),
+        let size = buffer.len().min(max.saturating_sub(self.buffer.len()).max(1));
+        match self.stream.read(&mut buffer[..size])? {
+            0 => Err(Fault::Closed),
             count => {
-                self.read.extend(&buffer[..count]);
+                self.buffer.extend(&buffer[..count]);
                 Ok(())
             }
         }
     }
 }
 
-/// A head that is whole, and how long it is.
-fn parsed(bytes: &[u8]) -> Result<Option<(Head, usize)>, Fault> {
-    let mut headers = [httparse::EMPTY_HEADER; MOST_HEADERS];
-    let mut request = httparse::Request::new(&mut headers);
+/// Parses a complete head; returns it with its length. An incomplete head gives `None`.
+fn parse_head(bytes: &[u8]) -> Result<Option<(Head, usize)>, Fault> {
+    let mut raw_headers = [httparse::EMPTY_HEADER; MAX_HEADERS];
+    let mut request = httparse::Request::new(&mut raw_headers);
     let used = match request.parse(bytes) {
         Ok(httparse::Status::Complete(used)) => used,
         Ok(httparse::Status::Partial) => return Ok(None),
@@ -134,15 +134,15 @@ fn parsed(bytes: &[u8]) -> Result<Option<(Head, usize)>, Fault> {
     };
     let bad = || Fault::Refused(400);
     let (method, target) = (request.method.ok_or_else(bad)?.to_owned(), request.path.ok_or_else(bad)?.to_owned());
-    let mut read = Vec::with_capacity(request.headers.len());
+    let mut headers = Vec::with_capacity(request.headers.len());
     for header in request.headers.iter() {
         let value = std::str::from_utf8(header.value).map_err(|_| bad())?;
-        read.push((header.name.to_ascii_lowercase(), value.to_owned()));
+        headers.push((header.name.to_ascii_lowercase(), value.to_owned()));
     }
     let all = |name: &str| -> Vec<&str> {
-        read.iter().filter(|(other, _)| other == name).map(|(_, value)| value.as_str()).collect()
+        headers.iter().filter(|(other, _)| other == name).map(|(_, value)| value.as_str()).collect()
     };
-    // where a body ends must be beyond doubt
+    // the end of a body must be unambiguous, or two requests could be confused
     if !all("transfer-encoding").is_empty() {
         return Err(Fault::Refused(501));
     }
@@ -154,41 +154,43 @@ fn parsed(bytes: &[u8]) -> Result<Option<(Head, usize)>, Fault> {
         _ => return Err(bad()),
     };
     let closes = all("connection").iter().any(|value| value.eq_ignore_ascii_case("close"));
-    let keeps = request.version == Some(1) && !closes;
-    Ok(Some((Head { method, target, headers: read, length, keeps }, used)))
+    let keep_alive = request.version == Some(1) && !closes;
+    Ok(Some((Head { method, target, headers, length, keep_alive }, used)))
 }
 
-/// What every response says: nothing is kept, guessed, framed or told to others.
-const ALWAYS: &str = "Cache-Control: no-store\r\nReferrer-Policy: no-referrer\r\nX-Content-Type-Options: nosniff\r\n\
+/// Headers of every response: nothing is cached, sniffed, framed or shared with other origins.
+const SECURITY_HEADERS: &str = "Cache-Control: no-store\r\nReferrer-Policy: no-referrer\r\nX-Content-Type-Options: nosniff\r\n\
     Content-Security-Policy: frame-ancestors 'none'\r\nX-Frame-Options: DENY\r\nCross-Origin-Opener-Policy: same-origin\r\n\
     Cross-Origin-Resource-Policy: same-origin\r\n";
 
-/// What a response holds.
+/// The content of a response.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(super) enum Kind {
+pub(super) enum ContentType {
     Html,
     Json,
     Bytes,
     Lines,
 }
 
-impl Kind {
+impl ContentType {
     fn media_type(self) -> &'static str {
         match self {
-            Kind::Html => "text/html; charset=utf-8",
-            Kind::Json => "application/json",
-            Kind::Bytes => "application/octet-stream",
-            Kind::Lines => "text/plain; charset=utf-8",
+            ContentType::Html => "text/html; charset=utf-8",
+            ContentType::Json => "application/json",
+            ContentType::Bytes => "application/octet-stream",
+            ContentType::Lines => "text/plain; charset=utf-8",
         }
     }
 }
 
-/// The head of a response; without a length it ends with the connection.
-pub(super) fn head_of(status: u16, kind: Kind, length: Option<usize>, keeps: bool) -> String {
+/// Formats the head of a response; without a length the response ends with the connection.
+pub(super) fn response_head(status: u16, content: ContentType, length: Option<usize>, keep_alive: bool) -> String {
     let length = length.map_or_else(String::new, |length| format!("Content-Length: {length}\r\n"));
-    let stays = if keeps { "keep-alive" } else { "close" };
-    let (reason, kind) = (reason(status), kind.media_type());
-    format!("HTTP/1.1 {status} {reason}\r\nContent-Type: {kind}\r\n{length}Connection: {stays}\r\n{ALWAYS}\r\n")
+    let connection = if keep_alive { "keep-alive" } else { "close" };
+    let (reason, content) = (reason(status), content.media_type());
+    format!(
+        "HTTP/1.1 {status} {reason}\r\nContent-Type: {content}\r\n{length}Connection: {connection}\r\n{SECURITY_HEADERS}\r\n"
+    )
 }
 
 fn reason(status: u16) -> &'static str {
@@ -208,14 +210,14 @@ fn reason(status: u16) -> &'static str {
 
 #[cfg(test)]
 mod tests {
-    use super::{Connection, Fault, Head, LONGEST_BODY, LONGEST_HEAD, Patient, head_of};
+    use super::{Connection, Fault, Head, MAX_BODY, MAX_HEAD, TimedStream, response_head};
     use std::io::{self, Cursor, Read, Write};
     use std::time::Duration;
 
-    /// What somebody sends, so many bytes at a time; then nothing more comes.
-    struct Sent(Cursor<Vec<u8>>, usize);
+    /// A client that sends at most a number of bytes at a time, and then nothing more.
+    struct Client(Cursor<Vec<u8>>, usize);
 
-    impl Read for Sent {
+    impl Read for Client {
         fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
             let most = buffer.len().min(self.1);
             match self.0.read(&mut buffer[..most])? {
@@ -225,7 +227,7 @@ mod tests {
         }
     }
 
-    impl Write for Sent {
+    impl Write for Client {
         fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
             Ok(bytes.len())
         }
@@ -235,14 +237,14 @@ mod tests {
         }
     }
 
-    impl Patient for Sent {
-        fn wait_at_most(&mut self, _: Duration) -> io::Result<()> {
+    impl TimedStream for Client {
+        fn limit_reads(&mut self, _: Duration) -> io::Result<()> {
             Ok(())
         }
     }
 
-    fn connection(sent: impl Into<Vec<u8>>, at_a_time: usize) -> Connection<Sent> {
-        Connection::new(Sent(Cursor::new(sent.into()), at_a_time))
+    fn connection(sent: impl Into<Vec<u8>>, at_a_time: usize) -> Connection<Client> {
+        Connection::new(Client(Cursor::new(sent.into()), at_a_time))
     }
 
     fn head(sent: &str) -> Result<Head, Fault> {
@@ -265,12 +267,12 @@ mod tests {
             assert_eq!((first.method.as_str(), first.target.as_str(), first.length), ("POST", "/motion", 3));
             assert_eq!(connection.body(&first, until).expect("a body"), b"abc");
             let (second, _) = connection.head().expect("a head");
-            assert_eq!((second.target.as_str(), second.headers[0].0.as_str(), second.keeps), ("/", "host", true));
+            assert_eq!((second.target.as_str(), second.headers[0].0.as_str(), second.keep_alive), ("/", "host", true));
         }
     }
 
     #[test]
-    fn what_is_no_request_is_refused() {
+    fn invalid_requests_are_refused() {
         assert_eq!(refused("\0\0\r\n\r\n"), Some(400));
         assert_eq!(refused("GET / HTTP/2\r\n\r\n"), Some(400));
         assert_eq!(refused("POST / HTTP/1.1\r\nTransfer-Encoding: chunked\r\n\r\n"), Some(501));
@@ -282,18 +284,18 @@ mod tests {
     }
 
     #[test]
-    fn what_is_too_long_is_refused_and_not_read_on() {
-        assert_eq!(refused(&format!("GET /{} HTTP/1.1\r\n\r\n", "a".repeat(LONGEST_HEAD))), Some(431));
+    fn long_requests_are_refused_unread() {
+        assert_eq!(refused(&format!("GET /{} HTTP/1.1\r\n\r\n", "a".repeat(MAX_HEAD))), Some(431));
         assert_eq!(refused(&format!("GET / HTTP/1.1\r\n{}", "a: b\r\n".repeat(100))), Some(431));
-        let sent = format!("POST / HTTP/1.1\r\nContent-Length: {}\r\n\r\n", LONGEST_BODY + 1);
+        let sent = format!("POST / HTTP/1.1\r\nContent-Length: {}\r\n\r\n", MAX_BODY + 1);
         let mut connection = connection(sent, 100);
         let (head, until) = connection.head().expect("a head");
         assert!(matches!(connection.body(&head, until), Err(Fault::Refused(413))));
     }
 
     #[test]
-    fn who_sends_nothing_more_is_not_waited_for() {
-        assert!(matches!(head(""), Err(Fault::Gone)));
+    fn an_incomplete_request_times_out() {
+        assert!(matches!(head(""), Err(Fault::Closed)));
         assert_eq!(refused("GET / HTTP/1.1\r\nHost: a\r\n"), Some(408));
         let mut connection = connection("POST / HTTP/1.1\r\nContent-Length: 5\r\n\r\nabc", 100);
         let (head, until) = connection.head().expect("a head");
@@ -301,16 +303,16 @@ mod tests {
     }
 
     #[test]
-    fn every_response_is_for_its_page_alone() {
+    fn every_response_has_the_security_headers() {
         for status in [200, 403, 404, 503] {
-            let head = head_of(status, super::Kind::Html, Some(0), false);
-            for wanted in [
+            let head = response_head(status, super::ContentType::Html, Some(0), false);
+            for header in [
                 "Referrer-Policy: no-referrer",
                 "X-Content-Type-Options: nosniff",
                 "frame-ancestors 'none'",
                 "no-store",
             ] {
-                assert!(head.contains(wanted), "{head}");
+                assert!(head.contains(header), "{head}");
             }
             assert!(!head.to_lowercase().contains("access-control"), "{head}");
         }

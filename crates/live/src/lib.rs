@@ -1,26 +1,26 @@
-//! The live page: what a page asks of a text that somebody is writing, and a server that it asks.
+//! The live page: a server for pages that follow a text while it is edited.
 //!
 //! ```text
-//! page ──▶ server ──guard──▶ asked ──▶ Workshop ──▶ answer ──▶ page
+//! page ──▶ server ──auth──▶ requests ──▶ LiveSession ──▶ response ──▶ page
 //! ```
 //!
-//! What is asked and answered is data (`asked.rs`, `answer.rs`), and who may ask is a function (`guard.rs`): both are tested without a
-//! socket. A [`Workshop`] has the texts as of a version, and makes of them what is asked; it reaches files only through its [`Host`].
-//! `http.rs` and `server.rs` are all that knows of connections.
+//! Requests and responses are data (`requests.rs`, `response.rs`) and authorization is a function (`auth.rs`): both are tested without a
+//! socket. A [`LiveSession`] holds the current version of the texts and computes responses; it reaches files only through its [`Host`].
+//! Only `http.rs` and `server.rs` know connections.
 
-mod answer;
-mod asked;
+mod auth;
 mod edit;
-mod guard;
+mod file_snapshot;
 mod host;
 mod http;
 pub mod page;
+mod requests;
+mod response;
 mod server;
-mod shelf;
-mod solved;
-mod workshop;
+mod session;
+mod solution;
 
-pub use asked::{Question, Write};
 pub use host::Host;
-pub use server::{Server, Serving};
-pub use workshop::Workshop;
+pub use requests::{MotionRequest, WriteRequest};
+pub use server::{RunningServer, Server};
+pub use session::LiveSession;

@@ -1,47 +1,47 @@
-//! The page of what was seen: what each crate knows, put together.
+//! Builds HTML pages and pictures from visualizations.
 
 use mechc_draw::view::page::{Column, Page, Variant, Vary};
 use mechc_draw::view::svg;
 use mechc_ir::layout::{ColumnKind, ColumnUnit};
-use mechc_pipeline::Seen;
+use mechc_pipeline::Visualization;
 use mechc_text::source::Sources;
 
 pub use mechc_draw::view::page::{base64, shell};
 
-/// The page of one motion.
+/// Renders the page of one motion as HTML.
 #[must_use]
-pub fn written(seen: &Seen, sources: &Sources) -> String {
-    of_one(seen, sources).written()
+pub fn render(seen: &Visualization, sources: &Sources) -> String {
+    single_page(seen, sources).written()
 }
 
-/// A picture of one motion, which moves where nothing can be computed.
+/// Renders an animated SVG of one motion, for viewers without scripts.
 #[must_use]
-pub fn picture(seen: &Seen) -> String {
+pub fn picture(seen: &Visualization) -> String {
     svg::animated(&seen.scene, &seen.motion, &svg::Options::default())
 }
 
-/// The page of what varies; `first` is the variant that it begins with.
+/// Renders the page of several variants as HTML; `first` is the one that it shows at first.
 #[must_use]
-pub fn written_with(first: &Seen, vary: Vec<Vary>, variants: Vec<Variant>, sources: &Sources) -> String {
-    made(first, vary, variants, sources).written()
+pub fn render_variants(first: &Visualization, vary: Vec<Vary>, variants: Vec<Variant>, sources: &Sources) -> String {
+    build(first, vary, variants, sources).written()
 }
 
-/// The page of one motion, not yet written.
-pub(super) fn of_one<'a>(seen: &'a Seen, sources: &'a Sources) -> Page<'a> {
-    made(seen, Vec::new(), vec![variant(seen)], sources)
+/// Builds the page of one motion.
+pub(super) fn single_page<'a>(seen: &'a Visualization, sources: &'a Sources) -> Page<'a> {
+    build(seen, Vec::new(), vec![variant(seen)], sources)
 }
 
-fn made<'a>(first: &'a Seen, vary: Vec<Vary>, variants: Vec<Variant<'a>>, sources: &'a Sources) -> Page<'a> {
-    let kinds = first.kinds.iter().map(|kind| word(*kind));
+fn build<'a>(first: &'a Visualization, vary: Vec<Vary>, variants: Vec<Variant<'a>>, sources: &'a Sources) -> Page<'a> {
+    let kinds = first.kinds.iter().map(|kind| kind_name(*kind));
     let columns = first.columns.iter().zip(&first.units).zip(kinds);
     let columns = columns.map(|((name, unit), kind)| Column { kind, ..column(name, unit) }).collect();
     let texts = first.texts.iter().map(|id| (*id, sources.get(*id))).collect();
     Page { texts, columns, vary, variants }
 }
 
-/// A motion among those of a page.
+/// Converts a motion to a variant of a page.
 #[must_use]
-pub fn variant(seen: &Seen) -> Variant<'_> {
+pub fn variant(seen: &Visualization) -> Variant<'_> {
     Variant {
         scene: &seen.scene,
         motion: &seen.motion,
@@ -55,7 +55,7 @@ fn column<'a>(name: &'a str, unit: &'a ColumnUnit) -> Column<'a> {
     Column { name, unit: &unit.text, scale: unit.scale(), kind: "" }
 }
 
-fn word(kind: ColumnKind) -> &'static str {
+fn kind_name(kind: ColumnKind) -> &'static str {
     match kind {
         ColumnKind::Time => "time",
         ColumnKind::Body => "body",

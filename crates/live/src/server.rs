@@ -1,9 +1,9 @@
-//! The server: connections on this machine's own addresses, each with a thread, and no more of them than a few pages have.
+//! The server: connections on this machine's loopback addresses, each with its thread, limited to what a few pages need.
 
-use super::asked::{Question, Write as Written, place_of};
-use super::guard::{Call, Ours, admitted};
-use super::http::{Connection, Fault, Kind, Patient, head_of};
-use super::workshop::Workshop;
+use super::auth::{Endpoint, ServerIdentity, authorize};
+use super::http::{Connection, ContentType, Fault, TimedStream, response_head};
+use super::requests::{MotionRequest, WriteRequest, parse_position};
+use super::session::LiveSession;
 use mechc_draw::view::page as html;
 use mechc_text::cancel::Cancel;
 use std::io::{self, Read, Write};
@@ -14,42 +14,42 @@ use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::thread;
 use std::time::Duration;
 
-/// So many connections are open at once at the most, of all pages together.
-const MOST_CONNECTIONS: usize = 64;
-/// So many of them are told of new versions.
-const MOST_LISTENERS: usize = 24;
-/// So often a page that has nothing to be told is told that: who does not hear it any more is gone.
-const PULSE: Duration = Duration::from_secs(2);
-/// Who takes nothing for so long is gone.
-const SENDING: Duration = Duration::from_secs(10);
-/// Who waits for an answer is looked at so often, whether it is still there.
-const LOOK: Duration = Duration::from_millis(100);
-/// Where no port is asked for, so many are tried for one that is free in both families of addresses.
-const MOST_PORTS: usize = 16;
+/// The maximum number of open connections, of all pages together.
+const MAX_CONNECTIONS: usize = 64;
+/// The maximum number of connections that receive events.
+const MAX_LISTENERS: usize = 24;
+/// The interval of empty lines in a stream of events; a page that has closed the connection is noticed by them.
+const HEARTBEAT: Duration = Duration::from_secs(2);
+/// The time after which a client that reads nothing is disconnected.
+const SEND_TIMEOUT: Duration = Duration::from_secs(10);
+/// The interval of checks whether a client still waits for its response.
+const DISCONNECT_CHECK: Duration = Duration::from_millis(100);
+/// The number of ports to try for one that is free in both address families, unless a port is given.
+const MAX_PORT_TRIES: usize = 16;
 /// Bytes of randomness in a token.
-const TOKEN: usize = 24;
+const TOKEN_BYTES: usize = 24;
 
-/// Listens, and answers nobody yet.
+/// A server that listens and does not answer yet.
 pub struct Server {
     listeners: Vec<TcpListener>,
-    ours: Ours,
+    identity: ServerIdentity,
 }
 
 /// A server that answers until it is dropped.
-pub struct Serving {
+pub struct RunningServer {
     addresses: Vec<SocketAddr>,
     has_ended: Arc<AtomicBool>,
-    has_been_seen: Arc<AtomicBool>,
+    page_requested: Arc<AtomicBool>,
     url: String,
 }
 
 impl Server {
-    /// Listens at a port of `127.0.0.1` and of `::1`, where the machine has that; 0 is any that is free.
+    /// Listens at a port of `127.0.0.1`, and of `::1` if the machine has it; 0 chooses a free port.
     ///
     /// # Errors
-    /// Somebody else listens there, or there is no randomness.
+    /// The port is in use, or there is no source of randomness.
     pub fn bind(port: u16) -> io::Result<Server> {
-        let mut random = [0; TOKEN];
+        let mut random = [0; TOKEN_BYTES];
         getrandom::fill(&mut random).map_err(|why| io::Error::other(why.to_string()))?;
         let mut token = String::new();
         for byte in random {
@@ -59,41 +59,43 @@ impl Server {
         loop {
             tries += 1;
             let first = TcpListener::bind((Ipv4Addr::LOCALHOST, port))?;
-            let found = first.local_addr()?.port();
-            let second = match TcpListener::bind((Ipv6Addr::LOCALHOST, found)) {
+            let free_port = first.local_addr()?.port();
+            let second = match TcpListener::bind((Ipv6Addr::LOCALHOST, free_port)) {
                 Ok(second) => Some(second),
-                // another program must not answer there in our name
-                Err(error) if error.kind() == io::ErrorKind::AddrInUse && port == 0 && tries < MOST_PORTS => continue,
+                // another program must not answer at `localhost` in this server's place
+                Err(error) if error.kind() == io::ErrorKind::AddrInUse && port == 0 && tries < MAX_PORT_TRIES => {
+                    continue;
+                }
                 Err(error) if error.kind() == io::ErrorKind::AddrInUse => return Err(error),
                 // not every machine has these addresses
                 Err(_) => None,
             };
             let listeners = std::iter::once(first).chain(second).collect();
-            let ours = Ours { port: found, token: token.clone() };
-            return Ok(Server { listeners, ours });
+            let identity = ServerIdentity { port: free_port, token: token.clone() };
+            return Ok(Server { listeners, identity });
         }
     }
 
-    /// The port.
+    /// Returns the port.
     #[must_use]
     pub fn port(&self) -> u16 {
-        self.ours.port
+        self.identity.port
     }
 
-    /// Answers what pages ask of a workshop, in threads of its own.
+    /// Answers the requests of pages from a session, on threads of its own.
     ///
     /// # Errors
-    /// There are no threads.
-    pub fn serve(self, workshop: &Arc<Workshop>) -> io::Result<Serving> {
-        let Server { listeners, ours } = self;
-        let url = format!("http://127.0.0.1:{}/#{}", ours.port, ours.token);
+    /// A thread cannot be started.
+    pub fn serve(self, session: &Arc<LiveSession>) -> io::Result<RunningServer> {
+        let Server { listeners, identity } = self;
+        let url = format!("http://127.0.0.1:{}/#{}", identity.port, identity.token);
         let addresses = listeners.iter().map(TcpListener::local_addr).collect::<io::Result<_>>()?;
-        let (has_ended, has_been_seen): (Arc<AtomicBool>, Arc<AtomicBool>) = Default::default();
-        let shared = Arc::new(Shared {
-            workshop: Arc::clone(workshop),
-            ours,
+        let (has_ended, page_requested): (Arc<AtomicBool>, Arc<AtomicBool>) = Default::default();
+        let shared = Arc::new(ServerState {
+            session: Arc::clone(session),
+            identity,
             has_ended: Arc::clone(&has_ended),
-            has_been_seen: Arc::clone(&has_been_seen),
+            page_requested: Arc::clone(&page_requested),
             open: Arc::default(),
             listening: Arc::default(),
         });
@@ -101,108 +103,109 @@ impl Server {
             let shared = Arc::clone(&shared);
             thread::Builder::new().name("live page".to_owned()).spawn(move || accept(&listener, &shared))?;
         }
-        Ok(Serving { addresses, has_ended, has_been_seen, url })
+        Ok(RunningServer { addresses, has_ended, page_requested, url })
     }
 }
 
-impl Serving {
-    /// The address of the page, with the token behind `#`.
+impl RunningServer {
+    /// Returns the address of the page, with the token after `#`.
     #[must_use]
     pub fn url(&self) -> &str {
         &self.url
     }
 
-    /// Whether somebody has come to see the page, from now on.
+    /// Returns a flag that is set once the page has been requested.
     #[must_use]
-    pub fn seen(&self) -> Arc<AtomicBool> {
-        Arc::clone(&self.has_been_seen)
+    pub fn page_requested(&self) -> Arc<AtomicBool> {
+        Arc::clone(&self.page_requested)
     }
 }
 
-impl Drop for Serving {
+impl Drop for RunningServer {
     fn drop(&mut self) {
         self.has_ended.store(true, Ordering::Release);
         for address in &self.addresses {
-            // who waits for a connection looks up
+            // a connection wakes the thread that waits for one
             let _ = TcpStream::connect_timeout(address, Duration::from_millis(100));
         }
     }
 }
 
-struct Shared {
-    workshop: Arc<Workshop>,
-    ours: Ours,
+struct ServerState {
+    session: Arc<LiveSession>,
+    identity: ServerIdentity,
     has_ended: Arc<AtomicBool>,
-    has_been_seen: Arc<AtomicBool>,
+    page_requested: Arc<AtomicBool>,
     open: Arc<AtomicUsize>,
     listening: Arc<AtomicUsize>,
 }
 
-/// One of some places, which is free again when this is dropped.
-struct Place(Arc<AtomicUsize>);
+/// A slot of a limited number; dropping it frees the slot.
+struct Slot(Arc<AtomicUsize>);
 
-impl Place {
-    fn take(of: &Arc<AtomicUsize>, most: usize) -> Option<Place> {
-        let place = Place(Arc::clone(of));
-        (of.fetch_add(1, Ordering::AcqRel) < most).then_some(place)
+impl Slot {
+    fn take(count: &Arc<AtomicUsize>, max: usize) -> Option<Slot> {
+        let slot = Slot(Arc::clone(count));
+        (count.fetch_add(1, Ordering::AcqRel) < max).then_some(slot)
     }
 }
 
-impl Drop for Place {
+impl Drop for Slot {
     fn drop(&mut self) {
         self.0.fetch_sub(1, Ordering::AcqRel);
     }
 }
 
-fn accept(listener: &TcpListener, shared: &Arc<Shared>) {
+fn accept(listener: &TcpListener, shared: &Arc<ServerState>) {
     loop {
         let connection = listener.accept();
         if shared.has_ended.load(Ordering::Acquire) {
             return;
         }
         let Ok((stream, _)) = connection else {
-            // too many files are open, say: others may close theirs
+            // the cause may be temporary, as when too many files are open
             thread::sleep(Duration::from_millis(20));
             continue;
         };
-        // who comes when all places are taken is sent away by the connection being closed
-        let Some(place) = Place::take(&shared.open, MOST_CONNECTIONS) else { continue };
+        // when all slots are taken, the connection is closed by dropping it
+        let Some(slot) = Slot::take(&shared.open, MAX_CONNECTIONS) else { continue };
         let shared = Arc::clone(shared);
         let answer = move || {
-            let _place = place;
-            attend(stream, &shared);
+            let _slot = slot;
+            handle_connection(stream, &shared);
         };
         let _ = thread::Builder::new().name("live connection".to_owned()).spawn(answer);
     }
 }
 
-impl Patient for TcpStream {
-    fn wait_at_most(&mut self, time: Duration) -> io::Result<()> {
+impl TimedStream for TcpStream {
+    fn limit_reads(&mut self, time: Duration) -> io::Result<()> {
         self.set_read_timeout(Some(time))
     }
 }
 
-/// Answers one request after the other.
-fn attend(stream: TcpStream, shared: &Shared) {
-    if stream.set_nodelay(true).and_then(|()| stream.set_write_timeout(Some(SENDING))).is_err() {
+/// Answers the requests of a connection, one after the other.
+fn handle_connection(stream: TcpStream, shared: &ServerState) {
+    if stream.set_nodelay(true).and_then(|()| stream.set_write_timeout(Some(SEND_TIMEOUT))).is_err() {
         return;
     }
     let mut connection = Connection::new(stream);
     loop {
-        match answered(&mut connection, shared) {
+        match handle_request(&mut connection, shared) {
             Ok(true) => {}
-            Ok(false) | Err(Fault::Gone) => break,
+            Ok(false) | Err(Fault::Closed) => break,
             Err(Fault::Refused(status)) => {
-                let _ = connection.stream().write_all(head_of(status, Kind::Lines, Some(0), false).as_bytes());
+                let _ =
+                    connection.stream().write_all(response_head(status, ContentType::Lines, Some(0), false).as_bytes());
                 break;
             }
         }
     }
-    leave(connection.stream());
+    close(connection.stream());
 }
 
-/// Closes a connection so that what was sent arrives, also where something was never read.
-fn leave(stream: &mut TcpStream) {
+/// Closes a connection so that the response arrives even if a part of the request was never read.
+fn close(stream: &mut TcpStream) {
     let _ = stream.shutdown(Shutdown::Write);
     let _ = stream.set_read_timeout(Some(Duration::from_millis(100)));
     let mut rest = [0; 4096];
@@ -213,86 +216,86 @@ fn leave(stream: &mut TcpStream) {
     }
 }
 
-/// Answers a request; says whether the connection stays.
-fn answered(connection: &mut Connection<TcpStream>, shared: &Shared) -> Result<bool, Fault> {
+/// Answers a request; returns whether the connection stays open.
+fn handle_request(connection: &mut Connection<TcpStream>, shared: &ServerState) -> Result<bool, Fault> {
     let (head, until) = connection.head()?;
-    // nothing of a body is read before it is known whose it is
-    let call = admitted(&head, &shared.ours).map_err(Fault::Refused)?;
+    // a body is read only once its request is authorized
+    let endpoint = authorize(&head, &shared.identity).map_err(Fault::Refused)?;
     let body = connection.body(&head, until)?;
-    let workshop = &shared.workshop;
-    let (kind, bytes) = match call {
-        Call::Page => {
-            shared.has_been_seen.store(true, Ordering::Release);
-            (Kind::Html, html::shell().into_bytes())
+    let session = &shared.session;
+    let (kind, bytes) = match endpoint {
+        Endpoint::Page => {
+            shared.page_requested.store(true, Ordering::Release);
+            (ContentType::Html, html::shell().into_bytes())
         }
-        Call::Events => {
-            tell(connection.stream(), shared)?;
+        Endpoint::Events => {
+            stream_events(connection.stream(), shared)?;
             return Ok(false);
         }
-        Call::Motion => {
-            let question = Question::of(&body).map_err(|_| Fault::Refused(400))?;
-            (Kind::Bytes, while_there(connection.stream(), |cancel| workshop.answer(&question, cancel)))
+        Endpoint::Motion => {
+            let request = MotionRequest::parse(&body).map_err(|_| Fault::Refused(400))?;
+            (ContentType::Bytes, while_connected(connection.stream(), |cancel| session.answer(&request, cancel)))
         }
-        Call::Show => {
-            workshop.show(place_of(&body).map_err(|_| Fault::Refused(400))?);
-            (Kind::Json, b"{}".to_vec())
+        Endpoint::Show => {
+            session.show(parse_position(&body).map_err(|_| Fault::Refused(400))?);
+            (ContentType::Json, b"{}".to_vec())
         }
-        Call::Write => {
-            let write = Written::of(&body).map_err(|_| Fault::Refused(400))?;
-            (Kind::Json, workshop.write(&write).to_string().into_bytes())
+        Endpoint::Write => {
+            let write = WriteRequest::parse(&body).map_err(|_| Fault::Refused(400))?;
+            (ContentType::Json, session.write(&write).to_string().into_bytes())
         }
     };
     let stream = connection.stream();
-    stream.write_all(head_of(200, kind, Some(bytes.len()), head.keeps).as_bytes())?;
+    stream.write_all(response_head(200, kind, Some(bytes.len()), head.keep_alive).as_bytes())?;
     stream.write_all(&bytes)?;
-    Ok(head.keeps)
+    Ok(head.keep_alive)
 }
 
-/// Works for who waits at the other end of a connection; if nobody does any more, the work is cancelled.
-fn while_there<T>(stream: &TcpStream, work: impl FnOnce(&Cancel) -> T) -> T {
+/// Runs work for a client, and cancels it if the client closes the connection.
+fn while_connected<T>(stream: &TcpStream, work: impl FnOnce(&Cancel) -> T) -> T {
     let cancel = Cancel::default();
     let (ends, has_ended) = channel::<()>();
-    let gone = cancel.clone();
+    let disconnected = cancel.clone();
     thread::scope(|scope| {
         let watch = move || {
-            while has_ended.recv_timeout(LOOK) == Err(RecvTimeoutError::Timeout) {
-                if is_gone(stream) {
-                    gone.cancel();
+            while has_ended.recv_timeout(DISCONNECT_CHECK) == Err(RecvTimeoutError::Timeout) {
+                if is_closed(stream) {
+                    disconnected.cancel();
                 }
             }
         };
-        // without it the work is only not cancelled
+        // without this thread the work runs to its end
         let _ = thread::Builder::new().name("live watch".to_owned()).spawn_scoped(scope, watch);
-        let made = work(&cancel);
+        let result = work(&cancel);
         drop(ends);
-        made
+        result
     })
 }
 
-/// Whether a connection has been closed at its other end. Nobody else reads or writes meanwhile.
-fn is_gone(stream: &TcpStream) -> bool {
-    let looked = stream.set_nonblocking(true).and_then(|()| stream.peek(&mut [0]));
-    let is_gone = match looked {
+/// Returns whether the client has closed a connection. No other thread may read or write it meanwhile.
+fn is_closed(stream: &TcpStream) -> bool {
+    let peeked = stream.set_nonblocking(true).and_then(|()| stream.peek(&mut [0]));
+    let is_closed = match peeked {
         Ok(count) => count == 0,
         Err(error) => error.kind() != io::ErrorKind::WouldBlock,
     };
-    // where it cannot be as it was, it is of no use
-    stream.set_nonblocking(false).is_err() || is_gone
+    // a connection that cannot be made blocking again is of no use
+    stream.set_nonblocking(false).is_err() || is_closed
 }
 
-/// Tells a page of every version of the texts, until it goes.
-fn tell(stream: &mut TcpStream, shared: &Shared) -> Result<(), Fault> {
-    let _place = Place::take(&shared.listening, MOST_LISTENERS).ok_or(Fault::Refused(503))?;
-    stream.write_all(head_of(200, Kind::Lines, None, false).as_bytes())?;
-    let mut told = None;
+/// Sends a page a line of JSON for every new version of the texts, until the page disconnects.
+fn stream_events(stream: &mut TcpStream, shared: &ServerState) -> Result<(), Fault> {
+    let _slot = Slot::take(&shared.listening, MAX_LISTENERS).ok_or(Fault::Refused(503))?;
+    stream.write_all(response_head(200, ContentType::Lines, None, false).as_bytes())?;
+    let mut last = None;
     while !shared.has_ended.load(Ordering::Acquire) {
-        let news = shared.workshop.news(told.as_ref(), PULSE);
-        let line = match &news {
-            Some(news) => news.told().to_string(),
+        let status = shared.session.wait_for_change(last.as_ref(), HEARTBEAT);
+        let line = match &status {
+            Some(status) => status.to_json().to_string(),
             None => String::new(),
         };
         stream.write_all(format!("{line}\n").as_bytes())?;
-        told = news.or(told);
+        last = status.or(last);
     }
     Ok(())
 }

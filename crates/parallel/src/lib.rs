@@ -1,13 +1,13 @@
-//! Work that falls into pieces, done by several threads and handed out in order: pieces by their numbers, pieces that come one
-//! after the other (`relay.rs`), and shares that hold what is borrowed (`shares.rs`).
+//! Ordered parallel computation: results of numbered pieces ([`ParallelMap`]), of pieces that arrive one after the other
+//! ([`OrderedPipeline`]), and of ranges with borrowed data ([`scoped_chunks`]).
 //!
-//! Without the feature `threads` the pieces are done one after the other, when they are asked for; nothing else differs.
+//! Without the feature `threads` the calling thread computes each piece when it is requested; the results are the same.
 
-mod relay;
-mod shares;
+mod ordered_pipeline;
+mod scoped_chunks;
 
-pub use relay::Relay;
-pub use shares::in_shares;
+pub use ordered_pipeline::OrderedPipeline;
+pub use scoped_chunks::scoped_chunks;
 #[cfg(feature = "threads")]
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -16,16 +16,16 @@ use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 #[cfg(feature = "threads")]
 use std::thread;
 
-/// What is made of a piece by its number; nothing where the work is to end. It may have memory of its own.
+/// Computes the result of a piece from its number, or `None` to end the work. It may own state.
 type Work<T> = Box<dyn FnMut(u64) -> Option<T> + Send>;
 
-/// Pieces that are done and not yet handed out are at most so many times the threads: a bound of the memory that they take.
+/// Limit of finished results that are not yet delivered, as a multiple of the number of threads; it bounds the memory that they take.
 #[cfg(feature = "threads")]
-const AHEAD: u64 = 2;
+const RESULTS_PER_THREAD: u64 = 2;
 
-/// How many threads this machine does at once.
+/// Returns the number of threads that this machine runs at once.
 #[must_use]
-pub fn usual_jobs() -> usize {
+pub fn default_jobs() -> usize {
     #[cfg(feature = "threads")]
     let jobs = thread::available_parallelism().map_or(1, usize::from);
     #[cfg(not(feature = "threads"))]
@@ -33,142 +33,142 @@ pub fn usual_jobs() -> usize {
     jobs
 }
 
-/// What is made of pieces, in their order.
-pub struct Crew<T> {
+/// Iterator over the results of numbered pieces, in their order, which several threads compute ahead.
+pub struct ParallelMap<T> {
     pieces: Range<u64>,
-    /// The work of the thread that asks for them.
-    own: Work<T>,
+    /// The work of the calling thread.
+    local_work: Work<T>,
     #[cfg(feature = "threads")]
-    hands: Option<Hands<T>>,
+    workers: Option<Workers<T>>,
 }
 
-impl<T: Send + 'static> Crew<T> {
-    /// Work on pieces by so many threads, or fewer where there are fewer pieces, each of which starts it with memory of its own. The one that
-    /// asks for pieces is among them: it works where it would wait for others. The others begin at once.
+impl<T: Send + 'static> ParallelMap<T> {
+    /// Starts work on `pieces` with at most `jobs` threads, the calling thread included: it computes a piece itself where it would wait for
+    /// the others. Each thread calls `start` once for state of its own. The other threads begin at once.
     #[must_use]
-    pub fn new<W>(jobs: usize, pieces: Range<u64>, start: impl Fn() -> W + Send + Sync + 'static) -> Crew<T>
+    pub fn new<W>(jobs: usize, pieces: Range<u64>, start: impl Fn() -> W + Send + Sync + 'static) -> ParallelMap<T>
     where
         W: FnMut(u64) -> Option<T> + Send + 'static,
     {
-        let own = Box::new(start());
+        let local_work = Box::new(start());
         #[cfg(feature = "threads")]
         let jobs = (jobs as u64).min(pieces.end.saturating_sub(pieces.start));
         #[cfg(feature = "threads")]
-        let hands = (jobs > 1).then(|| Hands::new(jobs, &pieces, start));
+        let workers = (jobs > 1).then(|| Workers::new(jobs, &pieces, start));
         #[cfg(not(feature = "threads"))]
         let _ = jobs;
-        Crew {
+        ParallelMap {
             pieces,
-            own,
+            local_work,
             #[cfg(feature = "threads")]
-            hands,
+            workers,
         }
     }
 }
 
-impl<T> Crew<T> {
-    /// Nobody begins a piece any more, and nothing is handed out.
+impl<T> ParallelMap<T> {
+    /// Ends the work: no thread begins another piece, and the iterator returns `None` from now on.
     pub fn end(&mut self) {
         self.pieces = 0..0;
         #[cfg(feature = "threads")]
-        if let Some(hands) = &self.hands {
-            hands.shared.end();
+        if let Some(workers) = &self.workers {
+            workers.shared.end();
         }
     }
 
-    fn made(&mut self, piece: u64) -> Option<T> {
+    fn result(&mut self, piece: u64) -> Option<T> {
         #[cfg(feature = "threads")]
-        if let Some(hands) = &self.hands {
-            return hands.shared.handed_out(piece, &mut self.own);
+        if let Some(workers) = &self.workers {
+            return workers.shared.deliver(piece, &mut self.local_work);
         }
-        (self.own)(piece)
+        (self.local_work)(piece)
     }
 }
 
-impl<T> Iterator for Crew<T> {
+impl<T> Iterator for ParallelMap<T> {
     type Item = T;
 
-    /// What was made of the next piece; `None` behind the last one, behind the first one of which nothing was made, and behind a panic. One of
-    /// another thread is passed on where its piece would come.
+    /// Returns the result of the next piece; `None` after the last piece, after the first piece without a result, and after a panic. A
+    /// panic of another thread continues here, where the result of its piece would come.
     fn next(&mut self) -> Option<T> {
-        // there are no others unless something is made of this one
+        // an early return or a panic leaves no pieces behind
         let mut pieces = std::mem::take(&mut self.pieces);
-        let made = pieces.next().and_then(|piece| self.made(piece));
-        if made.is_some() {
+        let result = pieces.next().and_then(|piece| self.result(piece));
+        if result.is_some() {
             self.pieces = pieces;
         } else {
             #[cfg(feature = "threads")]
-            drop(self.hands.take());
+            drop(self.workers.take());
         }
-        made
+        result
     }
 }
 
 /// The other threads.
 #[cfg(feature = "threads")]
-struct Hands<T> {
+struct Workers<T> {
     shared: Arc<Shared<T>>,
     threads: Vec<thread::JoinHandle<()>>,
 }
 
-/// What the threads and who asks for the pieces share.
+/// State that the threads and the iterator share.
 #[cfg(feature = "threads")]
 struct Shared<T> {
     state: Mutex<State<T>>,
-    /// A piece was done.
+    /// Signals that a piece is finished.
     done: Condvar,
-    /// A piece was handed out.
-    handed_out: Condvar,
+    /// Signals that a result was delivered.
+    delivered: Condvar,
 }
 
 #[cfg(feature = "threads")]
 struct State<T> {
-    /// Those that nobody has begun.
-    left: Range<u64>,
-    /// None from here on is begun yet.
-    bound: u64,
+    /// Pieces that no thread has begun.
+    pending: Range<u64>,
+    /// First piece that no thread may begin yet.
+    limit: u64,
     done: BTreeMap<u64, Option<T>>,
-    /// Nobody waits any more.
-    has_ended: bool,
+    /// True once no result is needed any more.
+    is_ended: bool,
 }
 
 #[cfg(feature = "threads")]
 impl<T> State<T> {
     fn is_far_ahead(&self) -> bool {
-        self.left.start >= self.bound
+        self.pending.start >= self.limit
     }
 
-    /// The next piece that nobody has begun, if it is not too far ahead.
-    fn begun_next(&mut self) -> Option<u64> {
-        if self.has_ended || self.is_far_ahead() { None } else { self.left.next() }
+    /// Takes the next piece that no thread has begun, if it is not too far ahead.
+    fn take_next(&mut self) -> Option<u64> {
+        if self.is_ended || self.is_far_ahead() { None } else { self.pending.next() }
     }
 
-    /// Keeps what was made of a piece; behind one of which nothing was made none is begun.
-    fn put(&mut self, piece: u64, made: Option<T>) {
-        if made.is_none() {
-            self.left.end = self.left.end.min(piece);
+    /// Stores the result of a piece. No thread begins a piece after one without a result.
+    fn store(&mut self, piece: u64, result: Option<T>) {
+        if result.is_none() {
+            self.pending.end = self.pending.end.min(piece);
         }
-        self.done.insert(piece, made);
+        self.done.insert(piece, result);
     }
 }
 
 #[cfg(feature = "threads")]
-impl<T: Send + 'static> Hands<T> {
-    /// All of some threads but the one that asks.
-    fn new<W>(jobs: u64, pieces: &Range<u64>, start: impl Fn() -> W + Send + Sync + 'static) -> Hands<T>
+impl<T: Send + 'static> Workers<T> {
+    /// Starts `jobs - 1` threads; the calling thread is the remaining one.
+    fn new<W>(jobs: u64, pieces: &Range<u64>, start: impl Fn() -> W + Send + Sync + 'static) -> Workers<T>
     where
         W: FnMut(u64) -> Option<T>,
     {
-        let bound = pieces.start.saturating_add(AHEAD.saturating_mul(jobs));
-        let state = State { left: pieces.clone(), bound, done: BTreeMap::new(), has_ended: false };
-        let shared = Arc::new(Shared { state: Mutex::new(state), done: Condvar::new(), handed_out: Condvar::new() });
+        let limit = pieces.start.saturating_add(RESULTS_PER_THREAD.saturating_mul(jobs));
+        let state = State { pending: pieces.clone(), limit, done: BTreeMap::new(), is_ended: false };
+        let shared = Arc::new(Shared { state: Mutex::new(state), done: Condvar::new(), delivered: Condvar::new() });
         let start = Arc::new(start);
         let spawned = |_| {
             let (shared, start) = (Arc::clone(&shared), Arc::clone(&start));
-            // a system that gives fewer threads has the same done by fewer
+            // if the system refuses a thread, fewer threads do the work
             thread::Builder::new().spawn(move || shared.work(&*start)).ok()
         };
-        Hands { threads: (1..jobs).map_while(spawned).collect(), shared }
+        Workers { threads: (1..jobs).map_while(spawned).collect(), shared }
     }
 }
 
@@ -178,72 +178,72 @@ impl<T> Shared<T> {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Does pieces until there are none, or nobody waits for them.
+    /// Computes pieces until none is left or no result is needed any more.
     fn work<W: FnMut(u64) -> Option<T>>(&self, start: &impl Fn() -> W) {
         let mut work = start();
         while let Some(piece) = self.next_piece() {
-            let mut begun = Begun { shared: self, piece, made: None };
-            begun.made = work(piece);
+            let mut in_progress = InProgress { shared: self, piece, result: None };
+            in_progress.result = work(piece);
         }
     }
 
     fn next_piece(&self) -> Option<u64> {
-        let must_wait = |state: &mut State<T>| !state.has_ended && state.is_far_ahead();
-        let waited = self.handed_out.wait_while(self.state(), must_wait);
-        waited.unwrap_or_else(PoisonError::into_inner).begun_next()
+        let must_wait = |state: &mut State<T>| !state.is_ended && state.is_far_ahead();
+        let waited = self.delivered.wait_while(self.state(), must_wait);
+        waited.unwrap_or_else(PoisonError::into_inner).take_next()
     }
 
-    /// Does a piece that nobody has begun, on the thread that asks; whether there was one, not too far ahead.
-    fn work_ahead(&self, own: &mut Work<T>) -> bool {
-        let Some(piece) = self.state().begun_next() else { return false };
-        let made = own(piece);
-        self.state().put(piece, made);
+    /// Computes the next piece that no thread has begun on the calling thread. Returns whether there was one that is not too far ahead.
+    fn work_ahead(&self, local_work: &mut Work<T>) -> bool {
+        let Some(piece) = self.state().take_next() else { return false };
+        let result = local_work(piece);
+        self.state().store(piece, result);
         true
     }
 
-    /// What was made of a piece. As long as it is missing others are done, or that one, if nobody has begun it.
-    fn handed_out(&self, piece: u64, own: &mut Work<T>) -> Option<T> {
+    /// Returns the result of a piece. While it is missing, the calling thread computes other pieces, or this one if no thread has begun it.
+    fn deliver(&self, piece: u64, local_work: &mut Work<T>) -> Option<T> {
         let is_missing = |state: &State<T>| !state.done.contains_key(&piece);
-        while is_missing(&self.state()) && self.work_ahead(own) {}
-        // until something is handed out there is nothing else to do
+        while is_missing(&self.state()) && self.work_ahead(local_work) {}
+        // nothing else may begin until a result is delivered
         let waited = self.done.wait_while(self.state(), |state| is_missing(state));
         let mut state = waited.unwrap_or_else(PoisonError::into_inner);
-        let made = state.done.remove(&piece).flatten();
-        state.bound = state.bound.saturating_add(1);
+        let result = state.done.remove(&piece).flatten();
+        state.limit = state.limit.saturating_add(1);
         drop(state);
-        self.handed_out.notify_one();
-        made
+        self.delivered.notify_one();
+        result
     }
 
     fn end(&self) {
-        self.state().has_ended = true;
-        self.handed_out.notify_all();
+        self.state().is_ended = true;
+        self.delivered.notify_all();
     }
 }
 
-/// A piece that another thread works on. Who waits for it must not wait for one that breaks down: of its piece nothing was made.
+/// A piece that another thread computes. When a panic drops it, it stores `None`, so that the iterator does not wait for ever.
 #[cfg(feature = "threads")]
-struct Begun<'s, T> {
+struct InProgress<'s, T> {
     shared: &'s Shared<T>,
     piece: u64,
-    made: Option<T>,
+    result: Option<T>,
 }
 
 #[cfg(feature = "threads")]
-impl<T> Drop for Begun<'_, T> {
+impl<T> Drop for InProgress<'_, T> {
     fn drop(&mut self) {
-        self.shared.state().put(self.piece, self.made.take());
+        self.shared.state().store(self.piece, self.result.take());
         self.shared.done.notify_one();
     }
 }
 
 #[cfg(feature = "threads")]
-impl<T> Drop for Hands<T> {
-    /// Waits for the threads, and passes on that one of them has broken down.
+impl<T> Drop for Workers<T> {
+    /// Waits for the threads and continues a panic of one of them.
     fn drop(&mut self) {
         self.shared.end();
-        let ended: Vec<thread::Result<()>> = self.threads.drain(..).map(thread::JoinHandle::join).collect();
-        if let Some(panic) = ended.into_iter().find_map(Result::err).filter(|_| !thread::panicking()) {
+        let results: Vec<thread::Result<()>> = self.threads.drain(..).map(thread::JoinHandle::join).collect();
+        if let Some(panic) = results.into_iter().find_map(Result::err).filter(|_| !thread::panicking()) {
             std::panic::resume_unwind(panic);
         }
     }

@@ -1,4 +1,4 @@
-//! Which numbers without a dimension are angles, as far as the words of their formulas tell.
+//! Guesses which dimensionless params and inputs are angles, by the unit words of their formulas.
 
 use mechc_lang::check::Library;
 use mechc_syntax::ast::{Expr, ItemKind, Mechanism};
@@ -6,40 +6,42 @@ use mechc_text::source::{Sources, Span};
 
 /// Words that make an angle of a pure number, or of a time.
 const WORDS: [&str; 4] = ["deg", "rad", "rev", "rpm"];
-/// A formula names a param that names another one, and so on, so often at the most.
-const DEEPEST: u32 = 8;
+/// Depth to which names in a formula are followed.
+const MAX_DEPTH: u32 = 8;
 
-/// The texts that tell them.
+/// The texts whose formulas decide.
 #[derive(Clone, Debug)]
-pub(super) struct Angles {
+pub(crate) struct Angles {
     library: Library,
     sources: Sources,
 }
 
 impl Angles {
-    pub fn of(library: &Library, sources: &Sources) -> Angles {
+    pub fn new(library: &Library, sources: &Sources) -> Angles {
         Angles { library: library.clone(), sources: sources.clone() }
     }
 
-    /// Whether the param or input is one that is declared by a name, where its dimension lets it be one.
+    /// Returns whether the param or input whose name is at a span is an angle, provided that it is dimensionless.
     pub fn has(&self, name: Span) -> bool {
         let mut mechanisms = self.library.files().iter().flat_map(|file| &file.read.tree.mechanisms);
-        mechanisms
-            .any(|tree| formulas(tree).any(|(span, _, formula)| span == name && self.is_one(tree, formula, DEEPEST)))
+        mechanisms.any(|tree| {
+            formulas(tree).any(|(span, _, formula)| span == name && self.is_angle(tree, formula, MAX_DEPTH))
+        })
     }
 
-    fn is_one(&self, tree: &Mechanism, formula: &Expr, depth: u32) -> bool {
+    fn is_angle(&self, tree: &Mechanism, formula: &Expr, depth: u32) -> bool {
         let words = self.sources.text(formula.span).split(|c: char| !(c.is_alphanumeric() || c == '_'));
-        // a unit may stand right behind its number
+        // a unit may follow its number without a space
         let mut words = words.map(|word| word.trim_start_matches(|c: char| c.is_ascii_digit()));
         let of_named = |word: &str| {
-            depth > 0 && formulas(tree).any(|(_, name, formula)| name == word && self.is_one(tree, formula, depth - 1))
+            depth > 0
+                && formulas(tree).any(|(_, name, formula)| name == word && self.is_angle(tree, formula, depth - 1))
         };
         words.any(|word| WORDS.contains(&word) || of_named(word))
     }
 }
 
-/// What is declared by a formula: the place of its name, its name, the formula.
+/// Returns the params and inputs of a mechanism: span of the name, name, formula.
 fn formulas(tree: &Mechanism) -> impl Iterator<Item = (Span, &str, &Expr)> {
     tree.items.iter().filter_map(|item| match &item.kind {
         ItemKind::Param { name, value } | ItemKind::Input { name, value } => {

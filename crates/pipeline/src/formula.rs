@@ -1,7 +1,6 @@
-//! A formula of time and its first two derivatives, as text and as numbers.
+//! Formulas of time with their first two derivatives, as text and as numbers.
 //!
-//! The numbers are those that a driver with this formula has; the text is put in order for a reader, and differs from them
-//! by rounding only.
+//! The numbers are those of a driver with this formula. The text is simplified for readers, and differs from them by rounding only.
 
 use mechc_expr::{ExprId, Graph, Printer, Symbol, number};
 use mechc_lang::check::{self, FormulaOfTime};
@@ -11,13 +10,13 @@ use mechc_text::diag::{Code, Diagnostic, Diagnostics};
 use mechc_text::source::{Sources, Span};
 use rustc_hash::FxHashMap;
 
-/// What the formula and its derivatives are called.
+/// Names of the formula and its derivatives.
 pub const NAMES: [&str; 3] = ["C", "C'", "C''"];
 
-/// Formulas of more parts than this are not put in order: nobody reads them.
+/// Formulas with more nodes than this are not simplified.
 const LARGEST_TIDY: u64 = 5_000;
 
-/// With more parts than this, those that stand in several places get names.
+/// Formulas with more nodes than this name their shared parts.
 const LARGEST_WHOLE: u64 = 150;
 
 /// A formula with its first two time derivatives.
@@ -32,24 +31,24 @@ pub struct Formula {
 }
 
 impl Formula {
-    /// Reads a formula of `t`, the constants, units and functions of the language.
+    /// Reads a formula of `t`, with the constants, units and functions of the language.
     ///
     /// # Errors
-    /// It does not follow the grammar, or means nothing.
-    pub fn of(text: &str, sources: &mut Sources) -> Result<Formula, Diagnostics> {
+    /// The text does not follow the grammar, or has no meaning.
+    pub fn parse(text: &str, sources: &mut Sources) -> Result<Formula, Diagnostics> {
         let file = sources.add_option("EXPR", text);
         let tree = syntax::parse_expression(sources, file)?;
         let FormulaOfTime { mut graph, value, dimension, conditions, remarks } =
             check::formula_of_time(&tree, sources)?;
-        let mut derivative = |of: ExprId| {
+        let mut derivative = |formula: ExprId| {
             let slopes =
-                graph.derivatives(&[of], |graph, symbol| (symbol == Symbol::Time).then(|| graph.constant(1.0)));
-            slopes.first().copied().unwrap_or(of)
+                graph.derivatives(&[formula], |graph, symbol| (symbol == Symbol::Time).then(|| graph.constant(1.0)));
+            slopes.first().copied().unwrap_or(formula)
         };
         let first = derivative(value);
         let second = derivative(first);
         for (order, id) in [value, first, second].into_iter().enumerate() {
-            // a number that is none, as the derivative of `t / 0`
+            // a constant may be NaN, as the derivative of `t / 0`
             if graph.dependence(id).is_constant() && !graph.value(id, |_| 0.0).is_finite() {
                 return Err(not_finite(tree.span, order, graph.value(id, |_| 0.0), None).into());
             }
@@ -57,21 +56,21 @@ impl Formula {
         Ok(Formula { graph, roots: [value, first, second], dimension, conditions, remarks, span: tree.span })
     }
 
-    /// What is to be said of it beside its values: degrees that were probably meant.
+    /// Returns warnings of the formula, as of degrees that were probably intended.
     #[must_use]
     pub fn remarks(&self) -> &Diagnostics {
         &self.remarks
     }
 
-    /// Its dimension; nothing for a formula that holds no unit.
-    pub(super) fn known_dimension(&self) -> Option<Dimension> {
+    /// Returns the dimension; `None` if the formula has no unit.
+    pub(crate) fn known_dimension(&self) -> Option<Dimension> {
         self.dimension
     }
 
-    /// The values at a time (s), unless one of them is no number or the formula has no meaning there.
+    /// Returns the values at a time (s).
     ///
     /// # Errors
-    /// That is said.
+    /// A value is not finite, or the formula has no meaning there.
     pub fn values(&self, t: f64) -> Result<[f64; 3], Box<Diagnostic>> {
         let mut values = Vec::new();
         self.graph.extend_values(&mut values, |_| t);
@@ -89,7 +88,7 @@ impl Formula {
         }
     }
 
-    /// A line for each, and for the parts that got names.
+    /// Writes a line for the formula, each derivative, and each shared part.
     #[must_use]
     pub fn text(&self) -> String {
         let (mut graph, mut roots) = (self.graph.clone(), self.roots);
@@ -103,7 +102,7 @@ impl Formula {
             let names: FxHashMap<ExprId, String> = parts.iter().map(|(name, id)| (*id, name.clone())).collect();
             printer = Printer::new(&graph, name_of).with_names(&names);
         }
-        // the formula itself is no part of itself
+        // the formula is not a part of itself
         let mut texts = vec![printer.definition(roots[0])];
         texts.extend(roots.iter().skip(1).map(|root| printer.text(*root)));
         let mut text = definitions(NAMES.iter().copied().zip(texts));
@@ -115,19 +114,19 @@ impl Formula {
         text
     }
 
-    /// What it is, and the units of its values; nothing for a formula that holds no unit.
+    /// Describes its dimension and the units of its values; `None` if the formula has no unit.
     #[must_use]
     pub fn dimension(&self) -> Option<String> {
         self.dimension.map(dimension_line)
     }
 }
 
-/// The only symbol is time.
+/// Names a symbol; the only one is time.
 fn name_of(_: Symbol) -> String {
     "t".to_owned()
 }
 
-/// Names for the shared parts in their order; the formula itself is `C` if it is among them.
+/// Names the shared parts, in their order; the formula itself is `C` if it is among them.
 fn named(shared: Vec<(String, ExprId)>, formula: ExprId) -> Vec<(String, ExprId)> {
     let mut count = 0;
     let mut name = |id: ExprId| {
@@ -140,40 +139,40 @@ fn named(shared: Vec<(String, ExprId)>, formula: ExprId) -> Vec<(String, ExprId)
     shared.into_iter().map(|(_, id)| (name(id), id)).collect()
 }
 
-/// `C   = …`, a line each.
+/// Writes `C   = …`, a line each.
 fn definitions<'n>(lines: impl Iterator<Item = (&'n str, String)>) -> String {
     let lines: Vec<(&str, String)> = lines.collect();
     let width = lines.iter().map(|(name, _)| name.len()).max().unwrap_or(0);
     lines.iter().fold(String::new(), |all, (name, text)| all + &format!("{name:<width$} = {text}\n"))
 }
 
-/// What the formula is, and the units of its values.
+/// Describes the dimension of the formula, and the units of its values.
 fn dimension_line(dimension: Dimension) -> String {
     let words = dimension.in_words();
     // the unit follows
     let words = words.split(" (").next().unwrap_or(&words);
     let mut units = Vec::new();
-    let mut of = dimension;
+    let mut of_derivative = dimension;
     for (order, name) in NAMES.iter().enumerate() {
-        let pure = of.is(Dimension::PURE);
+        let pure = of_derivative.is(Dimension::PURE);
         match order {
             0 if pure => {}
             _ if pure => units.push(format!("{name} a pure number")),
-            _ => units.push(format!("{name} in {}", of.unit())),
+            _ => units.push(format!("{name} in {}", of_derivative.unit())),
         }
-        of = of.over(Dimension::TIME);
+        of_derivative = of_derivative.over(Dimension::TIME);
     }
     format!("dimension: {words}; {}", units.join(", "))
 }
 
-/// At a time, or at any.
+/// Reports a value that is not finite, at a time (s) or at any.
 fn not_finite(span: Span, order: usize, value: f64, t: Option<f64>) -> Diagnostic {
     let what = ["the formula", "the first derivative of the formula", "the second derivative of the formula"];
     let (what, name) = (what[order], NAMES[order]);
-    let found = if value.is_nan() { "not a number" } else { "infinite" };
+    let kind = if value.is_nan() { "not a number" } else { "infinite" };
     let when = t.map_or("at any time".to_owned(), |t| format!("at t = {} s", number(t)));
     let diagnostic = Diagnostic::new(Code::E0605, format!("{what} is not finite {when}"));
-    let diagnostic = diagnostic.at(span, format!("{name} is {found}"));
+    let diagnostic = diagnostic.at(span, format!("{name} is {kind}"));
     match t {
         Some(t) => diagnostic.datum("t", t),
         None => diagnostic,

@@ -1,74 +1,63 @@
-//! The way of a text in owned stages: each can be kept, cloned for little, sent to another thread, and gives the next one.
+//! The façade: stages from text to rows, each owned, cheap to clone, and free to go to another thread.
 //!
 //! ```text
 //! Sources ──▶ Parsed ──check──▶ Checked ──compile──▶ Compiled ──run──▶ Run ──▶ rows
 //! ```
 //!
-//! None stops the ones after it from speaking of what is whole. What is to be said of a stage is on it, or comes beside it.
+//! A stage reports its diagnostics and goes on with what is sound. The crate joins the crates below it; it opens no file, reads no clock and
+//! writes to no terminal.
 
-mod abreast;
-mod adjustable;
-mod again;
 mod angles;
-mod asked;
-mod beside;
+mod batch;
 mod checked;
-mod chosen;
+mod column_selection;
 mod compiled;
-mod constant;
-mod cranks;
-mod drawn;
-mod emitted;
-mod families;
+mod continuation;
+mod controls;
+mod drag_handles;
+mod emit;
+mod evaluator;
+mod faulty_outputs;
 mod formula;
-mod imported;
-mod knobs;
-mod known;
-mod lead;
-mod lines;
-mod lowered;
+mod imports;
+mod initial_pose;
+mod lowering;
+mod model_import;
+mod option_reader;
 mod options;
 pub mod output;
-mod outputs;
-mod over;
-mod own;
+mod parameters;
 mod parsed;
+mod part_backtrace;
+mod queries;
 mod refinement;
 mod run;
-mod seen;
-mod settable;
+mod slider_range;
 mod sweep;
 mod times;
-mod tolerance;
 mod tolerancing;
-mod used;
-mod used_at;
-mod varied;
-mod vary;
+mod visualization;
 
-pub use adjustable::{Adjustable, Adjusting, AskedPlace, InputMotion};
 pub use checked::{Checked, Choice};
 pub use compiled::{Compiled, Redundant};
-pub use constant::seconds;
-pub use cranks::Crank;
-pub use drawn::Drawn;
-pub use emitted::RustOptions;
+pub use controls::{InputControl, ParamControl, size_of_unit};
+pub use drag_handles::DragHandle;
+pub use emit::RustOptions;
+pub use evaluator::{EvaluationPoint, EvaluatorOptions, InputMotion, MechanismEvaluator};
 pub use formula::{Formula, NAMES};
-pub use imported::imported;
-pub use knobs::{Jog, Knob, size_of_unit};
-pub use known::{Declaration, Interface};
-pub use lowered::lowered;
+pub use initial_pose::InitialPose;
+pub use lowering::lower_model;
 pub use mechc_engine::sweep::SweptColumn;
 pub use mechc_expr::math::Vectors;
-pub use options::{RunOptions, Stand};
+pub use model_import::import_model;
+pub use options::{Configuration, RunOptions};
+pub use parameters::SettableParam;
 pub use parsed::Parsed;
+pub use queries::{Declaration, Interface};
 pub use refinement::CurveTolerance;
-pub use run::{Assembly, Run};
-pub use seen::Seen;
-pub use settable::Settable;
-pub use sweep::{Sweep, SweepOptions};
-pub use times::AskedTimes;
-pub use tolerance::{Affected, Deviation, Shown, Tolerance, Verified};
-pub use tolerancing::Tolerancing;
-pub use varied::Varied;
-pub use vary::{Variants, VaryOptions};
+pub use run::{Assembly, Run, StartReport};
+pub use slider_range::SliderRange;
+pub use sweep::{Sweep, SweepOptions, Variants, VaryOptions};
+pub use times::{RequestedTimes, seconds};
+pub use tolerancing::{CornerReport, Deviation, DisplayUnit, OutputSensitivity, Tolerance, Tolerancing};
+pub use visualization::Visualization;

@@ -1,30 +1,30 @@
-//! How a motion is followed.
+//! Options of a run, and the configuration that it may start from.
 
 use mechc_engine::analysis::TOLERANCE;
 use mechc_expr::math::Vectors;
 use mechc_text::cancel::Cancel;
 
-/// How a motion is followed.
+/// Options of a run.
 #[derive(Clone, Debug)]
 pub struct RunOptions {
-    /// Bounds each row of Φ, scaled.
+    /// Tolerance of each row of Φ, scaled.
     pub tolerance: f64,
-    /// Go on beyond bifurcations, along the branch that continues smoothly, with a remark each time.
+    /// True if a motion continues beyond bifurcations, along the smooth branch, with a warning each time.
     pub pass_bifurcations: bool,
-    /// Where a mechanism that is told its inputs is led from; its own start if nothing is said.
-    pub stand: Option<Stand>,
-    /// The vector instructions that rows are solved for with, which change no bit.
+    /// The configuration from which given inputs are reached; `None` for the start of the mechanism itself.
+    pub configuration: Option<Configuration>,
+    /// The vector instructions of the solver; they change no bit.
     pub vectors: Vectors,
-    /// Ends it.
+    /// Cancels the run.
     pub cancel: Cancel,
 }
 
-/// Where a mechanism stands at a time.
+/// The configuration of a mechanism at a time.
 #[derive(Clone, PartialEq, Debug)]
-pub struct Stand {
-    /// When (s).
+pub struct Configuration {
+    /// Time (s).
     pub t: f64,
-    /// Its coordinates [m, rad].
+    /// Coordinates [m, rad].
     pub q: Vec<f64>,
 }
 
@@ -33,7 +33,7 @@ impl Default for RunOptions {
         RunOptions {
             tolerance: TOLERANCE,
             pass_bifurcations: false,
-            stand: None,
+            configuration: None,
             vectors: Vectors::default(),
             cancel: Cancel::default(),
         }

@@ -1,4 +1,4 @@
-//! The first stage: a text with its tree.
+//! The first stage: a text with its syntax tree. Knows no names and no units.
 
 use mechc_syntax::{self as syntax, ParsedText, Trivia, ast, format};
 use mechc_text::diag::{Diagnostics, Edit};
@@ -7,7 +7,7 @@ use mechc_text::world::{self, World};
 use std::path::Path;
 use std::sync::Arc;
 
-/// A file that was read, whatever its faults.
+/// A file that was read, with syntax errors or without.
 ///
 /// ```
 /// let parsed = mechc::Parsed::of("two.mech", "mechanism arm { } mechanism leg { body foot { } } // to come");
@@ -18,82 +18,81 @@ use std::sync::Arc;
 pub struct Parsed {
     sources: Sources,
     file: FileId,
-    /// Beside which the files are that it names.
+    /// Path of the file, to which paths in its text are relative.
     path: Arc<Path>,
     read: Arc<syntax::ParsedText>,
 }
 
 impl Parsed {
-    /// Reads a text under the name that messages are to have for it; the files that it names are beside that.
+    /// Reads a text; `name` is its name in messages, and the path to which paths in it are relative.
     #[must_use]
-    pub fn of(name: &str, text: &str) -> Parsed {
+    pub fn new(name: &str, text: &str) -> Parsed {
         let mut sources = Sources::default();
         let file = sources.add(name, text);
-        Parsed::of_source(sources, file, Path::new(name))
+        Parsed::from_source(sources, file, Path::new(name))
     }
 
     /// Reads a file.
     ///
     /// # Errors
-    /// It is not there, or no text; with the sources that the diagnostics speak of.
+    /// The file does not exist, or is no text; with the sources that the diagnostics point into.
     pub fn read(path: &Path, world: &dyn World) -> Result<Parsed, (Sources, Diagnostics)> {
         let mut sources = Sources::default();
         match world::text_of(world, path, &mut sources) {
-            Ok(file) => Ok(Parsed::of_source(sources, file, path)),
+            Ok(file) => Ok(Parsed::from_source(sources, file, path)),
             Err(why) => Err((sources, (*why).into())),
         }
     }
 
-    /// Reads one of some texts; the files that it names are beside a path.
+    /// Reads one of several texts; paths in it are relative to `path`.
     #[must_use]
-    pub fn of_source(sources: Sources, file: FileId, path: &Path) -> Parsed {
+    pub fn from_source(sources: Sources, file: FileId, path: &Path) -> Parsed {
         let read = Arc::new(unless_too_large(&sources, file, || syntax::parse(&sources, file)));
         Parsed { sources, file, path: path.into(), read }
     }
 
-    /// The same file with another text. Of what the edit does not touch nothing is read again; what comes out is what
-    /// [`Parsed::of`] makes of the text.
+    /// Reads an edited text of the same file, and only what the edit touches. The outcome equals that of [`Parsed::of`].
     #[must_use]
     pub fn edited(&self, text: &str) -> Parsed {
-        let own = self.sources.get(self.file);
+        let current = self.sources.get(self.file);
         let mut sources = Sources::default();
-        let file = sources.add(&own.name, text);
-        let reread = || syntax::reread(&self.read, &own.text, &sources, file);
-        let read = Arc::new(unless_too_large(&sources, file, reread));
+        let file = sources.add(&current.name, text);
+        let reparse = || syntax::reparse(&self.read, &current.text, &sources, file);
+        let read = Arc::new(unless_too_large(&sources, file, reparse));
         Parsed { sources, file, path: Arc::clone(&self.path), read }
     }
 
-    /// The texts that its diagnostics speak of.
+    /// Returns the texts that its diagnostics point into.
     #[must_use]
     pub fn sources(&self) -> &Sources {
         &self.sources
     }
 
-    /// Its own text among them.
+    /// Returns the id of its own text.
     #[must_use]
     pub fn file(&self) -> FileId {
         self.file
     }
 
-    /// What of it does not follow the grammar.
+    /// Returns the syntax errors.
     #[must_use]
     pub fn faults(&self) -> &Diagnostics {
         &self.read.faults
     }
 
-    /// Its comments and blank lines.
+    /// Returns its comments and blank lines.
     #[must_use]
     pub fn trivia(&self) -> &Trivia {
         &self.read.trivia
     }
 
-    /// The names of its mechanisms, in order.
+    /// Returns the names of its mechanisms, in order.
     #[must_use]
     pub fn mechanisms(&self) -> impl ExactSizeIterator<Item = &str> {
         self.read.tree.mechanisms.iter().map(|mechanism| mechanism.name.text.as_str())
     }
 
-    /// The text as it would be written; nothing where a part of it cannot be read, which would be lost.
+    /// Returns the formatted text; `None` if the text has syntax errors.
     #[must_use]
     pub fn formatted(&self) -> Option<String> {
         let text = &self.sources.get(self.file).text;
@@ -101,66 +100,65 @@ impl Parsed {
         is_whole.then(|| syntax::formatted(&self.read, text))
     }
 
-    /// What to change in the text so that it is formatted; where it does not follow the grammar, in what is whole of it. Only spaces,
-    /// line ends and commas behind the last item of a list change. The edits are in order and do not overlap.
+    /// Returns the edits that format the text; a part with syntax errors stays as it is. Only spaces, line ends and commas after the last items of
+    /// lists change. The edits are in order and do not overlap.
     #[must_use]
     pub fn formatting(&self) -> Vec<Edit> {
         format::edits(&self.read, &self.sources.get(self.file).text, self.file)
     }
 
-    /// The same, in the lines that have a part in a span; their columns are those that the whole text would have.
+    /// Returns the edits that format the lines of a span, indented as in the whole text.
     #[must_use]
     pub fn formatting_in(&self, span: Span) -> Vec<Edit> {
         format::edits_in(&self.read, &self.sources.get(self.file).text, span)
     }
 
-    /// The same, in the block that is closed by the brace which ends at a byte, as when somebody has just typed it; nothing if there is
-    /// none.
+    /// Returns the edits that format the block whose closing brace ends at a byte, as when it was just typed; none if there is no such block.
     #[must_use]
     pub fn formatting_at_brace(&self, end: u32) -> Vec<Edit> {
         format::edits_at_brace(&self.read, &self.sources.get(self.file).text, self.file, end)
     }
 
-    /// What was read.
-    pub(super) fn shared(&self) -> Arc<syntax::ParsedText> {
+    /// Returns the tree with all that was read.
+    pub(crate) fn shared(&self) -> Arc<syntax::ParsedText> {
         Arc::clone(&self.read)
     }
 
-    /// Beside which the files are that it names.
-    pub(super) fn path(&self) -> &Path {
+    /// Returns the path to which paths in the text are relative.
+    pub(crate) fn path(&self) -> &Path {
         &self.path
     }
 
-    /// What was written.
+    /// Returns the syntax tree.
     #[must_use]
     pub fn tree(&self) -> &ast::File {
         &self.read.tree
     }
 
-    /// The same, with more declarations behind those of one of its mechanisms, by its number.
-    pub(super) fn with_items(&self, number: usize, items: Vec<ast::Item>) -> Parsed {
+    /// Returns the file with more declarations after those of the mechanism at an index.
+    pub(crate) fn with_items(&self, index: usize, items: Vec<ast::Item>) -> Parsed {
         if items.is_empty() {
             return self.clone();
         }
         let mut read = (*self.read).clone();
-        read.tree.mechanisms[number].items.extend(items);
+        read.tree.mechanisms[index].items.extend(items);
         Parsed { read: Arc::new(read), ..self.clone() }
     }
 
-    /// The same, without some declarations of one of its mechanisms, by its number.
-    pub(super) fn without_items(&self, number: usize, is_one: impl Fn(&ast::Item) -> bool) -> Parsed {
+    /// Returns the file without some declarations of the mechanism at an index.
+    pub(crate) fn without_items(&self, index: usize, is_removed: impl Fn(&ast::Item) -> bool) -> Parsed {
         let mut read = (*self.read).clone();
-        read.tree.mechanisms[number].items.retain(|item| !is_one(item));
+        read.tree.mechanisms[index].items.retain(|item| !is_removed(item));
         Parsed { read: Arc::new(read), ..self.clone() }
     }
 
-    /// The same, with more texts beside it.
-    pub(super) fn with_sources(&self, sources: Sources) -> Parsed {
+    /// Returns the file with other sources, to which texts were added.
+    pub(crate) fn with_sources(&self, sources: Sources) -> Parsed {
         Parsed { sources, ..self.clone() }
     }
 }
 
-/// What is read of a text, unless places in it could not be told.
+/// Reads a text unless it is too large for spans.
 fn unless_too_large(sources: &Sources, file: FileId, read: impl FnOnce() -> ParsedText) -> ParsedText {
     let Source { name, text, .. } = sources.get(file);
     if text.len() <= world::LARGEST {

@@ -1,29 +1,33 @@
-//! The last stage: a motion in progress, row by row.
+//! The last stage: a motion in progress, row by row. Knows where a mechanism starts; the steps are the engine's.
 
-use super::Compiled;
-use super::lead::{Begin, Outset};
-use super::options::{RunOptions, Stand};
-use super::used_at::UsedAt;
-use mechc_engine::analysis::{self, Answers, Asked, Follower, Horizon, Solving, Started, Times, Unassembled};
+use crate::Compiled;
+use crate::continuation::{ContinuationOrigin, ContinuedStart, InitialGuess};
+use crate::options::{Configuration, RunOptions};
+use crate::part_backtrace::PartBacktrace;
+use mechc_engine::analysis::{
+    self, Answers, Follower, Horizon, ResultQuery, Solving, Started, Stop, Times, Unassembled,
+};
+use mechc_engine::sweep::CompiledSystem;
 use mechc_ir::layout::{ColumnUnit, RowLayout};
+use mechc_ir::structure::Determined;
 use mechc_text::cancel::Cancel;
-use mechc_text::diag::{Code, Diagnostic, Diagnostics, readable};
+use mechc_text::diag::{Diagnostic, Diagnostics, readable};
 use std::sync::Arc;
 
 /// The position in which a mechanism was assembled.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Assembly {
-    /// When (s).
+    /// Time (s).
     pub t: f64,
-    /// Each coordinate: its name, its value (SI), its unit.
+    /// For each coordinate: name, value (SI), unit.
     pub coordinates: Vec<(String, f64, &'static str)>,
-    /// How far the bodies moved from their estimates, in words.
+    /// Distances by which the bodies moved from their estimates, in words.
     pub moved: String,
-    /// The distance to a singular position: 1 is far, 0 is singular.
+    /// Distance to a singular position: 1 is far, 0 is singular.
     pub conditioning: f64,
 }
 
-/// A motion, which owns all it needs: an iterator over its rows.
+/// A motion in progress: an iterator over its rows, which owns all it needs.
 ///
 /// ```
 /// # use mechc::{Cancel, Choice, Memory, Parsed, Redundant, RunOptions, Times};
@@ -46,32 +50,51 @@ pub struct Assembly {
 /// ```
 pub struct Run {
     motion: Follower,
+    determined: Arc<Determined>,
     columns: Arc<[String]>,
     units: Arc<[ColumnUnit]>,
     assembly: Assembly,
     times: Times,
     cancel: Cancel,
     has_ended: bool,
-    has_stopped: bool,
-    /// What results are computed from; none where there are none.
-    asked: Option<Asked>,
+    stopped_at: Option<f64>,
+    /// The query that results are computed from; `None` if there are none.
+    result_query: Option<ResultQuery>,
     results: usize,
-    used_at: UsedAt,
+    backtrace: PartBacktrace,
+}
+
+/// What a start has to report.
+#[derive(Clone, Debug, Default)]
+pub struct StartReport {
+    /// Diagnostics of the start.
+    pub diagnostics: Diagnostics,
+    /// Why the mechanism does not start.
+    pub stop: Option<Box<Stop>>,
+    /// The fraction, from 0 to 1, at which a path to the values that are set or given stopped: the mechanism is assembled from the estimates
+    /// of the text alone (E0612).
+    pub stopped_path: Option<f64>,
 }
 
 impl Compiled {
-    /// Assembles it at the first of some times, and gives what follows it; with what is to be said of that. Nothing where it cannot
-    /// be assembled, starts in a singular position, a formula has no value there, or it is cancelled.
+    /// Assembles the mechanism at the first of some times, and returns the motion, with diagnostics of the start. `None` if it cannot be assembled,
+    /// starts in a singular position, a formula has no value there, or the work is cancelled.
     ///
-    /// A mechanism that is told its inputs begins where these lead it. An error may stand beside a run: no way leads there (E0612), and it
-    /// was assembled from the file's estimates alone.
+    /// If inputs are given, the start is continued to them. There may be an error together with a run: no path leads to the given values
+    /// (E0612), and the mechanism was assembled from the estimates of the text alone.
     #[must_use]
     pub fn run(&self, times: &Times, options: &RunOptions) -> (Option<Run>, Diagnostics) {
-        Run::of(self, times, options)
+        let (run, report) = self.run_with_report(times, options);
+        (run, report.diagnostics)
     }
 
-    /// Where it stands at a time (s), as [`Compiled::run`] begins there, with what is to be said of that; in less time, as nothing will
-    /// follow.
+    /// Assembles the mechanism as [`Compiled::run`] does, and reports on the start as data.
+    #[must_use]
+    pub fn run_with_report(&self, times: &Times, options: &RunOptions) -> (Option<Run>, StartReport) {
+        Run::new(self, times, options)
+    }
+
+    /// Returns the position at a time (s) at which [`Compiled::run`] would begin, with diagnostics of the start. Takes less time than a run.
     ///
     /// ```
     /// # use mechc::{Cancel, Choice, Memory, Parsed, Redundant, RunOptions};
@@ -84,54 +107,51 @@ impl Compiled {
     /// # let checked = Parsed::of("disc.mech", text).check(&Choice::default(), &Memory::default());
     /// # let (compiled, _) = checked.compile(Redundant::Refused, &Cancel::default());
     /// # let compiled = compiled.expect("it is determined");
-    /// let (assembly, said) = compiled.assembled(1.0, &RunOptions::default());
-    /// assert!(said.is_empty());
+    /// let (assembly, diagnostics) = compiled.assembled(1.0, &RunOptions::default());
+    /// assert!(diagnostics.is_empty());
     /// assert_eq!(assembly.expect("it assembles").coordinates[2].1, std::f64::consts::FRAC_PI_2);
     /// ```
     #[must_use]
-    pub fn assembled(&self, t: f64, options: &RunOptions) -> (Option<Assembly>, Diagnostics) {
+    pub fn assemble_at(&self, t: f64, options: &RunOptions) -> (Option<Assembly>, Diagnostics) {
         let horizon = Horizon::of_analysis(self.analysis()).beginning(t);
-        let (started, mut said) = self.started(horizon, options, Solving::With(None));
+        let (started, report) = self.started(horizon, options, Solving::With(None));
+        let mut diagnostics = report.diagnostics;
         match started {
             _ if options.cancel.is_cancelled() => (None, Diagnostics::default()),
             Ok(mut started) => {
-                said.extend(self.used_at().told(started.remarks()));
-                (Some(assembly(self, &mut started, t)), said)
+                diagnostics.extend(self.backtrace().annotate_all(started.remarks()));
+                (Some(assembly(self, &mut started, t)), diagnostics)
             }
-            Err(why) => {
-                said.push(self.used_at().tell(*why));
-                (None, said)
+            Err(stop) => {
+                diagnostics.push(self.explain_start(&stop, horizon));
+                (None, diagnostics)
             }
         }
     }
 
-    /// A time (s) of its analysis, followed from another one.
-    pub(super) fn one_time(&self, from: f64, t: f64) -> Times {
+    /// Returns the single time `t` (s), followed from the time `from`.
+    pub(crate) fn one_time(&self, from: f64, t: f64) -> Times {
         Times::listed(from, vec![t]).within_analysis_to(self.analysis().map(|[_, to, _]| to))
     }
 
-    /// Where it stands at a time (s), followed from the first time of its analysis.
+    /// Returns the configuration at a time (s), followed from the first time of the analysis.
     ///
     /// # Errors
-    /// It does not get there.
-    pub fn stand(&self, t: f64, options: &RunOptions) -> Result<Stand, Diagnostics> {
+    /// The motion does not get there.
+    pub fn configuration_at(&self, t: f64, options: &RunOptions) -> Result<Configuration, Diagnostics> {
         let from = self.analysis().map_or(t, |[from, ..]| from.min(t));
-        let (run, said) = self.run(&self.one_time(from, t), options);
+        let (run, diagnostics) = self.run(&self.one_time(from, t), options);
         let layout = RowLayout::new(self.system());
         match run.and_then(|mut run| run.next()) {
-            Some(Ok(row)) => Ok(Stand { t, q: layout.position(&row).to_vec() }),
+            Some(Ok(row)) => Ok(Configuration { t, q: layout.position(&row).to_vec() }),
             Some(Err(why)) => Err((*why).into()),
-            None => Err(said),
+            None => Err(diagnostics),
         }
     }
 
-    /// Assembles it at the first time of a horizon, from the file's estimates, or from where the inputs that it is told lead it; with what is to be
-    /// said of the way.
-    pub(super) fn start(
-        &self,
-        horizon: Horizon,
-        options: &RunOptions,
-    ) -> (Result<Started, Box<Diagnostic>>, Diagnostics) {
+    /// Assembles the mechanism at the first time of a horizon, from the estimates of the text or from the end of a continuation; returns the
+    /// diagnostics of that, too.
+    pub(crate) fn start(&self, horizon: Horizon, options: &RunOptions) -> (Result<Started, Box<Stop>>, StartReport) {
         self.started(horizon, options, Solving::New)
     }
 
@@ -140,130 +160,142 @@ impl Compiled {
         horizon: Horizon,
         options: &RunOptions,
         solving: Solving,
-    ) -> (Result<Started, Box<Diagnostic>>, Diagnostics) {
-        let (beginning, mut said) = self.begins(horizon, options);
+    ) -> (Result<Started, Box<Stop>>, StartReport) {
+        let (beginning, mut report) = self.initial_guess(horizon, options);
         let started = match beginning {
-            Beginning::Started(started) => return (*started, said),
-            Beginning::At(Begin::Position(q), at) => self.unassembled(at, options).assemble_at(&q, solving),
-            Beginning::At(Begin::Estimates(drawn), at) => {
+            StartStage::Started(started) => return (*started, report),
+            StartStage::At(InitialGuess::Position(q), at) => self.unassembled(at, options).assemble_at(&q, solving),
+            StartStage::At(InitialGuess::Estimates(drawn), at) => {
                 let whole = self.unassembled(at, options);
-                // where no way leads to what is told or set, the estimates alone are tried
-                let started = if said.has_errors() {
+                // if no path leads to what is given or set, the estimates alone are tried
+                let started = if report.stopped_path.is_some() {
                     whole.close(drawn.as_deref(), solving)
                 } else {
                     analysis::start_from(&whole, drawn.as_deref(), solving)
                 };
-                // parts that begin elsewhere than they are drawn are no estimates of the text
+                // starting positions of parts are no estimates of the text, and moving from them is not reported
                 let started = started.map(|started| match drawn {
                     Some(_) => started.moved_from(&whole.kinematics(None).estimates()),
                     None => started,
                 });
-                started.map_err(|why| self.with_analysis_proposed(why, horizon)).and_then(|started| {
+                started.and_then(|started| {
                     if at.from.total_cmp(&horizon.from).is_eq() {
                         return Ok(started);
                     }
                     let whole = self.unassembled(horizon, options);
-                    said.extend(started.far_estimates_at(at.from));
+                    report.diagnostics.extend(started.far_estimates_at(at.from));
                     let (started, passed) = analysis::follow_to(&whole, (started, at.from))?;
-                    said.extend(passed);
+                    report.diagnostics.extend(passed.iter().map(|warning| warning.explain(self.system())));
                     Ok(started)
                 })
             }
         };
-        (started, said)
+        (started, report)
     }
 
-    /// Where it comes nearest to being assembled at a time (s), if it cannot be assembled there: its coordinates [m, rad].
-    pub(super) fn nearest(&self, t: f64, options: &RunOptions) -> Option<Vec<f64>> {
+    /// Returns the coordinates [m, rad] that come nearest to being assembled at a time (s), for a mechanism that cannot be assembled there.
+    pub(crate) fn nearest(&self, t: f64, options: &RunOptions) -> Option<Vec<f64>> {
         let horizon = Horizon::of_analysis(self.analysis()).beginning(t);
-        let (from, at) = match self.begins(horizon, options).0 {
-            Beginning::Started(started) => (started.ok().map(|started| started.q().to_vec()), horizon),
-            Beginning::At(Begin::Position(q), at) => (Some(q), at),
-            Beginning::At(Begin::Estimates(drawn), at) => (drawn, at),
+        let (from, at) = match self.initial_guess(horizon, options).0 {
+            StartStage::Started(started) => (started.ok().map(|started| started.q().to_vec()), horizon),
+            StartStage::At(InitialGuess::Position(q), at) => (Some(q), at),
+            StartStage::At(InitialGuess::Estimates(drawn), at) => (drawn, at),
         };
         self.unassembled(at, options).nearest(from.as_deref())
     }
 
-    /// The first time of the text's own analysis (s), or 0: there the drawing decides which branch is followed.
+    /// Returns the first time of the text's analysis (s), or 0. The estimates select the branch at that time.
     fn first_time(&self) -> f64 {
         self.analysis().map_or(0.0, |[from, ..]| from)
     }
 
-    /// What is to be assembled at the first time of a horizon.
-    pub(super) fn unassembled(&self, horizon: Horizon, options: &RunOptions) -> Unassembled {
+    /// Returns the mechanism with all that its assembly at the first time of a horizon needs.
+    pub(crate) fn unassembled(&self, horizon: Horizon, options: &RunOptions) -> Unassembled {
         let RunOptions { tolerance, pass_bifurcations, ref cancel, .. } = *options;
         let (determined, program) = (Arc::clone(self.determined()), Arc::clone(self.program()));
         Unassembled { determined, program, horizon, tolerance, pass_bifurcations, cancel: cancel.clone() }
     }
 
-    /// Where the values of its params lead it, the inputs that it is told, and its parts; with what is to be said of the way.
-    fn begins(&self, horizon: Horizon, options: &RunOptions) -> (Beginning, Diagnostics) {
-        let is_told = self.leading().is_some_and(|(leading, _)| leading.is_told);
-        let stand = options.stand.as_ref().filter(|_| is_told);
-        let (outset, mut said) = match (stand, self.over()) {
-            // who stands somewhere has got there with the params that are set
-            (Some(stand), _) => (Outset::At(stand.t, stand.q.clone()), Diagnostics::default()),
-            (None, None) => (Outset::Own(self.first_time()), Diagnostics::default()),
-            (None, Some(over)) => match over.lead(self.system(), horizon, options) {
-                (Some(Ok(started)), said) if is_told => (Outset::At(horizon.from, started.q().to_vec()), said),
-                (Some(started), said) => return (Beginning::Started(Box::new(started)), said),
-                (None, said) => (Outset::Estimates, said),
-            },
+    /// Returns the start, as far as continuations decide it, with their diagnostics: to params that are set, to given inputs, and of parts.
+    fn initial_guess(&self, horizon: Horizon, options: &RunOptions) -> (StartStage, StartReport) {
+        let has_given_inputs = self.start_solver().is_some_and(|(start_solver, _)| start_solver.has_given_inputs);
+        let stand = options.configuration.as_ref().filter(|_| has_given_inputs);
+        let (origin, mut report) = match (stand, self.continuation()) {
+            // a configuration that is handed in was reached with the params that are set
+            (Some(stand), _) => (ContinuationOrigin::Configuration(stand.t, stand.q.clone()), StartReport::default()),
+            (None, None) => (ContinuationOrigin::Nominal(self.first_time()), StartReport::default()),
+            (None, Some(continuation)) => {
+                let continued = continuation.start_system(self.system(), horizon, options);
+                let ContinuedStart { started, diagnostics, stopped_path } = continued;
+                let report = StartReport { diagnostics, stop: None, stopped_path };
+                match started {
+                    Some(Ok(started)) if has_given_inputs => {
+                        (ContinuationOrigin::Configuration(horizon.from, started.q().to_vec()), report)
+                    }
+                    Some(started) => return (StartStage::Started(Box::new(started)), report),
+                    None => (ContinuationOrigin::Estimates, report),
+                }
+            }
         };
-        // inputs that are told may have no value at the text's own first time
-        let is_there = is_told || self.first_time().total_cmp(&horizon.from).is_eq();
+        // given inputs may have no value at the first time of the text's analysis
+        let is_there = has_given_inputs || self.first_time().total_cmp(&horizon.from).is_eq();
         let at = if is_there { horizon } else { Horizon::of_analysis(self.analysis()).beginning(self.first_time()) };
-        let Some((leading, leave_out)) = self.leading() else {
-            return (Beginning::At(Begin::Estimates(None), at), said);
+        let Some((start_solver, leave_out)) = self.start_solver() else {
+            return (StartStage::At(InitialGuess::Estimates(None), at), report);
         };
-        let (begin, more) = leading.begin((self.determined(), self.program()), at, &outset, leave_out, options);
-        said.extend(more);
-        (Beginning::At(begin, at), said)
+        let system = CompiledSystem { determined: Arc::clone(self.determined()), program: Arc::clone(self.program()) };
+        let (guess, more, stopped_path) = start_solver.initial_guess(&system, at, &origin, leave_out, options);
+        report.diagnostics.extend(more);
+        report.stopped_path = report.stopped_path.or(stopped_path);
+        (StartStage::At(guess, at), report)
     }
 
-    /// Why it cannot start, with a mend where a text without an analysis has no values at 0 s.
-    fn with_analysis_proposed(&self, why: Box<Diagnostic>, horizon: Horizon) -> Box<Diagnostic> {
-        let has_no_value = matches!(why.code, Code::E0605 | Code::E0606 | Code::E0608);
-        if self.analysis().is_some() || horizon.from.total_cmp(&0.0).is_eq() || !has_no_value {
-            return why;
+    /// Describes why the mechanism does not start at the first time of a horizon; proposes an analysis if the text has none, and no values
+    /// at 0 s.
+    pub(crate) fn explain_start(&self, stop: &Stop, horizon: Horizon) -> Diagnostic {
+        let diagnostic = self.backtrace().annotate(stop.explain(self.system()));
+        if self.analysis().is_some() || horizon.from.total_cmp(&0.0).is_eq() || !stop.is_without_value() {
+            return diagnostic;
         }
         let [from, to] = [horizon.from, horizon.from + horizon.span].map(readable);
         let mend = format!(
             "without an analysis the motion begins at 0 s;\nadd `analysis from {from} s to {to} s every 10 ms` to the file"
         );
-        Box::new(why.help(mend))
+        diagnostic.help(mend)
     }
 }
 
-/// How far it is known where a mechanism begins.
-enum Beginning {
-    /// Assembled, or why it cannot be.
-    Started(Box<Result<Started, Box<Diagnostic>>>),
-    /// So, at the first time of a horizon.
-    At(Begin, Horizon),
+/// A start, as far as continuations decide it.
+enum StartStage {
+    /// Assembled, or why that fails.
+    Started(Box<Result<Started, Box<Stop>>>),
+    /// To be assembled from a guess, at the first time of a horizon.
+    At(InitialGuess, Horizon),
 }
 
 impl Run {
-    fn of(compiled: &Compiled, times: &Times, options: &RunOptions) -> (Option<Run>, Diagnostics) {
+    fn new(compiled: &Compiled, times: &Times, options: &RunOptions) -> (Option<Run>, StartReport) {
         let refused = times.interval().map(|interval| analysis::refused_results(compiled.system(), interval));
         if let Some(refused) = refused.filter(Diagnostics::has_errors) {
-            return (None, refused);
+            return (None, StartReport { diagnostics: refused, ..StartReport::default() });
         }
-        let (started, mut said) = compiled.start(Horizon::of(times), options);
+        let horizon = Horizon::of(times);
+        let (started, mut report) = compiled.start(horizon, options);
         let mut started = match started {
-            _ if options.cancel.is_cancelled() => return (None, Diagnostics::default()),
+            _ if options.cancel.is_cancelled() => return (None, StartReport::default()),
             Ok(started) => started,
-            Err(why) => {
-                said.push(compiled.used_at().tell(*why));
-                return (None, said);
+            Err(stop) => {
+                report.diagnostics.push(compiled.explain_start(&stop, horizon));
+                report.stop = Some(stop);
+                return (None, report);
             }
         };
-        said.extend(compiled.used_at().told(started.remarks()));
+        report.diagnostics.extend(compiled.backtrace().annotate_all(started.remarks()));
         started.use_vectors(options.vectors);
         let assembly = assembly(compiled, &mut started, times.from());
         let results = compiled.system().results().outcomes.len();
         let interval = times.interval().filter(|_| results > 0);
-        let asked = interval.map(|interval| started.asked(interval, options.pass_bifurcations, &options.cancel));
+        let result_query = interval.map(|interval| started.asked(interval, options.pass_bifurcations, &options.cancel));
         let mut motion = started.into_motion(times);
         if options.pass_bifurcations {
             motion.pass_bifurcations();
@@ -271,6 +303,7 @@ impl Run {
         let (columns, units) = (compiled.columns().into(), compiled.units().into());
         let (times, cancel) = (times.clone(), options.cancel.clone());
         let run = Run {
+            determined: Arc::clone(compiled.determined()),
             motion,
             columns,
             units,
@@ -278,81 +311,97 @@ impl Run {
             times,
             cancel,
             has_ended: false,
-            has_stopped: false,
-            asked,
+            stopped_at: None,
+            result_query,
             results,
-            used_at: compiled.used_at().clone(),
+            backtrace: compiled.backtrace().clone(),
         };
-        (Some(run), said)
+        (Some(run), report)
     }
 
-    /// The names of the numbers of a row.
+    /// Returns the names of the columns.
     #[must_use]
     pub fn columns(&self) -> &[String] {
         &self.columns
     }
 
-    /// The units in which the numbers of a row are printed; the row itself is in SI.
+    /// Returns the units in which the columns are printed; rows themselves are in SI.
     #[must_use]
     pub fn units(&self) -> &[ColumnUnit] {
         &self.units
     }
 
-    /// The position at the first time.
+    /// Returns the position at the first time.
     #[must_use]
     pub fn assembly(&self) -> &Assembly {
         &self.assembly
     }
 
-    /// The output times.
+    /// Returns the time (s) at which the motion stopped; `None` if it goes on or has come to its end.
+    #[must_use]
+    pub fn stopped_at(&self) -> Option<f64> {
+        self.stopped_at
+    }
+
+    /// Returns the output times.
     #[must_use]
     pub fn times(&self) -> &Times {
         &self.times
     }
 
-    /// The next row, in SI and the order of [`Run::columns`], without a copy; `None` behind the last one, and when it was cancelled.
+    /// Returns the next row, in SI and the order of [`Run::columns`], without a copy; `None` after the last one, and when it is cancelled.
     ///
     /// # Errors
-    /// Why the motion cannot go on; nothing comes behind that.
+    /// The motion cannot continue, and this is why; no rows follow.
     pub fn next_row(&mut self) -> Option<Result<&[f64], Box<Diagnostic>>> {
         if self.has_ended || self.cancel.is_cancelled() {
             return None;
         }
-        let row = self.motion.next_row();
-        self.has_ended = !matches!(row, Some(Ok(_)));
-        self.has_stopped |= matches!(row, Some(Err(_)));
-        row.map(|row| row.map_err(|why| Box::new(self.used_at.tell(*why))))
+        match self.motion.next_row() {
+            Some(Ok(row)) => Some(Ok(row)),
+            None => {
+                self.has_ended = true;
+                None
+            }
+            Some(Err(stop)) => {
+                (self.has_ended, self.stopped_at) = (true, Some(stop.t));
+                Some(Err(Box::new(self.backtrace.annotate(stop.explain(self.determined.system())))))
+            }
+        }
     }
 
-    /// The results, in the order of [`Compiled::results`]; none at all where only some times were asked for or it was cancelled, and each
-    /// without a value once the motion has stopped. The motion is followed once more for them, the first time that they are asked for.
+    /// Returns the results, in the order of [`Compiled::results`]. `None` if only some times were requested or the work is cancelled; results have
+    /// no values if the motion has stopped. The first call follows the motion once more, later ones return `None`.
     pub fn results(&mut self) -> Option<Answers> {
-        let asked = self.asked.take()?;
-        if self.has_stopped {
+        let result_query = self.result_query.take()?;
+        if self.stopped_at.is_some() {
             let count = self.results;
             return Some(Answers { values: vec![None; count], digits: vec![0; count], ..Answers::default() });
         }
-        let Answers { values, digits, notes, has_all_rows } = asked.answer()?;
-        let mut said = Diagnostics::default();
-        said.extend(notes);
-        let notes = self.used_at.told(said).into_iter().collect();
+        let Answers { values, digits, notes, has_all_rows } = result_query.answer()?;
+        let mut diagnostics = Diagnostics::default();
+        diagnostics.extend(notes);
+        let notes = self.backtrace.annotate_all(diagnostics).into_iter().collect();
         Some(Answers { values, digits, notes, has_all_rows })
     }
 
-    /// From now on it remembers at which times accelerations jump.
+    /// Records from now on the times at which accelerations jump.
     pub fn keep_edges(&mut self) {
         self.motion.keep_edges();
     }
 
-    /// The times (s) at which accelerations have jumped, or have been seen to jump behind the last row; ascending.
+    /// Returns the times (s) at which accelerations jumped, rising; some may be after the last row.
     #[must_use]
     pub fn edges(&self) -> Vec<f64> {
         self.motion.edges()
     }
 
-    /// What there is to say beside the rows so far, each thing once.
-    pub fn take_remarks(&mut self) -> Diagnostics {
-        self.used_at.told(self.motion.take_remarks())
+    /// Returns the warnings and notes of the rows so far, and forgets them.
+    pub fn take_warnings(&mut self) -> Diagnostics {
+        let warnings = self.motion.take_warnings();
+        let mut diagnostics = Diagnostics::default();
+        diagnostics.extend(warnings.iter().map(|warning| warning.explain(self.determined.system())));
+        self.backtrace.annotate_all(diagnostics)
     }
 }
 
@@ -381,32 +430,32 @@ mod tests {
 
     fn compiled(cancel: &Cancel) -> Option<Compiled> {
         let text = include_str!("../../../examples/hoeken.mech");
-        let checked = Parsed::of("hoeken.mech", text).check(&Choice::default(), &Memory::default());
+        let checked = Parsed::new("hoeken.mech", text).check(&Choice::default(), &Memory::default());
         checked.compile(Redundant::Refused, cancel).0
     }
 
     #[test]
-    fn what_is_cancelled_gives_nothing_and_says_nothing() {
+    fn cancelled_work_gives_nothing_and_reports_nothing() {
         let cancel = Cancel::default();
-        let compiled_now = compiled(&cancel).expect("it is determined");
+        let determined = compiled(&cancel).expect("it is determined");
         let options = RunOptions { cancel: cancel.clone(), ..RunOptions::default() };
         let times = Times::grid(0.0, 1e9, 1.0).expect("a grid");
-        let mut run = compiled_now.run(&times, &options).0.expect("it assembles");
+        let mut run = determined.run(&times, &options).0.expect("it assembles");
         assert!(run.next_row().is_some_and(|row| row.is_ok()));
         cancel.cancel();
         assert!(run.next_row().is_none(), "it went on, or was told why");
-        let (run, said) = compiled_now.run(&times, &options);
-        assert!(run.is_none() && said.is_empty());
+        let (run, diagnostics) = determined.run(&times, &options);
+        assert!(run.is_none() && diagnostics.is_empty());
         assert!(compiled(&cancel).is_none());
     }
 
     #[test]
     fn stages_go_to_other_threads() {
-        fn goes<T: Send + Sync + Clone>() {}
-        fn moves<T: Send>() {}
-        goes::<Parsed>();
-        goes::<crate::Checked>();
-        goes::<Compiled>();
-        moves::<crate::Run>();
+        fn is_shared<T: Send + Sync + Clone>() {}
+        fn is_sent<T: Send>() {}
+        is_shared::<Parsed>();
+        is_shared::<crate::Checked>();
+        is_shared::<Compiled>();
+        is_sent::<crate::Run>();
     }
 }

@@ -1,58 +1,70 @@
-//! Which times to compute: what is asked for over what the file's analysis says.
+//! Times to compute: what options request, over the analysis of the text.
 
-use super::seconds;
 use mechc_engine::analysis::Times;
+use mechc_lang::check;
+use mechc_lang::model::Dimension;
+use mechc_syntax as syntax;
 use mechc_text::diag::{Code, Diagnostic, Diagnostics, readable};
 use mechc_text::source::Sources;
 
-/// First time, last time and step (s), as far as they are said; and times of their own.
+/// Returns the time (s) that an option gives as a number of seconds, or as a formula with units.
+///
+/// # Errors
+/// The text does not follow the grammar, or is no time.
+pub fn seconds(option: &str, text: &str, sources: &mut Sources) -> Result<f64, Diagnostics> {
+    let file = sources.add_option(option, text);
+    let formula = syntax::parse_expression(sources, file)?;
+    check::constant(&formula, &format!("the value of `{option}`"), Dimension::TIME, sources)
+}
+
+/// First time, last time and step (s), as far as they are given; and single times.
 #[derive(Clone, PartialEq, Debug, Default)]
-pub struct AskedTimes {
-    /// The first time.
+pub struct RequestedTimes {
+    /// First time.
     pub from: Option<f64>,
-    /// The last time.
+    /// Last time.
     pub to: Option<f64>,
-    /// From one output time to the next.
+    /// Step between output times.
     pub every: Option<f64>,
-    /// Only these, followed from the first time; all of the interval where there are none.
+    /// Single times, followed from the first time; empty for all times of the interval.
     pub at: Vec<f64>,
 }
 
-impl AskedTimes {
-    /// As options say them, by their names: numbers of seconds, or formulas with units.
+impl RequestedTimes {
+    /// Reads the values of the options `--from`, `--to`, `--every` and `--at`: numbers of seconds, or formulas with units.
     ///
     /// # Errors
-    /// One of them is no time.
-    pub fn of(
+    /// A value is no time.
+    pub fn from_options(
         [from, to, every]: [&Option<String>; 3],
         at: &[String],
         sources: &mut Sources,
-    ) -> Result<AskedTimes, Diagnostics> {
+    ) -> Result<RequestedTimes, Diagnostics> {
         let mut time = |option: &str, text: &String| seconds(option, text, sources);
         let mut given = |option: &str, text: &Option<String>| text.as_ref().map(|text| time(option, text)).transpose();
         let [from, to, every] = [given("--from", from)?, given("--to", to)?, given("--every", every)?];
         let at = at.iter().map(|text| time("--at", text)).collect::<Result<_, _>>()?;
-        Ok(AskedTimes { from, to, every, at })
+        Ok(RequestedTimes { from, to, every, at })
     }
 
-    /// With what the file's analysis says: first time, last time and step (s).
+    /// Completes the times by those of the text's analysis: first time, last time and step (s).
     ///
     /// # Errors
     /// The step is not positive.
-    pub fn over(&self, analysis: Option<[f64; 3]>) -> Result<AskedTimes, Box<Diagnostic>> {
+    pub fn over(&self, analysis: Option<[f64; 3]>) -> Result<RequestedTimes, Box<Diagnostic>> {
         let from = self.from.or(analysis.map(|[from, ..]| from));
         let to = self.to.or(analysis.map(|[_, to, _]| to));
         let every = self.every.or(analysis.map(|[.., every]| every));
         if let Some(step) = every.filter(|step| *step <= 0.0) {
             return Err(Box::new(unusable(format!("the step must be positive, it is {} s", readable(step)))));
         }
-        Ok(AskedTimes { from, to, every, at: self.at.clone() })
+        Ok(RequestedTimes { from, to, every, at: self.at.clone() })
     }
 
-    /// The times of their own, if there are any, else those of the interval.
+    /// Returns the single times if there are any, else those of the interval.
     ///
     /// # Errors
-    /// It is not said which times to compute, or they cannot be computed.
+    /// The times are not given, or cannot be computed.
     pub fn times(&self) -> Result<Times, Box<Diagnostic>> {
         match self.listed()? {
             Some(times) => Ok(times),
@@ -60,19 +72,19 @@ impl AskedTimes {
         }
     }
 
-    /// All times of the analysis, or where it is not said which these are, those of their own.
+    /// Returns all times of the interval if it is given, else the single times.
     ///
     /// # Errors
-    /// As [`AskedTimes::times`].
+    /// See [`RequestedTimes::times`].
     pub fn whole(&self) -> Result<Times, Box<Diagnostic>> {
-        let is_known = self.from.is_some() && self.to.is_some() && self.every.is_some();
+        let has_interval = self.from.is_some() && self.to.is_some() && self.every.is_some();
         match self.listed()? {
-            Some(listed) if !is_known => Ok(listed),
+            Some(listed) if !has_interval => Ok(listed),
             _ => self.grid(),
         }
     }
 
-    /// The times of their own, if there are any.
+    /// Returns the single times, if there are any.
     ///
     /// # Errors
     /// One of them is before the first time.
@@ -81,27 +93,27 @@ impl AskedTimes {
         let from = self.from.unwrap_or(earliest);
         if earliest < from {
             let [earliest, from] = [earliest, from].map(readable);
-            let said = format!("`--at` {earliest} s is before the start of the analysis at {from} s");
-            return Err(Box::new(unusable(said).help("start earlier with `--from`")));
+            let message = format!("`--at` {earliest} s is before the start of the analysis at {from} s");
+            return Err(Box::new(unusable(message).help("start earlier with `--from`")));
         }
         Ok(Some(Times::listed(from, self.at.clone()).within_analysis_to(self.to)))
     }
 
-    /// All times of the analysis.
+    /// Returns all times of the interval.
     ///
     /// # Errors
-    /// It is not said from when to when and how often, or the times cannot be computed.
+    /// The interval is not given, or its times cannot be computed.
     pub fn grid(&self) -> Result<Times, Box<Diagnostic>> {
         let (Some(from), Some(to), Some(every)) = (self.from, self.to, self.every) else {
-            let said = Diagnostic::new(Code::E0705, "it is not said which times to compute").help(
+            let diagnostic = Diagnostic::new(Code::E0705, "it is not said which times to compute").help(
                 "add `analysis from 0 s to 1 s every 10 ms` to the file,\nor give `--from T --to T --every H`, or `--at T`",
             );
-            return Err(Box::new(said));
+            return Err(Box::new(diagnostic));
         };
         let [first, last, step] = [from, to, every].map(readable);
         if to < from {
-            let said = format!("the analysis would end at {last} s, before its start at {first} s");
-            return Err(Box::new(unusable(said)));
+            let message = format!("the analysis would end at {last} s, before its start at {first} s");
+            return Err(Box::new(unusable(message)));
         }
         let too_small = || unusable(format!("a step of {step} s is too small to get from {first} s to {last} s"));
         Times::grid(from, to, every).ok_or_else(|| Box::new(too_small()))

@@ -1,68 +1,68 @@
-//! The tree of a `.mech` file, as written: every node with its span, no meaning yet.
+//! The tree of a `.mech` file as written: every node with its span, without meaning.
 
 use mechc_text::source::Span;
 
-/// A name as written, in NFC.
+/// A name as written.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Name {
-    /// In NFC.
+    /// Text in NFC.
     pub text: String,
-    /// Where it stands.
+    /// Its span.
     pub span: Span,
 }
 
 /// A whole file.
 #[derive(Clone, PartialEq, Debug)]
 pub struct File {
-    /// The files that it uses, in order.
+    /// Files that it uses, in order.
     pub uses: Vec<UsedFile>,
-    /// In order.
+    /// Mechanisms, in order.
     pub mechanisms: Vec<Mechanism>,
 }
 
 /// `use "FILE.mech" as PREFIX`
 #[derive(Clone, PartialEq, Debug)]
 pub struct UsedFile {
-    /// The text of the `///` lines above.
+    /// Text of the `///` lines above.
     pub docs: Vec<String>,
-    /// All of it.
+    /// Span of the declaration.
     pub span: Span,
-    /// The path as written, with the place of the string; nothing where it cannot be read.
+    /// Path as written, with the span of the string; `None` if it cannot be read.
     pub path: Option<Name>,
-    /// What stands before the names of its mechanisms.
+    /// Prefix for the names of its mechanisms.
     pub prefix: Option<Name>,
-    /// Whether a part of it does not follow the grammar: it may have been meant to give any name.
+    /// True if it contains a syntax error: it may have been intended to define any name.
     pub is_broken: bool,
 }
 
 /// `mechanism NAME { … }`.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Mechanism {
-    /// The text of the `///` lines above.
+    /// Text of the `///` lines above.
     pub docs: Vec<String>,
     /// Its name.
     pub name: Name,
-    /// The keyword to the closing brace.
+    /// Span from the keyword to the closing brace.
     pub span: Span,
-    /// In order.
+    /// Declarations, in order.
     pub items: Vec<Item>,
 }
 
 /// A declaration with its documentation.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Item {
-    /// The text of the `///` lines above.
+    /// Text of the `///` lines above.
     pub docs: Vec<String>,
-    /// The whole declaration.
+    /// Span of the declaration.
     pub span: Span,
-    /// Behind its name: it stands for one declaration for each of the numbers.
+    /// Index ranges behind its name: it stands for one declaration per index.
     pub ranges: Vec<IndexRange>,
-    /// Which one.
+    /// Its kind.
     pub kind: ItemKind,
 }
 
 impl Item {
-    /// Its formulas, those of its features and ranges among them.
+    /// Returns its formulas, with those of its features and ranges.
     #[must_use]
     pub fn formulas(&self) -> Vec<&Expr> {
         let mut all: Vec<&Expr> = self.ranges.iter().flat_map(|range| [&range.from, &range.to]).collect();
@@ -93,16 +93,16 @@ impl Item {
     }
 }
 
-/// `k in 0..n`: the whole numbers from one to another.
+/// A range of indices: `k in 0..n`.
 #[derive(Clone, PartialEq, Debug)]
 pub struct IndexRange {
-    /// What the number is called in the declaration.
+    /// Name of the index in the declaration.
     pub index: Name,
-    /// The first number.
+    /// First index.
     pub from: Expr,
-    /// The last number, or the one behind it.
+    /// Last index, or the one behind it.
     pub to: Expr,
-    /// `..=`: the last number is one of them.
+    /// True for `..=`: `to` is included.
     pub is_closed: bool,
 }
 
@@ -129,7 +129,7 @@ pub enum ItemKind {
     Table {
         /// Its name.
         name: Name,
-        /// Whether it repeats.
+        /// True if it repeats.
         periodic: bool,
         /// Its points.
         rows: TableRows,
@@ -138,7 +138,7 @@ pub enum ItemKind {
     Input {
         /// Its name.
         name: Name,
-        /// What it is unless something else is said.
+        /// Default formula, used unless a value is set.
         value: Expr,
     },
     /// `part NAME: MECHANISM(BINDING, …) on BODY at (x, y, phi) mirrored`
@@ -152,7 +152,7 @@ pub enum ItemKind {
     Body {
         /// Its name.
         name: Name,
-        /// What stands behind `at`.
+        /// Pose behind `at`.
         pose: Option<DrawnPose>,
         /// Its features.
         features: Vec<Feature>,
@@ -163,14 +163,14 @@ pub enum ItemKind {
         name: Name,
         /// The kind of joint.
         kind: Name,
-        /// What it joins.
+        /// Joined features.
         arguments: Vec<Expr>,
-        /// `KIND(…)`.
+        /// Span of `KIND(…)`.
         call_span: Span,
     },
     /// `constraint NAME: EXPR = EXPR` or `driver NAME: EXPR = EXPR`
     Equation {
-        /// Which of the two.
+        /// Constraint or driver.
         driver: bool,
         /// Its name.
         name: Name,
@@ -190,7 +190,7 @@ pub enum ItemKind {
         name: Name,
         /// The force or torque.
         force: Expr,
-        /// What it works on.
+        /// Quantity that the load acts on.
         on: Expr,
     },
     /// `measure NAME = EXPR in UNIT`
@@ -220,9 +220,9 @@ pub enum ItemKind {
         /// The unit behind `in`.
         unit: Option<WrittenUnit>,
     },
-    /// What does not follow the grammar
+    /// A declaration with a syntax error.
     Broken {
-        /// The names that it may have declared.
+        /// Names that it may define.
         names: Vec<Name>,
     },
     /// `analysis from A to B every H`
@@ -237,7 +237,7 @@ pub enum ItemKind {
 }
 
 impl ItemKind {
-    /// The features of the ground or of a body.
+    /// Returns the features of the ground or of a body.
     pub fn features_mut(&mut self) -> Option<&mut Vec<Feature>> {
         match self {
             ItemKind::Ground { features } | ItemKind::Body { features, .. } => Some(features),
@@ -246,156 +246,156 @@ impl ItemKind {
     }
 }
 
-/// The declarations of another mechanism, once more.
+/// An instance of another mechanism.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Part {
     /// Its name.
     pub name: Name,
-    /// Which mechanism it is.
+    /// The mechanism.
     pub mechanism: MechanismName,
-    /// What is said of its params and inputs.
+    /// Bindings of its params and inputs.
     pub bindings: Vec<Binding>,
-    /// What carries it, if that is said.
+    /// Carrier of the part, if given.
     pub on: Option<Expr>,
-    /// Where its frame stands in the frame of what carries it.
+    /// Pose of its frame in the frame of its carrier.
     pub at: Option<Expr>,
-    /// Where it says that y is turned over.
+    /// Span of `mirrored`, if given.
     pub mirrored: Option<Span>,
-    /// `MECHANISM(…)`
+    /// Span of `MECHANISM(…)`.
     pub call_span: Span,
 }
 
-/// The name of a mechanism, as a part has it.
+/// Name of a mechanism in a part.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct MechanismName {
-    /// What stands before its names, where a file is used under one.
+    /// Prefix of the used file, if any.
     pub prefix: Option<Name>,
-    /// Its own name.
+    /// Name in that file.
     pub name: Name,
 }
 
 impl MechanismName {
-    /// Both of its words.
+    /// Returns the span of prefix and name.
     #[must_use]
     pub fn span(&self) -> Span {
         self.prefix.as_ref().map_or(self.name.span, |prefix| prefix.span.to(self.name.span))
     }
 
-    /// As it is written.
+    /// Returns the name as written.
     #[must_use]
     pub fn text(&self) -> String {
         self.prefix.as_ref().map_or(String::new(), |prefix| format!("{}.", prefix.text)) + &self.name.text
     }
 }
 
-/// `turn = angle(shaft)`, `A.x = 3 mm`: what a param or input of a part is.
+/// Value of a param or input of a part: `turn = angle(shaft)`, `A.x = 3 mm`.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Binding {
-    /// Of the part.
+    /// Name in the part.
     pub name: Name,
-    /// Which of its coordinates, where it is a point of which one is bound.
+    /// Coordinate of a point, if only one is bound.
     pub coordinate: Option<Name>,
-    /// A formula over the names of the mechanism around the part.
+    /// Formula over the names of the mechanism that contains the part.
     pub value: Expr,
-    /// All of it.
+    /// Span of the binding.
     pub span: Span,
 }
 
-/// Where a table's points come from.
+/// Source of a table's points.
 #[derive(Clone, PartialEq, Debug)]
 pub enum TableRows {
     /// `[(a, b), …]`
     Listed(Vec<Expr>),
     /// `"file.csv" columns 1, 3 (unit, unit)`
     File {
-        /// Path as written, with its place.
+        /// Path as written, with its span.
         path: Name,
-        /// Which two of its columns; the first two if it has no others.
+        /// Its two columns.
         columns: Option<[ColumnName; 2]>,
         /// Units of the two columns.
         units: Option<[WrittenUnit; 2]>,
     },
 }
 
-/// Where a body is drawn.
+/// Pose in which a body is drawn.
 #[derive(Clone, PartialEq, Debug)]
 pub struct DrawnPose {
     /// `(x, y, phi)`, `(P, phi)`, or before `toward` a point alone.
     pub at: Expr,
-    /// The point that the body's x axis goes to.
+    /// Point that the x axis of the body is directed to.
     pub toward: Option<Expr>,
 }
 
 impl DrawnPose {
-    /// All that stands behind `at`.
+    /// Returns the span of everything behind `at`.
     #[must_use]
     pub fn span(&self) -> Span {
         self.toward.as_ref().map_or(self.at.span, |toward| self.at.span.to(toward.span))
     }
 
-    /// Its formulas.
+    /// Returns its formulas.
     pub fn parts(&self) -> impl Iterator<Item = &Expr> {
         std::iter::once(&self.at).chain(&self.toward)
     }
 }
 
-/// A column of a file, as it is named in a text.
+/// A column of a file, as named in a text.
 #[derive(Clone, PartialEq, Debug)]
 pub struct ColumnName {
-    /// Which one.
+    /// Number or name.
     pub kind: ColumnWord,
-    /// Where it is named.
+    /// Its span.
     pub span: Span,
 }
 
-/// The ways to name a column.
+/// Ways to name a column.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub enum ColumnWord {
-    /// By its number, from 1.
+    /// Number, from 1.
     Number(u32),
-    /// By its name in the header line.
+    /// Name in the header line.
     Named(String),
 }
 
 /// Units with powers, joined by `*` and `/`: `mm/s^2`.
 #[derive(Clone, PartialEq, Debug)]
 pub struct WrittenUnit {
-    /// In order, one at least; the first one divides in `1/s`.
+    /// Factors in order, at least one; the first one divides in `1/s`.
     pub factors: Vec<UnitFactor>,
-    /// All of it.
+    /// Span of the unit.
     pub span: Span,
 }
 
-/// A unit with its power, in a product.
+/// A unit with its power, as a factor of a product.
 #[derive(Clone, PartialEq, Debug)]
 pub struct UnitFactor {
     /// The unit.
     pub name: Name,
     /// Its power as written.
     pub power: i32,
-    /// Whether it multiplies or divides.
+    /// Multiplication or division.
     pub factor: Factor,
-    /// With its power.
+    /// Span with the power.
     pub span: Span,
 }
 
 /// A feature of a body or of the ground.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Feature {
-    /// The text of the `///` lines above.
+    /// Text of the `///` lines above.
     pub docs: Vec<String>,
-    /// The whole declaration.
+    /// Span of the declaration.
     pub span: Span,
-    /// Its name; empty of a mass, which has none, and where it cannot be read.
+    /// Its name; empty for a mass, and where it cannot be read.
     pub name: Name,
-    /// Which one.
+    /// Its kind.
     pub kind: FeatureKind,
 }
 
-/// The kinds of features. Points are many, so that what others have more stands elsewhere.
+/// Kinds of features. Points are frequent, so the larger kinds are boxed.
 #[derive(Clone, PartialEq, Debug)]
 pub enum FeatureKind {
-    /// What does not follow the grammar
+    /// A feature with a syntax error.
     Broken,
     /// `point P = (x, y)`, or `point P` alone: that of the mechanism
     Point {
@@ -425,7 +425,7 @@ pub enum FeatureKind {
     },
     /// `curve k(u) = (x, y) at e`
     Curve {
-        /// The name of the parameter.
+        /// Name of the parameter.
         argument: Name,
         /// A formula of points, over the parameter.
         at: Box<Expr>,
@@ -434,17 +434,17 @@ pub enum FeatureKind {
     },
     /// `mass M at (x, y) inertia I`
     Mass {
-        /// How much.
+        /// The mass.
         mass: Box<Expr>,
         /// Its centre: a formula of points.
         at: Option<Box<Expr>>,
-        /// Its moment of inertia about that.
+        /// Moment of inertia about the centre.
         inertia: Option<Box<Expr>>,
     },
 }
 
 impl Feature {
-    /// Its formulas.
+    /// Returns its formulas.
     #[must_use]
     pub fn formulas(&self) -> Vec<&Expr> {
         match &self.kind {
@@ -461,16 +461,16 @@ impl Feature {
     }
 }
 
-/// A formula, or a tuple of formulas, or a condition: which one its place allows is for `check` to say.
+/// A formula, a tuple of formulas, or a condition; `check` decides which one its position allows.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Expr {
-    /// What it is.
+    /// Its kind.
     pub kind: ExprKind,
-    /// Where it stands.
+    /// Its span.
     pub span: Span,
 }
 
-/// The forms of an expression. Long sums and chains are flat, so that depth is nesting and nothing else.
+/// Forms of an expression. Long sums and chains are flat, so the depth is the nesting.
 #[derive(Clone, PartialEq, Debug)]
 pub enum ExprKind {
     /// `50`, `50 mm`, `50 mm^2`
@@ -489,15 +489,15 @@ pub enum ExprKind {
         /// The feature.
         feature: Name,
     },
-    /// `link[k].pin`, `link[0]`: what is repeated, by its numbers.
+    /// A path with indices: `link[k].pin`, `link[0]`.
     Path(Vec<PathSegment>),
     /// `x(rod.tip)`
     Call {
-        /// What is called.
+        /// Name of the function.
         name: Name,
-        /// In order.
+        /// Arguments, in order.
         arguments: Vec<Expr>,
-        /// The part of the analysis that a reduction takes, if it does not take all of it.
+        /// Part of the analysis that a reduction covers, if given.
         window: Option<Box<Window>>,
     },
     /// `(e)`
@@ -524,39 +524,39 @@ pub enum ExprKind {
     If {
         /// Conditions with their values, in order.
         arms: Vec<(Expr, Expr)>,
-        /// The value if none holds.
+        /// Value if no condition holds.
         otherwise: Box<Expr>,
     },
 }
 
-/// `from A to B`, `from A`, `to B`: a part of the analysis.
+/// A part of the analysis: `from A to B`, `from A`, `to B`.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Window {
-    /// Its first time; that of the analysis where none is given.
+    /// First time; that of the analysis if absent.
     pub from: Option<Expr>,
-    /// Its last time; that of the analysis where none is given.
+    /// Last time; that of the analysis if absent.
     pub to: Option<Expr>,
-    /// All of it.
+    /// Span of the window.
     pub span: Span,
 }
 
 impl Window {
-    /// The times that are given.
+    /// Returns the given times.
     pub fn bounds(&self) -> impl Iterator<Item = &Expr> {
         self.from.iter().chain(&self.to)
     }
 }
 
-/// A part of a path.
+/// A segment of a path.
 #[derive(Clone, PartialEq, Debug)]
 pub struct PathSegment {
     /// Its name.
     pub name: Name,
-    /// The numbers in brackets behind it.
+    /// Indices in brackets behind it.
     pub indices: Vec<Expr>,
 }
 
-/// How a term enters a sum.
+/// Sign of a term in a sum.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Sign {
     /// `+`
@@ -565,7 +565,7 @@ pub enum Sign {
     Minus,
 }
 
-/// How a factor enters a product.
+/// Operator of a factor in a product.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Factor {
     /// `*`
@@ -574,7 +574,7 @@ pub enum Factor {
     Over,
 }
 
-/// The comparisons.
+/// Comparison operators.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum ComparisonSign {
     /// `<`
@@ -592,7 +592,7 @@ pub enum ComparisonSign {
 }
 
 impl Expr {
-    /// The expression inside any parentheses.
+    /// Returns the expression without enclosing parentheses.
     #[must_use]
     pub fn bare(&self) -> &Expr {
         let mut inner = self;
@@ -602,7 +602,7 @@ impl Expr {
         inner
     }
 
-    /// A number without a unit, alone but for parentheses and its sign.
+    /// Returns the value of a number without unit, with its sign and without parentheses.
     #[must_use]
     pub fn bare_number(&self) -> Option<f64> {
         match &self.bare().kind {
@@ -612,13 +612,13 @@ impl Expr {
         }
     }
 
-    /// The expression and all that it is made of, each before what it is made of.
+    /// Iterates over the expression and its subexpressions, each before its own subexpressions.
     #[must_use]
     pub fn parts(&self) -> Parts<'_> {
         Parts { open: vec![self] }
     }
 
-    /// The direct sub-expressions.
+    /// Returns the direct subexpressions.
     #[must_use]
     pub fn children(&self) -> Vec<&Expr> {
         match &self.kind {
@@ -641,7 +641,7 @@ impl Expr {
     }
 }
 
-/// An expression and all that it is made of. It goes into whatever depth there is without recursion.
+/// Iterator over an expression and its subexpressions, without recursion.
 pub struct Parts<'e> {
     open: Vec<&'e Expr>,
 }

@@ -1,4 +1,4 @@
-//! From the parser's pairs to the tree of declarations, one declaration at a time.
+//! Conversion of the parser's pairs to the tree of declarations.
 
 use super::ast::{
     Binding, ColumnName, ColumnWord, DrawnPose, Expr, ExprKind, Factor, Feature, FeatureKind, File, IndexRange, Item,
@@ -13,79 +13,79 @@ use pest::iterators::Pair;
 use std::ops::Range;
 use unicode_normalization::UnicodeNormalization;
 
-/// The longest name, in characters.
+/// Longest name, in characters.
 const LONGEST_NAME: usize = 200;
 
-/// A fault is rare and large; the way without one should be quick.
+/// Result with a boxed diagnostic, which is rare and large.
 pub(super) type Built<T> = Result<T, Box<Diagnostic>>;
 
-/// Builds the nodes of a piece of a text.
+/// Builds the nodes of a piece of text.
 pub(super) struct Reader<'a> {
     source: &'a Source,
     file: FileId,
-    /// The byte of the text at which the piece begins.
+    /// Offset of the piece in the text, in bytes.
     base: usize,
 }
 
-/// What stands before the brace of a mechanism or body.
+/// Head of a mechanism or body, up to its brace.
 #[derive(Clone)]
 pub(super) struct Head {
     pub name: Name,
     pub ranges: Vec<IndexRange>,
-    /// What stands behind `at`.
+    /// Pose behind `at`.
     pub pose: Option<DrawnPose>,
 }
 
-/// A stretch of a text.
+/// A piece of a text.
 #[derive(Clone)]
 pub(super) struct Piece<'a> {
     pub source: &'a Source,
     pub file: FileId,
-    /// In bytes.
+    /// Range in bytes.
     pub range: Range<usize>,
 }
 
-/// Why a piece cannot be read.
-pub(super) enum Refused {
-    /// It does not follow the grammar.
+/// Reasons why a piece cannot be read.
+pub(super) enum PieceError {
+    /// A violation of the grammar.
     ByGrammar(Box<pest::error::Error<Rule>>),
-    /// It means nothing all the same.
+    /// An error of the tree builder.
     Else(Box<Diagnostic>),
 }
 
 impl Piece<'_> {
-    /// Reads a piece by a rule that matches it from its beginning on, and makes something of it.
+    /// Parses a piece by a rule that matches from its start, and builds a node.
     pub fn read<T>(
         &self,
         rule: Rule,
         make: impl FnOnce(&Reader<'_>, Pair<'_, Rule>) -> Built<T>,
-    ) -> Result<T, Refused> {
+    ) -> Result<T, PieceError> {
         let text = &self.source.text[self.range.clone()];
         let reader = Reader { source: self.source, file: self.file, base: self.range.start };
-        depth::measure(text, self.file, self.range.start).map_err(Refused::Else)?;
-        let pairs = Grammar::parse(rule, text).map_err(|error| Refused::ByGrammar(Box::new(error)))?;
-        let pair = pairs.into_iter().next().ok_or_else(|| Refused::Else(reader.truncated()))?;
-        make(&reader, pair).map_err(Refused::Else)
+        depth::measure(text, self.file, self.range.start).map_err(PieceError::Else)?;
+        let pairs = Grammar::parse(rule, text).map_err(|error| PieceError::ByGrammar(Box::new(error)))?;
+        let pair = pairs.into_iter().next().ok_or_else(|| PieceError::Else(reader.truncated()))?;
+        make(&reader, pair).map_err(PieceError::Else)
     }
 
-    /// What is to be said of a piece that was refused; with a look at what was meant, if that is wanted.
-    pub fn fault(&self, refused: Refused, with_mend: bool) -> Box<Diagnostic> {
+    /// Returns the diagnostic for a piece; `with_fix_it` requests a search for suggestions.
+    pub fn fault(&self, refused: PieceError, with_fix_it: bool) -> Box<Diagnostic> {
         match refused {
-            Refused::Else(fault) => fault,
-            Refused::ByGrammar(error) => {
-                Box::new(errors::from_pest(&error, self.source, self.file, self.range.start, with_mend))
+            PieceError::Else(fault) => fault,
+            PieceError::ByGrammar(error) => {
+                Box::new(errors::from_pest(&error, self.source, self.file, self.range.start, with_fix_it))
             }
         }
     }
 }
 
-/// A name as it is compared: in NFC.
+/// Returns a name in NFC, in which names are compared.
 #[must_use]
 pub fn normalized(name: &str) -> String {
     if name.is_ascii() { name.to_owned() } else { name.nfc().collect() }
 }
 
-/// Whether a text can stand where a name is wanted: an identifier, and no keyword.
+/// Returns whether a text can be a name: an identifier that is not a keyword.
 #[must_use]
 pub fn is_name(text: &str) -> bool {
     let pair = Grammar::parse(Rule::name, text).ok().and_then(|mut pairs| pairs.next());
@@ -93,7 +93,7 @@ pub fn is_name(text: &str) -> bool {
 }
 
 impl Reader<'_> {
-    /// A pair's place, without the white space and comments that the parser may have taken in behind it.
+    /// Returns the span of a pair, without trailing white space and comments.
     pub(super) fn span(&self, pair: &Pair<'_, Rule>) -> Span {
         let whole = pair.as_span();
         let ends_with_white_space = whole.as_str().ends_with(char::is_whitespace);
@@ -104,7 +104,7 @@ impl Reader<'_> {
         Span { file: self.file, start: place(whole.start()), end: place(end) }
     }
 
-    /// The words that a span covers.
+    /// Returns the text of a span.
     pub(super) fn text(&self, span: Span) -> &str {
         &self.source.text[span.start as usize..span.end as usize]
     }
@@ -117,19 +117,19 @@ impl Reader<'_> {
         Ok(name)
     }
 
-    /// What cannot happen while the grammar is what this file believes it to be.
+    /// Returns the diagnostic for a pair that the grammar does not produce.
     pub(super) fn truncated(&self) -> Box<Diagnostic> {
         let end = self.source.text.len() as u32;
         let span = Span { file: self.file, start: end, end };
         Box::new(errors::misplaced(span, "a declaration is not complete", "more was expected before this"))
     }
 
-    /// What a pair holds and nothing else, beside what may follow it.
+    /// Returns the only significant child of a pair.
     pub(super) fn only<'i>(&self, pair: Pair<'i, Rule>) -> Built<Pair<'i, Rule>> {
         pair.into_inner().next().ok_or_else(|| self.truncated())
     }
 
-    /// A whole file.
+    /// Builds a whole file.
     pub(super) fn file(&self, pair: Pair<'_, Rule>) -> Built<File> {
         let (mut uses, mut mechanisms) = (Vec::new(), Vec::new());
         for pair in pair.into_inner() {
@@ -156,7 +156,7 @@ impl Reader<'_> {
         Ok(UsedFile { docs: self.docs_above(span.start), span, path, prefix, is_broken: false })
     }
 
-    /// What stands between the quotes of a string, with the place of the string.
+    /// Returns the text between the quotes of a string, with the span of the string.
     fn unquoted_name(&self, string: &Pair<'_, Rule>) -> Name {
         Name { text: unquoted(string.as_str()).to_owned(), span: self.span(string) }
     }
@@ -170,7 +170,7 @@ impl Reader<'_> {
         Ok(Mechanism { docs: self.docs_above(span.start), name, span, items })
     }
 
-    /// Adds declarations of a mechanism, up to what ends them.
+    /// Builds declarations of a mechanism up to the end of the pairs.
     pub(super) fn items<'i>(&self, pairs: impl Iterator<Item = Pair<'i, Rule>>, items: &mut Vec<Item>) -> Built<()> {
         for pair in pairs {
             match pair.as_rule() {
@@ -182,7 +182,7 @@ impl Reader<'_> {
         Ok(())
     }
 
-    /// The ground or a body.
+    /// Builds the ground or a body.
     fn block(&self, pair: Pair<'_, Rule>) -> Built<Item> {
         let span = self.span(&pair);
         let mut inner = pair.into_inner();
@@ -193,7 +193,7 @@ impl Reader<'_> {
         Ok(block)
     }
 
-    /// The ground or a body without its features, from its head.
+    /// Builds the ground or a body without features, from its head.
     pub(super) fn empty_block(&self, head: Pair<'_, Rule>, span: Span) -> Built<Item> {
         let features = Vec::new();
         let (kind, ranges) = if head.as_rule() == Rule::ground_head {
@@ -205,13 +205,13 @@ impl Reader<'_> {
         Ok(Item { docs: self.docs_above(span.start), span, ranges, kind })
     }
 
-    /// Features, up to what ends them.
+    /// Builds features up to the end of the pairs.
     pub(super) fn features<'i>(&self, pairs: impl Iterator<Item = Pair<'i, Rule>>) -> Built<Vec<Feature>> {
         let features = pairs.filter(|pair| !matches!(pair.as_rule(), Rule::close | Rule::EOI));
-        exactly(features.map(|pair| self.feature(pair)))
+        collect_exact(features.map(|pair| self.feature(pair)))
     }
 
-    /// A declaration of the mechanism that has no block.
+    /// Builds a declaration without a block.
     pub(super) fn plain_item(&self, pair: Pair<'_, Rule>) -> Built<Item> {
         let span = self.span(&pair);
         let docs = self.docs_above(span.start);
@@ -319,7 +319,7 @@ impl Reader<'_> {
         formula::build_operand(self, inner, 0)
     }
 
-    /// The head of a mechanism or body.
+    /// Builds the head of a mechanism or body.
     pub(super) fn head(&self, pair: Pair<'_, Rule>) -> Built<Head> {
         let ranges = self.ranges(&pair)?;
         let mut inner = significant(pair);
@@ -329,7 +329,7 @@ impl Reader<'_> {
         Ok(Head { name, ranges, pose: at.map(|at| DrawnPose { at, toward }) })
     }
 
-    /// `[k in 0..n]` behind the name of a declaration, if it is there.
+    /// Builds the index ranges `[k in 0..n]` behind a name, if present.
     fn ranges(&self, pair: &Pair<'_, Rule>) -> Built<Vec<IndexRange>> {
         let ranges = pair.clone().into_inner().nth(2).filter(|pair| pair.as_rule() == Rule::ranges);
         let Some(ranges) = ranges else { return Ok(Vec::new()) };
@@ -344,7 +344,7 @@ impl Reader<'_> {
         Ok(IndexRange { index, from, to, is_closed })
     }
 
-    /// A formula that is alone in its text.
+    /// Builds a formula that is the whole text.
     pub(super) fn whole_formula(&self, pair: Pair<'_, Rule>) -> Built<Expr> {
         self.next_expr(&mut pair.into_inner())
     }
@@ -402,7 +402,7 @@ impl Reader<'_> {
         Ok(ColumnName { kind, span })
     }
 
-    /// The unit behind `in`, if there is one.
+    /// Builds the unit behind `in`, if present.
     fn printed(&self, pair: Option<Pair<'_, Rule>>) -> Built<Option<WrittenUnit>> {
         let product = pair.and_then(|pair| pair.into_inner().find(|pair| pair.as_rule() == Rule::unit_product));
         product.map(|pair| self.unit_product(pair)).transpose()
@@ -444,7 +444,7 @@ impl Reader<'_> {
         Ok(ItemKind::Joint { name, kind, arguments, call_span })
     }
 
-    /// A feature of a body or of the ground.
+    /// Builds a feature of a body or the ground.
     pub(super) fn feature(&self, pair: Pair<'_, Rule>) -> Built<Feature> {
         let span = self.span(&pair);
         let docs = self.docs_above(span.start);
@@ -491,9 +491,9 @@ impl Reader<'_> {
         Ok(Feature { docs, span, name: nameless, kind })
     }
 
-    /// The formulas of a list, without its commas and brackets.
+    /// Builds the formulas of a list.
     pub(super) fn list<'i>(&self, pairs: impl Iterator<Item = Pair<'i, Rule>>, depth: usize) -> Built<Vec<Expr>> {
-        exactly(pairs.filter(|pair| pair.as_rule() == Rule::expr).map(|pair| formula::build(self, pair, depth)))
+        collect_exact(pairs.filter(|pair| pair.as_rule() == Rule::expr).map(|pair| formula::build(self, pair, depth)))
     }
 
     fn next_name<'i>(&self, pairs: &mut impl Iterator<Item = Pair<'i, Rule>>) -> Built<Name> {
@@ -505,7 +505,7 @@ impl Reader<'_> {
         formula::build(self, pair, 0)
     }
 
-    /// The formula that may come last.
+    /// Builds an optional last formula.
     fn last_expr<'i>(&self, pairs: &mut impl Iterator<Item = Pair<'i, Rule>>) -> Built<Option<Expr>> {
         pairs.next().map(|pair| formula::build(self, pair, 0)).transpose()
     }
@@ -520,16 +520,16 @@ impl Reader<'_> {
     }
 }
 
-/// Some of what was built, without room for more: most lists are of one or two, and of those a large text has many. It is moved, since an
-/// allocator that is asked to make a block smaller may keep it as large.
-fn exactly<T>(built: impl Iterator<Item = Built<T>>) -> Built<Vec<T>> {
+/// Collects built nodes without spare capacity: most lists have one or two items, and large texts have many of them. The items are moved,
+/// since shrinking a block may keep its size in the allocator.
+fn collect_exact<T>(built: impl Iterator<Item = Built<T>>) -> Built<Vec<T>> {
     let mut all = built.collect::<Built<Vec<T>>>()?;
     let mut exact = Vec::with_capacity(all.len());
     exact.append(&mut all);
     Ok(exact)
 }
 
-/// The `///` lines directly above a declaration that begins its line.
+/// Returns the `///` lines directly above a declaration that begins its line.
 pub(super) fn docs_above(text: &str, start: usize) -> Vec<String> {
     let before = text[..start].trim_end_matches(|c: char| c != '\n' && c.is_whitespace());
     if !(before.is_empty() || before.ends_with('\n')) {
@@ -545,12 +545,12 @@ pub(super) fn docs_above(text: &str, start: usize) -> Vec<String> {
     docs
 }
 
-/// What stands between the quotes of a string.
+/// Returns the text between the quotes of a string.
 fn unquoted(string: &str) -> &str {
     string.trim_matches('"')
 }
 
-/// The byte behind the last word or bracket of a pair.
+/// Returns the end of the last word or bracket of a pair.
 fn end_of_last_token(pair: &Pair<'_, Rule>) -> usize {
     let mut last = pair.clone();
     while !ends_with_a_token(last.as_rule()) {
@@ -562,7 +562,7 @@ fn end_of_last_token(pair: &Pair<'_, Rule>) -> usize {
     last.as_span().end()
 }
 
-/// Whether a rule's last part is a word or a bracket, which it ends with and not behind.
+/// Returns whether a rule ends with a word or a bracket rather than with trailing white space.
 fn ends_with_a_token(rule: Rule) -> bool {
     !matches!(
         rule,
@@ -605,7 +605,7 @@ fn ends_with_a_token(rule: Rule) -> bool {
     )
 }
 
-/// The pairs that carry something: no keywords, no punctuation.
+/// Returns the children of a pair except keywords and punctuation.
 fn significant(pair: Pair<'_, Rule>) -> impl Iterator<Item = Pair<'_, Rule>> {
     pair.into_inner().filter(|pair| {
         matches!(

@@ -1,8 +1,7 @@
-//! The cap on nesting, held before anything recurses.
+//! Limit of the nesting depth, checked before anything recurses.
 //!
-//! The parser and every pass over the tree recurse once per level, so the text is measured first: open parentheses,
-//! and each `if` that stands inside another one. (Prefix operators and chains of `^` cost the parser no stack; the
-//! tree builder counts them in.)
+//! The parser and every pass over the tree recurse once per level, so the text is measured first: open parentheses, and each `if` inside
+//! another one. Prefix operators and chains of `^` need no stack in the parser; the tree builder counts them.
 
 use super::errors;
 use super::tokens::next_token;
@@ -10,13 +9,13 @@ use mechc_text::diag::Diagnostic;
 use mechc_text::source::{FileId, Span};
 use mechc_text::vocabulary::is_declaration;
 
-/// The deepest nesting that is read.
+/// Deepest nesting that is accepted.
 pub const DEEPEST: usize = 200;
 
-/// Stack that a text as deep as that may take, in bytes.
+/// Stack that a text of this depth may need, in bytes.
 pub(super) const STACK: usize = 16 << 20;
 
-/// Refuses a piece of a text, from its byte `base` on, that nests deeper than [`DEEPEST`].
+/// Rejects a piece of text, which begins at byte `base`, if it nests deeper than [`DEEPEST`].
 pub fn measure(text: &str, file: FileId, base: usize) -> Result<(), Box<Diagnostic>> {
     // each level takes a character at least
     if text.len() <= DEEPEST {

@@ -1,92 +1,94 @@
-//! What is said of a text that does not follow the grammar.
+//! Diagnostics for a text that does not follow the grammar.
 
+use super::fixits::{Fault, FixIt};
+use super::foreign_syntax::{Correction, Foreign};
 use super::grammar::Rule;
-use super::intended::{Intended, Intent};
-use super::mends::{Fault, Mend};
 use super::tokens::tokens;
-use mechc_text::diag::{Applies, Code, Diagnostic, Edit, Fix};
+use mechc_text::diag::{Applicability, Code, Diagnostic, Edit, Fix};
 use mechc_text::source::{FileId, Source, Span};
 use pest::error::{Error, ErrorVariant};
 use std::ops::Range;
 
-/// Nesting beyond the cap.
+/// Reports nesting beyond the limit.
 pub fn too_deep(span: Span, deepest: usize) -> Diagnostic {
     Diagnostic::new(Code::E0103, format!("formulas are nested deeper than {deepest}"))
         .at(span, "one level too many")
         .help("give a part of the formula a name, with `param` or `fn`")
 }
 
-/// A file without a single mechanism.
+/// Reports a file without a mechanism.
 pub fn no_mechanism(span: Span) -> Diagnostic {
     Diagnostic::new(Code::E0104, "the file holds no mechanism")
         .at(span, "the file ends here")
         .help("a file begins with `mechanism NAME {`")
 }
 
-/// A `use` behind a mechanism.
+/// Reports a `use` behind a mechanism.
 pub fn late_use(span: Span) -> Diagnostic {
     misplaced(span, "a `use` stands before the mechanisms", "not expected here")
         .help("move it to the top of the file, above the first `mechanism`")
 }
 
-/// A fault that the grammar let pass and the tree builder did not.
+/// Reports an error that the grammar accepts and the tree builder rejects.
 pub fn misplaced(span: Span, message: &str, label: &str) -> Diagnostic {
     Diagnostic::new(Code::E0101, message).at(span, label)
 }
 
-/// A column 0, or one beyond all numbers.
+/// Reports a column number 0, or one that is too large.
 pub fn column_number(span: Span) -> Diagnostic {
     misplaced(span, "columns are counted from 1", "there is no such column")
 }
 
-/// A quantity as an exponent: `2 ^ 3 s`.
+/// Reports a quantity as an exponent: `2 ^ 3 s`.
 pub fn quantity_as_exponent(span: Span) -> Diagnostic {
     misplaced(span, "a number with a unit cannot be an exponent", "this has a unit")
 }
 
-/// A unit's power that is not a whole number: `50 mm^x`.
+/// Reports a power of a unit that is not a whole number: `50 mm^x`.
 pub fn unit_power(span: Span, literal: Span, text: &str) -> Diagnostic {
     let [before, behind] = [(literal.start, "("), (literal.end, ")")]
         .map(|(at, text)| Edit { span: Span { start: at, end: at, ..literal }, text: text.to_owned() });
     misplaced(span, "the power of a unit is a whole number", "after a unit this is the unit's power").fix(Fix {
         message: format!("to raise the whole quantity, write `({text})^…`"),
         edits: vec![before, behind],
-        applies: Applies::Probably,
+        applies: Applicability::Probably,
     })
 }
 
-/// A chain of comparisons: `a < b < c`.
+/// Reports a chain of comparisons: `a < b < c`.
 pub fn chained_comparison(span: Span, middle: Span, text: &str) -> Diagnostic {
     Diagnostic::new(Code::E0309, "comparisons do not form chains").at(span, "a second comparison").fix(Fix::append(
         middle,
         format!(" and {text}"),
         "join two comparisons with `and`: `a < b and b < c`",
-        Applies::Probably,
+        Applicability::Probably,
     ))
 }
 
-/// A declaration that ends too early.
-fn incomplete(what: &str, end: Span, wanted: &str) -> Diagnostic {
-    misplaced(end, &format!("{what} is not complete: expected {wanted}"), &format!("{wanted} goes behind this"))
+/// Reports a declaration that ends too early.
+fn incomplete(what: &str, end: Span, expected: &str) -> Diagnostic {
+    misplaced(end, &format!("{what} is not complete: expected {expected}"), &format!("{expected} goes behind this"))
 }
 
-/// With what was meant.
-fn with_intended(diagnostic: Diagnostic, intended: Intended) -> Diagnostic {
-    match intended {
-        Intended::Words(words) => diagnostic.help(words),
-        Intended::Change(fix) => diagnostic.fix(fix),
-        Intended::Incomplete { what, end, wanted, mend } => with_intended(incomplete(&what, end, wanted), *mend),
+/// Adds a correction to a diagnostic.
+fn with_correction(diagnostic: Diagnostic, correction: Correction) -> Diagnostic {
+    match correction {
+        Correction::Words(words) => diagnostic.help(words),
+        Correction::Change(fix) => diagnostic.fix(fix),
+        Correction::Incomplete { what, end, expected, correction } => {
+            with_correction(incomplete(&what, end, expected), *correction)
+        }
     }
 }
 
-/// A declaration of the mechanism within the braces of a body.
+/// Reports a declaration of the mechanism within the braces of a body.
 pub fn misplaced_in_body(mut fault: Diagnostic, word: &str) -> Diagnostic {
     fault.fixes.clear();
     fault.help = vec![format!("a `{word}` stands in the mechanism: put it behind the `}}` of this body or ground")];
     fault
 }
 
-/// A declaration of a body outside of all bodies, unless more is known of what was meant.
+/// Explains a feature outside of all bodies, unless the diagnostic has a suggestion already.
 pub fn feature_in_mechanism(mut fault: Box<Diagnostic>, word: &str) -> Box<Diagnostic> {
     if fault.help.is_empty() && fault.fixes.is_empty() {
         let article = if word == "axis" { "an" } else { "a" };
@@ -97,7 +99,7 @@ pub fn feature_in_mechanism(mut fault: Box<Diagnostic>, word: &str) -> Box<Diagn
     fault
 }
 
-/// A word of the language in the place of a name, with a name that is free.
+/// Reports a keyword as a name, with an unused name as a suggestion.
 pub fn keyword_as_name(mut fault: Diagnostic, word: &str, instead: Option<&str>) -> Diagnostic {
     fault.fixes.clear();
     let instead = instead.map_or(String::new(), |name| format!("; choose another one, `{name}` say"));
@@ -105,27 +107,32 @@ pub fn keyword_as_name(mut fault: Diagnostic, word: &str, instead: Option<&str>)
     fault
 }
 
-/// `body ground { … }`; the span is that of what stands before the word.
+/// Reports `body ground { … }`; the span covers the text before `ground`.
 pub fn ground_as_body(fault: Diagnostic, before: Span) -> Diagnostic {
-    fault.instead(Fix::replace(before, "", "the ground is no body: it is declared `ground { … }`", Applies::Always))
+    fault.instead(Fix::replace(
+        before,
+        "",
+        "the ground is no body: it is declared `ground { … }`",
+        Applicability::Always,
+    ))
 }
 
-/// A name that no message could hold.
+/// Reports a name that is too long for messages.
 pub fn long_name(span: Span, longest: usize) -> Diagnostic {
     Diagnostic::new(Code::E0101, format!("a name has at most {longest} characters"))
         .at(span, "this one is longer")
         .help("choose a shorter name, and say the rest in a `///` comment")
 }
 
-/// A syntax error as the parser found it in the piece of a text that begins at a byte, in human words.
+/// Reports a syntax error of the parser in the piece of a text that begins at a byte.
 ///
-/// To see what was meant takes a look at all of the text before it.
-pub fn from_pest(error: &Error<Rule>, source: &Source, file: FileId, base: usize, with_mend: bool) -> Diagnostic {
+/// With `with_fix_it` it searches all of the text before the error for suggestions.
+pub fn from_pest(error: &Error<Rule>, source: &Source, file: FileId, base: usize, with_fix_it: bool) -> Diagnostic {
     let text = source.text.as_str();
     let offset = match error.location {
         pest::error::InputLocation::Pos(at) | pest::error::InputLocation::Span((at, _)) => base + at,
     };
-    if with_mend && let Some(other) = comparison_for_equation(error, text, offset, file) {
+    if with_fix_it && let Some(other) = comparison_for_equation(error, text, offset, file) {
         return other;
     }
     let found = found_at(text, offset);
@@ -142,13 +149,18 @@ pub fn from_pest(error: &Error<Rule>, source: &Source, file: FileId, base: usize
         }
         None => unexpected(text, file, found.clone(), &expected, end),
     };
-    if !with_mend {
+    if !with_fix_it {
         return diagnostic;
     }
-    mended(diagnostic, &Fault { text, file, at: found.start, found: &text[found], expected: rules }, source, &expected)
+    with_suggestions(
+        diagnostic,
+        &Fault { text, file, at: found.start, found: &text[found], expected: rules },
+        source,
+        &expected,
+    )
 }
 
-/// What the parser would have liked.
+/// Returns the rules that the parser expected.
 fn expected_rules(error: &Error<Rule>) -> &[Rule] {
     match &error.variant {
         // no prefix is called `use`, if a file follows: that is the next one
@@ -162,7 +174,7 @@ fn expected_rules(error: &Error<Rule>) -> &[Rule] {
     }
 }
 
-/// A word or character in the place of something else.
+/// Reports an unexpected word or character.
 fn unexpected(text: &str, file: FileId, found: Range<usize>, expected: &str, end: &str) -> Diagnostic {
     let (word, line) = (&text[found.clone()], text[found.end..].lines().next().unwrap_or_default());
     // a string is marked along its length
@@ -178,7 +190,7 @@ fn unexpected(text: &str, file: FileId, found: Range<usize>, expected: &str, end
         }
         Some(_) => format!("`{word}`"),
     };
-    // of one thing it can be said where it goes
+    // a single expected item has a definite position
     let label = if expected.split('`').count() == 3 && expected.starts_with('`') && expected.ends_with('`') {
         format!("{expected} goes here")
     } else {
@@ -187,38 +199,38 @@ fn unexpected(text: &str, file: FileId, found: Range<usize>, expected: &str, end
     Diagnostic::new(Code::E0101, format!("expected {expected}, found {shown}")).at(span, label)
 }
 
-/// With what was meant, as far as the words around the fault tell.
-fn mended(diagnostic: Diagnostic, fault: &Fault<'_>, source: &Source, expected: &str) -> Diagnostic {
+/// Adds suggestions to a diagnostic, from the words around the fault.
+fn with_suggestions(diagnostic: Diagnostic, fault: &Fault<'_>, source: &Source, expected: &str) -> Diagnostic {
     let diagnostic = match fault.reason() {
         Some((at, text)) => diagnostic.also(Span { file: fault.file, start: at as u32, end: at as u32 + 1 }, text),
         None => diagnostic,
     };
-    let intent = Intent::new(fault.text, fault.file, fault.at, fault.found, fault.expected);
-    if let Some(intended) = intent.mend() {
-        return with_intended(diagnostic, intended);
+    let foreign = Foreign::new(fault.text, fault.file, fault.at, fault.found, fault.expected);
+    if let Some(correction) = foreign.correction() {
+        return with_correction(diagnostic, correction);
     }
     // of an option's value the declaration is not there
     if source.is_option && fault.found == "," && source.name.starts_with("--") {
         let option = source.name.split(' ').next().unwrap_or_default();
         return diagnostic.help(format!("give `{option}` once for each"));
     }
-    match fault.mend(expected) {
-        Some(Mend::Words(words)) => diagnostic.help(words),
-        Some(Mend::Fix(fix)) => diagnostic.fix(fix),
-        None => match intent.written() {
-            Some(form) => with_intended(diagnostic, form),
+    match fault.fix_it(expected) {
+        Some(FixIt::Words(words)) => diagnostic.help(words),
+        Some(FixIt::Fix(fix)) => diagnostic.fix(fix),
+        None => match foreign.form_as_words() {
+            Some(form) => with_correction(diagnostic, form),
             None => diagnostic,
         },
     }
 }
 
-/// Where `/*` begins, if one of its characters is what the parser could not go on with.
+/// Returns where `/*` begins, if the fault is in one of its characters.
 fn comment_at(text: &str, at: usize) -> Option<usize> {
     let is_one = |at: &usize| text.get(*at..).is_some_and(|rest| rest.starts_with("/*"));
     [at, at.wrapping_sub(1)].into_iter().find(is_one)
 }
 
-/// Arguments or a pair in braces or square brackets: `revolute{A, B}`, `point A = [0, 0]`.
+/// Reports arguments or coordinates in braces or square brackets: `revolute{A, B}`, `point A = [0, 0]`.
 fn other_bracket(error: &Error<Rule>, text: &str, found: &Range<usize>, file: FileId) -> Option<Diagnostic> {
     let is_bracket = |bracket: &&str| ["{", "["].contains(bracket);
     let (rest, is_pair) = match text.get(found.clone()).filter(is_bracket) {
@@ -242,20 +254,20 @@ fn other_bracket(error: &Error<Rule>, text: &str, found: &Range<usize>, file: Fi
     Some(match partner(text, at) {
         Some(end) => {
             let edits = [(at, "("), (end, ")")].map(|(at, text)| Edit { span: span(at), text: text.to_owned() });
-            fault.fix(Fix { message: words.to_owned(), edits: edits.into(), applies: Applies::Always })
+            fault.fix(Fix { message: words.to_owned(), edits: edits.into(), applies: Applicability::Always })
         }
         None => fault.help(words),
     })
 }
 
-/// Whether a text ends where the coordinates of a point or pose go.
+/// Returns whether a text ends where the coordinates of a point or pose are expected.
 fn takes_coordinates(before: &str) -> bool {
     let tokens = tokens(before);
     let words: Vec<&str> = tokens.iter().map(|token| token.text).collect();
     matches!(words.as_slice(), [.., "point", _, "="] | [.., "at"])
 }
 
-/// The bracket that closes one, if all between them are closed, on its line.
+/// Returns the matching closing bracket on the same line, if all brackets in between are closed.
 fn partner(text: &str, at: usize) -> Option<usize> {
     let (mut open, line) = (Vec::new(), text[at..].lines().next()?);
     for token in tokens(line) {
@@ -276,7 +288,7 @@ fn partner(text: &str, at: usize) -> Option<usize> {
     None
 }
 
-/// An equation written with `==`, or what only limits: the grammar took both for a comparison.
+/// Reports an equation with `==`, or an inequality: the grammar takes both for a comparison.
 fn comparison_for_equation(error: &Error<Rule>, text: &str, offset: usize, file: FileId) -> Option<Diagnostic> {
     if !expects(error, Rule::equals) {
         return None;
@@ -291,7 +303,7 @@ fn comparison_for_equation(error: &Error<Rule>, text: &str, offset: usize, file:
     let span = Span { file, start: at.start as u32, end: at.end() as u32 };
     let fault = misplaced(span, &format!("expected `=`, found `{}`", at.text), "this compares");
     Some(match at.text {
-        "==" => fault.fix(Fix::replace(span, "=", "an equation is written with one `=`", Applies::Always)),
+        "==" => fault.fix(Fix::replace(span, "=", "an equation is written with one `=`", Applicability::Always)),
         _ => fault.help(format!(
             "a {} is an equation, which holds all the time; how near a limit is can be seen in a `measure`",
             before[start].text
@@ -303,7 +315,7 @@ fn expects(error: &Error<Rule>, rule: Rule) -> bool {
     matches!(&error.variant, ErrorVariant::ParsingError { positives, .. } if positives.contains(&rule))
 }
 
-/// The word or character at an offset: what the parser could not go on with.
+/// Returns the word or character at an offset.
 fn found_at(text: &str, offset: usize) -> Range<usize> {
     // the parser may stand before white space or a comment
     let mut start = offset.min(text.len());
@@ -327,7 +339,7 @@ fn found_at(text: &str, offset: usize) -> Range<usize> {
     start..start + length
 }
 
-/// The rules the parser would have liked, as a person would say it.
+/// Describes the rules that the parser expected.
 fn expectation(rules: &[Rule], found: &str, end: &str) -> String {
     let mut words: Vec<&str> = Vec::new();
     let goes_on = rules.iter().any(|rule| matches!(rule, Rule::infix | Rule::unit_power));
@@ -356,7 +368,7 @@ fn expectation(rules: &[Rule], found: &str, end: &str) -> String {
     if words.is_empty() { last.to_owned() } else { format!("{} or {last}", words.join(", ")) }
 }
 
-/// A rule in the user's words; empty for what is said by another one.
+/// Describes a rule; empty if the description of another rule covers it.
 fn human(rule: Rule, after_operand: bool, end: &str) -> &str {
     match rule {
         Rule::file | Rule::mechanism | Rule::mechanism_head | Rule::kw_mechanism => "`mechanism`",

@@ -1,17 +1,16 @@
-//! How a text is laid out: one style, which `examples/` show.
+//! Formatting of texts in one style, which `examples/` show.
 //!
-//! Only what stands between lexemes is changed, and the comma behind the last item of a list. So the formatter is a list of small
-//! edits; a text is formatted by making them all, a part of it by making those of the part. Where a text does not follow the
-//! grammar, what is whole is formatted and the rest stays as it is.
+//! Formatting changes only the text between lexemes, and the comma behind the last item of a list. The formatter returns small edits; a
+//! text is formatted by all of them, a part of it by those of the part. Where a text does not follow the grammar, complete declarations are
+//! formatted and the rest stays unchanged.
 //!
 //! ```text
-//! text ──lexemes──▶ rows ──words, columns──▶ groups ──layout──▶ gaps ──▶ edits
-//! tree ────────────▶
+//! text ──lexemes──▶ rows ──words, columns──▶ groups ──layout──▶ gaps ──▶ edits tree ────────────▶
 //! ```
 //!
-//! A tree that was never written down is printed without care for lines, and then laid out as any text ([`format()`]).
+//! A tree without text is printed without regard to lines, and then formatted like any text ([`format()`]).
 //!
-//! This module knows how things are written, not what they mean: a text that `check` would refuse is formatted as well.
+//! This module knows the notation and not the meaning: texts that `check` rejects are formatted too.
 
 mod columns;
 mod expression;
@@ -20,8 +19,8 @@ mod groups;
 mod layout;
 mod lexemes;
 mod rows;
+mod tree_printer;
 mod words;
-mod written;
 
 use super::ast::File;
 use super::parse::{ParsedText, parse};
@@ -31,15 +30,15 @@ use mechc_text::diag::Edit;
 use mechc_text::source::{FileId, Sources, Span};
 use unicode_width::UnicodeWidthStr;
 
-/// The columns that a text takes on a screen.
+/// Returns the display width of a text, in columns.
 fn width(text: &str) -> usize {
     text.width()
 }
 
-/// A tree as text. It ends with a line end, and is empty if the tree is.
+/// Returns a tree as formatted text. It ends with a line end, and is empty for an empty tree.
 #[must_use]
 pub fn format(file: &File) -> String {
-    let text = written::written(file);
+    let text = tree_printer::print(file);
     let mut sources = Sources::default();
     let written = sources.add("written", text);
     let parsed = parse(&sources, written);
@@ -47,21 +46,20 @@ pub fn format(file: &File) -> String {
     Formatted::of(&parsed, text).text(text)
 }
 
-/// A text as it would be written; what does not follow the grammar stays as it is.
+/// Returns a text formatted; declarations with syntax errors stay unchanged.
 #[must_use]
 pub fn formatted(parsed: &ParsedText, text: &str) -> String {
     Formatted::of(parsed, text).text(text)
 }
 
-/// What to change in a text that was read from a file, so that it is formatted: spaces, line ends, and commas behind the last item of
-/// a list. The edits are in order and do not overlap.
+/// Returns the edits that format a text: spaces, line ends, and commas behind the last items of lists. They are ordered and do not overlap.
 #[must_use]
 pub fn edits(parsed: &ParsedText, text: &str, file: FileId) -> Vec<Edit> {
     Formatted::of(parsed, text).edits(text, file, |_| true)
 }
 
-/// The same, of the lines that have a part in a span, which one that it ends right before has not. Columns are those that the whole
-/// text would have.
+/// Returns the edits of the lines that a span touches; a line that begins at the end of the span does not count. Columns are aligned as in
+/// the whole text.
 #[must_use]
 pub fn edits_in(parsed: &ParsedText, text: &str, span: Span) -> Vec<Edit> {
     let (start, end) = (span.start as usize, span.end as usize);
@@ -70,7 +68,7 @@ pub fn edits_in(parsed: &ParsedText, text: &str, span: Span) -> Vec<Edit> {
         .edits(text, span.file, |row| start <= row.end && (row.start < end || start == end && row.start == end))
 }
 
-/// The same, of the block that a brace closes which ends at a byte; nothing if there is none.
+/// Returns the edits of the block whose closing brace ends at a byte; none if there is no such block.
 #[must_use]
 pub fn edits_at_brace(parsed: &ParsedText, text: &str, file: FileId, end: u32) -> Vec<Edit> {
     let mechanisms = parsed.tree.mechanisms.iter();

@@ -1,7 +1,7 @@
-//! From the parser's flat rows of operands and operators to the tree of a formula.
+//! Conversion of the parser's flat rows of operands and operators to the tree of a formula.
 //!
-//! Loosest first: `or`, `and`, `not`, comparisons, `+ -`, `* /`, unary `-`, `^` (to the right). A `depth` counts every
-//! level of nesting on the way down, so that no tree is deeper than [`DEEPEST`].
+//! Precedence, loosest first: `or`, `and`, `not`, comparisons, `+ -`, `* /`, unary `-`, `^` (right-associative). `depth` counts the
+//! nesting, so that no tree is deeper than [`DEEPEST`].
 
 use super::ast::{ComparisonSign, Expr, ExprKind, Factor, PathSegment, Sign, Window};
 use super::build::{Built, Reader};
@@ -12,7 +12,7 @@ use mechc_text::source::Span;
 use pest::iterators::Pair;
 use std::iter::Peekable;
 
-/// A formula of rule `expr`.
+/// Builds a formula of the rule `expr`.
 pub(super) fn build(reader: &Reader<'_>, pair: Pair<'_, Rule>, depth: usize) -> Built<Expr> {
     within(depth, reader.span(&pair))?;
     let span = reader.span(&pair);
@@ -23,7 +23,7 @@ pub(super) fn build(reader: &Reader<'_>, pair: Pair<'_, Rule>, depth: usize) -> 
     }
 }
 
-/// An operand alone: a literal, a call, a name, parentheses.
+/// Builds an operand: a literal, a call, a name, or parentheses.
 pub(super) fn build_operand(reader: &Reader<'_>, pair: Pair<'_, Rule>, depth: usize) -> Built<Expr> {
     let span = reader.span(&pair);
     within(depth, span)?;
@@ -55,7 +55,7 @@ pub(super) fn build_operand(reader: &Reader<'_>, pair: Pair<'_, Rule>, depth: us
     Ok(Expr { kind, span })
 }
 
-/// `from A to B`, or one of both.
+/// Builds a window: `from A to B`, or one of both.
 fn build_window(reader: &Reader<'_>, pair: Pair<'_, Rule>, depth: usize) -> Built<Window> {
     let span = reader.span(&pair);
     let mut window = Window { from: None, to: None, span };
@@ -73,7 +73,7 @@ fn build_window(reader: &Reader<'_>, pair: Pair<'_, Rule>, depth: usize) -> Buil
     Ok(window)
 }
 
-/// `a.b`, or a longer one, or one with numbers in brackets.
+/// Builds a path, such as `a.b`, with optional indices in brackets.
 fn path(reader: &Reader<'_>, pair: Pair<'_, Rule>, depth: usize) -> Built<ExprKind> {
     let mut segments: Vec<PathSegment> = Vec::new();
     for part in pair.into_inner() {
@@ -115,7 +115,7 @@ fn literal(reader: &Reader<'_>, pair: Pair<'_, Rule>) -> Built<ExprKind> {
     Ok(ExprKind::Literal { value, unit: Some((name, power)) })
 }
 
-/// The power of a unit, from its `^` on.
+/// Builds the power of a unit, from its `^` on.
 pub(super) fn unit_power(reader: &Reader<'_>, pair: &Pair<'_, Rule>) -> Built<i32> {
     // comments may stand between
     let digits: String =
@@ -143,7 +143,7 @@ fn conditional(reader: &Reader<'_>, pair: Pair<'_, Rule>, depth: usize) -> Built
     Ok(Expr { kind: ExprKind::If { arms, otherwise: Box::new(otherwise) }, span })
 }
 
-/// Operands and operators in a row, read from the left; a method per precedence.
+/// Operands and operators in a row, read from the left, with one method per precedence level.
 struct Row<'a, 'i, I: Iterator<Item = Pair<'i, Rule>>> {
     reader: &'a Reader<'a>,
     tokens: Peekable<I>,
@@ -155,7 +155,7 @@ impl<'i, I: Iterator<Item = Pair<'i, Rule>>> Row<'_, 'i, I> {
         self.tokens.next_if(|pair| pair.as_rule() == Rule::infix && operators.contains(&pair.as_str()))
     }
 
-    /// Whether a prefix operator comes next, taken off.
+    /// Consumes a prefix operator if it comes next.
     fn prefix(&mut self, operator: &str) -> Option<Pair<'i, Rule>> {
         self.tokens.next_if(|pair| pair.as_rule() == Rule::prefix && pair.as_str() == operator)
     }
@@ -298,7 +298,7 @@ impl<'i, I: Iterator<Item = Pair<'i, Rule>>> Row<'_, 'i, I> {
     }
 }
 
-/// One operand as it is, several as one form.
+/// Returns a single operand as it is, several as one form.
 fn flat(first: Expr, mut rest: Vec<Expr>, form: fn(Vec<Expr>) -> ExprKind) -> Expr {
     let Some(last) = rest.last() else {
         return first;

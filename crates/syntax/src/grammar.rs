@@ -1,8 +1,8 @@
-//! The parser that `grammar/mech.pest` generates. Everything else in this crate is built on it and on [`super::tokens`].
+//! The parser that is generated from `grammar/mech.pest`. The rest of this crate builds on it and on [`super::tokens`].
 
 pub(super) use generated::{Grammar, Rule};
 
-/// In a module of its own because its items carry no documentation.
+/// Generated code, in a module of its own because its items have no documentation.
 #[allow(missing_docs)]
 mod generated {
     #[derive(pest_derive::Parser)]

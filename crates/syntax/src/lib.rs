@@ -1,7 +1,7 @@
-//! Text to tree: what was written, with its places, and no meaning. And back: [`format()`].
+//! Parsing of texts to trees, with spans and without meaning; and formatting ([`format()`]).
 //!
-//! The grammar is `grammar/mech.pest`; the words in it are those of `vocabulary`. This crate knows words and precedences; it
-//! does not know which names exist, or what a joint is.
+//! The grammar is `grammar/mech.pest`; its words are those of `vocabulary`. This crate knows words and precedences. It does not know which
+//! names exist, or what a joint is.
 
 // what pest generates without its `std` asks for it
 extern crate alloc;
@@ -10,24 +10,24 @@ pub mod ast;
 mod build;
 mod depth;
 mod errors;
+mod fixits;
+mod foreign_syntax;
 pub mod format;
 mod formula;
 mod grammar;
 pub mod import;
-mod intended;
-mod known;
-mod mends;
-mod moved;
-mod outline;
+mod parallel;
 mod parse;
-mod pieces;
-mod reading;
+mod recovery;
+mod reuse;
+mod shift_spans;
+mod sync_points;
 mod tokens;
 mod trivia;
 
 pub use build::{is_name, normalized};
 pub use depth::DEEPEST;
 pub use format::{format, formatted};
-pub use parse::{ParsedText, parse, parse_declaration, parse_expression, reread};
+pub use parse::{ParsedText, parse, parse_declaration, parse_expression, reparse};
 pub use tokens::{Token, begins_declaration, keywords_in, tokens};
 pub use trivia::{Comment, Trivia};

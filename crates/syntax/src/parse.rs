@@ -1,5 +1,5 @@
-//! From a text to its tree. A text that follows the grammar is read by it at once. Any other one is read declaration by
-//! declaration ([`by_declarations`]); read this way, a text that follows the grammar has the same tree.
+//! Parsing of a text to its tree. A text that follows the grammar is parsed at once; any other one declaration by declaration
+//! ([`by_declarations`]). Both ways give the same tree for a text without faults.
 
 #![allow(clippy::redundant_closure_for_method_calls)] // a method of one reader is not general enough for all
 
@@ -8,25 +8,25 @@ use super::build::Piece;
 use super::depth::STACK;
 use super::errors;
 use super::grammar::Rule;
-use super::known::Known;
-use super::pieces::in_pieces;
-use super::reading::by_declarations;
+use super::parallel::parse_parallel;
+use super::recovery::by_declarations;
+use super::reuse::PreviousTree;
 use super::trivia::{self, Trivia};
 use mechc_text::diag::Diagnostics;
 use mechc_text::source::{FileId, Sources};
 
-/// A text as it was read: all of it, whatever its faults.
+/// The result of parsing a text, with or without faults.
 #[derive(Clone, PartialEq, Debug)]
 pub struct ParsedText {
-    /// What follows the grammar, with the places of what does not.
+    /// Everything that follows the grammar, with the spans of everything that does not.
     pub tree: File,
-    /// What stands between.
+    /// Comments and blank lines.
     pub trivia: Trivia,
-    /// What does not follow the grammar, by place.
+    /// Syntax errors, in order of position.
     pub faults: Diagnostics,
 }
 
-/// Reads a file.
+/// Parses a file.
 #[must_use]
 pub fn parse(sources: &Sources, file: FileId) -> ParsedText {
     let source = sources.get(file);
@@ -34,35 +34,35 @@ pub fn parse(sources: &Sources, file: FileId) -> ParsedText {
     // once for the whole text: a stack of its own takes longer than most declarations
     let (tree, faults) = stacker::maybe_grow(STACK, STACK, || {
         let at_once = || whole.read(Rule::file, |reader, pair| reader.file(pair)).ok();
-        let read = in_pieces(source, file).or_else(at_once);
+        let read = parse_parallel(source, file).or_else(at_once);
         read.map_or_else(|| by_declarations(source, file, None), |tree| (tree, Diagnostics::default()))
     });
     with_all(sources, file, tree, faults)
 }
 
-/// Reads a file that was read before it was edited; what comes out is what [`parse`] makes of it.
+/// Parses an edited file with the help of its previous tree; the result is that of [`parse`].
 #[must_use]
-pub fn reread(old: &ParsedText, old_text: &str, sources: &Sources, file: FileId) -> ParsedText {
+pub fn reparse(old: &ParsedText, old_text: &str, sources: &Sources, file: FileId) -> ParsedText {
     let source = sources.get(file);
     let (tree, faults) = stacker::maybe_grow(STACK, STACK, || {
-        by_declarations(source, file, Some(Known::of(&old.tree, [old_text, &source.text], file)))
+        by_declarations(source, file, Some(PreviousTree::new(&old.tree, [old_text, &source.text], file)))
     });
     with_all(sources, file, tree, faults)
 }
 
-/// With what is to be known of a text beside its tree.
+/// Adds trivia to a tree, and checks that a file has a mechanism.
 fn with_all(sources: &Sources, file: FileId, tree: File, mut faults: Diagnostics) -> ParsedText {
     if tree.mechanisms.is_empty() && faults.is_empty() {
         faults.push(errors::no_mechanism(sources.end_of(file)));
     }
-    faults.sort_by_place();
+    faults.sort_by_span();
     ParsedText { tree, trivia: trivia::of(&sources.get(file).text, file), faults }
 }
 
-/// A formula alone, as the command line takes it.
+/// Parses a formula alone, as in an option of the command line.
 ///
 /// # Errors
-/// It does not follow the grammar.
+/// Syntax errors.
 pub fn parse_expression(sources: &Sources, file: FileId) -> Result<Expr, Diagnostics> {
     let source = sources.get(file);
     let piece = Piece { source, file, range: 0..source.text.len() };
@@ -70,10 +70,10 @@ pub fn parse_expression(sources: &Sources, file: FileId) -> Result<Expr, Diagnos
         .map_err(|refused| (*piece.fault(refused, true)).into())
 }
 
-/// A declaration without a block alone, as the command line adds it to a mechanism.
+/// Parses a declaration without a block alone, as in an option of the command line.
 ///
 /// # Errors
-/// It does not follow the grammar.
+/// Syntax errors.
 pub fn parse_declaration(sources: &Sources, file: FileId) -> Result<Item, Diagnostics> {
     let source = sources.get(file);
     let piece = Piece { source, file, range: 0..source.text.len() };
@@ -99,13 +99,13 @@ mod tests {
         parse(&sources, file)
     }
 
-    /// The next number of a sequence that looks random.
+    /// Returns the next pseudo-random number.
     fn next(state: &mut u64) -> usize {
         *state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (*state >> 33) as usize
     }
 
-    /// A text with one of its words left out, said twice, or put in another's place.
+    /// Returns a text with a random word left out, repeated, or replaced by another one.
     fn damaged(text: &str, state: &mut u64) -> String {
         let tokens = tokens(text);
         let (k, other) = (next(state) % tokens.len(), next(state) % tokens.len());

@@ -1,27 +1,27 @@
-//! The words and characters of a text, as far as they tell where its declarations begin and end.
+//! Words and characters of a text, as far as they determine where declarations begin and end.
 //!
-//! This is coarser than the grammar, and never fails: it serves where a text does not follow the grammar, or is not read yet.
+//! Tokens are coarser than the grammar and never fail: they serve for texts with faults, and before parsing.
 
 use mechc_text::vocabulary::{Keyword, Role, is_declaration};
 
-/// A word or character, by the byte where it begins.
+/// A word or character.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Token<'a> {
-    /// The byte.
+    /// Its first byte.
     pub start: usize,
-    /// It itself.
+    /// Its text.
     pub text: &'a str,
 }
 
 impl Token<'_> {
-    /// One past its last byte.
+    /// Returns the byte behind it.
     #[must_use]
     pub fn end(self) -> usize {
         self.start + self.text.len()
     }
 }
 
-/// All tokens of a text.
+/// Returns all tokens of a text.
 #[must_use]
 pub fn tokens(text: &str) -> Vec<Token<'_>> {
     let mut tokens = Vec::new();
@@ -32,7 +32,7 @@ pub fn tokens(text: &str) -> Vec<Token<'_>> {
     tokens
 }
 
-/// The next word or character that is neither comment, string nor white space.
+/// Returns the next word or character that is neither comment, string nor white space.
 pub(super) fn next_token<'a>(rest: &mut &'a str) -> Option<&'a str> {
     loop {
         let text = rest.trim_start();
@@ -61,7 +61,7 @@ pub(super) fn next_token<'a>(rest: &mut &'a str) -> Option<&'a str> {
     }
 }
 
-/// Whether a token is a keyword that begins a declaration: `ground.O` is a point, and `ground` where an operand goes means the body.
+/// Returns whether a token is a keyword that begins a declaration: `ground.O` is a point, and `ground` as an operand denotes the body.
 #[must_use]
 pub fn begins_declaration(text: &str, token: Token<'_>) -> bool {
     let behind = text[token.end()..].trim_start();
@@ -74,7 +74,7 @@ pub fn begins_declaration(text: &str, token: Token<'_>) -> bool {
     token.text != "ground" || behind.starts_with('{') || is_first && !is_operand
 }
 
-/// The words of a text that are keywords where they stand, as far as the tokens beside them tell, each with the byte where it begins.
+/// Returns the words of a text that are keywords in their positions, judging by adjacent tokens, each with its first byte.
 pub fn keywords_in(text: &str) -> impl Iterator<Item = (usize, &'static Keyword)> {
     let tokens = tokens(text);
     let keyword = |at: usize| {
@@ -95,8 +95,8 @@ pub fn keywords_in(text: &str) -> impl Iterator<Item = (usize, &'static Keyword)
     (0..tokens.len()).filter_map(keyword).collect::<Vec<_>>().into_iter()
 }
 
-/// Whether a token can begin a time behind `from` or `to` in a call, where these are names before anything else; a bracket that does not
-/// stand apart is that of a call.
+/// Returns whether a token can begin a time behind `from` or `to` in a call; before other tokens these are names, and an adjacent bracket
+/// is that of a call.
 pub fn may_begin_a_bound(token: &str, is_apart: bool) -> bool {
     let begins_operand = |c: char| c.is_alphanumeric() || c == '_';
     match token {
@@ -106,7 +106,7 @@ pub fn may_begin_a_bound(token: &str, is_apart: bool) -> bool {
     }
 }
 
-/// Whether a word that may be a name is one between two tokens: what joins stands behind an operand, and no keyword beside a dot.
+/// Returns whether a word that may be a name is one between two tokens: a connecting word stands behind an operand, and a keyword not next to a dot.
 fn is_name(role: Role, before: &str, behind: &str) -> bool {
     let is_declared = is_declaration(before) && !matches!(before, "analysis" | "ground");
     let is_operand = matches!(before, "(" | "+" | "-" | "*" | "/" | "^" | "<" | ">" | ",") && role != Role::Side;

@@ -1,28 +1,28 @@
-//! What stands between the words of a text: comments and blank lines.
+//! Trivia: comments and blank lines.
 
 use mechc_text::source::{FileId, Span};
 
-/// What of a text is not in its tree.
+/// The parts of a text that are not in its tree.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub struct Trivia {
-    /// In order.
+    /// Comments, in order.
     pub comments: Vec<Comment>,
-    /// Runs of lines with nothing on them, in order, each from the start of its first line to that of the next line that holds something.
+    /// Runs of blank lines, in order, each from the start of its first line to the start of the next line with content.
     pub blank_lines: Vec<Span>,
 }
 
 /// A comment.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Comment {
-    /// From its slashes to the end of its line, white space at the end left out.
+    /// Span from its slashes to the end of its line, without trailing white space.
     pub span: Span,
-    /// Begins with three slashes: documents a declaration, if one stands behind it.
+    /// True if it begins with three slashes: it documents the declaration behind it.
     pub is_doc: bool,
-    /// Stands behind something else on its line.
+    /// True if it stands behind something else on its line.
     pub is_trailing: bool,
 }
 
-/// The trivia of a text.
+/// Collects the trivia of a text.
 pub(super) fn of(text: &str, file: FileId) -> Trivia {
     let span = |start: usize, end: usize| Span { file, start: start as u32, end: end as u32 };
     let mut trivia = Trivia::default();
@@ -49,7 +49,7 @@ pub(super) fn of(text: &str, file: FileId) -> Trivia {
     trivia
 }
 
-/// Where the comment of a line begins: at two slashes that are in no string. A string that does not end on its line is none.
+/// Returns where the comment of a line begins: at two slashes outside of strings. A string must end on its line.
 fn comment_in(line: &str) -> Option<usize> {
     let mut from = 0;
     loop {

@@ -1,21 +1,21 @@
-//! A flag that ends long work: who starts the work keeps one end, and the long loops look at the other.
+//! Cancellation flag of long work: the starter holds one clone, the long loops check another.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// Says that nobody waits for the result any more. Its clones are one flag.
+/// Cancellation flag; all clones share its state.
 ///
-/// What was cancelled gives nothing, and says nothing.
+/// Cancelled work returns no result and no diagnostics.
 #[derive(Clone, Debug, Default)]
 pub struct Cancel(Arc<AtomicBool>);
 
 impl Cancel {
-    /// Ends all work that looks at this flag, soon.
+    /// Ends all work that checks this flag, soon.
     pub fn cancel(&self) {
         self.0.store(true, Ordering::Relaxed);
     }
 
-    /// Whether the work is to end.
+    /// Returns whether the work should end.
     #[must_use]
     pub fn is_cancelled(&self) -> bool {
         self.0.load(Ordering::Relaxed)

@@ -1,4 +1,4 @@
-//! Texts and places in them, diagnostics, the trait that gives files, and the words of the language.
+//! Texts and spans, diagnostics, access to files, and the words of the language.
 
 pub mod cancel;
 pub mod diag;

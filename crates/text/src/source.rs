@@ -1,22 +1,22 @@
-//! Texts and the places in them.
+//! Texts and spans.
 //!
-//! Knows nobody: a span is a file and two byte offsets, and everything that speaks of the user's text holds one.
+//! This module depends on no other: a span is a file and two byte offsets, and everything about the user's text holds one.
 
 use std::sync::Arc;
 
-/// What the columns of a line count.
+/// Unit of columns in a line.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Encoding {
     /// Bytes.
     Utf8,
-    /// Units of UTF-16, as most editors do between each other.
+    /// UTF-16 units, the default of editor protocols.
     Utf16,
-    /// Unicode characters, as messages do.
+    /// Unicode characters, as in messages.
     Characters,
 }
 
 impl Encoding {
-    /// How long a text is.
+    /// Returns the length of a text.
     #[must_use]
     pub fn length(self, text: &str) -> usize {
         match self {
@@ -26,7 +26,7 @@ impl Encoding {
         }
     }
 
-    /// How long a character is.
+    /// Returns the length of a character.
     #[must_use]
     pub fn width(self, c: char) -> usize {
         match self {
@@ -37,47 +37,47 @@ impl Encoding {
     }
 }
 
-/// Whether a terminal would do something else with a character than show it: control characters but for ends of lines and tabs, and those
-/// that turn the direction of writing.
+/// Returns whether a terminal would interpret a character instead of showing it: control characters except line feeds and tabs, and those
+/// that change the direction of writing.
 #[must_use]
 pub fn is_control(c: char) -> bool {
     let turns = matches!(c, '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
     turns || c.is_control() && !matches!(c, '\n' | '\t')
 }
 
-/// Which of the [`Sources`] a span lies in.
+/// Index of a text in [`Sources`].
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub struct FileId(u32);
 
-/// A stretch of text, in bytes; `end` is exclusive.
+/// Range of bytes in a text; `end` is exclusive.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub struct Span {
-    /// The text that the offsets count in.
+    /// Text of the offsets.
     pub file: FileId,
-    /// The first byte.
+    /// First byte.
     pub start: u32,
-    /// One past the last byte.
+    /// Byte after the last one.
     pub end: u32,
 }
 
 impl Span {
-    /// The smallest span that holds both; both must lie in one file.
+    /// Returns the smallest span that contains both, which must be in one file.
     #[must_use]
     pub fn to(self, other: Span) -> Span {
         Span { file: self.file, start: self.start.min(other.start), end: self.end.max(other.end) }
     }
 }
 
-/// One text with the name to print for it.
+/// A text with its name.
 #[derive(Clone, Debug)]
 pub struct Source {
-    /// As the user named it: a path, `<stdin>`, `--set`.
+    /// Name as the user wrote it: a path, `<stdin>`, `--set`.
     pub name: String,
-    /// The text, without a byte-order mark.
+    /// Text without a byte-order mark.
     pub text: String,
-    /// Whether it was typed on the command line, rather than read from a file.
+    /// True if the text comes from the command line, not from a file.
     pub is_option: bool,
-    /// Whether control characters are in it, but for ends of lines.
+    /// True if the text contains control characters other than line ends and tabs.
     pub has_controls: bool,
     line_starts: Vec<usize>,
 }
@@ -85,19 +85,19 @@ pub struct Source {
 impl Source {
     fn new(name: String, text: String, is_option: bool) -> Source {
         let line_starts = std::iter::once(0).chain(text.match_indices('\n').map(|(at, _)| at + 1)).collect();
-        let goes_back = || text.match_indices('\r').any(|(at, _)| !text[at + 1..].starts_with('\n'));
-        let has_controls = text.contains(|c: char| is_control(c) && c != '\r') || goes_back();
+        let has_lone_returns = || text.match_indices('\r').any(|(at, _)| !text[at + 1..].starts_with('\n'));
+        let has_controls = text.contains(|c: char| is_control(c) && c != '\r') || has_lone_returns();
         Source { name, text, is_option, has_controls, line_starts }
     }
 
-    /// Line and column of a byte offset, both from 1, the column in characters.
+    /// Returns line and column of a byte offset, both from 1, the column in characters.
     #[must_use]
     pub fn position(&self, offset: u32) -> (usize, usize) {
         let (line, column) = self.position_in(offset, Encoding::Characters);
         (line + 1, column + 1)
     }
 
-    /// Line and column of a byte offset, both from 0.
+    /// Returns line and column of a byte offset, both from 0.
     #[must_use]
     pub fn position_in(&self, offset: u32, encoding: Encoding) -> (usize, usize) {
         let offset = (offset as usize).min(self.text.len());
@@ -106,29 +106,29 @@ impl Source {
         (line, encoding.length(before))
     }
 
-    /// The byte offset of a line and column, both from 0; what lies beyond the end of a line is that end, and what lies within a
-    /// character its beginning.
+    /// Returns the byte offset of a line and column, both from 0. A column beyond the line becomes its end, one within a character the
+    /// character's first byte.
     #[must_use]
     pub fn offset_of(&self, line: usize, column: usize, encoding: Encoding) -> u32 {
         let Some(range) = self.line_range(line) else {
             return self.text.len() as u32;
         };
         let text = self.text[range.clone()].trim_end_matches(['\n', '\r']);
-        let mut passed = 0;
+        let mut width = 0;
         let inside = text.char_indices().find(|&(_, c)| {
-            passed += encoding.width(c);
-            passed > column
+            width += encoding.width(c);
+            width > column
         });
         (range.start + inside.map_or(text.len(), |(at, _)| at)) as u32
     }
 
-    /// Index of the line (from 0) that holds a byte offset.
+    /// Returns the line (from 0) of a byte offset.
     #[must_use]
     pub fn line_index(&self, offset: usize) -> usize {
         self.line_starts.partition_point(|&start| start <= offset) - 1
     }
 
-    /// Byte range of a line (from 0), its line end included; `None` past the last line.
+    /// Returns the byte range of a line (from 0) with its line end, or `None` after the last line.
     #[must_use]
     pub fn line_range(&self, line: usize) -> Option<std::ops::Range<usize>> {
         let start = *self.line_starts.get(line)?;
@@ -137,14 +137,14 @@ impl Source {
     }
 }
 
-/// All texts of one compilation: the file, and what the command line adds to it. A clone shares them.
+/// All texts of one compilation: files and options of the command line. Clones share the texts.
 #[derive(Clone, Debug, Default)]
 pub struct Sources {
     files: Vec<Arc<Source>>,
 }
 
 impl Sources {
-    /// Takes a text in; a byte-order mark at its start is passed over.
+    /// Adds a text without its byte-order mark.
     pub fn add(&mut self, name: impl Into<String>, text: impl Into<String>) -> FileId {
         let mut text = text.into();
         if text.starts_with('\u{feff}') {
@@ -153,7 +153,7 @@ impl Sources {
         self.push(Source::new(name.into(), text, false))
     }
 
-    /// Takes the value of an option of the command line in.
+    /// Adds the value of a command-line option.
     pub fn add_option(&mut self, option: impl Into<String>, value: impl Into<String>) -> FileId {
         self.push(Source::new(option.into(), value.into(), true))
     }
@@ -163,24 +163,34 @@ impl Sources {
         FileId(self.files.len() as u32 - 1)
     }
 
-    /// The text behind an id that [`Sources::add`] gave.
+    /// Returns the texts with other names for those of options, which `name` gives from the present ones.
+    #[must_use]
+    pub fn with_option_names(&self, name: impl Fn(&str) -> String) -> Sources {
+        let renamed = |source: &Arc<Source>| match source.is_option {
+            true => Arc::new(Source { name: name(&source.name), ..(**source).clone() }),
+            false => Arc::clone(source),
+        };
+        Sources { files: self.files.iter().map(renamed).collect() }
+    }
+
+    /// Returns the text of an id from [`Sources::add`].
     #[must_use]
     pub fn get(&self, file: FileId) -> &Source {
         &self.files[file.0 as usize]
     }
 
-    /// All texts, in the order in which they came in.
+    /// Returns all texts in the order in which they were added.
     pub fn iter(&self) -> impl Iterator<Item = &Source> {
         self.files.iter().map(AsRef::as_ref)
     }
 
-    /// The words that a span covers.
+    /// Returns the text of a span.
     #[must_use]
     pub fn text(&self, span: Span) -> &str {
         self.get(span.file).text.get(span.start as usize..span.end as usize).unwrap_or("")
     }
 
-    /// A span of the whole of a file's last position: where something is missing.
+    /// Returns the empty span at the end of a file, for something that is missing.
     #[must_use]
     pub fn end_of(&self, file: FileId) -> Span {
         let end = self.get(file).text.len() as u32;

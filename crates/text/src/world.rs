@@ -1,6 +1,6 @@
-//! Where the files are that a text names: on a disk, in an editor's open buffers, in a browser, in a test.
+//! Access to the files that a text names: on a disk, in open buffers of an editor, in a browser, or in a test.
 //!
-//! The only way in which a library crate reaches a file.
+//! Library crates reach files only through this module.
 
 use crate::diag::{Code, Diagnostic};
 use crate::source::{FileId, Sources, Span};
@@ -9,83 +9,83 @@ use std::io;
 use std::path::{Component, Path, PathBuf};
 use std::sync::Arc;
 
-/// No text is larger (bytes): places are counted in 32 bits, and what has no end, as `/dev/zero`, must be seen to have none.
+/// Size limit of a text (bytes): offsets have 32 bits, and endless files such as `/dev/zero` must fail.
 pub const LARGEST: usize = 1 << 30;
 
-/// Why a text beyond [`LARGEST`] is not read.
+/// Returns the error for a text larger than [`LARGEST`].
 #[must_use]
 pub fn too_large() -> io::Error {
     io::Error::other(format!("it is larger than {} GiB", LARGEST >> 30))
 }
 
-/// What a file holds, as of a version.
+/// Contents of a file in one version.
 #[derive(Clone, Debug)]
 pub struct Contents {
-    /// As stored.
+    /// Bytes as stored.
     pub bytes: Arc<[u8]>,
-    /// Another one whenever the bytes are; 0 where nobody counts.
+    /// Number that changes whenever the bytes do; always 0 in a world that does not count.
     pub version: u64,
 }
 
-/// Gives files by their paths.
+/// Source of files by path.
 pub trait World: Send + Sync {
-    /// The contents of a file.
+    /// Returns the contents of a file.
     ///
     /// # Errors
-    /// It is not there, or cannot be read.
+    /// If the file does not exist or cannot be read.
     fn read(&self, path: &Path) -> io::Result<Contents>;
 
-    /// The contents of what is named outside of texts, by an option say, where more than files may be meant: standard input, a pipe.
+    /// Returns the contents of what an option names, which may be more than a file: standard input or a pipe.
     ///
     /// # Errors
-    /// It is not there, or cannot be read.
+    /// If it does not exist or cannot be read.
     fn given(&self, path: &Path) -> io::Result<Contents> {
         self.read(path)
     }
 
-    /// What messages call that.
+    /// Returns the name that messages use for what an option names.
     fn shown(&self, path: &Path) -> String {
         path.to_string_lossy().into_owned()
     }
 
-    /// The names of the files in a folder, for a message that says what was probably meant; nothing where nobody can tell.
+    /// Returns the names of the files in a folder, for suggestions; empty if they are not available.
     fn names_in(&self, folder: &Path) -> Vec<String> {
         let _ = folder;
         Vec::new()
     }
 
-    /// The names of the folders in a folder; nothing where nobody can tell.
+    /// Returns the names of the folders in a folder; empty if they are not available.
     fn folders_in(&self, folder: &Path) -> Vec<String> {
         let _ = folder;
         Vec::new()
     }
 
-    /// What tells a file from all others: two paths with one identity are one file, which is read once.
+    /// Returns the identity of a file: two paths with equal identities are one file, which is read once.
     fn identity(&self, path: &Path) -> PathBuf {
-        normalised(path)
+        normalize_path(path)
     }
 }
 
-/// Whether a file holds mechanisms, by its name.
+/// Returns whether a file name is that of a mechanism file.
 #[must_use]
 pub fn is_mech(name: &str) -> bool {
     Path::new(name).extension().is_some_and(|ending| ending.eq_ignore_ascii_case("mech"))
 }
 
-/// Whether what is in a folder is its user's own, by its name: it is not hidden, and no folder of build results.
+/// Returns whether an entry of a folder belongs to the user, by its name: it is neither hidden nor a folder of build results.
 #[must_use]
 pub fn is_own(name: &str) -> bool {
     !name.starts_with('.') && name != "target" && name != "node_modules"
 }
 
-/// A world without files, or with those that were put into it.
+/// World in memory, empty unless files are added.
 #[derive(Clone, Debug, Default)]
 pub struct Memory {
     files: FxHashMap<PathBuf, Contents>,
 }
 
 impl Memory {
-    /// Puts a file in its place, over one that is there.
+    /// Adds a file, or replaces the one at its path.
     #[must_use]
     pub fn with(mut self, path: impl Into<PathBuf>, text: impl AsRef<[u8]>) -> Memory {
         let path = path.into();
@@ -117,36 +117,36 @@ impl World for Memory {
     }
 }
 
-/// Takes the text of a file in.
+/// Reads a file into the sources.
 ///
 /// # Errors
-/// It cannot be read, or is no text.
+/// If it cannot be read or is not UTF-8.
 pub fn text_of(world: &dyn World, path: &Path, sources: &mut Sources) -> Result<FileId, Box<Diagnostic>> {
     let shown = path.to_string_lossy().into_owned();
     let contents = world.read(path).map_err(|error| Box::new(cannot_read(&shown, &error)))?;
     take_in(&shown, &contents.bytes, sources)
 }
 
-/// Takes the rows of what is named outside of texts in.
+/// Reads what an option names into the sources, as rows of a table.
 ///
 /// # Errors
-/// It cannot be read, or is no text.
-pub fn rows_given(world: &dyn World, path: &Path, sources: &mut Sources) -> Result<FileId, Box<Diagnostic>> {
+/// If it cannot be read or is not UTF-8.
+pub fn read_rows(world: &dyn World, path: &Path, sources: &mut Sources) -> Result<FileId, Box<Diagnostic>> {
     let shown = world.shown(path);
     let contents = world.given(path).map_err(|error| Box::new(cannot_read(&shown, &error)))?;
     take_in(&shown, &with_line_feeds(&contents.bytes), sources)
 }
 
-/// Lines that end in a carriage return alone, as some loggers and spreadsheets write them, end in a line feed then; no place is moved.
+/// Replaces carriage returns that end lines alone, as some loggers and spreadsheets write them, by line feeds. Offsets stay the same.
 fn with_line_feeds(bytes: &[u8]) -> Vec<u8> {
-    let is_alone = |at: usize| bytes[at] == b'\r' && bytes.get(at + 1) != Some(&b'\n');
-    (0..bytes.len()).map(|at| if is_alone(at) { b'\n' } else { bytes[at] }).collect()
+    let is_lone = |at: usize| bytes[at] == b'\r' && bytes.get(at + 1) != Some(&b'\n');
+    (0..bytes.len()).map(|at| if is_lone(at) { b'\n' } else { bytes[at] }).collect()
 }
 
-/// Takes bytes in as a text, under a name.
+/// Adds bytes to the sources as a text with a name.
 ///
 /// # Errors
-/// They are too many, or not UTF-8.
+/// If the text is too large or not UTF-8.
 pub fn take_in(shown: &str, bytes: &[u8], sources: &mut Sources) -> Result<FileId, Box<Diagnostic>> {
     if bytes.len() > LARGEST {
         return Err(Box::new(cannot_read(shown, &too_large())));
@@ -157,7 +157,7 @@ pub fn take_in(shown: &str, bytes: &[u8], sources: &mut Sources) -> Result<FileI
     }
 }
 
-/// A file that is named, beside the file that names it.
+/// Returns the path of a named file relative to the file that names it.
 #[must_use]
 pub fn beside(path: &str, named: &str) -> PathBuf {
     match Path::new(path).parent() {
@@ -166,21 +166,21 @@ pub fn beside(path: &str, named: &str) -> PathBuf {
     }
 }
 
-/// A path without `.`, and without `..` behind a folder.
+/// Removes `.` from a path, and `..` together with the folder before it.
 #[must_use]
-pub fn normalised(path: &Path) -> PathBuf {
-    let mut normalised = PathBuf::new();
+pub fn normalize_path(path: &Path) -> PathBuf {
+    let mut normalize_path = PathBuf::new();
     for part in path.components() {
-        match (part, normalised.components().next_back()) {
+        match (part, normalize_path.components().next_back()) {
             (Component::CurDir, _) | (Component::ParentDir, Some(Component::RootDir | Component::Prefix(_))) => {}
-            (Component::ParentDir, Some(Component::Normal(_))) => drop(normalised.pop()),
-            _ => normalised.push(part),
+            (Component::ParentDir, Some(Component::Normal(_))) => drop(normalize_path.pop()),
+            _ => normalize_path.push(part),
         }
     }
-    normalised
+    normalize_path
 }
 
-/// The error for a file that cannot be read, by its name; an empty name is standard input.
+/// Returns the error for a file that cannot be read; an empty name is one that is missing.
 #[must_use]
 pub fn cannot_read(name: &str, error: &io::Error) -> Diagnostic {
     if name.is_empty() {
@@ -194,7 +194,7 @@ pub fn cannot_read(name: &str, error: &io::Error) -> Diagnostic {
     }
 }
 
-/// The system's words, without its number.
+/// Returns the system's message without its number.
 #[must_use]
 pub fn reason(error: &io::Error) -> String {
     let text = error.to_string();
@@ -203,7 +203,7 @@ pub fn reason(error: &io::Error) -> String {
     chars.next().map_or(String::new(), |first| first.to_lowercase().chain(chars).collect())
 }
 
-/// Shows the text up to the byte that is not UTF-8.
+/// Returns the error for a file that is not UTF-8, which shows the text up to the invalid byte.
 fn not_utf8(name: &str, bytes: &[u8], at: usize, sources: &mut Sources) -> Diagnostic {
     let valid = String::from_utf8_lossy(&bytes[..at]).into_owned();
     let file = sources.add(name, valid);

@@ -3,7 +3,7 @@
 use super::{At, Kind, Operand, Question};
 use crate::errors::Said;
 use crate::mechanism::{Meant, Mechanism};
-use mechc::{Diagnostics, Settable, Sources, seconds};
+use mechc::{Diagnostics, SettableParam, Sources, seconds};
 use numpy::{PyArray1, PyArrayMethods, PyReadonlyArrayDyn};
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
@@ -196,10 +196,10 @@ fn refuse_rates_of_others(py: Python<'_>, options: &Read<'_>, inputs: &[String])
 /// What a value is of.
 enum Told<'s> {
     Time,
-    Input(&'s Settable),
-    Param(&'s Settable),
+    Input(&'s SettableParam),
+    Param(&'s SettableParam),
     /// The rate of an input, or its acceleration.
-    Rate(&'s Settable, u32),
+    Rate(&'s SettableParam, u32),
 }
 
 impl Told<'_> {

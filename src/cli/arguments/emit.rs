@@ -37,8 +37,8 @@ pub(in crate::cli) struct EmitArguments {
     pub lanes: Option<usize>,
 }
 
-/// More lanes than this do not stay near the processor.
-const MOST_LANES: usize = 256;
+/// The maximum number of lanes; the data of more do not fit into a cache.
+const MAX_LANES: usize = 256;
 
 #[derive(ValueEnum, Clone, Copy, PartialEq, Eq, Debug)]
 pub(in crate::cli) enum EmitFormat {
@@ -62,7 +62,7 @@ pub(in crate::cli) enum Content {
 
 fn lanes(text: &str) -> Result<usize, String> {
     match text.parse::<usize>() {
-        Ok(lanes) if (1..=MOST_LANES).contains(&lanes) => Ok(lanes),
-        _ => Err(format!("a whole number from 1 to {MOST_LANES} is wanted")),
+        Ok(lanes) if (1..=MAX_LANES).contains(&lanes) => Ok(lanes),
+        _ => Err(format!("a whole number from 1 to {MAX_LANES} is wanted")),
     }
 }

@@ -1,4 +1,4 @@
-//! What can be typed: a file for each command with many options, and one for those with few.
+//! The arguments of the command line: a file for each command with many options, and one for those with few.
 
 mod emit;
 mod run;

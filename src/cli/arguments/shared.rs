@@ -1,4 +1,4 @@
-//! What several commands share.
+//! Arguments that several commands share.
 
 use clap::{Args, ValueEnum};
 use mechc_pipeline::Vectors;
@@ -97,17 +97,17 @@ pub(in crate::cli) struct Following {
     pub pass_bifurcations: bool,
 }
 
-/// More threads than this are no help on any machine.
-const MOST_JOBS: usize = 1024;
+/// The maximum number of threads.
+const MAX_JOBS: usize = 1024;
 
 pub(super) fn jobs(text: &str) -> Result<usize, String> {
     match text.parse::<usize>() {
-        Ok(jobs) if (1..=MOST_JOBS).contains(&jobs) => Ok(jobs),
-        _ => Err(format!("a whole number from 1 to {MOST_JOBS} is wanted")),
+        Ok(jobs) if (1..=MAX_JOBS).contains(&jobs) => Ok(jobs),
+        _ => Err(format!("a whole number from 1 to {MAX_JOBS} is wanted")),
     }
 }
 
-/// What equations can be held to: numbers have no more digits.
+/// Parses a tolerance, which double precision bounds from below.
 fn tolerance(text: &str) -> Result<f64, String> {
     match positive(text)? {
         value if value >= 1e-15 => Ok(value),

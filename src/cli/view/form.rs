@@ -1,11 +1,11 @@
-//! The file to write, and what is drawn in it: by its name and its ending.
+//! The form of the output of `view`, from the name and extension of the file.
 
 use crate::cli::arguments::{ThemeChoice, ViewArguments};
-use crate::cli::endings;
 use crate::cli::failure::{Failure, unusable};
+use crate::cli::output_format;
 use std::path::Path;
 
-/// What can be drawn.
+/// A form of output.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Form {
     Page,
@@ -14,45 +14,46 @@ pub(super) enum Form {
     Dxf,
 }
 
-/// The forms by their endings.
+/// The forms by extension.
 const FORMS: [(&str, Form); 3] = [("html", Form::Page), ("svg", Form::Picture), ("dxf", Form::Dxf)];
 
-/// An option that says how something is drawn: its name, whether it is given, and the forms that have it.
-type Said = (&'static str, fn(&ViewArguments) -> bool, &'static [Form]);
+/// A drawing option: its name, a predicate that tells if it is given, and the forms that have it.
+type DrawingOption = (&'static str, fn(&ViewArguments) -> bool, &'static [Form]);
 
-/// All of them; a page that follows a file has none.
-const OPTIONS: [Said; 11] = [
-    ("--vary", |asked| !asked.vary.is_empty(), &[Form::Page]),
-    ("--plots", |asked| asked.plots, &[Form::Plots]),
-    ("--at", |asked| !asked.at.is_empty(), &[Form::Page, Form::Picture, Form::Dxf]),
-    ("--trace", |asked| !asked.trace.is_empty(), &[Form::Page, Form::Picture, Form::Dxf]),
-    ("--vectors", |asked| asked.vectors, &[Form::Page, Form::Picture]),
-    ("--forces", |asked| asked.forces, &[Form::Page, Form::Picture, Form::Plots]),
-    ("--labels", |asked| asked.labels, &[Form::Page, Form::Picture]),
-    ("--size", |asked| asked.size.is_some(), &[Form::Page, Form::Picture, Form::Plots]),
-    ("--scale", |asked| asked.scale.is_some(), &[Form::Picture, Form::Dxf]),
-    ("--theme", |asked| asked.theme != ThemeChoice::Auto, &[Form::Page, Form::Picture, Form::Plots]),
-    ("--body", |asked| asked.body.is_some(), &[Form::Picture, Form::Dxf]),
+/// The drawing options; a live page has none of them.
+const OPTIONS: [DrawingOption; 11] = [
+    ("--vary", |given| !given.vary.is_empty(), &[Form::Page]),
+    ("--plots", |given| given.plots, &[Form::Plots]),
+    ("--at", |given| !given.at.is_empty(), &[Form::Page, Form::Picture, Form::Dxf]),
+    ("--trace", |given| !given.trace.is_empty(), &[Form::Page, Form::Picture, Form::Dxf]),
+    ("--vectors", |given| given.vectors, &[Form::Page, Form::Picture]),
+    ("--forces", |given| given.forces, &[Form::Page, Form::Picture, Form::Plots]),
+    ("--labels", |given| given.labels, &[Form::Page, Form::Picture]),
+    ("--size", |given| given.size.is_some(), &[Form::Page, Form::Picture, Form::Plots]),
+    ("--scale", |given| given.scale.is_some(), &[Form::Picture, Form::Dxf]),
+    ("--theme", |given| given.theme != ThemeChoice::Auto, &[Form::Page, Form::Picture, Form::Plots]),
+    ("--body", |given| given.body.is_some(), &[Form::Picture, Form::Dxf]),
 ];
 
-/// The first option that is given and that a form has not; without a form the first that is given at all.
-pub(super) fn not_of(form: Option<Form>, arguments: &ViewArguments) -> Option<&'static str> {
+/// Returns the first given option that a form does not have; for `None`, the first given option.
+pub(super) fn unsupported_option(form: Option<Form>, arguments: &ViewArguments) -> Option<&'static str> {
     let lacks = |forms: &[Form]| form.is_none_or(|form| !forms.contains(&form));
     OPTIONS.iter().find(|(_, is_given, forms)| is_given(arguments) && lacks(forms)).map(|(option, ..)| *option)
 }
 
-/// What is drawn, by the name of a file and its ending.
+/// Returns the form of a file name; fails if the options do not fit it.
 pub(super) fn form(output: &str, arguments: &ViewArguments) -> Result<Form, Failure> {
-    let form = if output == "-" || endings::is_special(output) { Form::Picture } else { form_of_ending(output)? };
+    let form =
+        if output == "-" || output_format::is_special(output) { Form::Picture } else { form_of_extension(output)? };
     if form != Form::Page && !arguments.vary.is_empty() {
         return Err(unusable(format!("`--vary` is for pages, and `{output}` is none"))
             .help("name a `.html` file, or set the param with `--set`")
             .into());
     }
-    let with_plots = arguments.plots || is_called_plots(output);
-    let foreign = |form| not_of(Some(form), arguments);
+    let with_plots = arguments.plots || is_plots_name(output);
+    let unsupported = |form| unsupported_option(Some(form), arguments);
     match form {
-        Form::Picture if with_plots => match foreign(Form::Plots) {
+        Form::Picture if with_plots => match unsupported(Form::Plots) {
             None => Ok(Form::Plots),
             Some(option) => Err(unusable(format!("`{option}` is for pictures, and `{output}` is to hold plots"))
                 .help("name it otherwise: `plots.svg` and `NAME.plots.svg` hold plots of all measures over time")
@@ -66,13 +67,13 @@ pub(super) fn form(output: &str, arguments: &ViewArguments) -> Result<Form, Fail
                 .help("name a `.svg` file")
                 .into())
         }
-        Form::Page => match foreign(Form::Page) {
+        Form::Page => match unsupported(Form::Page) {
             None => Ok(Form::Page),
             Some(option) => Err(unusable(format!("`{option}` is for pictures and DXF, and `{output}` is a page"))
                 .help("name a `.svg` or `.dxf` file")
                 .into()),
         },
-        Form::Dxf => match foreign(Form::Dxf) {
+        Form::Dxf => match unsupported(Form::Dxf) {
             None => Ok(Form::Dxf),
             Some(option) => Err(unusable(format!("`{option}` is for what is looked at, and `{output}` is to be cut"))
                 .help("leave it out, or name a `.svg` file")
@@ -82,15 +83,15 @@ pub(super) fn form(output: &str, arguments: &ViewArguments) -> Result<Form, Fail
     }
 }
 
-/// Whether a file is called `plots.svg`, or `NAME.plots.svg`.
-fn is_called_plots(output: &str) -> bool {
+/// Returns whether a file is called `plots.svg` or `NAME.plots.svg`.
+fn is_plots_name(output: &str) -> bool {
     let stem = Path::new(output).file_stem().map(|stem| stem.to_string_lossy().to_lowercase());
     stem.is_some_and(|stem| stem.rsplit('.').next() == Some("plots"))
 }
 
-/// Forms that other programs make of what is drawn here: their endings, what is to be drawn for them, and how it becomes one of them.
-/// `NAME` stands for the name of the file without its ending, `END` for the ending.
-const OF_OTHERS: [(&[&str], &str, &str); 4] = [
+/// Formats that other programs convert to: their extensions, the output to write, and the command that converts it. `NAME` stands for the
+/// name of the file without its extension, `END` for the extension.
+const CONVERSIONS: [(&[&str], &str, &str); 4] = [
     (
         &["png", "pdf", "ps", "eps"],
         "NAME.svg --at T",
@@ -105,38 +106,39 @@ const OF_OTHERS: [(&[&str], &str, &str); 4] = [
     (&["dwg"], "NAME.dxf", "any program for drawings, which reads DXF"),
 ];
 
-/// What a file of such a name holds.
-fn form_of_ending(output: &str) -> Result<Form, Failure> {
-    endings::known(output, &FORMS).ok_or_else(|| {
-        let (path, listed) = (Path::new(output), format!("the endings are {}", endings::listed(&FORMS)));
+/// Returns the form of a file name's extension.
+fn form_of_extension(output: &str) -> Result<Form, Failure> {
+    output_format::by_extension(output, &FORMS).ok_or_else(|| {
+        let (path, listed) = (Path::new(output), format!("the endings are {}", output_format::list_extensions(&FORMS)));
         let Some(ending) = path.extension().map(|ending| ending.to_string_lossy()) else {
-            let said = format!("`{output}` has no ending, and so it is not said what to draw");
-            return unusable(said).help(listed).into();
+            let message = format!("`{output}` has no ending, and so it is not said what to draw");
+            return unusable(message).help(listed).into();
         };
-        let said =
+        let refusal =
             unusable(format!("`{output}` ends in `.{ending}`, which is nothing that `view` writes")).help(listed);
-        let made = OF_OTHERS.iter().find(|(endings, ..)| endings.iter().any(|one| ending.eq_ignore_ascii_case(one)));
-        let Some((_, drawn, how)) = made else { return said.into() };
+        let conversion =
+            CONVERSIONS.iter().find(|(endings, ..)| endings.iter().any(|one| ending.eq_ignore_ascii_case(one)));
+        let Some((_, drawn, how)) = conversion else { return refusal.into() };
         let name = path.with_extension("");
         let filled = |text: &str| text.replace("NAME", &name.to_string_lossy()).replace("END", &ending.to_lowercase());
-        said.help(format!("write `-o {}`, and have it converted: {}", filled(drawn), filled(how))).into()
+        refusal.help(format!("write `-o {}`, and have it converted: {}", filled(drawn), filled(how))).into()
     })
 }
 
 #[cfg(test)]
 mod tests {
-    use super::is_called_plots;
+    use super::is_plots_name;
 
     #[test]
-    fn plots_are_called_so() {
-        for (output, wanted) in [
+    fn plots_have_their_names() {
+        for (output, expected) in [
             ("plots.svg", true),
             ("a/Plots.svg", true),
             ("a.plots.svg", true),
             ("allplots.svg", false),
             ("plots/a.svg", false),
         ] {
-            assert_eq!(is_called_plots(output), wanted, "{output}");
+            assert_eq!(is_plots_name(output), expected, "{output}");
         }
     }
 }

@@ -1,8 +1,8 @@
-//! A film: a picture of each row, each with its number in its name.
+//! The file names of a film's frames: a picture of each row, with its number in the name.
 
 use crate::cli::failure::{Failure, unusable};
 
-/// The names of a film's pictures: what stands before and behind the number, which has so many digits at least.
+/// The names of a film's frames: the text before and behind the number, and the minimum number of digits.
 pub(super) struct Frames {
     before: String,
     behind: String,
@@ -10,23 +10,23 @@ pub(super) struct Frames {
 }
 
 impl Frames {
-    /// Of a file's name with one `%d`, or `%04d`, in it.
+    /// Parses a file name with one `%d`, or `%04d`; `None` if there is none.
     ///
     /// # Errors
-    /// There are two.
-    pub fn of(output: &str) -> Result<Option<Frames>, Failure> {
-        match Frames::last_of(output) {
+    /// There is more than one.
+    pub fn parse(output: &str) -> Result<Option<Frames>, Failure> {
+        match Frames::parse_last(output) {
             Some(frames)
-                if frames.before.split(std::path::is_separator).any(|part| Frames::last_of(part).is_some()) =>
+                if frames.before.split(std::path::is_separator).any(|part| Frames::parse_last(part).is_some()) =>
             {
-                let said = format!("`{output}` has more than one number in it");
-                Err(unusable(said).help("one is counted, as in `frames/%04d.svg`").into())
+                let message = format!("`{output}` has more than one number in it");
+                Err(unusable(message).help("one is counted, as in `frames/%04d.svg`").into())
             }
             frames => Ok(frames),
         }
     }
 
-    fn last_of(output: &str) -> Option<Frames> {
+    fn parse_last(output: &str) -> Option<Frames> {
         let (before, rest) = output.rsplit_once('%')?;
         let (digits, behind) = rest.split_once('d')?;
         let has_digits = digits.is_empty() || (digits.starts_with('0') && digits.bytes().all(|c| c.is_ascii_digit()));
@@ -50,7 +50,7 @@ mod tests {
 
     #[test]
     fn names_of_frames_have_a_number() {
-        for (output, wanted) in [
+        for (output, expected) in [
             ("frames/%04d.svg", Some("frames/0007.svg")),
             ("f%d.svg", Some("f7.svg")),
             ("100%-%03d.svg", Some("100%-007.svg")),
@@ -60,13 +60,13 @@ mod tests {
             ("%02d/a.svg", None),
             ("a.svg", None),
         ] {
-            let frames = Frames::of(output).expect("one at most");
-            assert_eq!(frames.map(|frames| frames.name(7)).as_deref(), wanted, "{output}");
+            let frames = Frames::parse(output).expect("one at most");
+            assert_eq!(frames.map(|frames| frames.name(7)).as_deref(), expected, "{output}");
         }
-        let frames = Frames::of("%02d.svg").expect("one");
+        let frames = Frames::parse("%02d.svg").expect("one");
         assert_eq!(frames.map(|frames| frames.name(12_345)).as_deref(), Some("12345.svg"));
         for twice in ["%d_%d.svg", "f%03d/%02d.svg", "%d%d.svg"] {
-            assert!(Frames::of(twice).is_err(), "{twice}");
+            assert!(Frames::parse(twice).is_err(), "{twice}");
         }
     }
 }

@@ -1,137 +1,143 @@
-//! A page with sliders: a mechanism solved for each value of what varies.
+//! `--vary`: a page with sliders, for which the mechanism is solved with each value of the params that vary.
 
-use super::MOST_ROWS;
+use super::MAX_ROWS;
 use crate::cli::arguments::ViewArguments;
 use crate::cli::failure::{Failure, unusable};
-use crate::cli::files::{AskedOnce, Output};
+use crate::cli::files::{CachedDisk, Output};
 use crate::cli::input;
 use crate::cli::progress::Progress;
 use crate::cli::report::Reporter;
-use crate::cli::times;
 use mechc_draw::scene::{Motion, Pose, bounds};
 use mechc_draw::view::page::{LONGEST, Variant, Vary};
 use mechc_engine::analysis::Times;
 use mechc_live::page;
-use mechc_pipeline::{Checked, Choice, Compiled, Parsed, RunOptions, Seen, Varied};
+use mechc_pipeline::{Checked, Choice, Compiled, Parsed, RunOptions, SliderRange, Visualization};
 use mechc_text::diag::{Diagnostic, Diagnostics};
 use mechc_text::source::Sources;
 use std::mem::ManuallyDrop;
 
-/// So many numbers all tables have together at the most, which is more than goes into a page; the rest need not be kept.
-const MOST_NUMBERS: usize = 10_000_000;
+/// The maximum number of values in all tables together, which is more than fits into a page.
+const MAX_VALUES: usize = 10_000_000;
 
 pub(super) fn view(arguments: &ViewArguments, output: &str, reporter: &mut Reporter) -> Result<(), Failure> {
-    let (parsed, world) = (input::parsed(&arguments.input, reporter)?, AskedOnce::default());
+    let (parsed, world) = (input::parsed(&arguments.input, reporter)?, CachedDisk::default());
     let choice = Choice { pictures_forces: true, ..input::choice(&arguments.input) };
-    let own = input::checked_in(&parsed, &choice, &world, reporter)?;
-    let varied = own.varied(&arguments.vary, &choice, &world).map_err(|(sources, said)| {
+    let nominal = input::checked_in(&parsed, &choice, &world, reporter)?;
+    let varied = nominal.slider_ranges(&arguments.vary, &choice, &world).map_err(|(sources, diagnostics)| {
         reporter.sources = sources;
-        said
+        diagnostics
     })?;
-    let file = Output::open(output, &reporter.spared())?;
-    let solver = Solver { arguments, parsed: &parsed, choice: &choice, world: &world, varied: &varied };
-    let (variants, first) = solver.all(reporter)?;
+    let file = Output::open(output, &reporter.protected())?;
+    let solver = VariantSolver { arguments, parsed: &parsed, choice: &choice, world: &world, varied: &varied };
+    let (variants, first) = solver.solve_all(reporter)?;
     let text = solver.page(&variants, first, &reporter.sources)?;
     file.close_with_text(&text)?;
-    solver.tell(&variants, text.len(), reporter);
+    solver.print_summary(&variants, text.len(), reporter);
     match &variants[first].stopped {
         Some((sources, why)) => {
             reporter.sources = sources.clone();
             let with = solver.settings(first).join(", ");
-            let told =
+            let with_settings =
                 why.iter().cloned().map(|why| if why.is_error() { why.note(format!("with {with}")) } else { why });
-            let mut said = Diagnostics::default();
-            said.extend(told);
-            Err(said.into())
+            let mut diagnostics = Diagnostics::default();
+            diagnostics.extend(with_settings);
+            Err(diagnostics.into())
         }
         None => Ok(()),
     }
 }
 
-/// A variant as it is shown.
-struct Solved {
-    seen: Seen,
-    /// Why its motion is not there, or not all of it, with the texts that this speaks of.
+/// A solved variant.
+struct SolvedVariant {
+    visualization: Visualization,
+    /// The reason why its motion is missing or incomplete, with the texts that this refers to.
     stopped: Option<(Sources, Diagnostics)>,
 }
 
-/// What the variants have in common.
-struct Solver<'s> {
+/// The outcome of solving a variant.
+struct Attempt {
+    checked: ManuallyDrop<Checked>,
+    visualization: Option<Visualization>,
+    diagnostics: Diagnostics,
+}
+
+/// Solves the variants of a mechanism.
+struct VariantSolver<'s> {
     arguments: &'s ViewArguments,
     parsed: &'s Parsed,
     choice: &'s Choice,
-    world: &'s AskedOnce,
-    varied: &'s [Varied],
+    world: &'s CachedDisk,
+    varied: &'s [SliderRange],
 }
 
-impl Solver<'_> {
+impl VariantSolver<'_> {
     fn count(&self) -> usize {
         self.varied.iter().map(|varied| varied.values.len()).product()
     }
 
-    /// Which value of each that varies a variant has: in the order of the product, the last fastest.
-    fn places(&self, variant: usize) -> Vec<usize> {
+    /// Returns the index of each param's value in a variant; the last param varies fastest.
+    fn value_indices(&self, variant: usize) -> Vec<usize> {
         let mut rest = variant;
-        let place = |varied: &Varied| {
-            let place = rest % varied.values.len();
+        let index = |varied: &SliderRange| {
+            let index = rest % varied.values.len();
             rest /= varied.values.len();
-            place
+            index
         };
-        let mut places: Vec<usize> = self.varied.iter().rev().map(place).collect();
-        places.reverse();
-        places
+        let mut indices: Vec<usize> = self.varied.iter().rev().map(index).collect();
+        indices.reverse();
+        indices
     }
 
-    /// What sets a variant, as messages and the check have it.
+    /// Returns the settings of a variant, as `--set` takes them.
     fn settings(&self, variant: usize) -> Vec<String> {
-        let places = self.places(variant);
-        self.varied.iter().zip(places).map(|(varied, place)| varied.settings[place].clone()).collect()
+        let indices = self.value_indices(variant);
+        self.varied.iter().zip(indices).map(|(varied, index)| varied.settings[index].clone()).collect()
     }
 
-    /// All variants, and which of them is the first to be shown.
-    fn all(&self, reporter: &mut Reporter) -> Result<(Vec<Solved>, usize), Failure> {
-        let first = self.varied.iter().fold(0, |place, varied| place * varied.values.len() + varied.nearest);
-        let (checked, made, said) = self.made(first, MOST_ROWS);
+    /// Solves all variants; returns them with the index of the one to show first.
+    fn solve_all(&self, reporter: &mut Reporter) -> Result<(Vec<SolvedVariant>, usize), Failure> {
+        let first = self.varied.iter().fold(0, |index, varied| index * varied.values.len() + varied.nearest);
+        let Attempt { checked, visualization: solved, diagnostics } = self.solve(first, MAX_ROWS);
         reporter.sources = checked.sources().clone();
-        let begun = match made {
-            // it is told at the end, when the page is there
-            Some(at_rest) if !has_moved(&at_rest) => at_rest,
-            made => reporter.settle(made, said)?,
+        let template = match solved {
+            // its diagnostics follow once the page is written
+            Some(at_rest) if !has_motion(&at_rest) => at_rest,
+            solved => reporter.require(solved, diagnostics)?,
         };
-        let most = (MOST_NUMBERS / (self.count() * begun.columns.len())).clamp(2, MOST_ROWS);
-        let progress = &mut Progress::of("variants", self.count() as u64, false);
+        let max_rows = (MAX_VALUES / (self.count() * template.columns.len())).clamp(2, MAX_ROWS);
+        let progress = &mut Progress::counting("variants", self.count() as u64, false);
         let mut all = Vec::with_capacity(self.count());
         for variant in 0..self.count() {
-            let (checked, made, said) = self.made(variant, most);
-            let errors = match made.as_ref().and_then(|seen| seen.stopped.clone()) {
+            let Attempt { checked, visualization: solved, diagnostics } = self.solve(variant, max_rows);
+            let errors = match solved.as_ref().and_then(|solved| solved.stopped.clone()) {
                 Some(stop) => stop.into(),
-                None if made.as_ref().is_some_and(has_moved) => Diagnostics::default(),
-                None => errors_of(&said),
+                None if solved.as_ref().is_some_and(has_motion) => Diagnostics::default(),
+                None => errors_of(&diagnostics),
             };
             let stopped = (!errors.is_empty()).then(|| (checked.sources().clone(), errors));
-            let seen = made.unwrap_or_else(|| without_picture(said, &begun));
-            if seen.columns != begun.columns {
+            let visualization = solved.unwrap_or_else(|| without_picture(diagnostics, &template));
+            if visualization.columns != template.columns {
                 progress.finish();
-                return Err(of_other_columns(&self.settings(variant)).into());
+                return Err(different_columns(&self.settings(variant)).into());
             }
-            all.push((checked, Solved { seen, stopped }));
+            all.push((checked, SolvedVariant { visualization, stopped }));
             progress.tick();
         }
         progress.finish();
-        Ok((alike(all), first))
+        Ok((unify_scenes(all), first))
     }
 
-    /// A variant and its motion, if it has one, with what is to be said of it.
-    fn made(&self, variant: usize, most: usize) -> (ManuallyDrop<Checked>, Option<Seen>, Diagnostics) {
+    /// Solves a variant; returns its visualization, if there is one, with its diagnostics.
+    fn solve(&self, variant: usize, max_rows: usize) -> Attempt {
         let choice = Choice { varied: self.settings(variant), ..self.choice.clone() };
-        // see `run`: nothing is taken apart before the process ends
+        // see `run`: nothing is dropped before the process ends
         let checked = ManuallyDrop::new(self.parsed.check(&choice, self.world));
-        let mut said = checked.diagnostics().clone();
+        let mut diagnostics = checked.diagnostics().clone();
         if !checked.is_sound() {
-            return (checked, None, said);
+            return Attempt { checked, visualization: None, diagnostics };
         }
-        let (compiled, more) = input::proven(&checked, self.arguments.allow_redundant);
-        said.extend(more);
+        let (compiled, more) = input::prove(&checked, self.arguments.allow_redundant);
+        diagnostics.extend(more);
         let pass_bifurcations = self.arguments.pass_bifurcations;
         let options = RunOptions { pass_bifurcations, ..RunOptions::default() };
         let times = match &compiled {
@@ -139,88 +145,95 @@ impl Solver<'_> {
             Some(compiled) => match self.times(&checked, compiled) {
                 Ok(times) => Some((compiled, times)),
                 Err(why) => {
-                    said.extend(why);
+                    diagnostics.extend(why);
                     None
                 }
             },
         };
-        let seen = times.as_ref().and_then(|(compiled, times)| {
-            let (seen, more) = checked.seen(compiled, times, &options, most);
-            said.extend(more);
-            seen
+        let moving = times.as_ref().and_then(|(compiled, times)| {
+            let (moving, more) = checked.visualize(compiled, times, &options, max_rows);
+            diagnostics.extend(more);
+            moving
         });
         let from = times.as_ref().map_or(0.0, |(_, times)| times.from());
-        let seen = seen.or_else(|| checked.seen_at_rest(compiled.as_ref(), (from, &options), &said));
-        (checked, seen, said)
+        let visualization =
+            moving.or_else(|| checked.static_visualization(compiled.as_ref(), (from, &options), &diagnostics));
+        Attempt { checked, visualization, diagnostics }
     }
 
-    /// Its times, which may depend on what varies.
+    /// Returns the times of a variant, which may depend on its params.
     fn times(&self, checked: &Checked, compiled: &Compiled) -> Result<Times, Diagnostics> {
         let (arguments, mut sources) = (self.arguments, checked.sources().clone());
-        let asked = times::asked((&arguments.interval, &arguments.at), compiled.analysis(), &mut sources);
-        let times = asked.and_then(|asked| Ok(asked.whole()?));
+        let requested = input::requested_times(&arguments.interval, &arguments.at, compiled.analysis(), &mut sources);
+        let times = requested.and_then(|times| Ok(times.whole()?));
         times.map_err(|why| match why {
-            Failure::Said(said) => said,
-            Failure::ReaderGone => Diagnostics::default(),
+            Failure::Reported(diagnostics) => diagnostics,
+            Failure::ReaderClosed => Diagnostics::default(),
         })
     }
 
-    fn page(&self, variants: &[Solved], first: usize, sources: &Sources) -> Result<String, Failure> {
-        let vary = |varied: &Varied| {
-            let Varied { name, unit, values, nearest, own, .. } = varied.clone();
+    fn page(&self, variants: &[SolvedVariant], first: usize, sources: &Sources) -> Result<String, Failure> {
+        let vary = |varied: &SliderRange| {
+            let SliderRange { name, unit, values, nearest, nominal: own, .. } = varied.clone();
             Vary { name, unit, values, nearest, own }
         };
-        let shown: Vec<Variant> = variants.iter().map(|solved| page::variant(&solved.seen)).collect();
-        let text = page::written_with(&variants[first].seen, self.varied.iter().map(vary).collect(), shown, sources);
+        let shown: Vec<Variant> = variants.iter().map(|solved| page::variant(&solved.visualization)).collect();
+        let text = page::render_variants(
+            &variants[first].visualization,
+            self.varied.iter().map(vary).collect(),
+            shown,
+            sources,
+        );
         if text.len() > LONGEST {
-            let said =
+            let message =
                 format!("the page of {} variants would have {} MB", variants.len(), text.len().div_ceil(1_000_000));
             let help = format!("it has {} at most: ask for fewer values", LONGEST / 1_000_000);
-            return Err(unusable(said).help(help).into());
+            return Err(unusable(message).help(help).into());
         }
         Ok(text)
     }
 
-    /// How large the page is, and which variants are not whole.
-    fn tell(&self, variants: &[Solved], size: usize, reporter: &mut Reporter) {
-        let broken: Vec<usize> = (0..variants.len()).filter(|&variant| variants[variant].stopped.is_some()).collect();
-        let why = broken.first().and_then(|&variant| Some((variant, variants[variant].stopped.as_ref()?)));
-        if reporter.is_for_programs() {
-            if let Some((_, (sources, said))) = why {
+    /// Prints the size of the page, and which variants are incomplete.
+    fn print_summary(&self, variants: &[SolvedVariant], size: usize, reporter: &mut Reporter) {
+        let incomplete: Vec<usize> =
+            (0..variants.len()).filter(|&variant| variants[variant].stopped.is_some()).collect();
+        let why = incomplete.first().and_then(|&variant| Some((variant, variants[variant].stopped.as_ref()?)));
+        if reporter.is_machine_readable() {
+            if let Some((_, (sources, diagnostics))) = why {
                 reporter.sources = sources.clone();
-                reporter.print(said);
+                reporter.print(diagnostics);
             }
             return;
         }
         let count = variants.len();
-        let mut told = format!("{count} variants, {} kB\n", size.div_ceil(1000));
-        if let Some((variant, (_, said))) = why {
+        let mut text = format!("{count} variants, {} kB\n", size.div_ceil(1000));
+        if let Some((variant, (_, diagnostics))) = why {
             let with = self.settings(variant).join(", ");
-            told += &format!("{} of them cannot be shown whole; the first is that with {with}:\n", broken.len());
-            if let Some(error) = said.iter().find(|said| said.is_error()) {
-                told += &format!("  {}[{}]: {}\n", error.severity().as_str(), error.code, error.message);
+            text += &format!("{} of them cannot be shown whole; the first is that with {with}:\n", incomplete.len());
+            if let Some(error) = diagnostics.iter().find(|diagnostic| diagnostic.is_error()) {
+                text += &format!("  {}[{}]: {}\n", error.severity().as_str(), error.code, error.message);
             }
         }
-        Reporter::say(&told);
+        Reporter::print_text(&text);
     }
 }
 
-/// Whether there is a motion, be it whole or not.
-fn has_moved(seen: &Seen) -> bool {
-    !seen.motion.rows().is_empty()
+/// Returns whether there is a motion, complete or not.
+fn has_motion(visualization: &Visualization) -> bool {
+    !visualization.motion.rows().is_empty()
 }
 
-fn errors_of(said: &Diagnostics) -> Diagnostics {
+fn errors_of(diagnostics: &Diagnostics) -> Diagnostics {
     let mut errors = Diagnostics::default();
-    for error in said.iter().filter(|said| said.is_error()) {
+    for error in diagnostics.iter().filter(|diagnostic| diagnostic.is_error()) {
         errors.push(error.clone());
     }
     errors
 }
 
-/// What is seen of a variant that is not sound: nothing but its text.
-fn without_picture(said: Diagnostics, begun: &Seen) -> Seen {
-    let mut scene = begun.scene.clone();
+/// Returns the empty visualization of an unsound variant, which shows only its text and diagnostics.
+fn without_picture(diagnostics: Diagnostics, template: &Visualization) -> Visualization {
+    let mut scene = template.scene.clone();
     scene.frames.truncate(1);
     scene.points.clear();
     scene.nodes.clear();
@@ -229,33 +242,37 @@ fn without_picture(said: Diagnostics, begun: &Seen) -> Seen {
     scene.contacts.clear();
     scene.named.clear();
     let motion = Motion::still(vec![Pose::default()]);
-    let results = begun.results.iter().map(|(name, unit, _)| (name.clone(), unit.clone(), None)).collect();
-    Seen { scene, motion, all_rows: 0, stopped: None, said, results, ..begun.clone() }
+    let results = template.results.iter().map(|(name, unit, _)| (name.clone(), unit.clone(), None)).collect();
+    Visualization { scene, motion, all_rows: 0, stopped: None, diagnostics: diagnostics, results, ..template.clone() }
 }
 
-/// All have symbols of one size and the extent of all, so that nothing jumps when a slider moves.
-fn alike(all: Vec<(ManuallyDrop<Checked>, Solved)>) -> Vec<Solved> {
-    let mut units: Vec<f64> =
-        all.iter().filter(|(_, solved)| has_moved(&solved.seen)).map(|(_, solved)| solved.seen.scene.unit).collect();
+/// Gives all variants the same size of symbols and a common extent, so that the picture does not jump when a slider moves.
+fn unify_scenes(all: Vec<(ManuallyDrop<Checked>, SolvedVariant)>) -> Vec<SolvedVariant> {
+    let mut units: Vec<f64> = all
+        .iter()
+        .filter(|(_, solved)| has_motion(&solved.visualization))
+        .map(|(_, solved)| solved.visualization.scene.unit)
+        .collect();
     units.sort_by(f64::total_cmp);
     let unit = units.get(units.len() / 2).copied();
-    let redrawn = |(checked, mut solved): (ManuallyDrop<Checked>, Solved)| {
-        let seen = &solved.seen;
-        let scene = unit.filter(|_| has_moved(seen)).and_then(|unit| checked.drawn_with_symbols(seen, unit));
-        solved.seen.scene = scene.unwrap_or(solved.seen.scene);
+    let redrawn = |(checked, mut solved): (ManuallyDrop<Checked>, SolvedVariant)| {
+        let visualization = &solved.visualization;
+        let scene = unit.filter(|_| has_motion(visualization));
+        let scene = scene.and_then(|unit| checked.scene_with_symbols(visualization, unit));
+        solved.visualization.scene = scene.unwrap_or(solved.visualization.scene);
         solved
     };
-    let mut all: Vec<Solved> = all.into_iter().map(redrawn).collect();
-    let drawn = all.iter().map(|solved| &solved.seen.scene).filter(|scene| !scene.nodes.is_empty());
+    let mut all: Vec<SolvedVariant> = all.into_iter().map(redrawn).collect();
+    let drawn = all.iter().map(|solved| &solved.visualization.scene).filter(|scene| !scene.nodes.is_empty());
     if let Some(extent) = bounds(drawn.flat_map(|scene| scene.extent)) {
         for solved in &mut all {
-            solved.seen.scene.extent = extent;
+            solved.visualization.scene.extent = extent;
         }
     }
     all
 }
 
-fn of_other_columns(settings: &[String]) -> Diagnostic {
+fn different_columns(settings: &[String]) -> Diagnostic {
     unusable(format!("with {} there are other columns, and one page cannot show both", settings.join(", ")))
         .help("write a page for each, with `--set`")
 }

@@ -234,11 +234,11 @@ impl<'t> Moment<'t> {
             let (frame, at) = (&self.frames[mass.frame], self.local(mass.at));
             let place = frame.place(at);
             let weight = forces.gravity.map(|part| mass.amount * part);
-            let asked = frame.acceleration_of(at).map(|part| mass.amount * part);
+            let requested = frame.acceleration_of(at).map(|part| mass.amount * part);
             let turning = mass.inertia * frame.acceleration[2];
             let (given, needed) = &mut bodies[mass.frame];
             given.push([weight[0], weight[1], cross(place, weight)]);
-            for (sum, part) in needed.iter_mut().zip([asked[0], asked[1], cross(place, asked) + turning]) {
+            for (sum, part) in needed.iter_mut().zip([requested[0], requested[1], cross(place, requested) + turning]) {
                 *sum += part;
             }
         }

@@ -2,7 +2,7 @@
 
 use super::holds;
 use mechc_text::vocabulary::{
-    CONSTANTS, FUNCTIONS, JOINTS, KEYWORDS, Keyword, QUANTITIES, REDUCTIONS, Role, StandsFor, UNITS, is_before_a_name,
+    CONSTANTS, FUNCTIONS, JOINTS, KEYWORDS, Keyword, NamedConstant, QUANTITIES, REDUCTIONS, Role, UNITS, declares_name,
 };
 use serde_json::{Value, json};
 use std::collections::BTreeSet;
@@ -25,10 +25,10 @@ fn list(name: &str) -> Vec<&'static str> {
         "declarations" => keywords(Keyword::begins_declaration),
         "formula" => with_role(Role::Formula),
         "separators" => with_role(Role::Separator),
-        "openers" => keywords(|keyword| keyword.role.is_opener() && is_before_a_name(keyword.word.name)),
+        "openers" => keywords(|keyword| keyword.role.is_opener() && declares_name(keyword.word.name)),
         // what opens a declaration without a name is told by what follows, as what stands between parts is
         "places" => keywords(|keyword| {
-            let is_nameless = keyword.role.is_opener() && !is_before_a_name(keyword.word.name);
+            let is_nameless = keyword.role.is_opener() && !declares_name(keyword.word.name);
             is_nameless || matches!(keyword.role, Role::Separator | Role::Place)
         }),
         "all_openers" => keywords(|keyword| keyword.role.is_opener()),
@@ -39,7 +39,7 @@ fn list(name: &str) -> Vec<&'static str> {
         "functions" => FUNCTIONS.iter().map(|function| function.word.name).collect(),
         "motions" => FUNCTIONS.iter().filter(|one| one.is_motion()).map(|function| function.word.name).collect(),
         "constants" => {
-            CONSTANTS.iter().filter(|one| one.stands_for != StandsFor::Ground).map(|one| one.word.name).collect()
+            CONSTANTS.iter().filter(|one| one.stands_for != NamedConstant::Ground).map(|one| one.word.name).collect()
         }
         "units" => UNITS.iter().map(|unit| unit.word.name).collect(),
         "called" => {

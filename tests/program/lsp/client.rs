@@ -2,7 +2,7 @@
 
 use lsp_server::{Connection, Message, Notification, Request, Response};
 use mechc::{Memory, World};
-use mechc_ide::lsp::{Ended, Log, serve};
+use mechc_ide::lsp::{Log, SessionEnd, serve};
 use serde_json::{Value, json};
 use std::collections::{BTreeMap, VecDeque};
 use std::sync::Arc;
@@ -14,7 +14,7 @@ const PATIENCE: Duration = Duration::from_secs(20);
 
 pub struct Client {
     connection: Connection,
-    server: JoinHandle<Ended>,
+    server: JoinHandle<SessionEnd>,
     next_id: i32,
     /// What came while something else was waited for.
     waiting: VecDeque<Message>,
@@ -116,14 +116,14 @@ impl Client {
     /// What the server next says of a text: its version and each diagnostic, as a line.
     pub fn published(&mut self, uri: &str) -> (i64, Vec<String>) {
         let message = self.wait_for(|message| match message {
-            Message::Notification(told) => {
-                told.method == "textDocument/publishDiagnostics" && told.params["uri"] == uri
+            Message::Notification(reported) => {
+                reported.method == "textDocument/publishDiagnostics" && reported.params["uri"] == uri
             }
             _ => false,
         });
-        let Message::Notification(told) = message else { unreachable!("it is one") };
-        let diagnostics = told.params["diagnostics"].as_array().expect("a list");
-        (told.params["version"].as_i64().unwrap_or_default(), diagnostics.iter().map(line).collect())
+        let Message::Notification(reported) = message else { unreachable!("it is one") };
+        let diagnostics = reported.params["diagnostics"].as_array().expect("a list");
+        (reported.params["version"].as_i64().unwrap_or_default(), diagnostics.iter().map(line).collect())
     }
 
     /// Asks for the diagnostics of a text.
@@ -137,14 +137,14 @@ impl Client {
         let begin = Instant::now();
         loop {
             let report = self.request("textDocument/diagnostic", json!({ "textDocument": { "uri": uri } }));
-            let mut told: Vec<String> = report["items"].as_array().expect("a list").iter().map(line).collect();
+            let mut reported: Vec<String> = report["items"].as_array().expect("a list").iter().map(line).collect();
             let mut expected = expected.to_vec();
-            told.sort();
+            reported.sort();
             expected.sort();
-            if told == expected {
+            if reported == expected {
                 return;
             }
-            assert!(begin.elapsed() < patience, "it says\n{}\nand not\n{}", told.join("\n"), expected.join("\n"));
+            assert!(begin.elapsed() < patience, "it says\n{}\nand not\n{}", reported.join("\n"), expected.join("\n"));
             thread::sleep(Duration::from_millis(5));
         }
     }
@@ -173,11 +173,11 @@ impl Client {
     pub fn end(mut self) {
         assert_eq!(self.request("shutdown", Value::Null), Value::Null);
         self.notify("exit", Value::Null);
-        assert_eq!(self.server.join().expect("it does not panic"), Ended::Well, "it ended in order");
+        assert_eq!(self.server.join().expect("it does not panic"), SessionEnd::Well, "it ended in order");
     }
 
     /// Goes without a word; what the server takes that for.
-    pub fn vanish(self) -> Ended {
+    pub fn vanish(self) -> SessionEnd {
         drop(self.connection);
         self.server.join().expect("it does not panic")
     }

@@ -103,8 +103,8 @@ fn what_was_said_and_done_is_written_down_with_the_time() {
     for line in text.lines() {
         let (time, rest) = line.trim_start().split_once(' ').expect("a time and more");
         assert!(time.parse::<f64>().is_ok_and(|time| time >= 0.0), "{line}");
-        let (mark, said) = rest.split_once(' ').expect("a mark and what was said");
-        let is_message = || serde_json::from_str::<Value>(said).is_ok_and(|value| value.is_object());
+        let (mark, diagnostics) = rest.split_once(' ').expect("a mark and what was said");
+        let is_message = || serde_json::from_str::<Value>(diagnostics).is_ok_and(|value| value.is_object());
         assert!(mark == "·" || ["<", ">"].contains(&mark) && is_message(), "{line}");
     }
     for expected in ["< {\"id\":1,\"method\":\"initialize\"", "> {\"id\":1,\"result\"", "· Words of /lever.mech took"]
@@ -114,7 +114,7 @@ fn what_was_said_and_done_is_written_down_with_the_time() {
 }
 
 #[test]
-fn a_log_that_cannot_be_written_is_told() {
+fn a_log_that_cannot_be_written_is_reported() {
     let output = Command::new(binary()).args(["lsp", "--log", "/nowhere/lsp.log"]).output().expect("it runs");
     assert_eq!(output.status.code(), Some(4));
     assert!(String::from_utf8_lossy(&output.stderr).contains("cannot write `/nowhere/lsp.log`"));

@@ -13,7 +13,7 @@ fn text() -> Value {
 }
 
 /// What a panel is answered: the JSON before the table.
-fn asked(client: &mut Client, set: &Value) -> String {
+fn requested(client: &mut Client, set: &Value) -> String {
     let params = json!({ "textDocument": { "uri": URI }, "asked": { "page": "panel", "set": set } });
     let answer = client.request("mechc/view/ask", params);
     decoded(answer["data"].as_str().expect("a text"))
@@ -35,8 +35,10 @@ fn decoded(text: &str) -> String {
 }
 
 fn news(client: &mut Client) -> Value {
-    match client.wait_for(|told| matches!(told, Message::Notification(told) if told.method == "mechc/view/news")) {
-        Message::Notification(told) => told.params,
+    match client.wait_for(
+        |reported| matches!(reported, Message::Notification(reported) if reported.method == "mechc/view/news"),
+    ) {
+        Message::Notification(reported) => reported.params,
         other => panic!("{other:?}"),
     }
 }
@@ -48,11 +50,11 @@ fn a_panel_follows_the_text_and_the_cursor() {
     let panel = client.request("mechc/view/panel", text());
     assert!(panel["html"].as_str().is_some_and(|html| html.contains("<script>")));
     assert_eq!(news(&mut client)["version"], 1);
-    assert!(asked(&mut client, &json!([])).contains("slider_crank"));
+    assert!(requested(&mut client, &json!([])).contains("slider_crank"));
     let change = edit(&mut own, "mechanism slider_crank", "mechanism another_name");
     client.change(URI, &change);
     assert_eq!(news(&mut client)["version"], 2);
-    assert!(asked(&mut client, &json!([])).contains("another_name"), "the page has the text of before");
+    assert!(requested(&mut client, &json!([])).contains("another_name"), "the page has the text of before");
     let mut pointed = text();
     pointed["position"] = position(&own, "another_name");
     client.notify("mechc/cursor", pointed);
@@ -70,7 +72,7 @@ fn a_panel_whose_text_is_closed_follows_the_file() {
     assert_eq!(news(&mut client)["version"], 1);
     client.notify("textDocument/didClose", text());
     assert_eq!(news(&mut client)["version"], 2);
-    assert!(asked(&mut client, &json!([])).contains("on_disk"), "the page has the text that was closed");
+    assert!(requested(&mut client, &json!([])).contains("on_disk"), "the page has the text that was closed");
     // what it writes opens the text again
     let change = json!({ "name": "rod_length", "old": value_of("rod_length"), "value": 321.5 });
     let mut params = text();
@@ -83,7 +85,7 @@ fn a_panel_whose_text_is_closed_follows_the_file() {
     let change = edit(&mut own, "mechanism slider_crank", "mechanism another_name");
     client.change(URI, &change);
     assert!(news(&mut client)["version"].as_u64() > Some(2), "a panel that was there before is told nothing");
-    assert!(asked(&mut client, &json!([])).contains("another_name"));
+    assert!(requested(&mut client, &json!([])).contains("another_name"));
     client.notify("mechc/view/close", text());
     client.end();
 }
@@ -147,9 +149,9 @@ fn an_edit_is_of_the_version_that_the_client_has_and_may_be_refused() {
         let edit = edited(&mut client, &answer)["documentChanges"][0].clone();
         assert_eq!(edit["textDocument"], json!({ "uri": URI, "version": 2 }));
         assert!("321.5".contains(edit["edits"][0]["newText"].as_str().expect("a text")), "{edit}");
-        let told = result(&mut client, write);
-        let says = told["refused"].as_str().unwrap_or("written");
-        assert!(says.contains(wanted), "{told}");
+        let reported = result(&mut client, write);
+        let says = reported["refused"].as_str().unwrap_or("written");
+        assert!(says.contains(wanted), "{reported}");
     }
     client.end();
 }

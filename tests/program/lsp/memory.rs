@@ -21,8 +21,8 @@ const LARGEST_GROWTH: i64 = 10_000_000;
 
 /// The memory of a process that is in use (bytes).
 fn resident(pipe: &Pipe) -> i64 {
-    let told = std::fs::read_to_string(format!("/proc/{}/statm", pipe.id())).expect("it runs");
-    let pages = told.split(' ').nth(1).and_then(|pages| pages.parse::<i64>().ok()).expect("a number");
+    let reported = std::fs::read_to_string(format!("/proc/{}/statm", pipe.id())).expect("it runs");
+    let pages = reported.split(' ').nth(1).and_then(|pages| pages.parse::<i64>().ok()).expect("a number");
     pages * 4096
 }
 

@@ -179,7 +179,7 @@ impl Session {
             fresh.open(uri, text);
         }
         for (uri, text) in &self.texts {
-            let expected = said(&self.texts, uri, &self.world);
+            let expected = messages(&self.texts, uri, &self.world);
             self.client.pulls_until(uri, &expected, PATIENCE);
             fresh.pulls_until(uri, &expected, PATIENCE);
             for _ in 0..10 {
@@ -237,7 +237,7 @@ fn anything(uri: &str, [start, end]: [(usize, usize); 2]) -> Value {
 }
 
 /// What all stages say of a text, found without a server: line and column as the protocol counts them, code, message.
-fn said(texts: &BTreeMap<String, String>, uri: &str, world: &Arc<Shelf>) -> Vec<String> {
+fn messages(texts: &BTreeMap<String, String>, uri: &str, world: &Arc<Shelf>) -> Vec<String> {
     let mut snapshot = Snapshot::new(Arc::clone(world) as Arc<dyn World>);
     let path = |uri: &str| -> Arc<Path> { Path::new(uri.strip_prefix("file://").expect("a file")).into() };
     for (uri, text) in texts {
@@ -245,7 +245,7 @@ fn said(texts: &BTreeMap<String, String>, uri: &str, world: &Arc<Shelf>) -> Vec<
     }
     let text = &texts[uri];
     let of = |stage| ide::diagnostics(&snapshot, &path(uri), stage, &Cancel::default).expect("nobody cancels it");
-    let line = |said: ide::Said| {
+    let line = |said: ide::EditorDiagnostic| {
         let (line, column) = position(text, said.range.start as usize);
         format!("{}:{} {} {}", line + 1, column + 1, said.code, said.message)
     };

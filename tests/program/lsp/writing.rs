@@ -78,8 +78,8 @@ fn uses_are_found_in_files_of_the_folder() {
     let uri = "file:///w/lever.mech";
     client.open(uri, LEVER);
     let context = json!({ "includeDeclaration": false });
-    let asked = with(at(uri, LEVER, "tip"), "context", context);
-    assert_eq!(some(&mut client, "textDocument/references", &asked)[0]["uri"], URI);
+    let requested = with(at(uri, LEVER, "tip"), "context", context);
+    assert_eq!(some(&mut client, "textDocument/references", &requested)[0]["uri"], URI);
     client.end();
 }
 
@@ -128,9 +128,9 @@ fn fixes_and_refactorings_are_offered_as_they_are_asked_for() {
     let start = position(&text, "arn.tip");
     let actions = |client: &mut Client, only: Value| {
         let context = json!({ "diagnostics": [], "only": only });
-        let asked =
+        let requested =
             json!({ "textDocument": { "uri": URI }, "range": { "start": start, "end": start }, "context": context });
-        client.request("textDocument/codeAction", asked)
+        client.request("textDocument/codeAction", requested)
     };
     let offered = actions(&mut client, json!(["quickfix"]));
     assert_eq!(edited(&text, &offered[0]["edit"]["changes"][URI]), USER, "{offered}");

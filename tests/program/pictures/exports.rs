@@ -256,7 +256,7 @@ fn turning(turns: u32) -> String {
 }
 
 /// The lines of a layer.
-fn lines_of(seen: &mechc::Seen, layer: &str) -> Vec<Polyline> {
+fn lines_of(seen: &mechc::Visualization, layer: &str) -> Vec<Polyline> {
     let file = dxf::written(&seen.scene, &seen.motion, seen.motion.poses(0), &[], 1.0).expect("a trace");
     read_dxf(&file).0.into_iter().filter(|(known, ..)| known == layer).collect()
 }
@@ -295,12 +295,12 @@ fn a_line_that_is_not_drawn_to_its_end_says_so() {
         trace ring = crank.P
         analysis from 0 s to 900 s every 1 s
     }";
-    let (seen, said) = refined(Path::new("m.mech"), text, |_| CurveTolerance {
+    let (seen, diagnostics) = refined(Path::new("m.mech"), text, |_| CurveTolerance {
         most_rows: 2000,
         ..CurveTolerance::to_cut(1.0, Vec::new())
     });
-    let said: Vec<&Diagnostic> = said.iter().collect();
-    let [warning] = said[..] else { panic!("{said:?}") };
+    let diagnostics: Vec<&Diagnostic> = diagnostics.iter().collect();
+    let [warning] = diagnostics[..] else { panic!("{diagnostics:?}") };
     assert_eq!(warning.code, Code::W0701);
     assert!(warning.message.contains("`rosette`"), "{warning:?}");
     let end = warning.data["t"].as_f64().expect("a time");
@@ -424,7 +424,7 @@ fn pictures_show_the_same_lines_however_few_rows_there_are() {
 
 #[test]
 fn poles_squash_no_plot() {
-    let wanted = |seen: &mechc::Seen| CurveTolerance {
+    let wanted = |seen: &mechc::Visualization| CurveTolerance {
         columns: vec!["pole".to_owned()],
         ..CurveTolerance::of_picture(seen, Vec::new())
     };

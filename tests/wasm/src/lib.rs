@@ -2,10 +2,10 @@
 //!
 //! A text is handed over byte by byte, and so is the answer: that is slow, and needs nothing but numbers.
 
-#[path = "../../support/deepest.rs"]
-mod deepest;
+#[path = "../../support/deep_texts.rs"]
+mod deep_texts;
 
-use deepest::{all_ways, deepest, table};
+use deep_texts::{run_all_stages, deep_texts, table};
 use mechc::{Cancel, Choice, Color, Format, Memory, Parsed, Redundant, render};
 use std::cell::RefCell;
 
@@ -63,8 +63,8 @@ fn table_of(mut texts: impl Iterator<Item = String>) -> Result<String, String> {
 /// What becomes of the text that is deep in one of the ways that there are; 0 where there is no such way.
 #[unsafe(no_mangle)]
 pub extern "C" fn run_deep(way: usize) -> usize {
-    deepest().get(way).map_or(0, |deep| {
-        answered(match all_ways(deep) {
+    deep_texts().get(way).map_or(0, |deep| {
+        answered(match run_all_stages(deep) {
             Ok(table) => format!("{}: ok\n{table}", deep.name),
             Err(said) => format!("{}: refused\n{said}", deep.name),
         })

@@ -1,16 +1,16 @@
-//! Bodies as links: a disc, a bar, a rounded plate around what joints take hold of; the cross of a frame where nothing does.
+//! Bodies as links: a disc, a bar or a rounded plate around the positions of joints, or the axes of the frame if there are none.
 
 use super::Look;
 use super::drawing::{DOT, Drawing, Layer, Outline, shape};
 use super::plane::{Path, Vector, around, distance, hull, plus};
 use super::symbols::{BAR, SLOTTED_BAR, Symbols};
 
-/// Places of a body that are nearer to each other than this, in units, are one.
-const NEAR: f64 = 0.02;
-/// How long a body is that is held in one place alone, in units.
+/// Positions of a body closer than this are one (symbol units).
+const SAME_POSITION: f64 = 0.02;
+/// Length of a body with a single position (symbol units).
 const STUB: f64 = 1.6;
 
-/// Whether all corners lie in a disc that is drawn of the body.
+/// Returns whether all corners lie in one disc of the body.
 fn is_covered(outline: &Outline, corners: &[Vector]) -> bool {
     outline
         .discs
@@ -18,13 +18,13 @@ fn is_covered(outline: &Outline, corners: &[Vector]) -> bool {
         .any(|(center, radius)| corners.iter().all(|corner| distance(*corner, *center) <= 1.001 * radius))
 }
 
-/// Gives a body that is shown by something else a group of its own.
-fn show(drawing: &mut Drawing, frame: usize) {
+/// Makes sure that a body which other shapes show has a node of its own.
+fn add_missing_node(drawing: &mut Drawing, frame: usize) {
     if drawing.has_node(frame) || drawing.declare_block(frame) {
         return;
     }
-    let places = &drawing.outlines[frame].places;
-    let at = places.first().copied().unwrap_or([0.0; 2]);
+    let positions = &drawing.outlines[frame].positions;
+    let at = positions.first().copied().unwrap_or([0.0; 2]);
     let dot = Path::Circle { at, radius: DOT * drawing.unit };
     drawing.add_fixed(Layer::Bodies, frame, frame, vec![shape(Look::Dot, dot)]);
 }
@@ -32,16 +32,16 @@ fn show(drawing: &mut Drawing, frame: usize) {
 pub(super) fn draw(drawing: &mut Drawing) {
     for frame in 1..drawing.outlines.len() {
         let outline = &drawing.outlines[frame];
-        let corners = hull(&outline.places, NEAR * drawing.unit);
+        let corners = hull(&outline.positions, SAME_POSITION * drawing.unit);
         let shapes = match corners.as_slice() {
             [] | [_] if outline.is_shown => {
-                show(drawing, frame);
+                add_missing_node(drawing, frame);
                 continue;
             }
             corners if !corners.is_empty() && is_covered(outline, corners) => continue,
             [] => vec![Symbols { unit: drawing.unit }.cross()],
             [at] => {
-                // a stub, so that it is seen to turn
+                // a stub makes the rotation visible
                 let stub = [*at, plus(*at, [STUB * drawing.unit, 0.0])];
                 vec![shape(Look::Link, around(&stub, BAR * drawing.unit))]
             }

@@ -1,28 +1,39 @@
-//! All symbols in one picture, for the docs: each alone, with its name.
+//! Catalogue of all symbols in one picture, for the documentation.
 
 use super::drawing::shape;
 use super::plane::{Path, Pose, Vector, around, hull, plus, polar};
 use super::symbols::{BAR, SLOT, SLOTTED_BAR, Symbols};
 use super::teeth::{Rack, Wheel};
-use super::{Anchor, Declaration, Held, Look, Motion, Node, Place, Scene, Shape};
+use super::{Alignment, Anchor, Attachment, Declaration, Look, Motion, Node, Scene, Shape};
 use mechc_text::source::Span;
 use std::f64::consts::{PI, TAU};
 
-/// From one symbol to the next, in units.
+/// Distance from one symbol to the next (symbol units).
 const CELL: Vector = [8.4, 7.6];
-/// How many stand side by side.
+/// Number of symbols in a row.
 const COLUMNS: usize = 4;
 
-/// A symbol with its name: the shapes of the ground and of two bodies, from below; and a spring's ends, if it is one.
+/// A symbol with its name: shapes by frame (the ground and two bodies), bottom first, and the ends of a spring.
 struct Entry {
     name: &'static str,
     shapes: Vec<(usize, Shape)>,
     spring: Option<[Vector; 2]>,
 }
 
-/// A scene of all symbols, a motion in which it rests, and their names with their places.
+/// All symbols with their names.
+#[derive(Debug)]
+pub struct Catalogue {
+    /// Scene of the symbols.
+    pub scene: Scene,
+    /// Motion in which they rest.
+    pub motion: Motion,
+    /// Captions with their positions (m).
+    pub captions: Vec<(Vector, String)>,
+}
+
+/// Returns the catalogue of all symbols, whose declarations have a span.
 #[must_use]
-pub fn catalogue(span: Span) -> (Scene, Motion, Vec<(Vector, String)>) {
+pub fn catalogue(span: Span) -> Catalogue {
     let symbols = Symbols { unit: 1.0 };
     let entries = [
         pivot(symbols),
@@ -48,12 +59,12 @@ pub fn catalogue(span: Span) -> (Scene, Motion, Vec<(Vector, String)>) {
         let declaration = declarations.len() - 1;
         if let Some([from, to]) = entry.spring {
             let [from, to] = [from, to].map(|end| Anchor { frame: 0, at: plus(at, end) });
-            let place = Place::Between { from, to, held: Held::Stretched };
-            nodes.push(Node { declaration, place, shapes: vec![symbols.spring(5)] });
+            let attachment = Attachment::Between { from, to, alignment: Alignment::Stretch };
+            nodes.push(Node { declaration, attachment, shapes: vec![symbols.spring(5)] });
         }
         for (frame, part) in entry.shapes {
-            let shapes = vec![Shape { path: part.path.moved(&pose), ..part }];
-            nodes.push(Node { declaration, place: Place::Fixed(frame), shapes });
+            let shapes = vec![Shape { path: part.path.transform(&pose), ..part }];
+            nodes.push(Node { declaration, attachment: Attachment::Fixed(frame), shapes });
         }
         captions.push((plus(at, [0.0, -3.5]), entry.name.to_owned()));
     }
@@ -78,7 +89,7 @@ pub fn catalogue(span: Span) -> (Scene, Motion, Vec<(Vector, String)>) {
         named: Vec::new(),
         remarks: Vec::new(),
     };
-    (scene, Motion::still(vec![Pose::default(); 3]), captions)
+    Catalogue { scene, motion: Motion::still(vec![Pose::default(); 3]), captions }
 }
 
 fn bar(ends: &[Vector], reach: f64) -> Shape {
@@ -152,14 +163,14 @@ fn rack(symbols: Symbols) -> Entry {
     entry("rack and pinion", vec![(1, toothed(&wheel)), (2, row), (1, circle), (2, line), (1, pin)])
 }
 
-/// An egg around a place.
+/// Returns an egg-shaped cam around a position.
 fn egg(at: Vector) -> Shape {
     let radius = |angle: f64| 1.3 + 0.45 * mechc_expr::math::cos(angle - 0.5 * PI);
-    let place = |k: u32| {
+    let position = |k: u32| {
         let angle = TAU * f64::from(k) / 72.0;
         plus(at, polar(radius(angle), angle))
     };
-    shape(Look::Cam, Path::polygon((0..72).map(place)))
+    shape(Look::Cam, Path::polygon((0..72).map(position)))
 }
 
 fn cam(symbols: Symbols) -> Entry {
@@ -196,7 +207,7 @@ fn spring(symbols: Symbols) -> Entry {
 fn driver(symbols: Symbols) -> Entry {
     let mut shapes: Vec<(usize, Shape)> = symbols.foot([-0.9, -0.4]).into_iter().map(|part| (0, part)).collect();
     shapes.extend([(1, bar(&[[-0.9, -0.4], [2.0, 0.5]], BAR)), (1, symbols.pin([-0.9, -0.4], None))]);
-    let arrow = symbols.turning([-0.9, -0.4], 1.75, 0.2 * PI, 0.85 * PI, false);
+    let arrow = symbols.arc_arrow([-0.9, -0.4], 1.75, 0.2 * PI, 0.85 * PI, false);
     shapes.extend(arrow.into_iter().map(|part| (0, part)));
     entry("driver", shapes)
 }

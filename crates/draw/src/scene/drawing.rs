@@ -1,17 +1,17 @@
-//! A scene in the making: what all kinds of symbols share.
+//! Scene under construction: the state and helpers that all symbols share.
 
-use super::features::Features;
+use super::features::{Features, PartFrame};
 use super::plane::{Path, Vector, bounds, distance};
-use super::{Anchor, Look, Motion, Node, Pen, Place, Profile, Sample, Shape, Trace};
+use super::{Anchor, Attachment, Look, Motion, Node, Pen, Profile, Sample, Shape, Trace};
 use mechc_lang::model::{self, PointId};
 use std::f64::consts::PI;
 
-/// What is drawn above what, from below.
+/// Drawing order, the bottom layer first.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub(super) enum Layer {
     Ground,
     Wheels,
-    /// What holds pins on the ground, which is seen before a wheel.
+    /// Supports of pins, in front of wheels.
     Feet,
     Bodies,
     Slots,
@@ -21,28 +21,28 @@ pub(super) enum Layer {
     Arrows,
 }
 
-/// The radius of a dot, in units.
+/// Radius of a dot (symbol units).
 pub(super) const DOT: f64 = 0.17;
-/// Rows that are looked at to learn how far something goes.
-pub(super) const LOOKED_AT: usize = 400;
-/// Places on a profile.
-const PLACES_ON_PROFILE: u32 = 360;
-/// What the cubic between two samples may be off the profile (m), and how often a way is halved to keep to that.
-const CUBIC_OFF: f64 = 1e-9;
+/// Number of rows that are sampled for the range of a motion.
+pub(super) const SAMPLED_ROWS: usize = 400;
+/// Number of intervals of a profile.
+const PROFILE_INTERVALS: u32 = 360;
+/// Tolerance (m) of the cubic between two samples of a profile, and the limit of halvings to meet it.
+const CUBIC_TOLERANCE: f64 = 1e-9;
 const DEEPEST: u32 = 8;
-/// A profile is closed if its ends are no farther apart than this part of its size.
+/// A profile is closed if its ends are closer than this part of its size.
 const CLOSED: f64 = 1e-6;
 
-/// What is to become the outline of a body.
+/// Outline of a body under construction.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Outline {
-    /// Places in its frame that it holds (m).
-    pub places: Vec<Vector>,
-    /// Whether something else shows the body, if it is no more than a place.
+    /// Positions in the frame that the outline encloses (m).
+    pub positions: Vec<Vector>,
+    /// True if other shapes show the body, so that a single position needs no link.
     pub is_shown: bool,
-    /// Whether there is a slot in it, for which it has to be wider.
+    /// True if it has a slot, for which it has to be wider.
     pub is_slotted: bool,
-    /// Discs that are drawn of it, with their centres and radii (m): what lies in one of them needs no link.
+    /// Discs of the body, with centres and radii (m): positions in one of them need no link.
     pub discs: Vec<(Vector, f64)>,
 }
 
@@ -50,22 +50,22 @@ pub(super) struct Drawing<'m> {
     pub features: Features<'m>,
     pub motion: &'m Motion,
     pub unit: f64,
-    /// By frame.
+    /// Outlines by frame.
     pub outlines: Vec<Outline>,
-    /// Where pins stand on the ground (m).
+    /// Positions of supports on the ground (m).
     pub feet: Vec<Vector>,
     pub pins: Vec<super::Pin>,
     pub profiles: Vec<Profile>,
-    /// Of wheels, rings and racks.
+    /// Pitch lines of gears, ring gears and racks.
     pub pitch_lines: Vec<super::PitchLine>,
-    /// The number of each model point among the points of the scene.
-    pub numbers: Vec<Option<usize>>,
-    /// The declarations of the first joint, equation, circle and curve.
+    /// For each point of the model its index among the points of the scene.
+    pub point_indices: Vec<Option<usize>>,
+    /// First declaration of each kind.
     pub first: First,
     pub nodes: Vec<(Layer, Node)>,
 }
 
-/// Where the declarations of a kind begin.
+/// Indices of the first declarations of each kind.
 #[derive(Clone, Copy, Default)]
 pub(super) struct First {
     pub circles: usize,
@@ -83,53 +83,53 @@ impl Drawing<'_> {
 
     /// Adds shapes that move with a frame.
     pub fn add_fixed(&mut self, layer: Layer, declaration: usize, frame: usize, shapes: Vec<Shape>) {
-        self.add(layer, Node { declaration, place: Place::Fixed(frame), shapes });
+        self.add(layer, Node { declaration, attachment: Attachment::Fixed(frame), shapes });
     }
 
-    /// The number of a point in the scene; of a joint's two the first that has a name and is on a body.
-    pub fn shown(&self, points: &[PointId]) -> Option<usize> {
+    /// Returns the index of a point in the scene: the first one that has a name, preferably on a body.
+    pub fn point_index(&self, points: &[PointId]) -> Option<usize> {
         let on_body = points.iter().find(|id| self.features.frame(self.features.model[**id].frame) > 0);
-        let named = |id: &PointId| self.numbers[id.index()];
+        let named = |id: &PointId| self.point_indices[id.index()];
         on_body.and_then(named).or_else(|| points.iter().find_map(named))
     }
 
-    /// What a number is along the motion at least and at most, in some rows.
+    /// Returns the least and the greatest finite value over sampled rows of the motion.
     pub fn range(&self, of: impl Fn(usize) -> f64) -> [f64; 2] {
-        let values = self.motion.sampled(LOOKED_AT).map(of).filter(|value| value.is_finite());
+        let values = self.motion.sampled(SAMPLED_ROWS).map(of).filter(|value| value.is_finite());
         values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| [low.min(value), high.max(value)])
     }
 
-    /// A place of a frame, in another one, in a row.
-    pub fn seen(&self, anchor: Anchor, frame: usize, row: usize) -> Vector {
+    /// Returns the position of an anchor in another frame, in a row.
+    pub fn position_in(&self, anchor: Anchor, frame: usize, row: usize) -> Vector {
         let poses = self.motion.poses(row);
-        poses[frame].located(anchor.placed(poses))
+        poses[frame].inverse_transform(anchor.position(poses))
     }
 
-    /// The own coordinate of a joint, row by row: its `u`, `w` or `theta`.
-    pub fn own_coordinate(&self, joint: usize, part: &str) -> Option<Vec<f64>> {
+    /// Returns the values by row of a joint's coordinate `u`, `w` or `theta`.
+    pub fn joint_coordinate(&self, joint: usize, part: &str) -> Option<Vec<f64>> {
         let name = &self.features.model.joints[joint].declared.name;
         Some(self.motion.column(&format!("{name}.{part}"))?.collect())
     }
 
-    /// A profile that a contact runs along, with arguments between these at least if it is open; its number.
+    /// Adds a profile, if it is new, and returns its index. An open one covers the arguments of the range `used`.
     pub fn profile(&mut self, profile: model::Profile, used: Option<[f64; 2]>) -> usize {
         let declaration = match profile {
             model::Profile::Curve(id) => self.first.curves + id.index(),
             model::Profile::Circle(id) => self.first.circles + id.index(),
         };
-        if let Some(known) = self.profiles.iter().position(|known| known.declaration == declaration) {
-            return known;
+        if let Some(existing) = self.profiles.iter().position(|existing| existing.declaration == declaration) {
+            return existing;
         }
         let frame = self.features.frame(profile.frame(self.features.model));
         let sampled = |from: f64, to: f64| -> Vec<Sample> {
-            let place = |k: u32| from + (to - from) * f64::from(k) / f64::from(PLACES_ON_PROFILE);
-            let samples = (0..=PLACES_ON_PROFILE).map(|k| self.features.sample(profile, place(k)));
+            let position = |k: u32| from + (to - from) * f64::from(k) / f64::from(PROFILE_INTERVALS);
+            let samples = (0..=PROFILE_INTERVALS).map(|k| self.features.sample(profile, position(k)));
             samples.filter(|sample| super::is_finite(sample.at)).collect()
         };
         let turn = sampled(-PI, PI);
         let size = bounds(turn.iter().map(|sample| sample.at)).map_or(0.0, |[low, high]| distance(low, high));
-        let is_closed = turn.len() == PLACES_ON_PROFILE as usize + 1
-            && distance(turn[0].at, turn[PLACES_ON_PROFILE as usize].at) <= CLOSED * size;
+        let is_closed = turn.len() == PROFILE_INTERVALS as usize + 1
+            && distance(turn[0].at, turn[PROFILE_INTERVALS as usize].at) <= CLOSED * size;
         let samples = match used {
             Some([from, to]) if !is_closed => {
                 let beyond = (0.05 * (to - from)).max(1e-3);
@@ -137,32 +137,32 @@ impl Drawing<'_> {
             }
             _ => turn,
         };
-        let samples = refined(samples, |u| self.features.sample(profile, u));
+        let samples = refine(samples, |u| self.features.sample(profile, u));
         self.profiles.push(Profile { declaration, frame, is_closed, samples });
         self.profiles.len() - 1
     }
 
-    /// A dot at what draws a trace.
+    /// Adds a dot at each point that draws a trace.
     pub fn mark_pens(&mut self, traces: &[Trace]) {
         for trace in traces {
             let Pen::Point(Anchor { frame, at }) = trace.pen else { continue };
             let model = self.features.model;
             let number = trace.declaration - self.first.traces;
-            let point = model.traces.get(number).and_then(|trace| self.shown(&[trace.point?]));
+            let point = model.traces.get(number).and_then(|trace| self.point_index(&[trace.point?]));
             let path = Path::Circle { at, radius: DOT * self.unit };
             self.add_fixed(Layer::Pins, trace.declaration, frame, vec![Shape { path, look: Look::Dot, point }]);
         }
     }
 
-    /// Whether a frame has a node of a declaration.
+    /// Returns whether a declaration has a node.
     pub fn has_node(&self, declaration: usize) -> bool {
         self.nodes.iter().any(|(_, node)| node.declaration == declaration)
     }
 
-    /// Says of the first block of a frame that it is the body itself; whether there is one.
+    /// Makes the body the declaration of the first block of its frame. Returns whether there is one.
     pub fn declare_block(&mut self, frame: usize) -> bool {
         let is_block = |node: &Node| {
-            node.place == Place::Fixed(frame) && node.shapes.iter().any(|shape| shape.look == Look::Block)
+            node.attachment == Attachment::Fixed(frame) && node.shapes.iter().any(|shape| shape.look == Look::Block)
         };
         match self.nodes.iter_mut().find(|(_, node)| is_block(node)) {
             Some((_, node)) => {
@@ -173,15 +173,15 @@ impl Drawing<'_> {
         }
     }
 
-    /// How many arrows there are around a place.
+    /// Returns the number of arrows around a position.
     pub fn arrows_at(&self, anchor: Anchor) -> usize {
         let poses = self.motion.poses(0);
-        let at = anchor.placed(poses);
-        let is_there = |node: &Node| match node.place {
-            Place::Upright(other) => distance(other.placed(poses), at) < 0.5 * self.unit,
+        let at = anchor.position(poses);
+        let is_at = |node: &Node| match node.attachment {
+            Attachment::Upright(other) => distance(other.position(poses), at) < 0.5 * self.unit,
             _ => false,
         };
-        self.nodes.iter().filter(|(layer, node)| *layer == Layer::Arrows && is_there(node)).count()
+        self.nodes.iter().filter(|(layer, node)| *layer == Layer::Arrows && is_at(node)).count()
     }
 
     pub fn traces(&self) -> Vec<Trace> {
@@ -190,7 +190,7 @@ impl Drawing<'_> {
             if let Some(point) = trace.point {
                 return Pen::Point(self.features.point(point));
             }
-            let (frame, pose, is_mirrored) = self.features.text_of(trace.part);
+            let PartFrame { frame, pose, is_mirrored } = self.features.part_frame(trace.part);
             Pen::Columns { name: trace.declared.name.clone(), frame, pose, is_mirrored }
         };
         let numbered = model.traces.iter().enumerate();
@@ -198,26 +198,27 @@ impl Drawing<'_> {
     }
 }
 
-/// With samples between those whose cubic is off the profile.
-fn refined(samples: Vec<Sample>, of: impl Fn(f64) -> Sample) -> Vec<Sample> {
-    let mut found: Vec<Sample> = Vec::with_capacity(samples.len());
-    // what is still to come, the next one last, with how often its way was halved
-    let mut coming: Vec<(Sample, u32)> = samples.into_iter().rev().map(|sample| (sample, 0)).collect();
-    while let Some((next, depth)) = coming.pop() {
-        if let Some(last) = found.last().filter(|_| depth < DEEPEST) {
-            let is_off =
-                |part: f64| distance(last.between(&next, part), of(last.u + part * (next.u - last.u)).at) > CUBIC_OFF;
+/// Adds samples where the cubic between two of them misses the profile.
+fn refine(samples: Vec<Sample>, of: impl Fn(f64) -> Sample) -> Vec<Sample> {
+    let mut refined: Vec<Sample> = Vec::with_capacity(samples.len());
+    // stack of samples to come, with the number of halvings before each
+    let mut pending: Vec<(Sample, u32)> = samples.into_iter().rev().map(|sample| (sample, 0)).collect();
+    while let Some((next, depth)) = pending.pop() {
+        if let Some(last) = refined.last().filter(|_| depth < DEEPEST) {
+            let is_off = |part: f64| {
+                distance(last.between(&next, part), of(last.u + part * (next.u - last.u)).at) > CUBIC_TOLERANCE
+            };
             if is_off(0.5) || is_off(0.25) {
-                coming.extend([(next, depth + 1), (of(0.5 * (last.u + next.u)), depth + 1)]);
+                pending.extend([(next, depth + 1), (of(0.5 * (last.u + next.u)), depth + 1)]);
                 continue;
             }
         }
-        found.push(next);
+        refined.push(next);
     }
-    found
+    refined
 }
 
-/// A shape that shows no point.
+/// Creates a shape that shows no point.
 pub(super) fn shape(look: Look, path: Path) -> Shape {
     Shape { path, look, point: None }
 }

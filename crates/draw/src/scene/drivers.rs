@@ -1,24 +1,24 @@
-//! What drivers do, as arrows: around a pin that is turned, along what is moved; a driven distance is a cylinder.
+//! Symbols of drivers: an arrow around a pin that is turned or along a moving part, a cylinder for a driven distance.
 
 use super::drawing::{Drawing, Layer};
 use super::plane::{Vector, minus, plus, times};
 use super::symbols::{BLOCK, Symbols};
-use super::{Anchor, Node, Place, Shape, pins};
+use super::{Anchor, Attachment, Node, Shape, pins};
 use mechc_expr::{ExprId, Symbol};
 use mechc_lang::model::{AxisId, Direction, EquationForm, JointKind, Mechanism, Named, Quantity};
 use std::f64::consts::PI;
 
-/// Where the arrow around a pin begins and ends (rad), and its radius in units.
-const TURN: [f64; 2] = [0.15 * PI, 0.85 * PI];
+/// Start and end of the arrow around a pin (rad), and its radius (symbol units).
+const ARC: [f64; 2] = [0.15 * PI, 0.85 * PI];
 const RADIUS: f64 = 1.75;
-/// Of a straight arrow: where it begins, and where it ends, in units.
+/// Start and end of a straight arrow (symbol units).
 const STRAIGHT: [f64; 2] = [1.1, 3.4];
-/// What goes back by more than this part of its way goes to and fro.
+/// A motion that returns by more than this part of its way goes to and fro.
 const TO_AND_FRO: f64 = 0.02;
 
-/// Which way something goes.
+/// Sense of a motion.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-enum Way {
+enum Sense {
     Forward,
     Back,
     Both,
@@ -33,15 +33,15 @@ pub(super) fn draw(drawing: &mut Drawing) {
             EquationForm::Distance(p, q, length) => {
                 let (from, to) = (drawing.features.point(p), drawing.features.point(q));
                 let poses = drawing.motion.poses(0);
-                let apart = super::distance(from.placed(poses), to.placed(poses));
+                let apart = super::distance(from.position(poses), to.position(poses));
                 let length = drawing.features.value(length);
                 let length = if length.is_finite() { length } else { apart };
                 pins::massless_link(drawing, declaration, [p, q], length);
             }
             EquationForm::Equality(left, right) if equation.driver => {
-                let driven = quantity_of(model, left).or_else(|| quantity_of(model, right));
+                let driven = first_quantity(model, left).or_else(|| first_quantity(model, right));
                 if let Some(quantity) = driven {
-                    arrow(drawing, declaration, quantity);
+                    add_arrow(drawing, declaration, quantity);
                 }
             }
             EquationForm::Equality(..) => {}
@@ -49,8 +49,8 @@ pub(super) fn draw(drawing: &mut Drawing) {
     }
 }
 
-/// The first quantity of a formula.
-fn quantity_of(model: &Mechanism, formula: ExprId) -> Option<Quantity> {
+/// Returns the first kinematic quantity of a formula.
+fn first_quantity(model: &Mechanism, formula: ExprId) -> Option<Quantity> {
     model.graph.symbols_of_all(&[formula]).into_iter().find_map(|symbol| match symbol {
         Symbol::Named(k) => match model.named[k as usize] {
             Named::Quantity(_, quantity) => Some(quantity),
@@ -60,42 +60,42 @@ fn quantity_of(model: &Mechanism, formula: ExprId) -> Option<Quantity> {
     })
 }
 
-fn arrow(drawing: &mut Drawing, declaration: usize, quantity: Quantity) {
+fn add_arrow(drawing: &mut Drawing, declaration: usize, quantity: Quantity) {
     let model = drawing.features.model;
     match quantity {
         Quantity::Rotation(joint, _) => {
             let JointKind::Revolute(p, q) = model[joint].kind else { return };
             let (p, q) = (drawing.features.point(p), drawing.features.point(q));
-            turning(drawing, declaration, p, [p.frame, q.frame]);
+            add_arc_arrow(drawing, declaration, p, [p.frame, q.frame]);
         }
         Quantity::Angle(from, to) => {
             let frames = [from.map_or(0, |from| frame_of(drawing, from)), frame_of(drawing, to)];
             let at = pivot(drawing, frames);
-            turning(drawing, declaration, at, frames);
+            add_arc_arrow(drawing, declaration, at, frames);
         }
-        Quantity::Displacement(_, a, b) => sliding(drawing, declaration, [a, b]),
+        Quantity::Displacement(_, a, b) => add_slider_arrow(drawing, declaration, [a, b]),
         Quantity::X(from, to) | Quantity::Y(from, to) => {
             let axis = if matches!(quantity, Quantity::X(..)) { [1.0, 0.0] } else { [0.0, 1.0] };
             let (base, tip) = (from.map(|point| drawing.features.point(point)), drawing.features.point(to));
             let along = |row: usize| {
                 let poses = drawing.motion.poses(row);
-                let way = minus(tip.placed(poses), base.map_or([0.0; 2], |base| base.placed(poses)));
-                super::dot(axis, way)
+                let vector = minus(tip.position(poses), base.map_or([0.0; 2], |base| base.position(poses)));
+                super::dot(axis, vector)
             };
-            let way = way_of(drawing, along);
-            let shapes = straight(drawing, [0.0; 2], axis, way);
-            drawing.add(Layer::Arrows, Node { declaration, place: Place::Upright(tip), shapes });
+            let sense = sense_of(drawing, along);
+            let shapes = straight_arrow(drawing, [0.0; 2], axis, sense);
+            drawing.add(Layer::Arrows, Node { declaration, attachment: Attachment::Upright(tip), shapes });
         }
         _ => {}
     }
 }
 
-/// Where what an angle is between is pinned to each other.
-pub(super) fn pivot_of(drawing: &Drawing, from: Option<Direction>, to: Direction) -> Anchor {
+/// Returns the pin between the two frames of an angle.
+pub(super) fn angle_pivot(drawing: &Drawing, from: Option<Direction>, to: Direction) -> Anchor {
     pivot(drawing, [from.map_or(0, |from| frame_of(drawing, from)), frame_of(drawing, to)])
 }
 
-/// The frame of a body, or of what an axis is fixed to.
+/// Returns the frame of a direction.
 pub(super) fn frame_of(drawing: &Drawing, direction: Direction) -> usize {
     match direction {
         Direction::Frame(frame) => drawing.features.frame(frame),
@@ -103,72 +103,73 @@ pub(super) fn frame_of(drawing: &Drawing, direction: Direction) -> usize {
     }
 }
 
-/// Where two bodies are pinned to each other; else where the second begins.
+/// Returns the pin between two frames, or the first position of the second frame.
 fn pivot(drawing: &Drawing, frames: [usize; 2]) -> Anchor {
     let model = drawing.features.model;
-    let found = model.joints.iter().find_map(|joint| {
+    let pin = model.joints.iter().find_map(|joint| {
         let JointKind::Revolute(p, q) = joint.kind else { return None };
         let (p, q) = (drawing.features.point(p), drawing.features.point(q));
         if [p.frame, q.frame] == frames { Some(p) } else { ([q.frame, p.frame] == frames).then_some(q) }
     });
-    let first = || drawing.outlines[frames[1]].places.first().copied().unwrap_or([0.0; 2]);
-    found.unwrap_or_else(|| Anchor { frame: frames[1], at: first() })
+    let first = || drawing.outlines[frames[1]].positions.first().copied().unwrap_or([0.0; 2]);
+    pin.unwrap_or_else(|| Anchor { frame: frames[1], at: first() })
 }
 
-/// An arrow around a place, as one frame turns against another.
-fn turning(drawing: &mut Drawing, declaration: usize, at: Anchor, [first, second]: [usize; 2]) {
-    let turned = |row: usize| {
+/// Adds an arrow around an anchor for the rotation of one frame against another.
+fn add_arc_arrow(drawing: &mut Drawing, declaration: usize, at: Anchor, [first, second]: [usize; 2]) {
+    let angle = |row: usize| {
         let poses = drawing.motion.poses(row);
         poses[second].phi - poses[first].phi
     };
-    let [from, to] = TURN;
-    let (from, to, is_double) = match way_of(drawing, turned) {
-        Way::Forward => (from, to, false),
-        Way::Back => (to, from, false),
-        Way::Both => (from, to, true),
+    let [from, to] = ARC;
+    let (from, to, is_double) = match sense_of(drawing, angle) {
+        Sense::Forward => (from, to, false),
+        Sense::Back => (to, from, false),
+        Sense::Both => (from, to, true),
     };
-    // where several drivers turn about one place, each has a circle of its own
-    let taken = drawing.arrows_at(at);
-    let radius = RADIUS + 0.8 * taken as f64;
-    let shapes = Symbols { unit: drawing.unit }.turning([0.0; 2], radius, from, to, is_double);
-    drawing.add(Layer::Arrows, Node { declaration, place: Place::Upright(at), shapes });
+    // several drivers about one position have concentric arrows
+    let count = drawing.arrows_at(at);
+    let radius = RADIUS + 0.8 * count as f64;
+    let shapes = Symbols { unit: drawing.unit }.arc_arrow([0.0; 2], radius, from, to, is_double);
+    drawing.add(Layer::Arrows, Node { declaration, attachment: Attachment::Upright(at), shapes });
 }
 
-/// An arrow beside what slides.
-fn sliding(drawing: &mut Drawing, declaration: usize, [a, b]: [AxisId; 2]) {
+/// Adds an arrow next to a slider.
+fn add_slider_arrow(drawing: &mut Drawing, declaration: usize, [a, b]: [AxisId; 2]) {
     let [guide, slider] = [a, b].map(|axis| drawing.features.axis(axis));
     let origin = Anchor { frame: slider.frame, at: slider.at };
-    let along = |row: usize| super::dot(guide.along, minus(drawing.seen(origin, guide.frame, row), guide.at));
-    let way = way_of(drawing, along);
-    // the side that is not hatched
+    let along = |row: usize| super::dot(guide.along, minus(drawing.position_in(origin, guide.frame, row), guide.at));
+    let sense = sense_of(drawing, along);
+    // the side without hatching
     let side =
         if guide.along[0] < -1e-3 || (guide.along[0].abs() <= 1e-3 && guide.along[1] < 0.0) { -1.0 } else { 1.0 };
     let poses = drawing.motion.poses(0);
-    let is_same = super::dot(poses[guide.frame].turned(guide.along), poses[slider.frame].turned(slider.along)) >= 0.0;
-    let direction = if is_same { slider.along } else { times(-1.0, slider.along) };
-    let beside = times(side * (BLOCK[1] + 0.6) * drawing.unit, super::left(direction));
-    let start = plus(plus(slider.at, beside), times(-2.2 * drawing.unit, direction));
-    let shapes = straight(drawing, start, direction, way);
+    let has_same_sense =
+        super::dot(poses[guide.frame].rotate(guide.along), poses[slider.frame].rotate(slider.along)) >= 0.0;
+    let direction = if has_same_sense { slider.along } else { times(-1.0, slider.along) };
+    let lateral = times(side * (BLOCK[1] + 0.6) * drawing.unit, super::left(direction));
+    let start = plus(plus(slider.at, lateral), times(-2.2 * drawing.unit, direction));
+    let shapes = straight_arrow(drawing, start, direction, sense);
     drawing.add_fixed(Layer::Arrows, declaration, slider.frame, shapes);
 }
 
-fn straight(drawing: &Drawing, from: Vector, along: Vector, way: Way) -> Vec<Shape> {
+fn straight_arrow(drawing: &Drawing, from: Vector, along: Vector, sense: Sense) -> Vec<Shape> {
     let [begin, end] = STRAIGHT.map(|part| part * drawing.unit);
-    let along = if way == Way::Back { times(-1.0, along) } else { along };
-    let place = |part: f64| plus(from, times(part, along));
-    Symbols { unit: drawing.unit }.arrow(place(begin), place(end), way == Way::Both)
+    let along = if sense == Sense::Back { times(-1.0, along) } else { along };
+    let position = |part: f64| plus(from, times(part, along));
+    Symbols { unit: drawing.unit }.arrow(position(begin), position(end), sense == Sense::Both)
 }
 
-/// Which way a number goes along the motion.
-fn way_of(drawing: &Drawing, of: impl Fn(usize) -> f64) -> Way {
-    let values: Vec<f64> = drawing.motion.sampled(super::drawing::LOOKED_AT).map(of).collect();
+/// Returns the sense in which a number changes along the motion.
+fn sense_of(drawing: &Drawing, of: impl Fn(usize) -> f64) -> Sense {
+    let values: Vec<f64> = drawing.motion.sampled(super::drawing::SAMPLED_ROWS).map(of).collect();
     let steps = values.windows(2).map(|pair| pair[1] - pair[0]).filter(|step| step.is_finite());
     let (up, down) = steps.fold((0.0, 0.0), |(up, down): (f64, f64), step| (up + step.max(0.0), down - step.min(0.0)));
     if down <= TO_AND_FRO * up {
-        Way::Forward
+        Sense::Forward
     } else if up <= TO_AND_FRO * down {
-        Way::Back
+        Sense::Back
     } else {
-        Way::Both
+        Sense::Both
     }
 }

@@ -1,4 +1,4 @@
-//! What the features of a mechanism are in the frames of bodies, in numbers: parts' grounds are folded into what carries them.
+//! Features of a mechanism as numbers in the frames of bodies. The grounds of parts are resolved to the frames that carry them.
 
 use super::plane::{Pose, Vector, minus, plus, unit};
 use super::{Anchor, Sample};
@@ -9,9 +9,9 @@ use mechc_lang::model::{AxisId, CircleId, Frame, Mechanism, Named, PartId, Point
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Line {
     pub frame: usize,
-    /// A point of it (m).
+    /// Point on the line (m).
     pub at: Vector,
-    /// Its direction, of length 1.
+    /// Direction, of length 1.
     pub along: Vector,
 }
 
@@ -19,39 +19,48 @@ pub(super) struct Line {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Disc {
     pub center: Anchor,
-    /// (m)
+    /// Radius (m).
     pub radius: f64,
 }
 
-/// The numbers of a mechanism's constants.
+/// The ground of a part.
+pub(super) struct PartFrame {
+    /// Frame that carries the part.
+    pub frame: usize,
+    /// Pose in that frame.
+    pub pose: Pose,
+    pub is_mirrored: bool,
+}
+
+/// A mechanism with the values of its formulas of parameters.
 pub(super) struct Features<'m> {
     pub model: &'m Mechanism,
     values: Vec<f64>,
 }
 
-/// The argument's change over which a tangent is taken.
-const SMALL: f64 = 1e-5;
+/// Step of the argument for the difference quotient of a tangent.
+const STEP: f64 = 1e-5;
 
 impl<'m> Features<'m> {
-    pub fn of(model: &'m Mechanism) -> Features<'m> {
+    pub fn new(model: &'m Mechanism) -> Features<'m> {
         let mut values = Vec::new();
         model.graph.extend_values(&mut values, |symbol| parameter(model, symbol).unwrap_or(f64::NAN));
         Features { model, values }
     }
 
-    /// A formula of parameters, in SI.
+    /// Returns the value of a formula of parameters, in SI.
     pub fn value(&self, formula: ExprId) -> f64 {
         self.values[formula.index()]
     }
 
-    /// The number of what carries a frame.
+    /// Returns the index of the frame that carries a frame.
     pub fn frame(&self, frame: Frame) -> usize {
-        number(self.model.carrier(frame))
+        frame_index(self.model.carrier(frame))
     }
 
     pub fn point(&self, id: PointId) -> Anchor {
         let point = &self.model[id];
-        self.placed(point.frame, point.at.map(|part| self.value(part)))
+        self.resolve(point.frame, point.at.map(|part| self.value(part)))
     }
 
     pub fn axis(&self, id: AxisId) -> Line {
@@ -59,7 +68,7 @@ impl<'m> Features<'m> {
         let origin = &self.model[axis.origin];
         let start = origin.at.map(|part| self.value(part));
         let end = plus(start, axis.direction.map(|part| self.value(part)));
-        let (from, to) = (self.placed(axis.frame, start), self.placed(axis.frame, end));
+        let (from, to) = (self.resolve(axis.frame, start), self.resolve(axis.frame, end));
         Line { frame: from.frame, at: from.at, along: unit(minus(to.at, from.at)) }
     }
 
@@ -68,52 +77,52 @@ impl<'m> Features<'m> {
         Disc { center: self.point(circle.center), radius: self.value(circle.radius) }
     }
 
-    /// A place of a frame, in what carries it.
-    pub fn placed(&self, frame: Frame, place: Vector) -> Anchor {
-        let (frame, at) = self.model.in_carrier(&|id| self.value(id), frame, place);
-        Anchor { frame: number(frame), at }
+    /// Converts a position of a frame to the frame that carries it.
+    pub fn resolve(&self, frame: Frame, position: Vector) -> Anchor {
+        let (frame, at) = self.model.in_carrier(&|id| self.value(id), frame, position);
+        Anchor { frame: frame_index(frame), at }
     }
 
-    /// Where the frame of a part's text is in what carries the part, and whether it is mirrored there.
-    pub fn text_of(&self, part: Option<PartId>) -> (usize, Pose, bool) {
+    /// Returns the ground of a part in the frame that carries it.
+    pub fn part_frame(&self, part: Option<PartId>) -> PartFrame {
         let frame = part.map_or(Frame::Ground, Frame::Part);
-        let [origin, ahead] = [[0.0, 0.0], [1.0, 0.0]].map(|place| self.placed(frame, place));
+        let [origin, ahead] = [[0.0, 0.0], [1.0, 0.0]].map(|position| self.resolve(frame, position));
         let phi = super::plane::direction(minus(ahead.at, origin.at));
-        (origin.frame, Pose { at: origin.at, phi }, self.model.is_mirrored(part))
+        PartFrame { frame: origin.frame, pose: Pose { at: origin.at, phi }, is_mirrored: self.model.is_mirrored(part) }
     }
 
-    /// A place on a profile, in what carries it; not finite where its formulas have no value.
+    /// Returns the position on a profile in the frame that carries it; not finite where its formulas have no value.
     pub fn on_profile(&self, profile: Profile, u: f64) -> Anchor {
         match profile {
             Profile::Circle(id) => {
                 let circle = &self.model[id];
                 let center = self.model[circle.center].at.map(|part| self.value(part));
-                self.placed(circle.frame, plus(center, super::plane::polar(self.value(circle.radius), u)))
+                self.resolve(circle.frame, plus(center, super::plane::polar(self.value(circle.radius), u)))
             }
             Profile::Curve(id) => {
                 let curve = &self.model[id];
                 let argument = |k: u32| self.model.named[k as usize] == Named::Argument;
-                let place = curve.at.map(|part| {
+                let position = curve.at.map(|part| {
                     self.model.graph.value(part, |symbol| match symbol {
                         Symbol::Named(k) if argument(k) => u,
                         other => parameter(self.model, other).unwrap_or(f64::NAN),
                     })
                 });
-                self.placed(curve.frame, place)
+                self.resolve(curve.frame, position)
             }
         }
     }
 
-    /// A place on a profile with its tangent.
+    /// Returns the position on a profile with its tangent.
     pub fn sample(&self, profile: Profile, u: f64) -> Sample {
-        let [before, at, behind] = [u - SMALL, u, u + SMALL].map(|u| self.on_profile(profile, u).at);
-        let tangent = minus(behind, before).map(|way| way / (2.0 * SMALL));
+        let [before, at, after] = [u - STEP, u, u + STEP].map(|u| self.on_profile(profile, u).at);
+        let tangent = minus(after, before).map(|difference| difference / (2.0 * STEP));
         Sample { u, at, tangent }
     }
 }
 
-/// The number of a body, or of the ground.
-fn number(frame: Frame) -> usize {
+/// Returns the index of a body, or 0 for the ground.
+fn frame_index(frame: Frame) -> usize {
     match frame {
         Frame::Body(body) => body.index() + 1,
         Frame::Ground | Frame::Part(_) => 0,
@@ -128,7 +137,7 @@ fn parameter(model: &Mechanism, symbol: Symbol) -> Option<f64> {
     }
 }
 
-/// Where all frames are drawn, by the poses as they are written; the ground first.
+/// Returns the poses of all frames as the text draws them, the ground first.
 #[must_use]
 pub fn drawn_poses(model: &Mechanism) -> Vec<Pose> {
     let mut graph = model.graph.clone();
@@ -137,6 +146,7 @@ pub fn drawn_poses(model: &Mechanism) -> Vec<Pose> {
     let mut values = Vec::new();
     graph.extend_values(&mut values, |symbol| parameter(model, symbol).unwrap_or(0.0));
     let value = |id: ExprId| values[id.index()];
-    let pose = |place: &mechc_lang::model::Placement| Pose { at: place.at.map(value), phi: value(place.phi) };
+    let pose =
+        |placement: &mechc_lang::model::Placement| Pose { at: placement.at.map(value), phi: value(placement.phi) };
     std::iter::once(Pose::default()).chain(bodies.iter().map(pose)).collect()
 }

@@ -1,29 +1,29 @@
-//! Forces as arrows: what joints exert, what loads are, weights. What they are at a time stands in columns of the table.
+//! Forces as arrows: reactions of joints, loads and weights. Their values at a time are columns of the table.
 
 use super::drawing::Drawing;
-use super::features::Features;
+use super::features::{Features, PartFrame};
 use super::plane::{Vector, length, minus, polar, times};
 use super::{Anchor, Motion};
 use mechc_expr::{ExprId, Node, Symbol};
 use mechc_lang::model::{EquationForm, JointKind, Mechanism, Named, PartId, Profile, Quantity};
 use std::f64::consts::PI;
 
-/// What a force is of.
+/// Origin of a force.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub enum ForceKind {
-    /// What a joint exerts on the body of its second argument, or what keeps or drives a distance.
+    /// Force of a joint on the body of its second argument, or force that keeps or drives a distance.
     Reaction,
-    /// A load.
+    /// Load.
     Load,
-    /// The weight of a mass.
+    /// Weight of a mass.
     Weight,
 }
 
 impl ForceKind {
-    /// All of them.
+    /// All kinds.
     pub const ALL: [ForceKind; 3] = [ForceKind::Reaction, ForceKind::Load, ForceKind::Weight];
 
-    /// A word for it.
+    /// Returns the name of the kind; style sheets use it as a class.
     #[must_use]
     pub fn word(self) -> &'static str {
         match self {
@@ -34,48 +34,48 @@ impl ForceKind {
     }
 }
 
-/// A force that takes hold of a place.
+/// A force with its point of action.
 #[derive(Clone, PartialEq, Debug)]
 pub struct ForceVector {
-    /// Whose it is.
+    /// Index of the declaration.
     pub declaration: usize,
-    /// What it is of.
+    /// Origin.
     pub kind: ForceKind,
-    /// Where it takes hold.
+    /// Point of action.
     pub at: Anchor,
-    /// What it is.
+    /// Value.
     pub value: ForceValue,
 }
 
-/// What a force is, in the directions of the ground (N).
+/// Value of a force in the directions of the ground (N).
 #[derive(Clone, PartialEq, Debug)]
 pub enum ForceValue {
-    /// Always the same.
+    /// Constant.
     Constant(Vector),
     /// Two columns.
     Components([String; 2]),
     /// A column times a direction of a frame.
     Along {
-        /// The column.
+        /// Column.
         column: String,
-        /// The number of the frame.
+        /// Index of the frame.
         frame: usize,
-        /// In the frame, of length 1.
+        /// Direction in the frame, of length 1.
         direction: Vector,
     },
-    /// A column times the direction from one place to another.
+    /// A column times the direction from one position to another.
     Apart {
-        /// The column.
+        /// Column.
         column: String,
-        /// The one.
+        /// First position.
         from: Anchor,
-        /// The other.
+        /// Second position.
         to: Anchor,
     },
 }
 
 impl ForceVector {
-    /// What it is in a row (N); not finite where the table does not tell.
+    /// Returns the value in a row (N); not finite where the table has no value.
     #[must_use]
     pub fn value(&self, motion: &Motion, row: usize) -> Vector {
         let poses = motion.poses(row);
@@ -83,15 +83,15 @@ impl ForceVector {
         match &self.value {
             ForceValue::Constant(force) => *force,
             ForceValue::Components(columns) => columns.each_ref().map(value),
-            ForceValue::Along { column, frame, direction } => times(value(column), poses[*frame].turned(*direction)),
+            ForceValue::Along { column, frame, direction } => times(value(column), poses[*frame].rotate(*direction)),
             ForceValue::Apart { column, from, to } => {
-                let way = minus(to.placed(poses), from.placed(poses));
-                times(value(column) / length(way), way)
+                let vector = minus(to.position(poses), from.position(poses));
+                times(value(column) / length(vector), vector)
             }
         }
     }
 
-    /// The columns that tell it.
+    /// Returns the columns that the value depends on.
     fn columns(&self) -> &[String] {
         match &self.value {
             ForceValue::Constant(_) => &[],
@@ -101,15 +101,16 @@ impl ForceVector {
     }
 }
 
-/// All forces that the motion's table tells of, and the weights beside them; none where it tells of none, and of no torques either.
+/// Returns all forces whose columns are in the motion's table, then the weights. Without any such force or torque there are no weights
+/// either.
 pub(super) fn vectors(drawing: &Drawing, has_torques: bool) -> Vec<ForceVector> {
     let (features, first) = (&drawing.features, drawing.first);
     let model = features.model;
-    let mut found: Vec<ForceVector> = Vec::new();
+    let mut forces: Vec<ForceVector> = Vec::new();
     for (number, joint) in model.joints.iter().enumerate() {
         let name = &joint.declared.name;
         let columns = [format!("{name}.fx"), format!("{name}.fy")];
-        found.extend(place(features, &joint.kind).map(|at| ForceVector {
+        forces.extend(point_of_action(features, &joint.kind).map(|at| ForceVector {
             declaration: first.joints + number,
             kind: ForceKind::Reaction,
             at,
@@ -117,32 +118,42 @@ pub(super) fn vectors(drawing: &Drawing, has_torques: bool) -> Vec<ForceVector> 
         }));
     }
     for (number, equation) in model.equations.iter().enumerate() {
-        let of = (first.equations + number, ForceKind::Reaction, format!("{}.effort", equation.declared.name));
+        let effort = Effort {
+            declaration: first.equations + number,
+            kind: ForceKind::Reaction,
+            column: format!("{}.effort", equation.declared.name),
+        };
         match equation.form {
             EquationForm::Distance(p, q, _) => {
-                found.extend(apart(&of, [p, q].map(|point| features.point(point)), 1.0));
+                forces.extend(push_apart(&effort, [p, q].map(|point| features.point(point)), 1.0));
             }
-            // what it supplies works on the left side less the right side
+            // the effort acts on the left side minus the right side
             EquationForm::Equality(left, right) => {
                 for (side, sign) in [(left, 1.0), (right, -1.0)] {
                     let quantity = bare_quantity(model, side);
-                    found.extend(quantity.into_iter().flat_map(|on| of_quantity(features, &of, on, sign)));
+                    forces.extend(
+                        quantity.into_iter().flat_map(|(view, on)| quantity_forces(features, &effort, view, on, sign)),
+                    );
                 }
             }
         }
     }
     for (number, load) in model.loads.iter().enumerate() {
-        let of = (first.loads + number, ForceKind::Load, format!("{}.load", load.declared.name));
-        found.extend(of_quantity(features, &of, (load.part, load.on), 1.0));
+        let effort = Effort {
+            declaration: first.loads + number,
+            kind: ForceKind::Load,
+            column: format!("{}.load", load.declared.name),
+        };
+        forces.extend(quantity_forces(features, &effort, load.part, load.on, 1.0));
     }
-    found.retain(|force| force.columns().iter().all(|column| drawing.motion.column(column).is_some()));
-    if !found.is_empty() || has_torques {
-        found.extend(weights(features));
+    forces.retain(|force| force.columns().iter().all(|column| drawing.motion.column(column).is_some()));
+    if !forces.is_empty() || has_torques {
+        forces.extend(weights(features));
     }
-    found
+    forces
 }
 
-/// The quantity that a side of an equation is, and from the ground of which part it is seen; none of a formula that holds more.
+/// Returns the quantity that a side of an equation consists of, with the part that it refers to; `None` for any other formula.
 pub(super) fn bare_quantity(model: &Mechanism, side: ExprId) -> Option<(Option<PartId>, Quantity)> {
     match model.graph.node(side) {
         Node::Symbol(Symbol::Named(k)) => match model.named[k as usize] {
@@ -153,8 +164,8 @@ pub(super) fn bare_quantity(model: &Mechanism, side: ExprId) -> Option<(Option<P
     }
 }
 
-/// Where a joint's reaction takes hold, as the language has it. What presses a circle passes its centre.
-pub(super) fn place(features: &Features, kind: &JointKind) -> Option<Anchor> {
+/// Returns the point of action of a joint's reaction, as the language defines it. A force on a circle passes its centre.
+pub(super) fn point_of_action(features: &Features, kind: &JointKind) -> Option<Anchor> {
     let model = features.model;
     Some(match *kind {
         JointKind::Revolute(_, q) | JointKind::Weld(_, q, _) | JointKind::RevoluteRevolute(_, q, _) => {
@@ -172,11 +183,15 @@ pub(super) fn place(features: &Features, kind: &JointKind) -> Option<Anchor> {
     })
 }
 
-/// Whose a force is, what it is of, and the column that tells it.
-type Of = (usize, ForceKind, String);
+/// An effort or load whose value is a column of the table.
+struct Effort {
+    declaration: usize,
+    kind: ForceKind,
+    column: String,
+}
 
-/// A force that takes two places apart, or draws them together, on each of them.
-fn apart((declaration, kind, column): &Of, ends: [Anchor; 2], sign: f64) -> [ForceVector; 2] {
+/// Returns the two forces that push two positions apart, or pull them together if `sign` is negative.
+fn push_apart(Effort { declaration, kind, column }: &Effort, ends: [Anchor; 2], sign: f64) -> [ForceVector; 2] {
     let [p, q] = ends;
     [[p, q], [q, p]].map(|[at, other]| ForceVector {
         declaration: *declaration,
@@ -190,9 +205,15 @@ fn apart((declaration, kind, column): &Of, ends: [Anchor; 2], sign: f64) -> [For
     })
 }
 
-/// The arrows of what works on a length, as its column or against it; a torque has none.
-fn of_quantity(features: &Features, of: &Of, (view, on): (Option<PartId>, Quantity), sign: f64) -> Vec<ForceVector> {
-    let (declaration, kind, column) = of;
+/// Returns the forces of an effort on a quantity of length; an effort on an angle has none.
+fn quantity_forces(
+    features: &Features,
+    effort: &Effort,
+    view: Option<PartId>,
+    on: Quantity,
+    sign: f64,
+) -> Vec<ForceVector> {
+    let Effort { declaration, kind, column } = effort;
     let along = |at: Anchor, frame: usize, direction: Vector| ForceVector {
         declaration: *declaration,
         kind: *kind,
@@ -201,7 +222,7 @@ fn of_quantity(features: &Features, of: &Of, (view, on): (Option<PartId>, Quanti
     };
     match on {
         Quantity::X(from, to) | Quantity::Y(from, to) => {
-            let (frame, pose, is_mirrored) = features.text_of(view);
+            let PartFrame { frame, pose, is_mirrored } = features.part_frame(view);
             let direction = match on {
                 Quantity::X(..) => polar(1.0, pose.phi),
                 _ if is_mirrored => polar(1.0, pose.phi - 0.5 * PI),
@@ -210,7 +231,7 @@ fn of_quantity(features: &Features, of: &Of, (view, on): (Option<PartId>, Quanti
             let from = from.map(|point| along(features.point(point), frame, times(-1.0, direction)));
             from.into_iter().chain([along(features.point(to), frame, direction)]).collect()
         }
-        Quantity::Distance(p, q) => apart(of, [p, q].map(|point| features.point(point)), sign).into(),
+        Quantity::Distance(p, q) => push_apart(effort, [p, q].map(|point| features.point(point)), sign).into(),
         Quantity::Displacement(_, a, b) => {
             let (guide, slider) = (features.axis(a), features.axis(b));
             vec![along(Anchor { frame: slider.frame, at: slider.at }, guide.frame, guide.along)]

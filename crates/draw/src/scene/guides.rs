@@ -1,4 +1,4 @@
-//! What slides: blocks on their guides, bars in sleeves, pins in slots. Guides are as long as the motion asks for.
+//! Sliders: blocks on guides, bars in sleeves, pins in slots. Guides are as long as the motion requires.
 
 use super::drawing::{DOT, Drawing, Layer, Outline, shape};
 use super::features::Line;
@@ -7,20 +7,20 @@ use super::symbols::{BLOCK, SLEEVE, SLOT, Symbols};
 use super::{Anchor, Look};
 use mechc_lang::model::{AxisId, JointKind, PointId, Profile};
 
-/// A guide goes on so far behind what slides, in units.
+/// Length of a guide beyond the slider (symbol units).
 const BEYOND: f64 = 0.5;
-/// The least way that a guide shows, in units.
-const LEAST_WAY: f64 = 1.2;
-/// A sleeve is so far from what the bar in it carries, in units.
+/// Shortest stroke that a guide shows (symbol units).
+const LEAST_STROKE: f64 = 1.2;
+/// Distance of a sleeve from what its bar carries (symbol units).
 const TO_SLEEVE: f64 = 3.2;
 
-/// A place on a line, from its point on.
-fn on(line: &Line, along: f64) -> Vector {
+/// Returns the position at a coordinate of a line.
+fn point_on(line: &Line, along: f64) -> Vector {
     plus(line.at, times(along, line.along))
 }
 
-/// A way that is at least as long as a guide shows, with the same middle.
-fn widened([low, high]: [f64; 2], least: f64) -> [f64; 2] {
+/// Widens a range about its middle to at least a length.
+fn widen([low, high]: [f64; 2], least: f64) -> [f64; 2] {
     if !(low.is_finite() && high.is_finite()) {
         return [-0.5 * least, 0.5 * least];
     }
@@ -29,43 +29,43 @@ fn widened([low, high]: [f64; 2], least: f64) -> [f64; 2] {
 }
 
 impl Drawing<'_> {
-    /// How far along a line a place goes, at least and at most.
-    pub fn range_on(&self, line: &Line, of: Anchor) -> [f64; 2] {
-        self.range(|row| dot(line.along, minus(self.seen(of, line.frame, row), line.at)))
+    /// Returns the range of an anchor's coordinate along a line.
+    pub fn range_on(&self, line: &Line, anchor: Anchor) -> [f64; 2] {
+        self.range(|row| dot(line.along, minus(self.position_in(anchor, line.frame, row), line.at)))
     }
 }
 
 pub(super) fn translational(drawing: &mut Drawing, declaration: usize, [a, b]: [AxisId; 2]) {
     let [first, second] = [a, b].map(|axis| drawing.features.axis(axis));
-    // the ground is the guide, and where there is none the first of the two
+    // the ground is the guide, otherwise the first of the two
     let (guide, slider, axis) = if second.frame == 0 { (second, first, a) } else { (first, second, b) };
     let origin = Anchor { frame: slider.frame, at: slider.at };
-    let way = drawing.range_on(&guide, origin);
-    match busy(drawing, axis) {
-        Some(busy) => in_sleeve(drawing, declaration, (&guide, &slider), way, busy),
-        None if guide.frame == 0 => on_ground(drawing, declaration, (&guide, &slider), way),
-        None => on_bar(drawing, declaration, (&guide, &slider), way),
+    let stroke = drawing.range_on(&guide, origin);
+    match obstruction(drawing, axis) {
+        Some(obstruction) => draw_in_sleeve(drawing, declaration, &guide, &slider, stroke, obstruction),
+        None if guide.frame == 0 => draw_on_ground(drawing, declaration, &guide, &slider, stroke),
+        None => draw_on_bar(drawing, declaration, &guide, &slider, stroke),
     }
     let pin = drawing.features.model[axis].origin;
-    if let Some(point) = drawing.shown(&[pin]).filter(|_| drawing.features.model[pin].name.is_some()) {
-        // what slides is a place that a joint takes hold of, and may have no pin
+    if let Some(point) = drawing.point_index(&[pin]).filter(|_| drawing.features.model[pin].name.is_some()) {
+        // the slider's point belongs to a joint and may have no pin
         let dot = Path::Circle { at: slider.at, radius: DOT * drawing.unit };
         let dot = super::Shape { path: dot, look: Look::Dot, point: Some(point) };
         drawing.add_fixed(Layer::Blocks, declaration, slider.frame, vec![dot]);
     }
 }
 
-/// A block on the edge of the ground.
-fn on_ground(drawing: &mut Drawing, declaration: usize, (guide, slider): (&Line, &Line), way: [f64; 2]) {
+/// Draws a block on the edge of the ground.
+fn draw_on_ground(drawing: &mut Drawing, declaration: usize, guide: &Line, slider: &Line, stroke: [f64; 2]) {
     let (unit, symbols) = (drawing.unit, Symbols { unit: drawing.unit });
-    let [low, high] = widened(way, LEAST_WAY * unit);
+    let [low, high] = widen(stroke, LEAST_STROKE * unit);
     let beyond = (BLOCK[0] + BEYOND) * unit;
-    // the ground is below what slides, or to its right
+    // the ground is below the slider, or to its right
     let [x, y] = guide.along;
     let is_forward = if x.abs() > 1e-3 { x > 0.0 } else { y > 0.0 };
     let side = if is_forward { 1.0 } else { -1.0 };
     let down = times(-side * BLOCK[1] * unit, left(guide.along));
-    let ends = [on(guide, low - beyond), on(guide, high + beyond)].map(|end| plus(end, down));
+    let ends = [point_on(guide, low - beyond), point_on(guide, high + beyond)].map(|end| plus(end, down));
     let [from, to] = if is_forward { ends } else { [ends[1], ends[0]] };
     drawing.add_fixed(Layer::Ground, declaration, 0, symbols.edge(from, to).to_vec());
     let block = symbols.block(slider.at, slider.along);
@@ -73,37 +73,37 @@ fn on_ground(drawing: &mut Drawing, declaration: usize, (guide, slider): (&Line,
     drawing.outlines[slider.frame].is_shown = true;
 }
 
-/// A block on a bar of another body.
-fn on_bar(drawing: &mut Drawing, declaration: usize, (guide, slider): (&Line, &Line), way: [f64; 2]) {
+/// Draws a block on a bar of another body.
+fn draw_on_bar(drawing: &mut Drawing, declaration: usize, guide: &Line, slider: &Line, stroke: [f64; 2]) {
     let (unit, symbols) = (drawing.unit, Symbols { unit: drawing.unit });
-    let [low, high] = widened(way, LEAST_WAY * unit);
+    let [low, high] = widen(stroke, LEAST_STROKE * unit);
     let beyond = (BLOCK[0] + BEYOND) * unit;
-    let ends = [on(guide, low - beyond), on(guide, high + beyond)];
-    drawing.outlines[guide.frame].places.extend(ends);
+    let ends = [point_on(guide, low - beyond), point_on(guide, high + beyond)];
+    drawing.outlines[guide.frame].positions.extend(ends);
     let block = symbols.block(slider.at, slider.along);
     drawing.add_fixed(Layer::Blocks, declaration, slider.frame, vec![block]);
     drawing.outlines[slider.frame].is_shown = true;
 }
 
-/// What takes up the place where a block would be.
+/// A contact in the place of a block.
 #[derive(Clone, Copy)]
-struct Busy {
-    /// From where the bar is to come out, in the frame of what slides.
+struct Obstruction {
+    /// Anchor from which the bar leads away.
     away_from: Option<Anchor>,
-    /// How far what is there reaches (m).
+    /// Extent of the contact (m).
     reach: f64,
 }
 
-/// Whether a contact is where an axis begins that something slides along.
-fn busy(drawing: &Drawing, axis: AxisId) -> Option<Busy> {
+/// Returns the contact at the origin of a slider's axis, if there is one.
+fn obstruction(drawing: &Drawing, axis: AxisId) -> Option<Obstruction> {
     let model = drawing.features.model;
     let slider = drawing.features.axis(axis);
     let near = |anchor: Anchor| anchor.frame == slider.frame && distance(anchor.at, slider.at) < 2.5 * drawing.unit;
     let middle = |profile: Profile| match profile {
         Profile::Circle(circle) => drawing.features.circle(circle).center,
         Profile::Curve(curve) => {
-            // a plate turns about its origin more often than not
-            drawing.features.placed(model[curve].frame, [0.0, 0.0])
+            // a plate usually turns about its origin
+            drawing.features.resolve(model[curve].frame, [0.0, 0.0])
         }
     };
     let line = |axis: AxisId| {
@@ -114,34 +114,44 @@ fn busy(drawing: &Drawing, axis: AxisId) -> Option<Busy> {
         Profile::Circle(circle) => drawing.features.circle(circle).radius,
         Profile::Curve(_) => 0.0,
     };
-    let of = |own: Anchor, other: Anchor, reach| near(own).then_some(Busy { away_from: Some(other), reach });
+    let obstruction_at =
+        |contact: Anchor, other: Anchor, reach| near(contact).then_some(Obstruction { away_from: Some(other), reach });
     model.joints.iter().find_map(|joint| match joint.kind {
-        JointKind::PointFollower(p, profile) => of(drawing.features.point(p), middle(profile), 0.0),
-        JointKind::Cam(k, m) => of(middle(k), middle(m), radius(k)).or_else(|| of(middle(m), middle(k), radius(m))),
-        JointKind::FlatFollower(profile, face) => of(line(face), middle(profile), 0.0),
-        JointKind::RackPinion { rack, .. } => near(line(rack)).then_some(Busy { away_from: None, reach: 0.0 }),
+        JointKind::PointFollower(p, profile) => obstruction_at(drawing.features.point(p), middle(profile), 0.0),
+        JointKind::Cam(k, m) => {
+            obstruction_at(middle(k), middle(m), radius(k)).or_else(|| obstruction_at(middle(m), middle(k), radius(m)))
+        }
+        JointKind::FlatFollower(profile, face) => obstruction_at(line(face), middle(profile), 0.0),
+        JointKind::RackPinion { rack, .. } => near(line(rack)).then_some(Obstruction { away_from: None, reach: 0.0 }),
         _ => None,
     })
 }
 
-/// A bar of the body that slides, in a sleeve of the other one.
-fn in_sleeve(drawing: &mut Drawing, declaration: usize, (guide, slider): (&Line, &Line), way: [f64; 2], busy: Busy) {
+/// Draws a bar of the sliding body in a sleeve of the other body.
+fn draw_in_sleeve(
+    drawing: &mut Drawing,
+    declaration: usize,
+    guide: &Line,
+    slider: &Line,
+    stroke: [f64; 2],
+    obstruction: Obstruction,
+) {
     let (unit, symbols) = (drawing.unit, Symbols { unit: drawing.unit });
     let poses = drawing.motion.poses(0);
-    let ahead = poses[guide.frame].turned(guide.along);
-    let is_same = dot(ahead, poses[slider.frame].turned(slider.along)) >= 0.0;
-    let sign = match busy.away_from {
+    let ahead = poses[guide.frame].rotate(guide.along);
+    let has_same_sense = dot(ahead, poses[slider.frame].rotate(slider.along)) >= 0.0;
+    let sign = match obstruction.away_from {
         Some(other) => {
             let origin = Anchor { frame: slider.frame, at: slider.at };
-            if dot(ahead, minus(origin.placed(poses), other.placed(poses))) < 0.0 { -1.0 } else { 1.0 }
+            if dot(ahead, minus(origin.position(poses), other.position(poses))) < 0.0 { -1.0 } else { 1.0 }
         }
         None => 1.0,
     };
-    let [low, high] = widened(way, 0.0);
+    let [low, high] = widen(stroke, 0.0);
     let (near, far) = if sign > 0.0 { (low, high) } else { (-high, -low) };
-    let to_sleeve = busy.reach + TO_SLEEVE * unit;
+    let to_sleeve = obstruction.reach + TO_SLEEVE * unit;
     let along = sign * (far + to_sleeve);
-    let middle = on(guide, along);
+    let middle = point_on(guide, along);
     if guide.frame == 0 {
         let across = times(SLEEVE[1] * unit, left(guide.along));
         let half = times(SLEEVE[0] * unit, guide.along);
@@ -154,27 +164,27 @@ fn in_sleeve(drawing: &mut Drawing, declaration: usize, (guide, slider): (&Line,
     } else {
         let sleeve = rectangle(middle, guide.along, SLEEVE[0] * unit, 1.3 * SLEEVE[1] * unit);
         drawing.add_fixed(Layer::Blocks, declaration, guide.frame, vec![shape(Look::Sleeve, sleeve)]);
-        drawing.outlines[guide.frame].places.push(middle);
+        drawing.outlines[guide.frame].positions.push(middle);
     }
-    // the bar reaches through the sleeve wherever the body is
+    // the bar reaches through the sleeve in every position
     let long = (far - near) + to_sleeve + (SLEEVE[0] + 0.4) * unit;
-    let outward = if is_same { sign } else { -sign };
-    let Outline { places, .. } = &mut drawing.outlines[slider.frame];
-    places.extend([slider.at, plus(slider.at, times(outward * long, slider.along))]);
-    if busy.away_from.is_none() {
+    let outward = if has_same_sense { sign } else { -sign };
+    let Outline { positions, .. } = &mut drawing.outlines[slider.frame];
+    positions.extend([slider.at, plus(slider.at, times(outward * long, slider.along))]);
+    if obstruction.away_from.is_none() {
         // a rack is held on both sides
-        places.push(plus(slider.at, times(-outward * long, slider.along)));
+        positions.push(plus(slider.at, times(-outward * long, slider.along)));
     }
 }
 
-/// A pin in a slot.
-pub(super) fn slot(drawing: &mut Drawing, declaration: usize, (p, axis): (PointId, AxisId), offset: f64) {
+/// Draws a pin in a slot.
+pub(super) fn slot(drawing: &mut Drawing, declaration: usize, p: PointId, axis: AxisId, offset: f64) {
     let (unit, symbols) = (drawing.unit, Symbols { unit: drawing.unit });
     let line = drawing.features.axis(axis);
     let line = Line { at: plus(line.at, times(offset, left(line.along))), ..line };
     let pin = drawing.features.point(p);
-    let [low, high] = widened(drawing.range_on(&line, pin), LEAST_WAY * unit);
-    let ends = [on(&line, low), on(&line, high)];
+    let [low, high] = widen(drawing.range_on(&line, pin), LEAST_STROKE * unit);
+    let ends = [point_on(&line, low), point_on(&line, high)];
     let stadium = symbols.stadium(ends[0], ends[1], SLOT, Look::Slot);
     if line.frame == 0 {
         let [x, y] = line.along;
@@ -185,20 +195,20 @@ pub(super) fn slot(drawing: &mut Drawing, declaration: usize, (p, axis): (PointI
         drawing.add_fixed(Layer::Ground, declaration, 0, vec![hatching, stadium]);
     } else {
         let outline = &mut drawing.outlines[line.frame];
-        outline.places.extend(ends);
+        outline.positions.extend(ends);
         outline.is_slotted = true;
         drawing.add_fixed(Layer::Slots, declaration, line.frame, vec![stadium]);
     }
     if pin.frame == 0 {
         super::pins::single_pin(drawing, declaration, p);
     } else {
-        let shown = drawing.shown(&[p]);
-        let pin_shape = symbols.pin(pin.at, shown);
+        let point = drawing.point_index(&[p]);
+        let pin_shape = symbols.pin(pin.at, point);
         drawing.add_fixed(Layer::Pins, declaration, pin.frame, vec![pin_shape]);
     }
 }
 
-/// Which side of a line a place lies on: above zero for its left (m).
-pub(super) fn height(line: &Line, place: Vector) -> f64 {
-    cross(line.along, minus(place, line.at))
+/// Returns the signed distance of a position from a line (m), positive on its left.
+pub(super) fn height(line: &Line, position: Vector) -> f64 {
+    cross(line.along, minus(position, line.at))
 }

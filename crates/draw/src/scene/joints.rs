@@ -1,4 +1,4 @@
-//! What is drawn for each joint, by its kind: each in a file of its own.
+//! Dispatch of joints to their symbols; each kind is drawn in a file of its own.
 
 use super::drawing::Drawing;
 use super::{contacts, guides, pins};
@@ -20,7 +20,7 @@ pub(super) fn draw(drawing: &mut Drawing) {
             JointKind::RevoluteTranslational(p, axis, offset) => {
                 let offset = drawing.features.value(offset);
                 let offset = if model.is_mirrored(joint.part) { -offset } else { offset };
-                guides::slot(drawing, declaration, (p, axis), offset);
+                guides::slot(drawing, declaration, p, axis, offset);
             }
             JointKind::PointFollower(p, profile) => contacts::point_follower(drawing, number, p, profile),
             JointKind::Cam(k, m) => contacts::cam(drawing, number, [k, m]),

@@ -1,26 +1,27 @@
-//! What there is to draw of a mechanism: its bodies as links, its joints and drivers as symbols in the manner of ISO 3952, wheels with
-//! teeth that mesh, cams, traces. Everything that is drawn knows its declaration.
+//! Scene of a mechanism: bodies as links, joints and drivers as symbols after ISO 3952, meshing gears, cams and traces. Every shape names
+//! its declaration.
 //!
-//! Lengths are metres and directions those of frames; nothing here knows a pixel, a colour or a file. A [`Scene`] is made once, from the
-//! checked mechanism and its whole [`Motion`]: that decides how large symbols are, how long guides and slots have to be, and which way
-//! arrows point. A moment is then nothing but the poses of all frames.
+//! Lengths are metres, in the coordinates of frames; nothing here depends on pixels, colours or files. A [`Scene`] is built once, from the
+//! checked mechanism and its whole [`Motion`], which decides the size of symbols, the length of guides and slots, and the direction of
+//! arrows. After that the poses of all frames are enough to draw a moment.
 //!
 //! ```text
 //! Mechanism, Motion ──▶ Scene ──view──▶ pictures and pages
 //! ```
 
 mod bodies;
+mod builder;
 mod catalogue;
 mod contacts;
 mod drawing;
 mod drivers;
-mod faults;
+mod fault_marks;
 mod features;
 mod forces;
 mod gears;
 mod guides;
 mod joints;
-mod lengths;
+mod length_marks;
 mod motion;
 mod pins;
 mod plane;
@@ -30,17 +31,16 @@ mod symbols;
 mod teeth;
 mod torques;
 mod track;
-mod whole;
 
-pub use catalogue::catalogue;
-pub use faults::{Faults, Joints};
+pub use catalogue::{Catalogue, catalogue};
+pub use fault_marks::{Faults, Joints};
 pub use features::drawn_poses;
 pub use forces::{ForceKind, ForceValue, ForceVector};
-pub use lengths::Length;
+pub use length_marks::Length;
 pub use motion::{Gaps, Motion, Track};
 pub use plane::{
-    Contour, Path, Pose, Segment, Vector, bounds, cross, direction, distance, dot, hull, is_finite, left, length,
-    minus, plus, polar, times, unit,
+    Contour, Path, Pose, Segment, Vector, bounds, cross, direction, distance, distance_to_segment, dot, hull,
+    is_finite, left, length, minus, plus, polar, times, unit,
 };
 pub use torques::Torque;
 pub use track::{DrawnLine, RETRACE_TOLERANCE, Stroke};
@@ -48,88 +48,87 @@ pub use track::{DrawnLine, RETRACE_TOLERANCE, Stroke};
 use mechc_lang::model::Mechanism;
 use mechc_text::source::Span;
 
-/// Pins of one body that are no farther apart than this, in units, are one.
-const SAME_PLACE: f64 = 1e-6;
+/// Pins of one body closer than this are one pin (symbol units).
+const SAME_PIN: f64 = 1e-6;
 
-/// All that there is to draw.
+/// Everything that is drawn of a mechanism.
 #[derive(Clone, Debug)]
 pub struct Scene {
-    /// The mechanism's name.
+    /// Name of the mechanism.
     pub name: String,
-    /// The text of its `///` lines.
+    /// Documentation comment of the mechanism, by line.
     pub docs: Vec<String>,
-    /// All that can be pointed at.
+    /// Declarations that shapes and the page refer to, by index.
     pub declarations: Vec<Declaration>,
-    /// The declaration of each frame: the ground, then the bodies in their order. What is the ground in a part is folded into what
-    /// carries the part.
+    /// Declaration of each frame: the ground, then the bodies in order. The ground of a part belongs to the frame that carries the part.
     pub frames: Vec<usize>,
-    /// Points that have a name.
+    /// Named points.
     pub points: Vec<Point>,
-    /// What turns about a pin, each body by itself; the ground too.
+    /// Pins of revolute joints and distances, one per body that turns about them, the ground included.
     pub pins: Vec<Pin>,
-    /// From the one that is drawn first, below all others, to the last.
+    /// Nodes in drawing order, the bottom one first.
     pub nodes: Vec<Node>,
-    /// Paths of points that the text asks for.
+    /// Traces of the text.
     pub traces: Vec<Trace>,
-    /// Lines that contacts run along.
+    /// Profiles that contacts run along.
     pub profiles: Vec<Profile>,
-    /// Where cams move followers.
+    /// Contacts between cams and followers.
     pub contacts: Vec<Contact>,
-    /// Forces, where the motion's table tells them.
+    /// Forces whose values are in the motion's table.
     pub forces: Vec<ForceVector>,
-    /// Torques, likewise.
+    /// Torques whose values are in the motion's table.
     pub torques: Vec<Torque>,
-    /// The circles and lines on which wheels, rings and racks roll. Their teeth are symbols: a text does not say how many there are.
+    /// Pitch circles and pitch lines of gears and racks. Teeth are only symbols: a text does not say how many there are.
     pub pitch_lines: Vec<PitchLine>,
-    /// The size of symbols (m): a pin is a little smaller, a block a little larger.
+    /// Size of symbols (m); a pin is a little smaller, a block a little larger.
     pub unit: f64,
-    /// The least and the greatest coordinates of all that is drawn along the motion (m).
+    /// Lower and upper corner of the bounding box of everything along the motion (m).
     pub extent: [Vector; 2],
-    /// The declarations that messages name, which stand out.
+    /// Declarations that messages name; pictures highlight them.
     pub named: Vec<usize>,
-    /// What messages say of places at rest.
+    /// Messages at places of the ground, for a mechanism at rest.
     pub remarks: Vec<Remark>,
 }
 
 impl Scene {
-    /// What there is to draw of a mechanism that moves so; the motion has one row at least.
+    /// Builds the scene of a mechanism and its motion, which has at least one row.
     #[must_use]
     pub fn of(model: &Mechanism, motion: &Motion) -> Scene {
-        whole::scene(model, motion, None)
+        builder::build(model, motion, None)
     }
 
-    /// The same with symbols of a size (m), be the motion as large as it may.
+    /// Builds the scene with symbols of size `unit` (m) instead of one that fits the motion.
     #[must_use]
-    pub fn with_symbols(model: &Mechanism, motion: &Motion, unit: f64) -> Scene {
-        whole::scene(model, motion, Some(unit))
+    pub fn with_symbol_size(model: &Mechanism, motion: &Motion, unit: f64) -> Scene {
+        builder::build(model, motion, Some(unit))
     }
 
-    /// Shows what is the matter with the mechanism that it is of; where that has no motion, at its only moment.
-    pub fn show_faults(&mut self, model: &Mechanism, motion: &Motion, faults: &Faults) {
-        faults::add(self, model, motion, faults);
+    /// Adds the marks of faults, at the first row of the motion.
+    pub fn add_fault_marks(&mut self, model: &Mechanism, motion: &Motion, faults: &Faults) {
+        fault_marks::add(self, model, motion, faults);
     }
 
-    /// One body by itself in its own frame, with all that is fixed to it, and the moment at which it is drawn.
+    /// Returns the scene of one body in its own frame, with everything that is fixed to it, and the motion that draws it.
     #[must_use]
     pub fn alone(&self, frame: usize) -> (Scene, Motion) {
-        let mut numbers = vec![None; self.points.len()];
+        let mut indices = vec![None; self.points.len()];
         let mut points = Vec::new();
         for (number, point) in self.points.iter().enumerate().filter(|(_, point)| point.frame == frame) {
-            numbers[number] = Some(points.len());
+            indices[number] = Some(points.len());
             points.push(point.clone());
         }
         let mut nodes: Vec<Node> =
-            self.nodes.iter().filter(|node| node.place == Place::Fixed(frame)).cloned().collect();
+            self.nodes.iter().filter(|node| node.attachment == Attachment::Fixed(frame)).cloned().collect();
         for shape in nodes.iter_mut().flat_map(|node| &mut node.shapes) {
-            shape.point = shape.point.and_then(|number| numbers[number]);
+            shape.point = shape.point.and_then(|number| indices[number]);
         }
         let pins: Vec<Pin> = self.pins.iter().filter(|pin| pin.anchor.frame == frame).cloned().collect();
         for pin in &pins {
             self.add_pin(&mut nodes, pin, &points);
         }
-        let places = nodes.iter().flat_map(|node| &node.shapes).flat_map(|shape| shape.path.places());
+        let positions = nodes.iter().flat_map(|node| &node.shapes).flat_map(|shape| shape.path.positions());
         let margin = [0.5 * self.unit; 2];
-        let extent = bounds(places).map_or(self.extent, |[low, high]| [minus(low, margin), plus(high, margin)]);
+        let extent = bounds(positions).map_or(self.extent, |[low, high]| [minus(low, margin), plus(high, margin)]);
         let profiles = self.profiles.iter().filter(|profile| profile.frame == frame).cloned().collect();
         let pitch_lines = self.pitch_lines.iter().filter(|line| line.frame == frame).cloned().collect();
         let (traces, contacts, forces, torques) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
@@ -152,244 +151,244 @@ impl Scene {
         (scene, Motion::still(vec![Pose::default(); self.frames.len()]))
     }
 
-    /// Adds a pin that is drawn with another body, unless there is one in its place.
+    /// Adds a pin that is drawn with another body, unless the body has one at this position.
     fn add_pin(&self, nodes: &mut Vec<Node>, pin: &Pin, points: &[Point]) {
         let Anchor { frame, at } = pin.anchor;
-        let is_here = |other: Vector| distance(other, at) <= SAME_PLACE * self.unit;
-        let is_there = |shape: &Shape| match shape.path {
-            Path::Circle { at, .. } => shape.look == Look::Pin && is_here(at),
+        let is_at = |other: Vector| distance(other, at) <= SAME_PIN * self.unit;
+        let is_same_pin = |shape: &Shape| match shape.path {
+            Path::Circle { at, .. } => shape.look == Look::Pin && is_at(at),
             Path::Lines(_) => false,
         };
-        if nodes.iter().flat_map(|node| &node.shapes).any(is_there) {
+        if nodes.iter().flat_map(|node| &node.shapes).any(is_same_pin) {
             return;
         }
-        let point = points.iter().position(|point| is_here(point.at));
+        let point = points.iter().position(|point| is_at(point.at));
         let shape = symbols::Symbols { unit: self.unit }.pin(at, point);
-        nodes.push(Node { declaration: pin.declaration, place: Place::Fixed(frame), shapes: vec![shape] });
+        nodes.push(Node { declaration: pin.declaration, attachment: Attachment::Fixed(frame), shapes: vec![shape] });
     }
 
-    /// The least and the greatest coordinates of all that is drawn at the moments of a motion (m); none where there is nothing.
+    /// Returns the bounding box of everything at the rows of a motion (m), or `None` if nothing is drawn.
     #[must_use]
     pub fn reach(&self, moments: &Motion) -> Option<[Vector; 2]> {
-        whole::reach(&self.nodes, moments, self.unit)
+        builder::reach(&self.nodes, moments, self.unit)
     }
 
-    /// Takes away what shows what messages name.
-    pub fn name_nothing(&mut self) {
+    /// Removes the marks and highlights of messages.
+    pub fn clear_highlights(&mut self) {
         self.named.clear();
         self.remarks.clear();
         self.nodes.retain(|node| node.shapes.iter().any(|shape| shape.look != Look::Named));
     }
 
-    /// The point of a path such as `crank.pin`.
+    /// Returns the point with a path such as `crank.pin`.
     #[must_use]
     pub fn point_named(&self, path: &str) -> Option<&Point> {
         self.points.iter().find(|point| point.name == path)
     }
 }
 
-/// Something of the text.
+/// A declaration of the text.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Declaration {
-    /// Its path.
+    /// Path of the declaration.
     pub name: String,
-    /// The word of the language: `body`, `joint`, `driver`, `constraint`, `measure`, `trace`, `point`, …
+    /// Kind in words of the language: `body`, `joint`, `driver`, `constraint`, `measure`, `trace`, `point`, …
     pub kind: &'static str,
-    /// Its place: that of its name, unless more is known.
+    /// Span in the text, usually that of the name.
     pub span: Span,
 }
 
-/// A point of a frame that has a name.
+/// A named point of a frame.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Point {
-    /// Which declaration it is.
+    /// Index of its declaration.
     pub declaration: usize,
-    /// Its path, `crank.pin`.
+    /// Path, such as `crank.pin`.
     pub name: String,
-    /// The number of its frame.
+    /// Index of its frame.
     pub frame: usize,
-    /// In that frame (m).
+    /// Position in the frame (m).
     pub at: Vector,
-    /// Whether a joint takes hold there.
+    /// True if a joint or a distance acts at the point.
     pub is_pin: bool,
 }
 
-/// A place in which a pin is.
+/// A pin on one body.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Pin {
-    /// The joint or equation.
+    /// Index of the joint or equation.
     pub declaration: usize,
-    /// Where it is in one of those that it joins.
+    /// Position on one of the bodies that it joins.
     pub anchor: Anchor,
 }
 
-/// Words of a message that belong to a place.
+/// Text of a message at a position.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Remark {
-    /// Of the ground (m).
+    /// Position in the ground's frame (m).
     pub at: Vector,
-    /// What is said of it.
+    /// Text.
     pub text: String,
 }
 
-/// A place in a frame.
+/// A position in a frame.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Anchor {
-    /// The number of the frame.
+    /// Index of the frame.
     pub frame: usize,
-    /// In the frame (m).
+    /// Position in the frame (m).
     pub at: Vector,
 }
 
 impl Anchor {
-    /// Where it is at a moment (m).
+    /// Returns the position in the ground's frame (m) at some poses.
     #[must_use]
-    pub fn placed(&self, poses: &[Pose]) -> Vector {
-        poses[self.frame].placed(self.at)
+    pub fn position(&self, poses: &[Pose]) -> Vector {
+        poses[self.frame].transform(self.at)
     }
 }
 
-/// What is drawn of a declaration in one place.
+/// Shapes of one declaration that move together.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Node {
-    /// Whose it is.
+    /// Index of the declaration.
     pub declaration: usize,
-    /// What its shapes move with.
-    pub place: Place,
-    /// From the first to the last that is drawn.
+    /// Placement of the shapes.
+    pub attachment: Attachment,
+    /// Shapes in drawing order, the bottom one first.
     pub shapes: Vec<Shape>,
 }
 
-/// What shapes move with.
+/// Placement of shapes: what they move with.
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub enum Place {
-    /// They are in the frame's own coordinates.
+pub enum Attachment {
+    /// In the coordinates of a frame.
     Fixed(usize),
-    /// They keep the ground's directions, around a place.
+    /// In the ground's directions, around an anchor.
     Upright(Anchor),
-    /// x runs from one place to another, y to the left of that way.
+    /// The x axis runs from one anchor to another, y to its left.
     Between {
-        /// The one.
+        /// Anchor where x begins.
         from: Anchor,
-        /// The other.
+        /// Anchor where x ends.
         to: Anchor,
-        /// What happens where the two come nearer.
-        held: Held,
+        /// Which end holds the shapes when the distance changes.
+        alignment: Alignment,
     },
 }
 
-/// Which end a shape between two places is held at.
+/// End that holds shapes between two anchors.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Held {
-    /// Its origin is where the way begins.
-    From,
-    /// Its origin is where the way ends.
-    To,
-    /// It is stretched along the way, whose length is 1 to it; across it keeps its size (m).
-    Stretched,
+pub enum Alignment {
+    /// Their origin is the first anchor.
+    Start,
+    /// Their origin is the second anchor.
+    End,
+    /// They are stretched: x = 1 is the second anchor, y keeps its size (m).
+    Stretch,
 }
 
-impl Place {
-    /// Whether x runs from 0 to 1 between its two places.
+impl Attachment {
+    /// Returns whether x runs from 0 to 1 between two anchors.
     #[must_use]
     pub fn is_stretched(&self) -> bool {
-        matches!(self, Place::Between { held: Held::Stretched, .. })
+        matches!(self, Attachment::Between { alignment: Alignment::Stretch, .. })
     }
 
-    /// Where its shapes are at a moment, and by what x is stretched.
+    /// Returns the pose of the shapes at some poses of all frames, and the scale of their x coordinate.
     #[must_use]
     pub fn pose(&self, poses: &[Pose]) -> (Pose, f64) {
         match self {
-            Place::Fixed(frame) => (poses[*frame], 1.0),
-            Place::Upright(anchor) => (Pose { at: anchor.placed(poses), phi: 0.0 }, 1.0),
-            Place::Between { from, to, held } => {
-                let (start, end) = (from.placed(poses), to.placed(poses));
-                let way = minus(end, start);
-                let pose = Pose { at: if *held == Held::To { end } else { start }, phi: direction(way) };
-                (pose, if *held == Held::Stretched { length(way) } else { 1.0 })
+            Attachment::Fixed(frame) => (poses[*frame], 1.0),
+            Attachment::Upright(anchor) => (Pose { at: anchor.position(poses), phi: 0.0 }, 1.0),
+            Attachment::Between { from, to, alignment } => {
+                let (start, end) = (from.position(poses), to.position(poses));
+                let axis = minus(end, start);
+                let pose = Pose { at: if *alignment == Alignment::End { end } else { start }, phi: direction(axis) };
+                (pose, if *alignment == Alignment::Stretch { length(axis) } else { 1.0 })
             }
         }
     }
 }
 
-/// A path and what it stands for.
+/// A path with its meaning.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Shape {
-    /// In metres.
+    /// Path (m).
     pub path: Path,
-    /// What it stands for.
+    /// Meaning, which decides the style.
     pub look: Look,
-    /// The point that it shows, by its number.
+    /// Index of the point that the shape shows.
     pub point: Option<usize>,
 }
 
-/// What a shape stands for, which decides how it is drawn.
+/// Meaning of a shape, which decides its style.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub enum Look {
-    /// A body.
+    /// Outline of a body.
     Link,
-    /// A body of which nothing is known but its frame.
+    /// Axes of a body that has nothing but its frame.
     Cross,
-    /// A bar that is no body of its own.
+    /// Bar that is not a body.
     MasslessLink,
-    /// Of a driven distance: the cylinder, and its rod.
+    /// Cylinder of a driven distance.
     Cylinder,
-    /// The rod in a cylinder.
+    /// Rod of a cylinder.
     Rod,
-    /// Bodies can turn about it.
+    /// Pin of a revolute joint.
     Pin,
-    /// A place that a joint takes hold of without a pin, or that draws a trace.
+    /// Point without a pin that a joint uses or a trace follows.
     Dot,
-    /// What holds a pin on the ground.
+    /// Support of a pin on the ground.
     Support,
-    /// The edge of the ground.
+    /// Edge of the ground.
     GroundLine,
-    /// What tells the ground from bodies.
+    /// Hatching of the ground.
     Hatching,
-    /// A line that something slides along.
+    /// Line that a slider runs along.
     Guide,
-    /// What slides.
+    /// Sliding block.
     Block,
-    /// What holds a bar that slides.
+    /// Sleeve of a sliding bar.
     Sleeve,
-    /// A slot in a body or in the ground.
+    /// Slot in a body or in the ground.
     Slot,
-    /// Bodies are fixed to each other.
+    /// Weld between two bodies.
     Weld,
-    /// A wheel with teeth, or a ring.
+    /// Gear or ring gear.
     Gear,
-    /// A circle or line on which wheels roll.
+    /// Pitch circle or pitch line.
     Pitch,
-    /// A straight row of teeth.
+    /// Straight row of teeth.
     Rack,
-    /// What a contact runs along, filled.
+    /// Filled profile of a contact.
     Cam,
-    /// What a contact runs along, as a line.
+    /// Profile of a contact as a line.
     Track,
-    /// What runs on a cam.
+    /// Roller on a cam.
     Roller,
-    /// A flat face on a cam.
+    /// Flat face of a follower.
     Face,
-    /// A spring, or a damper.
+    /// Spring or damper.
     Spring,
-    /// What a driver does: the line of an arrow.
+    /// Line of a driver's arrow.
     Arrow,
-    /// The head of an arrow.
+    /// Head of a driver's arrow.
     ArrowHead,
-    /// What nothing holds: the line of an arrow.
+    /// Line of an arrow for a free motion.
     Free,
-    /// The head of such an arrow.
+    /// Head of an arrow for a free motion.
     FreeHead,
-    /// From one half of an open joint to the other.
+    /// Line between the two halves of an open joint.
     Gap,
-    /// A half of an open joint.
+    /// Ring around one half of an open joint.
     GapEnd,
-    /// A ring around what a message names.
+    /// Ring or line that marks what a message names.
     Named,
 }
 
 impl Look {
-    /// All of them.
+    /// All looks.
     pub const ALL: [Look; 30] = [
         Look::Link,
         Look::Cross,
@@ -423,7 +422,7 @@ impl Look {
         Look::Named,
     ];
 
-    /// A word for it, of small letters and hyphens.
+    /// Returns its name in lower case with hyphens; style sheets use it as a class.
     #[must_use]
     pub fn word(self) -> &'static str {
         match self {
@@ -461,107 +460,107 @@ impl Look {
     }
 }
 
-/// The path of a point that the text asks for.
+/// A trace of the text.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Trace {
-    /// Which declaration it is.
+    /// Index of its declaration.
     pub declaration: usize,
-    /// What draws it.
+    /// Source of its positions.
     pub pen: Pen,
 }
 
-/// What draws a trace.
+/// Source of a trace's positions.
 #[derive(Clone, PartialEq, Debug)]
 pub enum Pen {
-    /// A point of a frame.
+    /// Point of a frame.
     Point(Anchor),
     /// Two formulas, whose values are the columns `NAME.x` and `NAME.y` of the table, in SI.
     Columns {
-        /// The trace's path, `NAME`.
+        /// Path of the trace, `NAME`.
         name: String,
-        /// What their frame is fixed to.
+        /// Index of the frame that carries the coordinates.
         frame: usize,
-        /// Where their frame is in that one.
+        /// Pose of the coordinates in that frame.
         pose: Pose,
-        /// Whether their y axis points to the right of their x axis.
+        /// True if y points to the right of x.
         is_mirrored: bool,
     },
 }
 
-/// What a wheel, ring or rack rolls on.
+/// Pitch circle or pitch line of a gear, ring gear or rack.
 #[derive(Clone, PartialEq, Debug)]
 pub struct PitchLine {
-    /// Whose it is.
+    /// Index of the declaration.
     pub declaration: usize,
-    /// The number of its frame.
+    /// Index of the frame.
     pub frame: usize,
-    /// In the frame (m).
+    /// Path in the frame (m).
     pub path: Path,
 }
 
 /// A line that contacts run along.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Profile {
-    /// Which declaration it is: the curve or circle.
+    /// Index of the declaration of the curve or circle.
     pub declaration: usize,
-    /// The number of its frame.
+    /// Index of the frame.
     pub frame: usize,
-    /// Whether it ends where it begins.
+    /// True if the profile ends where it begins.
     pub is_closed: bool,
-    /// Places on it, by rising argument.
+    /// Samples in order of their argument.
     pub samples: Vec<Sample>,
 }
 
-/// A cam and what it moves.
+/// A contact of a cam and its follower.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Contact {
-    /// The joint.
+    /// Index of the joint's declaration.
     pub declaration: usize,
-    /// The number of the cam's frame.
+    /// Index of the cam's frame.
     pub cam: usize,
-    /// The number of the follower's frame.
+    /// Index of the follower's frame.
     pub follower: usize,
-    /// What of the follower touches the cam.
+    /// Part of the follower that touches the cam.
     pub touch: Touch,
 }
 
-/// What of a follower touches a cam, in the follower's frame (m).
+/// Part of a follower that touches a cam, in the follower's frame (m).
 #[derive(Clone, PartialEq, Debug)]
 pub enum Touch {
-    /// A point.
+    /// Point.
     Tip(Vector),
-    /// A circle, at the place `centre + cos(w) arms[0] + sin(w) arms[1]`.
+    /// Circle with the positions `centre + cos(w) arms[0] + sin(w) arms[1]`.
     Roller {
-        /// Its centre.
+        /// Centre.
         centre: Vector,
-        /// From the centre to the circle where the argument is 0, and where it is a quarter of a turn.
+        /// Vectors from the centre to the circle at w = 0 and at w = π/2.
         arms: [Vector; 2],
-        /// The name of the joint's coordinate that is the argument.
+        /// Name of the joint coordinate that is w.
         argument: String,
     },
-    /// A straight face: a place of it, and its direction.
+    /// Straight face: a point on it, and its direction.
     Face(Vector, Vector),
 }
 
-/// A place on a profile.
+/// A point of a profile.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Sample {
-    /// The argument.
+    /// Argument.
     pub u: f64,
-    /// In the frame (m).
+    /// Position in the frame (m).
     pub at: Vector,
-    /// How that changes with the argument (m).
+    /// Derivative of the position by the argument (m).
     pub tangent: Vector,
 }
 
 impl Sample {
-    /// A place between this one and another, on the cubic through both with their tangents.
+    /// Returns the position at `part` ∈ [0, 1] of the way to `other`, on the cubic Hermite curve.
     #[must_use]
     pub fn between(&self, other: &Sample, part: f64) -> Vector {
         let (h, rest) = (other.u - self.u, 1.0 - part);
         let ends =
             plus(times(rest * rest * (1.0 + 2.0 * part), self.at), times(part * part * (1.0 + 2.0 * rest), other.at));
-        let ways = plus(times(rest, self.tangent), times(-part, other.tangent));
-        plus(ends, times(h * part * rest, ways))
+        let tangents = plus(times(rest, self.tangent), times(-part, other.tangent));
+        plus(ends, times(h * part * rest, tangents))
     }
 }

@@ -1,57 +1,57 @@
-//! Where all frames are, row by row and between the rows.
+//! Poses of all frames in the rows of a table, and between the rows.
 
 use super::plane::{Pose, Vector, distance, minus, plus, times};
 use mechc_expr::math;
 use rustc_hash::FxHashMap;
 
-/// Between rows that are no farther apart than this part of the motion all goes straight.
-const SHORT: f64 = 2e-12;
-/// What lines may be off between rows (m), unless more is known.
-const OFF: f64 = 1e-7;
-/// The part of a step by which an even time may be short of a row.
-const SLACK: f64 = 1e-6;
+/// Rows closer than this part of the whole motion are joined by straight lines.
+const SHORT_INTERVAL: f64 = 2e-12;
+/// Default of [`Motion::off`] (m).
+const DEFAULT_TOLERANCE: f64 = 1e-7;
+/// Tolerance, in steps, by which an evenly spaced time may miss its row.
+const ROW_SLACK: f64 = 1e-6;
 
-/// The poses of all frames at some times, with their first and second derivatives, and what else a picture asks of the table.
+/// Poses of all frames with first and second derivatives at some times, and the rows of the table that pictures read.
 #[derive(Clone, Debug, Default)]
 pub struct Motion {
-    /// When (s), ascending.
+    /// Times (s), ascending.
     pub times: Vec<f64>,
     /// Times at which accelerations may jump (s), ascending.
     pub edges: Vec<f64>,
     frames: usize,
-    /// Row by row, the ground first.
+    /// Poses by row, the ground first in each.
     poses: Vec<Pose>,
     rates: Vec<Pose>,
     accelerations: Vec<Pose>,
-    /// Row by row, all columns, in SI.
+    /// Rows of the table, all columns in SI.
     rows: Vec<Vec<f64>>,
     columns: FxHashMap<String, usize>,
-    /// What lines may be off between rows (m).
+    /// Tolerance of lines between rows (m).
     pub off: f64,
-    /// Between rows that are no farther apart than this (s) all goes straight.
+    /// Rows closer than this (s) are joined by straight lines.
     short: f64,
     gaps: Vec<(Track, Gaps)>,
 }
 
-/// What tells where a pen is, or what a column is worth: where in the table that stands.
+/// Source of a moving position, or of a column's value, resolved to columns of the table.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Track {
-    /// What it moves with: a point of a frame, or the origin of what columns are read in.
+    /// Frame that carries the point or the coordinates of the columns.
     pub(super) frame: usize,
-    /// Where it is there; of columns, where their frame is.
+    /// Position in that frame; of columns the pose of their coordinates.
     pub(super) pose: Pose,
-    /// Of columns: value, rate and acceleration of x, then of y; none where the table has none.
+    /// Columns of value, rate and acceleration of x, then of y, as far as the table has them; `None` for a point of a frame.
     pub(super) columns: Option<[[Option<usize>; 3]; 2]>,
     pub(super) is_mirrored: bool,
 }
 
-/// The stretches in which a track is not drawn.
+/// Intervals in which a track is not drawn.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Gaps {
-    /// For each row but the last: whether nothing is drawn from it to the next, because the track goes to infinity there, jumps, has no
-    /// value or is not known well enough.
+    /// True for each row, except the last, after which nothing is drawn until the next one: the track goes to infinity, jumps, has no value
+    /// or is not accurate enough.
     pub behind: Vec<bool>,
-    /// A place that the track is near, and the distance (m) from it beyond which the track is on its way to infinity.
+    /// Centre of the track and the distance from it (m) beyond which the track goes to infinity.
     pub reach: (Vector, f64),
 }
 
@@ -62,17 +62,17 @@ impl Gaps {
         self.behind.get(row).copied().unwrap_or(false)
     }
 
-    /// Returns whether a place is on the way to infinity.
+    /// Returns whether a position lies on the way to infinity.
     #[must_use]
-    pub fn is_far(&self, place: Vector) -> bool {
+    pub fn is_far(&self, position: Vector) -> bool {
         let (middle, far) = self.reach;
-        distance(place, middle) > far
+        distance(position, middle) > far
     }
 }
 
 impl Motion {
-    /// That of a table with its time first, whose bodies are the frames behind the ground, in order. Of each body it is told in which
-    /// columns its x, y and phi stand, their first and their second derivatives.
+    /// Creates a motion from a table whose first column is time. `bodies` are the frames after the ground; for each it holds the columns of
+    /// x, y and phi, then of their first and of their second derivatives.
     #[must_use]
     pub fn of_rows(bodies: &[[[usize; 3]; 3]], columns: &[String], rows: Vec<Vec<f64>>, edges: Vec<f64>) -> Motion {
         let named = columns.iter().cloned().enumerate().map(|(k, name)| (name, k)).collect();
@@ -91,11 +91,23 @@ impl Motion {
         let span = times.last().zip(times.first()).map_or(0.0, |(last, first)| last - first);
         let [poses, rates, accelerations] = [0, 1, 2].map(poses_of);
         let (frames, gaps) = (bodies.len() + 1, Vec::new());
-        let short = SHORT * span;
-        Motion { times, edges, frames, poses, rates, accelerations, rows, columns: named, off: OFF, short, gaps }
+        let short = SHORT_INTERVAL * span;
+        Motion {
+            times,
+            edges,
+            frames,
+            poses,
+            rates,
+            accelerations,
+            rows,
+            columns: named,
+            off: DEFAULT_TOLERANCE,
+            short,
+            gaps,
+        }
     }
 
-    /// A single moment without velocities, as a mechanism is drawn.
+    /// Creates a motion of a single moment without velocities.
     #[must_use]
     pub fn still(poses: Vec<Pose>) -> Motion {
         let rest = vec![Pose::default(); poses.len()];
@@ -103,13 +115,13 @@ impl Motion {
         Motion { times: vec![0.0], frames: poses.len(), poses, rates, accelerations, ..Motion::default() }
     }
 
-    /// One row of it.
+    /// Returns one row as a motion.
     #[must_use]
     pub fn moment(&self, row: usize) -> Motion {
         self.moments(&[row])
     }
 
-    /// Some rows of it.
+    /// Returns some rows as a motion.
     #[must_use]
     pub fn moments(&self, rows: &[usize]) -> Motion {
         let of = |list: fn(&Motion, usize) -> &[Pose]| rows.iter().flat_map(|&row| list(self, row)).copied().collect();
@@ -128,7 +140,7 @@ impl Motion {
         }
     }
 
-    /// Leaves out all rows but the first ones; without the gaps.
+    /// Keeps the first `len` rows and removes all gaps.
     pub fn truncate(&mut self, len: usize) {
         self.times.truncate(len);
         for poses in [&mut self.poses, &mut self.rates, &mut self.accelerations] {
@@ -138,8 +150,8 @@ impl Motion {
         self.gaps.clear();
     }
 
-    /// Adds the last row of another motion of the same frames and columns.
-    pub fn append_last(&mut self, other: &Motion) {
+    /// Appends the last row of another motion with the same frames and columns.
+    pub fn append_last_row(&mut self, other: &Motion) {
         let Some(last) = other.len().checked_sub(1) else { return };
         self.times.push(other.times[last]);
         self.poses.extend_from_slice(other.poses(last));
@@ -148,7 +160,7 @@ impl Motion {
         self.rows.extend(other.rows.get(last).cloned());
     }
 
-    /// This motion with the rows of another one of the same frames and columns at other times; without the gaps of either.
+    /// Returns this motion merged, by time, with the rows of another one with the same frames and columns, without gaps.
     #[must_use]
     pub fn merged(&self, other: &Motion) -> Motion {
         let mut all: Vec<(&Motion, usize)> =
@@ -171,115 +183,115 @@ impl Motion {
         }
     }
 
-    /// Tells between which rows a track is not drawn.
+    /// Sets the gaps of a track.
     pub fn set_gaps(&mut self, track: Track, gaps: Gaps) {
         self.gaps.push((track, gaps));
     }
 
-    /// Returns the gaps of a track; `None` where none were told of.
+    /// Returns the gaps of a track, or `None` if none were set.
     #[must_use]
     pub fn gaps(&self, track: &Track) -> Option<&Gaps> {
-        self.gaps.iter().find(|(known, _)| known == track).map(|(_, gaps)| gaps)
+        self.gaps.iter().find(|(existing, _)| existing == track).map(|(_, gaps)| gaps)
     }
 
-    /// Sets the time from the first row to the last one (s) of the whole motion, of which this is a part.
-    pub fn set_whole_span(&mut self, span: f64) {
-        self.short = SHORT * span;
+    /// Sets the duration (s) of the whole motion, of which this is a part.
+    pub fn set_total_duration(&mut self, span: f64) {
+        self.short = SHORT_INTERVAL * span;
     }
 
-    /// Where a column, its rate and its acceleration stand in a row.
+    /// Returns the columns of a value, its rate and its acceleration.
     pub(super) fn derivatives(&self, name: &str) -> [Option<usize>; 3] {
         ["", ".d", ".dd"].map(|order| self.columns.get(&format!("{name}{order}")).copied())
     }
 
-    /// How many rows there are.
+    /// Returns the number of rows.
     #[must_use]
     pub fn len(&self) -> usize {
         self.times.len()
     }
 
-    /// Whether there is none.
+    /// Returns whether there are no rows.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.times.is_empty()
     }
 
-    /// How many frames there are, the ground among them.
+    /// Returns the number of frames, the ground included.
     #[must_use]
     pub fn frames(&self) -> usize {
         self.frames
     }
 
-    /// The poses of all frames in a row.
+    /// Returns the poses of all frames in a row.
     #[must_use]
     pub fn poses(&self, row: usize) -> &[Pose] {
         &self.poses[row * self.frames..][..self.frames]
     }
 
-    /// Their velocities [m/s, rad/s].
+    /// Returns the velocities of all frames in a row [m/s, rad/s].
     #[must_use]
     pub fn rates(&self, row: usize) -> &[Pose] {
         &self.rates[row * self.frames..][..self.frames]
     }
 
-    /// Their accelerations [m/s², rad/s²].
+    /// Returns the accelerations of all frames in a row [m/s², rad/s²].
     #[must_use]
     pub fn accelerations(&self, row: usize) -> &[Pose] {
         &self.accelerations[row * self.frames..][..self.frames]
     }
 
-    /// A column by its name, row by row; nothing where the table has none of that name.
+    /// Returns the values of a column by row, or `None` if the table has no column of that name.
     #[must_use]
     pub fn column<'m>(&'m self, name: &str) -> Option<impl Iterator<Item = f64> + use<'m>> {
         let column = *self.columns.get(name)?;
         Some(self.rows.iter().map(move |row| row[column]))
     }
 
-    /// What a column has in a row, in SI; not a number where the table has none of that name.
+    /// Returns the value of a column in a row, in SI, or NaN if the table has no column of that name.
     #[must_use]
     pub fn value(&self, column: &str, row: usize) -> f64 {
         let column = self.columns.get(column).copied();
         column.zip(self.rows.get(row)).and_then(|(column, row)| row.get(column)).copied().unwrap_or(f64::NAN)
     }
 
-    /// The rows of the table, all columns in SI; none of a still.
+    /// Returns the rows of the table, all columns in SI; a still motion has none.
     #[must_use]
     pub fn rows(&self) -> &[Vec<f64>] {
         &self.rows
     }
 
-    /// At most so many rows, evenly spread in time, the first and the last among them.
+    /// Returns at most `most` rows, evenly spaced in time, with the first and the last.
     pub fn sampled(&self, most: usize) -> impl Iterator<Item = usize> + use<> {
         let (count, last) = (self.len().min(most.max(1)), self.len().saturating_sub(1));
         let mut rows: Vec<usize> = (0..count).map(|k| k * last / (count - 1).max(1)).collect();
         if count < self.len() && count > 1 {
             let [from, to] = [self.times[0], self.times[last]];
             let each = (to - from) / (count - 1) as f64;
-            rows = (0..count).map(|k| self.row_at(from + (k as f64 + SLACK) * each)).collect();
+            rows = (0..count).map(|k| self.row_at(from + (k as f64 + ROW_SLACK) * each)).collect();
             rows.dedup();
         }
         rows.into_iter()
     }
 
-    /// Whether the next row comes so soon that derivatives, which may be endless there, lead nowhere.
+    /// Returns whether the next row comes so soon that derivatives, which may be unbounded there, are of no use.
     pub(super) fn is_short(&self, row: usize) -> bool {
         self.times.get(row + 1).is_some_and(|next| next - self.times[row] <= self.short)
     }
 
-    /// The row at a time (s), or the last before it.
+    /// Returns the last row at or before a time (s).
     #[must_use]
     pub fn row_at(&self, t: f64) -> usize {
-        self.times.partition_point(|&known| known <= t).saturating_sub(1)
+        self.times.partition_point(|&time| time <= t).saturating_sub(1)
     }
 
-    /// Where all frames are at a time (s): between rows on the quintic through both, which is not drawn across an edge.
+    /// Writes the poses of all frames at a time (s). Between rows it evaluates the quintic Hermite curve, but not across an edge.
     pub fn write_poses(&self, t: f64, poses: &mut Vec<Pose>) {
         poses.clear();
         let row = self.row_at(t);
         poses.extend((0..self.frames).map(|frame| self.pose_between(frame, row, t)[0]));
     }
 
-    /// Where a frame is at a time (s) that is not before a row and not behind the next one, and its rate there.
+    /// Returns the pose of a frame and its rate at a time (s) between a row and the next one.
     pub(super) fn pose_between(&self, frame: usize, row: usize, t: f64) -> [Pose; 2] {
         let state = |row: usize| [self.poses(row)[frame], self.rates(row)[frame], self.accelerations(row)[frame]];
         let Some(&begin) = self.times.get(row) else { return [Pose::default(); 2] };
@@ -289,35 +301,35 @@ impl Motion {
         if self.is_short(row) {
             return chord(from[0], to[0], h, (t - begin) / h);
         }
-        let behind = self.edges.partition_point(|edge| *edge <= begin);
-        match self.edges.get(behind).filter(|edge| **edge < end) {
+        let next_edge = self.edges.partition_point(|edge| *edge <= begin);
+        match self.edges.get(next_edge).filter(|edge| **edge < end) {
             None => quintic(from, to, h, (t - begin) / h),
-            // from either side as its row tells it
+            // each side of the edge continues from its own row
             Some(&edge) if t <= edge => taylor(from, t - begin),
             Some(_) => taylor(to, t - end),
         }
     }
 }
 
-/// Straight from one pose to another, `h` (s) apart, at a part of the way; and the rate.
+/// Returns the pose at `part` of the straight way between two poses that are `h` (s) apart, and the rate.
 fn chord(from: Pose, to: Pose, h: f64, part: f64) -> [Pose; 2] {
-    let (way, turn) = (minus(to.at, from.at), to.phi - from.phi);
-    let pose = Pose { at: plus(from.at, times(part, way)), phi: from.phi + part * turn };
-    [pose, Pose { at: times(1.0 / h, way), phi: turn / h }]
+    let (difference, turn) = (minus(to.at, from.at), to.phi - from.phi);
+    let pose = Pose { at: plus(from.at, times(part, difference)), phi: from.phi + part * turn };
+    [pose, Pose { at: times(1.0 / h, difference), phi: turn / h }]
 }
 
-/// A pose and its rate so much time (s) later, by its velocity and acceleration.
+/// Returns the pose and its rate a time `h` (s) later, from velocity and acceleration.
 fn taylor([pose, rate, acceleration]: [Pose; 3], h: f64) -> [Pose; 2] {
     let at = plus(pose.at, times(h, plus(rate.at, times(0.5 * h, acceleration.at))));
     let later = Pose { at, phi: math::predicted([pose.phi, rate.phi, acceleration.phi], h) };
     [later, Pose { at: plus(rate.at, times(h, acceleration.at)), phi: rate.phi + h * acceleration.phi }]
 }
 
-/// The quintic through two poses with velocities and accelerations, `h` (s) apart, at a part of the way; and its rate.
+/// Returns the pose and its rate at `part` of the quintic Hermite curve between two poses that are `h` (s) apart.
 fn quintic(from: [Pose; 3], to: [Pose; 3], h: f64, part: f64) -> [Pose; 2] {
     let coordinate = |of: fn(&Pose) -> f64| {
         let [from, to] = [&from, &to].map(|end| end.each_ref().map(of));
-        let [value, slope, _] = math::value_and_slopes(&math::quintic(from, to, h), part);
+        let [value, slope, _] = math::value_and_derivatives(&math::quintic(from, to, h), part);
         [value, slope / h]
     };
     let parts = [coordinate(|pose| pose.at[0]), coordinate(|pose| pose.at[1]), coordinate(|pose| pose.phi)];
@@ -328,7 +340,7 @@ fn quintic(from: [Pose; 3], to: [Pose; 3], h: f64, part: f64) -> [Pose; 2] {
 mod tests {
     use super::{Motion, Pose};
 
-    /// Where the pose of the body is, its rates and its accelerations.
+    /// Columns of the body's pose, rates and accelerations.
     const BODY: [[[usize; 3]; 3]; 1] = [[[1, 2, 3], [5, 6, 7], [8, 9, 10]]];
 
     fn names() -> Vec<String> {
@@ -349,10 +361,10 @@ mod tests {
         let mut poses = Vec::new();
         for t in [0.0, 0.25, 1.0, 1.7, 3.0] {
             motion.write_poses(t, &mut poses);
-            let wanted = row(t);
+            let expected = row(t);
             let Pose { at: [x, y], phi } = poses[1];
-            for (found, wanted) in [x, y, phi].into_iter().zip(&wanted[1..4]) {
-                assert!((found - wanted).abs() < 1e-9, "{found} at {t}, not {wanted}");
+            for (actual, expected) in [x, y, phi].into_iter().zip(&expected[1..4]) {
+                assert!((actual - expected).abs() < 1e-9, "{actual} at {t}, not {expected}");
             }
         }
         assert_eq!(motion.column("m").map(Iterator::count), Some(3));
@@ -361,7 +373,7 @@ mod tests {
 
     #[test]
     fn nothing_is_drawn_across_an_edge() {
-        // at rest until 0.5, and at once with a constant acceleration behind that
+        // at rest until 0.5, then constant acceleration
         let late = vec![1.0, 0.125, 0.0, 0.0, 0.0, 0.5, 0.0, 0.0, 1.0, 0.0, 0.0];
         let motion = Motion::of_rows(&BODY, &names(), vec![vec![0.0; 11], late], vec![0.5]);
         let mut poses = Vec::new();

@@ -1,4 +1,4 @@
-//! How large symbols are: by the extent of the mechanism along its whole motion, and no larger than its links allow.
+//! Size of symbols: it follows the extent of the mechanism along its motion, limited by the lengths of its links.
 
 use super::drawing::Outline;
 use super::features::Features;
@@ -6,41 +6,41 @@ use super::plane::{Vector, bounds, distance};
 use super::{Anchor, Motion};
 use mechc_lang::model::{JointKind, Profile};
 
-/// Symbols are such a part of the mechanism's extent, if its links are long enough.
-const OF_EXTENT: f64 = 1.0 / 46.0;
-/// And such a part of what is short among its links.
-const OF_LINKS: f64 = 0.2;
-/// But not less than this part of the extent.
-const LEAST_OF_EXTENT: f64 = 1.0 / 400.0;
-/// So many rows tell the extent.
-const LOOKED_AT: usize = 60;
+/// Size of symbols as a part of the mechanism's extent, if links are long enough.
+const PART_OF_EXTENT: f64 = 1.0 / 46.0;
+/// Limit of the size as a part of a short link's length.
+const PART_OF_LINK: f64 = 0.2;
+/// Least size as a part of the extent.
+const LEAST_PART_OF_EXTENT: f64 = 1.0 / 400.0;
+/// Number of rows that are sampled for the extent.
+const SAMPLED_ROWS: usize = 60;
 
-/// The size of symbols (m), positive.
+/// Returns the size of symbols (m), which is positive.
 pub(super) fn unit(features: &Features, motion: &Motion, outlines: &[Outline]) -> f64 {
-    let places = places(features, outlines);
-    let corners = motion.sampled(LOOKED_AT).filter_map(|row| {
+    let anchors = anchors(features, outlines);
+    let corners = motion.sampled(SAMPLED_ROWS).filter_map(|row| {
         let poses = motion.poses(row);
-        bounds(places.iter().map(|anchor| anchor.placed(poses)))
+        bounds(anchors.iter().map(|anchor| anchor.position(poses)))
     });
     let extent = bounds(corners.flatten()).map_or(0.0, |[low, high]| distance(low, high));
     if !(extent.is_finite() && extent > 0.0) {
-        // a point that rests
+        // a single position at rest
         return 1.0;
     }
-    let short = short_link(features, outlines).map_or(f64::INFINITY, |length| OF_LINKS * length);
-    (OF_EXTENT * extent).min(short.max(LEAST_OF_EXTENT * extent))
+    let short = short_link(features, outlines).map_or(f64::INFINITY, |length| PART_OF_LINK * length);
+    (PART_OF_EXTENT * extent).min(short.max(LEAST_PART_OF_EXTENT * extent))
 }
 
-/// Places that the picture has to hold.
-fn places(features: &Features, outlines: &[Outline]) -> Vec<Anchor> {
+/// Returns the positions that a picture has to show.
+fn anchors(features: &Features, outlines: &[Outline]) -> Vec<Anchor> {
     let model = features.model;
-    let held = outlines
+    let outline_anchors = outlines
         .iter()
         .enumerate()
-        .flat_map(|(frame, outline)| outline.places.iter().map(move |at| Anchor { frame, at: *at }));
-    let mut places: Vec<Anchor> = held.collect();
+        .flat_map(|(frame, outline)| outline.positions.iter().map(move |at| Anchor { frame, at: *at }));
+    let mut anchors: Vec<Anchor> = outline_anchors.collect();
     for joint in &model.joints {
-        places.extend(joint.kind.points(model).into_iter().map(|point| features.point(point)));
+        anchors.extend(joint.kind.points(model).into_iter().map(|point| features.point(point)));
         let profiles: &[Profile] = match joint.kind {
             JointKind::Gear { circles: [c, d], .. } => &[Profile::Circle(c), Profile::Circle(d)],
             JointKind::RackPinion { pinion, .. } => &[Profile::Circle(pinion)],
@@ -49,16 +49,16 @@ fn places(features: &Features, outlines: &[Outline]) -> Vec<Anchor> {
             _ => &[],
         };
         for profile in profiles {
-            places.extend((0..8).map(|k| features.on_profile(*profile, f64::from(k) * std::f64::consts::FRAC_PI_4)));
+            anchors.extend((0..8).map(|k| features.on_profile(*profile, f64::from(k) * std::f64::consts::FRAC_PI_4)));
         }
     }
-    places
+    anchors
 }
 
-/// What is short among the distances of what bodies join.
+/// Returns the lower quartile of the links' lengths.
 fn short_link(features: &Features, outlines: &[Outline]) -> Option<f64> {
-    let widest = |places: &[Vector]| bounds(places.iter().copied()).map(|[low, high]| distance(low, high));
-    let mut lengths: Vec<f64> = outlines.iter().filter_map(|outline| widest(&outline.places)).collect();
+    let widest = |positions: &[Vector]| bounds(positions.iter().copied()).map(|[low, high]| distance(low, high));
+    let mut lengths: Vec<f64> = outlines.iter().filter_map(|outline| widest(&outline.positions)).collect();
     lengths.extend(features.model.joints.iter().filter_map(|joint| match joint.kind {
         JointKind::RevoluteRevolute(_, _, length) => Some(features.value(length)),
         _ => None,

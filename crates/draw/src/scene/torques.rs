@@ -1,40 +1,40 @@
-//! Torques as arcs with heads: what joints hold against turning, loads on angles, and what drives these.
+//! Torques as arcs with heads: reactions of joints, loads on angles and efforts of drivers.
 
 use super::drawing::Drawing;
 use super::{Anchor, ForceKind, Motion, drivers, forces};
 use mechc_lang::model::{EquationForm, JointKind, PartId, Quantity};
 
-/// A torque about a place, on the second of two bodies that turn against each other; on the first where the second is the ground.
+/// A torque about a position, on the second of two bodies that turn against each other, or on the first if the second is the ground.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Torque {
-    /// Whose it is.
+    /// Index of the declaration.
     pub declaration: usize,
-    /// What it is of.
+    /// Origin.
     pub kind: ForceKind,
-    /// About which place.
+    /// Position of the arc.
     pub at: Anchor,
-    /// The column that tells it.
+    /// Column of the value.
     pub column: String,
-    /// 1 where it is counter-clockwise where the column is above zero, else -1.
+    /// Sign of the column: 1 if its positive values are counter-clockwise, −1 if they are clockwise.
     pub sign: f64,
 }
 
 impl Torque {
-    /// What it is in a row (N·m), counter-clockwise; not finite where the table does not tell.
+    /// Returns the value in a row (N·m), counter-clockwise positive; not finite where the table has no value.
     #[must_use]
     pub fn value(&self, motion: &Motion, row: usize) -> f64 {
         self.sign * motion.value(&self.column, row)
     }
 }
 
-/// All torques that the motion's table tells of.
+/// Returns all torques whose columns are in the motion's table.
 pub(super) fn torques(drawing: &Drawing) -> Vec<Torque> {
     let (model, first) = (drawing.features.model, drawing.first);
-    let mut found: Vec<Torque> = Vec::new();
+    let mut torques: Vec<Torque> = Vec::new();
     for (number, joint) in model.joints.iter().enumerate().filter(|(_, joint)| joint.kind.plain().has_torque()) {
         let (declaration, kind) = (first.joints + number, ForceKind::Reaction);
         let column = format!("{}.torque", joint.declared.name);
-        found.extend(forces::place(&drawing.features, &joint.kind).map(|at| Torque {
+        torques.extend(forces::point_of_action(&drawing.features, &joint.kind).map(|at| Torque {
             declaration,
             kind,
             at,
@@ -46,17 +46,17 @@ pub(super) fn torques(drawing: &Drawing) -> Vec<Torque> {
         let EquationForm::Equality(left, right) = equation.form else { continue };
         for (side, sign) in [(left, 1.0), (right, -1.0)] {
             let Some((view, quantity)) = forces::bare_quantity(model, side) else { continue };
-            found.extend(about(drawing, view, quantity).map(|(at, handed)| Torque {
+            torques.extend(torque_site(drawing, view, quantity).map(|(at, sign_of_site)| Torque {
                 declaration: first.equations + number,
                 kind: ForceKind::Reaction,
                 at,
                 column: format!("{}.effort", equation.declared.name),
-                sign: sign * handed,
+                sign: sign * sign_of_site,
             }));
         }
     }
     for (number, load) in model.loads.iter().enumerate() {
-        found.extend(about(drawing, load.part, load.on).map(|(at, sign)| Torque {
+        torques.extend(torque_site(drawing, load.part, load.on).map(|(at, sign)| Torque {
             declaration: first.loads + number,
             kind: ForceKind::Load,
             at,
@@ -64,21 +64,21 @@ pub(super) fn torques(drawing: &Drawing) -> Vec<Torque> {
             sign,
         }));
     }
-    found.retain(|torque| drawing.motion.column(&torque.column).is_some());
-    found
+    torques.retain(|torque| drawing.motion.column(&torque.column).is_some());
+    torques
 }
 
-/// Where a torque that works on an angle is drawn, and which way round it is there; none where the quantity is no angle of bodies.
-fn about(drawing: &Drawing, view: Option<PartId>, quantity: Quantity) -> Option<(Anchor, f64)> {
+/// Returns the position and the sign of a torque on an angle, or `None` if the quantity is not an angle of bodies.
+fn torque_site(drawing: &Drawing, view: Option<PartId>, quantity: Quantity) -> Option<(Anchor, f64)> {
     let model = drawing.features.model;
     let (at, second) = match quantity {
         Quantity::Rotation(joint, _) => match model[joint].kind {
             JointKind::Revolute(p, q) => (drawing.features.point(p), drawing.features.point(q).frame),
             _ => return None,
         },
-        Quantity::Angle(from, to) => (drivers::pivot_of(drawing, from, to), drivers::frame_of(drawing, to)),
+        Quantity::Angle(from, to) => (drivers::angle_pivot(drawing, from, to), drivers::frame_of(drawing, to)),
         _ => return None,
     };
-    let is_turned_over = model.is_mirrored(view) != (second == 0);
-    Some((at, if is_turned_over { -1.0 } else { 1.0 }))
+    let is_reversed = model.is_mirrored(view) != (second == 0);
+    Some((at, if is_reversed { -1.0 } else { 1.0 }))
 }

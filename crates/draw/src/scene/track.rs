@@ -1,5 +1,5 @@
-//! Where a pen is along a motion: in its rows, and between two of them on the curve through both, by as many derivatives as the table has;
-//! and the stretches that it draws without a gap.
+//! Position of a pen along a motion, in rows and between them, by as many derivatives as the table has; and the strokes that it draws
+//! without gaps.
 
 use super::motion::{Gaps, Motion, Track};
 use super::plane::{Pose, Vector, bounds, distance, dot, is_finite, length, minus, plus};
@@ -8,32 +8,32 @@ use mechc_expr::math;
 use std::ops::Range;
 
 impl Track {
-    /// Where a pen is (m), and its velocity (m/s), at a time (s) that is not before a row and not behind the next one; not finite where
-    /// it has no place.
+    /// Returns the position of a pen (m) and its velocity (m/s) at a time (s) between a row and the next one; not finite where it has no
+    /// position.
     #[must_use]
     pub fn between(&self, motion: &Motion, row: usize, t: f64) -> [Vector; 2] {
         let [pose, rate] = motion.pose_between(self.frame, row, t);
         let Some(columns) = &self.columns else {
-            return [pose.placed(self.pose.at), rate.velocity(&pose, self.pose.at)];
+            return [pose.transform(self.pose.at), rate.velocity(&pose, self.pose.at)];
         };
         let [x, y] = columns.map(|columns| column_between(motion, columns, row, t));
-        let at = self.pose.placed(self.mirrored([x[0], y[0]]));
-        let way = self.pose.turned(self.mirrored([x[1], y[1]]));
-        [pose.placed(at), plus(rate.velocity(&pose, at), pose.turned(way))]
+        let at = self.pose.transform(self.mirrored([x[0], y[0]]));
+        let velocity = self.pose.rotate(self.mirrored([x[1], y[1]]));
+        [pose.transform(at), plus(rate.velocity(&pose, at), pose.rotate(velocity))]
     }
 
-    /// The same at any time.
+    /// Returns the position (m) and the velocity (m/s) at any time (s).
     #[must_use]
     pub fn at(&self, motion: &Motion, t: f64) -> [Vector; 2] {
         self.between(motion, motion.row_at(t).min(motion.len().saturating_sub(2)), t)
     }
 
-    /// Where it is in a row.
+    /// Returns the position in a row (m).
     #[must_use]
     pub fn in_row(&self, motion: &Motion, row: usize) -> Vector {
-        let Some(columns) = &self.columns else { return motion.poses(row)[self.frame].placed(self.pose.at) };
+        let Some(columns) = &self.columns else { return motion.poses(row)[self.frame].transform(self.pose.at) };
         let local = columns.map(|[value, ..]| cell(motion, value, row));
-        motion.poses(row)[self.frame].placed(self.pose.placed(self.mirrored(local)))
+        motion.poses(row)[self.frame].transform(self.pose.transform(self.mirrored(local)))
     }
 
     fn mirrored(&self, [x, y]: Vector) -> Vector {
@@ -41,83 +41,84 @@ impl Track {
     }
 }
 
-/// A number of the table; what has no column is zero.
+/// Returns a number of the table; a missing column is zero.
 fn cell(motion: &Motion, column: Option<usize>, row: usize) -> f64 {
     let Some(column) = column else { return 0.0 };
     motion.rows().get(row).and_then(|row| row.get(column)).copied().unwrap_or(f64::NAN)
 }
 
-/// A column and its derivative between two rows.
+/// Returns the value and the derivative of a column between two rows.
 fn column_between(motion: &Motion, columns: [Option<usize>; 3], row: usize, t: f64) -> [f64; 2] {
     let next = (row + 1).min(motion.len().saturating_sub(1));
     let [from, to] = [row, next].map(|row| columns.map(|column| cell(motion, column, row)));
     let h = motion.times[next] - motion.times[row];
-    // in a row it is what the row says, whatever comes behind that
+    // in a row the row decides, whatever follows
     let part = (t - motion.times[row]) / h;
     match part > 0.0 {
         true if motion.is_short(row) => {
-            let way = to[0] - from[0];
-            [from[0] + part * way, way / h]
+            let difference = to[0] - from[0];
+            [from[0] + part * difference, difference / h]
         }
         true => between([from, to], h, part),
         false => [from[0], from[1]],
     }
 }
 
-/// A value and its derivative at a part of the way between two rows, `h` (s) apart, each with its derivatives as far as they are known.
+/// Returns a value and its derivative at `part` of the way between two rows that are `h` (s) apart. The interpolation uses the derivatives
+/// that are finite at both ends.
 fn between([from, to]: [[f64; 3]; 2], h: f64, part: f64) -> [f64; 2] {
     let ends = [from, to];
-    let are_known = |order: usize| ends.iter().all(|end| end[order].is_finite());
+    let are_finite = |order: usize| ends.iter().all(|end| end[order].is_finite());
     let [[a, slope_a, _], [b, slope_b, _]] = ends;
-    let curve = match [are_known(1), are_known(2)] {
+    let curve = match [are_finite(1), are_finite(2)] {
         [true, true] => math::quintic(from, to, h),
         [true, false] => math::cubic([a, slope_a], [b, slope_b], h),
         [false, _] => math::parabola([a, (b - a) / h, 0.0], h),
     };
-    let [value, slope, _] = math::value_and_slopes(&curve, part);
+    let [value, slope, _] = math::value_and_derivatives(&curve, part);
     [value, slope / h]
 }
 
-/// A part of what a pen draws, without a gap.
+/// A stroke that a pen draws without a gap.
 #[derive(Clone, PartialEq, Debug, Default)]
 pub struct Stroke {
-    /// Stretches of time (s), none of which goes over a row; each begins where the one before it ends.
+    /// Intervals of time (s), none across a row; each begins where the one before it ends.
     pub pieces: Vec<[f64; 2]>,
-    /// Whether it ends where it begins.
+    /// True if the stroke ends where it begins.
     pub is_closed: bool,
 }
 
-/// The parts of a piece in each of which a line comes near a place once at most.
+/// Number of parts of a piece; in each the line has at most one point nearest to a position.
 const PARTS: u32 = 8;
-/// Halvings by which the moment is found at which a line is nearest to a place.
+/// Number of bisections for the time of the nearest point.
 const HALVINGS: u32 = 60;
-/// A line closes if it comes nearer to where it begins than this many times what it may be off.
+/// Distance from its start at which a line closes, in tolerances.
 const CLOSING_TOLERANCE: f64 = 2.0;
-/// A line has left where it begins once it has been farther away than this part of its size.
+/// Distance from its start beyond which a line has left it, as a part of its size.
 const LEAVING_DISTANCE: f64 = 1e-3;
-/// A line that is drawn once more may be off the line so far by so many times what it may be off.
+/// Distance within which a line retraces itself, in tolerances.
 pub const RETRACE_TOLERANCE: f64 = 7.0;
-/// Lines are never more off than this part of their size.
-const OFF: f64 = 1e-5;
+/// Limit of the tolerance of lines, as a part of their size.
+const RELATIVE_TOLERANCE: f64 = 1e-5;
 
-/// A line that was drawn, in an order that tells quickly whether it passes a place.
+/// A line with a tree of bounding boxes, which tells quickly whether it passes a position.
 #[derive(Clone, Debug)]
 pub struct DrawnLine<'m> {
     motion: &'m Motion,
     track: Track,
-    /// Stretches of time (s) between two rows, ascending.
+    /// Intervals of time (s) between two rows, ascending.
     pieces: Vec<[f64; 2]>,
-    /// The boxes that the pieces lie in; then those of two pieces each, of four, and so on to one for all.
+    /// Bounding boxes of the pieces, then of pairs of them, of groups of four, and so on up to one box for all.
     boxes: Vec<Vec<[Vector; 2]>>,
 }
 
 impl<'m> DrawnLine<'m> {
-    /// The line that a track draws in some stretches of time (s), none of which goes over a row.
+    /// Creates the line of a track over intervals of time (s), none across a row.
     #[must_use]
     pub fn new(motion: &'m Motion, track: Track, pieces: Vec<[f64; 2]>) -> DrawnLine<'m> {
         let box_of = |ends: &[f64; 2]| {
             let [low, high] = bounds((0..=PARTS).map(|k| track.at(motion, part_of(*ends, k))[0]))?;
-            // a piece is within half of how far a quick way between the places looked at would lead
+            // a quick piece leaves the box of its samples by at most half of the way between two of them
             let slack = 0.25 * distance(low, high);
             Some([low.map(|value| value - slack), high.map(|value| value + slack)])
         };
@@ -136,35 +137,35 @@ impl<'m> DrawnLine<'m> {
         DrawnLine { motion, track, pieces, boxes }
     }
 
-    /// Whether the line passes a place, but for so much (m).
+    /// Returns whether the line passes within a distance (m) of a position.
     #[must_use]
-    pub fn passes(&self, place: Vector, off: f64) -> bool {
-        self.passes_within(0..self.pieces.len(), place, off)
+    pub fn passes(&self, position: Vector, off: f64) -> bool {
+        self.piece_range_passes(0..self.pieces.len(), position, off)
     }
 
-    /// Whether some pieces of the line do.
-    fn passes_within(&self, pieces: Range<usize>, place: Vector, off: f64) -> bool {
+    /// Returns whether some pieces of the line pass within a distance (m) of a position.
+    fn piece_range_passes(&self, pieces: Range<usize>, position: Vector, off: f64) -> bool {
         let mut boxes = vec![(self.boxes.len() - 1, 0)];
         while let Some((level, number)) = boxes.pop() {
-            let held = (number << level)..((number + 1) << level);
+            let span = (number << level)..((number + 1) << level);
             let Some([low, high]) = self.boxes[level].get(number) else { continue };
-            let is_near = (0..2).all(|k| place[k] >= low[k] - off && place[k] <= high[k] + off);
-            if !is_near || held.end <= pieces.start || held.start >= pieces.end {
+            let is_near = (0..2).all(|k| position[k] >= low[k] - off && position[k] <= high[k] + off);
+            if !is_near || span.end <= pieces.start || span.start >= pieces.end {
                 continue;
             }
             match level.checked_sub(1) {
                 Some(below) => boxes.extend([(below, 2 * number), (below, 2 * number + 1)]),
-                None if self.piece_passes(self.pieces[number], place, off) => return true,
+                None if self.piece_passes(self.pieces[number], position, off) => return true,
                 None => {}
             }
         }
         false
     }
 
-    fn piece_passes(&self, ends: [f64; 2], place: Vector, off: f64) -> bool {
+    fn piece_passes(&self, ends: [f64; 2], position: Vector, off: f64) -> bool {
         (0..PARTS).any(|k| {
-            let nearest = self.nearest(place, [part_of(ends, k), part_of(ends, k + 1)], off);
-            distance(self.at(nearest), place) <= off
+            let nearest = self.nearest(position, [part_of(ends, k), part_of(ends, k + 1)], off);
+            distance(self.at(nearest), position) <= off
         })
     }
 
@@ -172,12 +173,13 @@ impl<'m> DrawnLine<'m> {
         self.track.at(self.motion, t)[0]
     }
 
-    /// When the line is nearest to a place, in a short time; or a moment at which it is as near as is enough (m).
-    fn nearest(&self, place: Vector, [mut from, mut to]: [f64; 2], enough: f64) -> f64 {
+    /// Returns the time at which the line is nearest to a position within a short interval, or one at which it is at most `enough` (m)
+    /// away.
+    fn nearest(&self, position: Vector, [mut from, mut to]: [f64; 2], enough: f64) -> f64 {
         let look = |t: f64| {
             let [at, velocity] = self.track.at(self.motion, t);
-            let way = minus(at, place);
-            (length(way), dot(velocity, way) < 0.0)
+            let difference = minus(at, position);
+            (length(difference), dot(velocity, difference) < 0.0)
         };
         let [first, last] = [look(from), look(to)];
         if first.0 <= enough || !first.1 || last.1 {
@@ -195,13 +197,13 @@ impl<'m> DrawnLine<'m> {
     }
 }
 
-/// A moment (s) so many parts behind the beginning of a piece.
+/// Returns the time (s) of part `k` of an interval.
 fn part_of([from, to]: [f64; 2], k: u32) -> f64 {
     if k == PARTS { to } else { from + (to - from) * f64::from(k) / f64::from(PARTS) }
 }
 
 impl Motion {
-    /// What tells where a pen is.
+    /// Returns the track of a pen.
     #[must_use]
     pub fn track(&self, pen: &Pen) -> Track {
         match pen {
@@ -215,14 +217,14 @@ impl Motion {
         }
     }
 
-    /// What tells what a column is worth, as x of a place.
+    /// Returns the track of a column, whose x coordinate is the column's value.
     #[must_use]
-    pub fn track_of_column(&self, name: &str) -> Track {
+    pub fn column_track(&self, name: &str) -> Track {
         let columns = Some([self.derivatives(name), [None; 3]]);
         Track { frame: 0, pose: Pose::default(), columns, is_mirrored: false }
     }
 
-    /// The times of all rows (s), with so many steps from one to the next.
+    /// Returns the times of all rows (s), with `steps` equal steps from each row to the next.
     #[must_use]
     pub fn times_between(&self, steps: u32) -> Vec<f64> {
         let pairs = self.times.windows(2);
@@ -233,10 +235,11 @@ impl Motion {
         pairs.flat_map(between).chain(self.times.last().copied()).collect()
     }
 
-    /// What a column is worth at some times (s), in SI; not a number where it has no value, and between rows where it has a gap.
+    /// Returns the values of a column at some times (s), in SI. They are NaN where the column has no value, and between rows where it has a
+    /// gap.
     #[must_use]
     pub fn column_at(&self, name: &str, times: &[f64]) -> Vec<f64> {
-        let track = self.track_of_column(name);
+        let track = self.column_track(name);
         let gaps = self.gaps(&track);
         let value = |t: &f64| {
             let row = self.row_at(*t);
@@ -247,7 +250,7 @@ impl Motion {
         times.iter().map(value).collect()
     }
 
-    /// The stretches that a pen draws; where it goes on along the line so far, that line once. Nothing of what rests.
+    /// Returns the strokes of a pen. A line that retraces itself is drawn once, a line at rest not at all.
     #[must_use]
     pub fn strokes(&self, pen: &Pen) -> Vec<Stroke> {
         let track = self.track(pen);
@@ -267,28 +270,28 @@ impl Motion {
         }
         let pieces: Vec<[f64; 2]> = strokes.iter().flat_map(|stroke| &stroke.pieces).copied().collect();
         match self.return_to_start(&DrawnLine::new(self, track, pieces), gaps) {
-            Some((piece, t)) => closed(strokes, piece, t),
+            Some((piece, t)) => close_strokes(strokes, piece, t),
             None => strokes,
         }
     }
 
-    /// Finds the piece and the moment (s) at which a line is back where it begins, all that it draws from then on being on the line so far.
+    /// Returns the piece and the time (s) at which a line is back at its start and from then on only retraces itself.
     fn return_to_start(&self, line: &DrawnLine, gaps: Option<&Gaps>) -> Option<(usize, f64)> {
         let start = line.at(line.pieces.first()?[0]);
-        // what goes to infinity is not so large
-        let mut away: Vec<f64> = line.pieces.iter().map(|[_, t]| distance(line.at(*t), start)).collect();
-        away.sort_by(f64::total_cmp);
-        let size = 2.0 * away[away.len() / 2];
-        let off = self.off.min(OFF * size);
+        // the median is not affected by what goes to infinity
+        let mut distances: Vec<f64> = line.pieces.iter().map(|[_, t]| distance(line.at(*t), start)).collect();
+        distances.sort_by(f64::total_cmp);
+        let size = 2.0 * distances[distances.len() / 2];
+        let off = self.off.min(RELATIVE_TOLERANCE * size);
         let mut retrace = Retrace { line, gaps, off: RETRACE_TOLERANCE * off, compared: 0, last_return: 0 };
-        let mut is_away = false;
+        let mut has_left = false;
         for (number, piece) in line.pieces.iter().enumerate() {
             for k in 0..PARTS {
                 let times = [part_of(*piece, k), part_of(*piece, k + 1)];
                 let ends = times.map(|t| line.at(t));
                 let apart = ends.map(|end| distance(end, start));
-                if !is_away {
-                    is_away = apart[1] > LEAVING_DISTANCE * size;
+                if !has_left {
+                    has_left = apart[1] > LEAVING_DISTANCE * size;
                     continue;
                 }
                 let reach = 2.0 * distance(ends[0], ends[1]) + CLOSING_TOLERANCE * off;
@@ -306,37 +309,38 @@ impl Motion {
     }
 }
 
-/// The comparison of a line with what it has drawn before it is back where it begins.
+/// Check whether a line that is back at its start retraces itself.
 ///
-/// Each end of a piece is found on the line once, however often the line comes back: what is on a part of the line is on a longer part, too.
+/// The end of each piece is found on the line only once, however often the line comes back: what lies on a part of the line lies on a
+/// longer part, too.
 struct Retrace<'l, 'm> {
     line: &'l DrawnLine<'m>,
     gaps: Option<&'l Gaps>,
-    /// What the ends may be off (m).
+    /// Tolerance of the ends of pieces (m).
     off: f64,
-    /// How many ends need no more comparison.
+    /// Number of ends that are already found on the line.
     compared: usize,
-    /// The piece in which the line came back last.
+    /// Piece in which the line came back last.
     last_return: usize,
 }
 
 impl Retrace<'_, '_> {
-    /// Whether the line goes on along itself from a moment (s) in a piece on.
+    /// Returns whether the line retraces itself from a time (s) in a piece on.
     fn is_complete(&mut self, number: usize, back: f64) -> bool {
         let pieces = &self.line.pieces;
         let next = 2 * number + 1;
-        // an end that was off the line is compared with what has been drawn since
+        // an end that was off the line is compared with what the line has drawn since
         let mut first = if self.compared > next { self.last_return } else { 0 };
         (self.compared, self.last_return) = (self.compared.max(next), number);
         while self.compared < 2 * pieces.len() {
             let t = pieces[self.compared / 2][self.compared % 2];
-            let is_known = t.total_cmp(&pieces[(self.compared - 1) / 2][(self.compared - 1) % 2]).is_eq();
-            let is_on = |place: Vector| {
-                self.gaps.is_some_and(|gaps| gaps.is_far(place))
-                    || self.line.passes_within(first..number, place, self.off)
-                    || self.line.piece_passes([pieces[number][0], back], place, self.off)
+            let is_compared = t.total_cmp(&pieces[(self.compared - 1) / 2][(self.compared - 1) % 2]).is_eq();
+            let is_on = |position: Vector| {
+                self.gaps.is_some_and(|gaps| gaps.is_far(position))
+                    || self.line.piece_range_passes(first..number, position, self.off)
+                    || self.line.piece_passes([pieces[number][0], back], position, self.off)
             };
-            if !is_known && !is_on(self.line.at(t)) {
+            if !is_compared && !is_on(self.line.at(t)) {
                 return false;
             }
             self.compared += 1;
@@ -346,31 +350,31 @@ impl Retrace<'_, '_> {
     }
 }
 
-/// Ends strokes at a moment (s) in one of their pieces, at which the line is back where it begins.
-fn closed(strokes: Vec<Stroke>, piece: usize, back: f64) -> Vec<Stroke> {
-    let (mut found, mut left): (Vec<Stroke>, usize) = (Vec::new(), piece);
+/// Ends strokes at a time (s) in one of their pieces, at which the line is back at its start.
+fn close_strokes(strokes: Vec<Stroke>, piece: usize, back: f64) -> Vec<Stroke> {
+    let (mut result, mut remaining): (Vec<Stroke>, usize) = (Vec::new(), piece);
     for mut stroke in strokes {
         let count = stroke.pieces.len();
-        if left < count {
-            let [from, _] = stroke.pieces[left];
-            stroke.pieces.truncate(left);
+        if remaining < count {
+            let [from, _] = stroke.pieces[remaining];
+            stroke.pieces.truncate(remaining);
             stroke.pieces.extend((back > from).then_some([from, back]));
-            found.extend(Some(stroke).filter(|stroke| !stroke.pieces.is_empty()));
+            result.extend(Some(stroke).filter(|stroke| !stroke.pieces.is_empty()));
             break;
         }
-        left -= count;
-        found.push(stroke);
+        remaining -= count;
+        result.push(stroke);
     }
-    match found.as_mut_slice() {
+    match result.as_mut_slice() {
         [stroke] => stroke.is_closed = true,
         [first, .., last] => {
-            // the line comes back to where it began in the middle of a stroke
+            // the line returns to a start in the middle of a stroke
             last.pieces.append(&mut first.pieces);
-            found.swap_remove(0);
+            result.swap_remove(0);
         }
         [] => {}
     }
-    found
+    result
 }
 
 #[cfg(test)]
@@ -378,12 +382,12 @@ mod tests {
     use super::between;
 
     #[test]
-    fn columns_go_on_by_what_is_known_of_them() {
+    fn columns_are_interpolated_by_their_finite_derivatives() {
         // t⁴ from 1 to 2
         let end = |t: f64| [t * t * t * t, 4.0 * t * t * t, 12.0 * t * t];
         let [value, slope] = between([end(1.0), end(2.0)], 1.0, 0.5);
         assert!((value - 5.0625).abs() < 1e-12 && (slope - 13.5).abs() < 1e-12, "{value}, {slope}");
-        // t³, whose accelerations are missing
+        // t³ without accelerations
         let end = |t: f64| [t * t * t, 3.0 * t * t, f64::NAN];
         let [value, slope] = between([end(1.0), end(3.0)], 2.0, 0.25);
         assert!((value - 3.375).abs() < 1e-12 && (slope - 6.75).abs() < 1e-12, "{value}, {slope}");

@@ -1,4 +1,4 @@
-//! Writers: a scene and its motion as files for those who look. Each form has a file of its own; none reads or writes a file.
+//! Writers of a scene and its motion: SVG, HTML pages and DXF. They return texts; none of them reads or writes a file.
 
 pub mod dxf;
 pub mod page;
@@ -6,5 +6,4 @@ mod path;
 pub mod svg;
 mod text;
 
-pub use path::data;
-pub use text::{escaped, first_sentence, number};
+pub use text::first_sentence;

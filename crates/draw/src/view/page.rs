@@ -1,163 +1,164 @@
-//! One HTML file that shows a motion and needs nothing else: its data, and around them the page that `page/` builds.
+//! Self-contained HTML page of a motion: its data, and the page built in `page/` around them.
 //!
-//! The data are JSON, whose form has a number ([`FORMAT`]) and is described in `page/src/data/format.ts`. Lengths are metres there, as they
-//! are here. The same input gives the same bytes. Nothing of a text becomes HTML.
+//! The data are JSON in a versioned format ([`FORMAT`]) that `page/src/data/format.ts` describes. Lengths are metres, as everywhere here.
+//! The same input gives the same bytes, and no part of a text is interpreted as HTML.
 
 mod base64;
-mod columns;
 mod json;
-mod places;
 mod still;
+mod table_compression;
+mod utf16_offsets;
 
-use super::{escaped, first_sentence};
+use super::text::{escape, first_sentence};
 use crate::scene::{Motion, Scene};
 use mechc_text::diag::Diagnostic;
 use mechc_text::source::{FileId, Source};
 
-/// The number of the form of the data.
+/// Version of the data format.
 pub const FORMAT: u32 = 1;
 
-/// The longest page (bytes): of more than that rows are left out.
+/// Size limit of a page (bytes); a larger one leaves rows out.
 pub const LONGEST: usize = 20_000_000;
-/// Rows are left out of a page that is too long no more often than this.
-const MOST_THINNINGS: usize = 6;
+/// Limit of attempts to leave rows out.
+const MOST_ATTEMPTS: usize = 6;
 
-/// How the data tell the size of the page before it is known: quotes of texts are escaped there, and so nothing else reads like it.
+/// Placeholder of the page's size in the data. Quotes in texts are escaped, so nothing else matches it.
 const NO_SIZE: &str = "\"bytes\":0";
-/// The size takes so many letters, some of them blanks.
+/// Width of the size's number, padded with blanks.
 const SIZE_DIGITS: usize = 9;
 
-/// What the page is built from: the same bytes each time (`.ci/page`).
+/// Template of the page; its build is reproducible (`.ci/page`).
 const TEMPLATE: &str = include_str!("../../page/page.html");
 const SCRIPT: &str = include_str!("../../page/page.js");
 const STYLE: &str = include_str!("../../page/page.css");
 
-/// What the licences of what the page carries ask to be said.
+/// Licence notices of the code in the page.
 pub const NOTICES: &str = include_str!("../../page/notices.txt");
 
-/// All that a page is made of.
+/// Contents of a page.
 #[derive(Clone, Debug)]
 pub struct Page<'a> {
-    /// The texts that declarations stand in, the mechanism's own first.
+    /// Texts of the declarations, the mechanism's own first.
     pub texts: Vec<(FileId, &'a Source)>,
-    /// The table's columns, in order; the first is time.
+    /// Columns of the table, in order; the first is time.
     pub columns: Vec<Column<'a>>,
-    /// What was varied, if anything.
+    /// Varied parameters.
     pub vary: Vec<Vary>,
-    /// Every variant: the product of all that was varied, the last fastest; the only one where nothing was.
+    /// All variants: the product of all varied values, the last parameter fastest; a single one without varied parameters.
     pub variants: Vec<Variant<'a>>,
 }
 
-/// How a number is called and printed.
+/// Name and unit of a column or result.
 #[derive(Clone, Debug)]
 pub struct Column<'a> {
-    /// Its name.
+    /// Name.
     pub name: &'a str,
-    /// Its unit; `1` for a pure number.
+    /// Unit; `1` for a pure number.
     pub unit: &'a str,
-    /// What SI is divided by, multiplied with and divided by to be in the unit.
+    /// Conversion from SI to the unit: a divisor, a factor, and a divisor.
     pub scale: [f64; 3],
-    /// What a column holds, as the page reads it; nothing for a result.
+    /// Kind of column for the page; empty for a result.
     pub kind: &'static str,
 }
 
-/// A parameter with the values that it was given.
+/// A parameter with its values.
 #[derive(Clone, Debug)]
 pub struct Vary {
-    /// Its name.
+    /// Name.
     pub name: String,
-    /// The unit of its values.
+    /// Unit of the values.
     pub unit: String,
-    /// In the unit, rising.
+    /// Values in the unit, ascending.
     pub values: Vec<f64>,
-    /// Which of them the page begins with: the one nearest to the file's own.
+    /// Index of the value that the page begins with, the nearest to the file's own value.
     pub nearest: usize,
-    /// The file's own value, in the unit, where it is none of them.
+    /// The file's own value in the unit, if it is not one of `values`.
     pub own: Option<f64>,
 }
 
-/// One motion.
+/// A motion of the page.
 #[derive(Clone, Debug)]
 pub struct Variant<'a> {
-    /// What there is to draw.
+    /// Scene.
     pub scene: &'a Scene,
-    /// The motion; of a still the table has no rows.
+    /// Motion; a still one has no rows in its table.
     pub motion: &'a Motion,
-    /// How many rows there would be if none had been left out before.
+    /// Number of rows of the motion before some were left out.
     pub all_rows: usize,
-    /// Numbers for the whole motion, in SI.
+    /// Results of the whole motion, in SI.
     pub results: Vec<(Column<'a>, Option<f64>)>,
-    /// What there is to say of it.
+    /// Messages.
     pub messages: Vec<&'a Diagnostic>,
 }
 
 impl Page<'_> {
-    /// The page as HTML; empty where there is no variant to show.
+    /// Writes the page as HTML; without a variant to show it is empty.
     #[must_use]
     pub fn written(&self) -> String {
         self.at_most(LONGEST)
     }
 
-    /// The data of a page that is told them later: the JSON, in which the table is missing, and the table's columns.
+    /// Returns the data without the table, and the table's columns, for a page that receives them later.
     #[must_use]
     pub fn data(&self) -> (serde_json::Value, Vec<Vec<f64>>) {
         let columns = self.first().map_or_else(Vec::new, |first| json::table(first, 1, self.columns.len()));
-        (json::value(self, 1, json::Tables::Beside), columns)
+        (json::value(self, 1, json::Tables::Separate), columns)
     }
 
-    /// What there is to draw, for a page that has all else; and the table's columns.
+    /// Returns the scene and the table's columns, for a page that has everything else.
     #[must_use]
     pub fn picture(&self) -> (serde_json::Value, Vec<Vec<f64>>) {
-        let texts = places::Texts::of(&self.texts);
-        let of_first = |first: &Variant| (json::scene(first.scene, &texts), json::table(first, 1, self.columns.len()));
-        self.first().map_or_else(Default::default, of_first)
+        let texts = utf16_offsets::Texts::new(&self.texts);
+        let picture_of =
+            |first: &Variant| (json::scene(first.scene, &texts), json::table(first, 1, self.columns.len()));
+        self.first().map_or_else(Default::default, picture_of)
     }
 
-    /// The variant that it begins with.
+    /// Returns the variant that the page begins with.
     fn first(&self) -> Option<&Variant<'_>> {
-        let place = self.vary.iter().fold(0, |place, vary| place * vary.values.len() + vary.nearest);
-        self.variants.get(place)
+        let index = self.vary.iter().fold(0, |index, vary| index * vary.values.len() + vary.nearest);
+        self.variants.get(index)
     }
 
-    /// Rows are left out until it is no longer than so many bytes, as far as that goes.
+    /// Writes the page, and leaves rows out until it has at most `longest` bytes, as far as possible.
     fn at_most(&self, longest: usize) -> String {
         let mut every = 1;
-        let mut html = self.with_every(every);
-        for _ in 0..MOST_THINNINGS {
+        let mut html = self.write_thinned(every);
+        for _ in 0..MOST_ATTEMPTS {
             if html.len() <= longest {
                 break;
             }
-            // tables are nearly all of it; thinned ones are compressed less well
+            // tables are nearly all of the page; thinned ones compress less well
             every = (every + 1).max(every * html.len() / longest);
-            html = self.with_every(every);
+            html = self.write_thinned(every);
         }
         html
     }
 
-    fn with_every(&self, every: usize) -> String {
+    fn write_thinned(&self, every: usize) -> String {
         let Some(first) = self.first() else { return String::new() };
         let parts = [
             ("version", env!("CARGO_PKG_VERSION").to_owned()),
-            ("title", escaped(&first.scene.name).into_owned()),
+            ("title", escape(&first.scene.name).into_owned()),
             ("docs", docs(&first.scene.docs)),
             ("style", STYLE.to_owned()),
             ("still", still::still(first.scene, first.motion)),
-            ("text", self.texts.first().map_or_else(String::new, |(_, source)| plain(&source.text))),
+            ("text", self.texts.first().map_or_else(String::new, |(_, source)| plain_text(&source.text))),
             ("notices", NOTICES.trim_end().to_owned()),
-            ("data", json::written(self, every)),
+            ("data", json::write(self, every)),
             ("script", SCRIPT.to_owned()),
         ];
-        with_size(&filled(TEMPLATE, &parts))
+        insert_size(&fill(TEMPLATE, &parts))
     }
 }
 
-/// Bytes as Base64.
+/// Encodes bytes as Base64.
 #[must_use]
 pub fn base64(bytes: &[u8]) -> String {
-    base64::written(bytes)
+    base64::encode(bytes)
 }
 
-/// A page without data, which asks the server that it comes from.
+/// Writes a page without data, which requests them from its server.
 #[must_use]
 pub fn shell() -> String {
     let parts = [
@@ -168,57 +169,57 @@ pub fn shell() -> String {
         ("notices", NOTICES.trim_end().to_owned()),
         ("script", SCRIPT.to_owned()),
     ];
-    filled(TEMPLATE, &parts)
+    fill(TEMPLATE, &parts)
 }
 
-/// A page that knows how large it is: a number as wide as any takes the place of [`NO_SIZE`]'s.
-fn with_size(html: &str) -> String {
+/// Replaces the placeholder [`NO_SIZE`] by the size of the page, in a fixed width.
+fn insert_size(html: &str) -> String {
     let bytes = html.len() + SIZE_DIGITS - 1;
     html.replacen(NO_SIZE, &format!("\"bytes\":{bytes:>SIZE_DIGITS$}"), 1)
 }
 
-/// A template with what belongs into its gaps, which are written `{{so}}`; what is put in is not looked at again.
-fn filled(template: &str, parts: &[(&str, String)]) -> String {
+/// Replaces the gaps `{{name}}` of a template. Inserted text is not searched for gaps.
+fn fill(template: &str, parts: &[(&str, String)]) -> String {
     let mut html = String::with_capacity(template.len() + parts.iter().map(|(_, part)| part.len()).sum::<usize>());
     let mut pieces = template.split("{{");
     html += pieces.next().unwrap_or_default();
     for piece in pieces {
         let (name, rest) = piece.split_once("}}").unwrap_or(("", piece));
-        html += parts.iter().find(|(known, _)| *known == name).map_or("", |(_, part)| part);
+        html += parts.iter().find(|(other, _)| *other == name).map_or("", |(_, part)| part);
         html += rest;
     }
     html
 }
 
-/// The text of the `///` lines: its first sentence, and the rest for who asks for it.
+/// Writes the documentation of a mechanism: its first sentence, and the rest in a fold.
 fn docs(lines: &[String]) -> String {
     let text = lines.join("\n");
     let (first, rest) = first_sentence(&text);
     if first.is_empty() {
         return String::new();
     }
-    let first = format!("<p>{}</p>", escaped(first));
+    let first = format!("<p>{}</p>", escape(first));
     if rest.is_empty() {
         return format!("<div class=\"docs\">{first}</div>");
     }
     format!(
         "<div class=\"docs\">{first} <details><summary>more</summary><p class=\"rest\">{}</p></details></div>",
-        escaped(rest)
+        escape(rest)
     )
 }
 
-fn plain(text: &str) -> String {
-    format!("<pre class=\"plain\">{}</pre>", escaped(text))
+fn plain_text(text: &str) -> String {
+    format!("<pre class=\"plain\">{}</pre>", escape(text))
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{Column, Page, Variant, docs, filled};
+    use super::{Column, Page, Variant, docs, fill};
     use crate::scene::{Declaration, Motion, Point, Scene};
     use mechc_text::source::{FileId, Source, Sources, Span};
     use serde_json::Value;
 
-    /// A name that would like to be something else.
+    /// A name that tries to break out of its element.
     const HOSTILE: &str = "</script><script>alert(1)</script><!-- & \" ' \u{5d0}\u{1f600}";
 
     fn scene(file: FileId) -> Scene {
@@ -256,7 +257,7 @@ mod tests {
         Motion::of_rows(&[[[1, 2, 3], [4, 5, 6], [7, 8, 9]]], &columns, (0..rows).map(row).collect(), vec![0.25])
     }
 
-    /// The page of a motion, and the data in it.
+    /// Returns the page of a motion, and its data.
     fn written(rows: u32, longest: usize) -> (String, Value) {
         let mut sources = Sources::default();
         let file = sources.add("/somewhere/secret/b.mech", format!("body {HOSTILE}"));
@@ -274,8 +275,8 @@ mod tests {
         let page = Page { texts: vec![(file, source)], columns, vary: vec![], variants: vec![variant] };
         let html = page.at_most(longest);
         assert_eq!(html, page.at_most(longest), "the same input gives the same bytes");
-        let (_, behind) = html.split_once("id=\"mechc\">").expect("the data");
-        let data = serde_json::from_str(behind.split_once("</script>").expect("their end").0).expect("JSON");
+        let (_, after) = html.split_once("id=\"mechc\">").expect("the data");
+        let data = serde_json::from_str(after.split_once("</script>").expect("their end").0).expect("JSON");
         (html, data)
     }
 
@@ -315,7 +316,7 @@ mod tests {
     #[test]
     fn gaps_are_filled_once() {
         let parts = [("a", "{{b}}".to_owned()), ("b", "x".to_owned())];
-        assert_eq!(filled("<{{a}}|{{b}}|{{c}}>", &parts), "<{{b}}|x|>");
+        assert_eq!(fill("<{{a}}|{{b}}|{{c}}>", &parts), "<{{b}}|x|>");
     }
 
     #[test]

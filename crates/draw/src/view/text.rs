@@ -1,37 +1,37 @@
-//! Numbers and words as marked-up text has them.
+//! Numbers and words in marked-up text.
 
 use std::borrow::Cow;
 
-/// A number with so many decimals at most, and no zero too many.
+/// Formats a number with at most `decimals` decimals, without trailing zeros.
 #[must_use]
-pub fn number(value: f64, decimals: usize) -> String {
+pub fn decimal(value: f64, decimals: usize) -> String {
     let text = format!("{value:.decimals$}");
     let text = if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { &text };
     if text == "-0" { "0".to_owned() } else { text.to_owned() }
 }
 
-/// A text in which nothing is taken for mark-up, neither between tags nor in an attribute. What no such text may hold is left out.
+/// Escapes a text for use between tags and in attributes, and removes characters that XML forbids.
 #[must_use]
-pub fn escaped(text: &str) -> Cow<'_, str> {
+pub fn escape(text: &str) -> Cow<'_, str> {
     let is_plain = |c: char| !matches!(c, '&' | '<' | '>' | '"' | '\'') && !is_forbidden(c);
     if text.chars().all(is_plain) {
         return Cow::Borrowed(text);
     }
-    let mut made = String::with_capacity(text.len() + 16);
+    let mut escaped = String::with_capacity(text.len() + 16);
     for c in text.chars().filter(|c| !is_forbidden(*c)) {
         match c {
-            '&' => made.push_str("&amp;"),
-            '<' => made.push_str("&lt;"),
-            '>' => made.push_str("&gt;"),
-            '"' => made.push_str("&quot;"),
-            '\'' => made.push_str("&#39;"),
-            other => made.push(other),
+            '&' => escaped.push_str("&amp;"),
+            '<' => escaped.push_str("&lt;"),
+            '>' => escaped.push_str("&gt;"),
+            '"' => escaped.push_str("&quot;"),
+            '\'' => escaped.push_str("&#39;"),
+            other => escaped.push(other),
         }
     }
-    Cow::Owned(made)
+    Cow::Owned(escaped)
 }
 
-/// The first sentence of a text, and what follows it: it ends at a full stop, but not at that of an initial, as in `D. Stewart`.
+/// Splits a text into its first sentence and the rest. A full stop after an initial, as in `D. Stewart`, ends no sentence.
 #[must_use]
 pub fn first_sentence(text: &str) -> (&str, &str) {
     let text = text.trim();
@@ -51,24 +51,24 @@ fn is_forbidden(c: char) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::{escaped, first_sentence, number};
+    use super::{decimal, escape, first_sentence};
 
     #[test]
     fn sentences_end_at_full_stops() {
-        for (text, wanted) in [
+        for (text, expected) in [
             ("A crank. It turns.", ("A crank.", "It turns.")),
             (" One of D. Stewart's, at 0.5 m/s.\nMore. ", ("One of D. Stewart's, at 0.5 m/s.", "More.")),
             ("no end", ("no end", "")),
             ("Does it turn? Yes", ("Does it turn?", "Yes")),
             ("", ("", "")),
         ] {
-            assert_eq!(first_sentence(text), wanted, "{text}");
+            assert_eq!(first_sentence(text), expected, "{text}");
         }
     }
 
     #[test]
     fn numbers_are_short() {
-        for (value, decimals, wanted) in [
+        for (value, decimals, expected) in [
             (1.0, 2, "1"),
             (-0.001, 2, "0"),
             (0.5, 3, "0.5"),
@@ -76,16 +76,16 @@ mod tests {
             (100.0, 0, "100"),
             (-0.25, 1, "-0.2"),
         ] {
-            assert_eq!(number(value, decimals), wanted);
+            assert_eq!(decimal(value, decimals), expected);
         }
     }
 
     #[test]
     fn nothing_of_a_text_is_mark_up() {
         assert_eq!(
-            escaped("<script>\"a\" & 'b'</script>\u{1}"),
+            escape("<script>\"a\" & 'b'</script>\u{1}"),
             "&lt;script&gt;&quot;a&quot; &amp; &#39;b&#39;&lt;/script&gt;"
         );
-        assert_eq!(escaped("leg[2].föt"), "leg[2].föt");
+        assert_eq!(escape("leg[2].föt"), "leg[2].föt");
     }
 }

@@ -13,7 +13,7 @@ use super::names::Case;
 use super::rust::Module;
 use super::text::{one_line, unit};
 use super::{CrateFile, TranslationUnit};
-use mechc_ir::layout::{ColumnUnit, Holds, columns, holds};
+use mechc_ir::layout::{ColumnContent, ColumnUnit, columns, holds};
 
 /// What both files are written from.
 struct Interface<'i> {
@@ -104,12 +104,12 @@ impl Interface<'_> {
         let system = self.unit.system;
         // forces have a list of their own
         let columns = columns(system).into_iter().zip(holds(system));
-        let columns: Vec<_> = columns.filter(|(_, holds)| !matches!(holds, Holds::Reaction(_))).collect();
+        let columns: Vec<_> = columns.filter(|(_, holds)| !matches!(holds, ColumnContent::Reaction(_))).collect();
         let names = Case::Constant.names(columns.iter().map(|(column, _)| column.name.as_str()));
         let descriptions = columns.iter().map(|(column, holds)| {
             let (name, ColumnUnit { text, .. }) = (one_line(&column.name), &column.unit);
             match *holds {
-                Holds::Measure { index, .. }
+                ColumnContent::Measure { index, .. }
                     if system.measures()[index].units.si != system.measures()[index].units.printed[0] =>
                 {
                     format!("{name} (SI; tables have it in {text})")

@@ -39,12 +39,9 @@ pub mod work;
 
 mod tests;
 
-pub use checks::{constraint_drift, monitors, redundant_rows};
-pub use derivatives::{input_driven_sensitivity, pivoted_derivatives, sensitivity};
-pub use functions::{either, greater, lesser, pick, piece, select, sign};
-pub use inputs::{input_list, input_path};
-pub use reactions::{forces, input_driven_forces, pivoted_forces};
-pub use solver_records::{lane_pivots, lane_residuals, pivots, running_max};
+use functions::{either, pick, piece, select};
+use inputs::input_path;
+use solver_records::running_max;
 
 use crate::limits::values as limits;
 use mechc_expr::math::{blocks, grid, hermite, neighbours};

@@ -101,7 +101,7 @@ impl Writer<'_> {
     /// Whether anything must hold beside the equations.
     pub fn has_checks(&self) -> bool {
         let is_left_out = !self.unit.system.checks().is_empty();
-        let has_monitors = !self.unit.system.watches().is_empty();
+        let has_monitors = !self.unit.system.monitors().is_empty();
         self.has_sides() || is_left_out || has_monitors || self.has_boundaries() || !self.open_conditions().is_empty()
     }
 

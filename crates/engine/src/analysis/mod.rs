@@ -26,12 +26,17 @@ mod state;
 
 pub use assemble::{Moved, Request, Solving, Started, Unassembled, with_parts};
 pub use explain::errors::length as length_in_words;
-pub use explain::{FreeMotion, determine, free_motions};
-pub use follow::{Follower, LeadOptions, Way, before_ways, follow_to, lead, lead_again, start, start_from};
+pub use explain::{
+    FreeMotion, Link, LinkOf, OpenLoop, SingularPosition, Stop, StopCause, Warning, WarningCause, determine,
+    free_motions,
+};
+pub use follow::{
+    ContinuationOptions, Follower, PathOutcome, continue_from, follow_to, lead, start, start_from, start_of_paths,
+};
 pub use mechc_ir::tolerances::TOLERANCE;
 pub use results::course;
 pub use results::{
-    Answers, Asked, Computed, MOST_LOOKS, Sampled, Settled, Settling, SmoothFormula, SmoothFormulas, SpectralIntegral,
-    Turning, moved, refused_results,
+    Answers, Computed, MOST_LOOKS, ResultQuery, Sampled, Settled, Settling, SmoothFormula, SmoothFormulas,
+    SpectralIntegral, Turning, moved, refused_results,
 };
 pub use state::{Horizon, Times};

@@ -1,24 +1,24 @@
-//! The elimination of a block's part of `Φ_q`, laid out in an order that was chosen before.
+//! Symbolic elimination of a block of `Φ_q` in a given order.
 
 use super::order::Order;
 use super::tape::{Tape, Value};
 
-/// A row of a block: the columns of its entries within the block, and their values.
+/// A row of a block: the columns of its entries within the block, with their values.
 pub(super) type Line = Vec<(u32, Value)>;
 
-/// The factors of a block's part of `Φ_q`, by places within the block.
+/// The factors of a block of `Φ_q`. Rows and columns are counted within the block.
 pub(super) struct Factors {
     pivots: Vec<(u32, u32)>,
     inverses: Vec<Value>,
-    /// For each pivot the rows below it with their multipliers, and the rest of its row.
+    /// By pivot: the rows below it with their multipliers, and the other entries of its row.
     lower: Vec<Line>,
     upper: Vec<Line>,
-    /// The last two unknowns, where they are found together.
+    /// The last two unknowns, if they are solved together.
     pair: Option<TwoByTwo>,
 }
 
-/// Two equations for two unknowns, by rows, with one over their determinant (G. Cramer, 1750): one division instead of two, one
-/// after the other.
+/// Two equations for two unknowns with the inverse of their determinant, solved by Cramer's rule (G. Cramer, 1750): one division instead of two in
+/// sequence.
 struct TwoByTwo {
     rows: [u32; 2],
     columns: [u32; 2],
@@ -26,15 +26,15 @@ struct TwoByTwo {
     inverse: Value,
 }
 
-/// One over a pivot, or over the determinant of the last two, with the rows and columns that it stands for.
+/// The inverse of a pivot, or of the determinant of the last two, with its rows and columns.
 pub(super) struct Inverse {
     pub value: Value,
-    pub places: Vec<(u32, u32)>,
+    pub positions: Vec<(u32, u32)>,
 }
 
 impl Factors {
-    /// Of one equation for one unknown.
-    pub fn of_one(tape: &mut Tape, slope: Value) -> Factors {
+    /// Factorizes one equation for one unknown.
+    pub fn single(tape: &mut Tape, slope: Value) -> Factors {
         Factors {
             pivots: vec![(0, 0)],
             inverses: vec![tape.recip(slope)],
@@ -44,7 +44,7 @@ impl Factors {
         }
     }
 
-    /// Eliminates rows in an order. Multipliers of one row for another are watched where there are weights for them.
+    /// Eliminates rows in an order. `weight`, if given, returns the number of the weight by which a multiplier of one row for another is checked.
     pub fn new(
         tape: &mut Tape,
         mut rows: Vec<Line>,
@@ -66,19 +66,19 @@ impl Factors {
                 }
             }
             let mut line = std::mem::take(&mut rows[row as usize]);
-            let pivot = taken(&mut line, column);
+            let pivot = take_entry(&mut line, column);
             let inverse = tape.recip(pivot.unwrap_or(Value::ZERO));
             let mut lower = Vec::with_capacity(below.len());
             for &other in below {
                 let target = &mut rows[other as usize];
-                let Some(entry) = taken(target, column) else {
+                let Some(entry) = take_entry(target, column) else {
                     continue;
                 };
                 let multiplier = match &mut weight {
                     Some(weight) => tape.multiplier(entry, inverse, || weight(row, other)),
                     None => tape.mul(entry, inverse),
                 };
-                subtract(tape, target, multiplier, &line);
+                subtract_multiple(tape, target, multiplier, &line);
                 lower.push((other, multiplier));
             }
             factors.inverses.push(inverse);
@@ -88,23 +88,24 @@ impl Factors {
         factors
     }
 
-    /// One over each pivot, and last over the determinant of the two that are found together.
+    /// Returns the inverse of each pivot, and last that of the 2 × 2 determinant, if there is one.
     pub fn inverses(&self) -> Vec<Inverse> {
         let singles = self.pivots.iter().zip(&self.inverses);
-        let mut all: Vec<Inverse> = singles.map(|(&place, &value)| Inverse { value, places: vec![place] }).collect();
+        let mut all: Vec<Inverse> =
+            singles.map(|(&position, &value)| Inverse { value, positions: vec![position] }).collect();
         if let Some(TwoByTwo { rows, columns, inverse, .. }) = self.pair {
-            let places = rows.into_iter().zip(columns).collect();
-            all.push(Inverse { value: inverse, places });
+            let positions = rows.into_iter().zip(columns).collect();
+            all.push(Inverse { value: inverse, positions });
         }
         all
     }
 
-    /// Solves: `right` by rows becomes the solution by columns.
+    /// Solves `A x = right`, from `right` by rows to the solution by columns.
     pub fn solve(&self, tape: &mut Tape, mut right: Vec<Value>) -> Vec<Value> {
         for (&(row, _), lower) in self.pivots.iter().zip(&self.lower) {
-            let own = right[row as usize];
+            let value = right[row as usize];
             for &(other, multiplier) in lower {
-                let product = tape.mul(multiplier, own);
+                let product = tape.mul(multiplier, value);
                 right[other as usize] = tape.sub(right[other as usize], product);
             }
         }
@@ -123,14 +124,14 @@ impl Factors {
         solution
     }
 
-    /// Solves with the transposed matrix: `right` by columns becomes the solution by rows.
+    /// Solves `Aᵀ x = right`, from `right` by columns to the solution by rows.
     pub fn solve_transposed(&self, tape: &mut Tape, mut right: Vec<Value>) -> Vec<Value> {
         let mut solution = vec![Value::ZERO; right.len()];
         for ((&(row, column), &inverse), upper) in self.pivots.iter().zip(&self.inverses).zip(&self.upper) {
-            let own = tape.mul(right[column as usize], inverse);
-            solution[row as usize] = own;
+            let unknown = tape.mul(right[column as usize], inverse);
+            solution[row as usize] = unknown;
             for &(other, value) in upper {
-                let product = tape.mul(value, own);
+                let product = tape.mul(value, unknown);
                 right[other as usize] = tape.sub(right[other as usize], product);
             }
         }
@@ -146,21 +147,21 @@ impl Factors {
         solution
     }
 
-    /// Whether the order of rows with their columns takes an odd number of exchanges to make.
+    /// Returns whether the permutation of rows to pivot columns is odd.
     pub fn is_odd(&self) -> bool {
         is_odd(&self.pivots)
     }
 }
 
 impl TwoByTwo {
-    /// The last two unknowns of an elimination, where either equation holds both and no pivot is a number.
+    /// Solves for the last two unknowns together, if both equations contain both and no entry is a number; else returns `None`.
     fn new(tape: &mut Tape, order: &Order, rows: &[Line]) -> Option<TwoByTwo> {
         let &[.., (upper, first), (lower, second)] = order.pivots.as_slice() else {
             return None;
         };
         let entry = |row: u32, column: u32| {
-            let found = rows[row as usize].iter().find(|(own, _)| *own == column).map(|(_, value)| *value);
-            found.filter(|value| matches!(value, Value::Of { .. }))
+            let entry = rows[row as usize].iter().find(|(other, _)| *other == column).map(|(_, value)| *value);
+            entry.filter(|value| matches!(value, Value::Register { .. }))
         };
         let entries = [[entry(upper, first)?, entry(upper, second)?], [entry(lower, first)?, entry(lower, second)?]];
         let (down, up) = (tape.mul(entries[0][0], entries[1][1]), tape.mul(entries[0][1], entries[1][0]));
@@ -174,7 +175,7 @@ impl TwoByTwo {
         self.by_cramer(tape, self.entries, right, self.columns, solution);
     }
 
-    /// As [`TwoByTwo::solve`] with the entries across.
+    /// Solves the transposed equations.
     fn solve_transposed(&self, tape: &mut Tape, right: &[Value], solution: &mut [Value]) {
         let [[a, b], [c, d]] = self.entries;
         let right = self.columns.map(|column| right[column as usize]);
@@ -198,23 +199,23 @@ impl TwoByTwo {
     }
 }
 
-/// Takes the entry of a column out of a row.
-fn taken(line: &mut Line, column: u32) -> Option<Value> {
-    line.iter().position(|(own, _)| *own == column).map(|at| line.swap_remove(at).1)
+/// Removes the entry of a column from a row.
+fn take_entry(line: &mut Line, column: u32) -> Option<Value> {
+    line.iter().position(|(other, _)| *other == column).map(|at| line.swap_remove(at).1)
 }
 
-/// Takes a multiple of one row from another.
-fn subtract(tape: &mut Tape, target: &mut Line, multiplier: Value, line: &[(u32, Value)]) {
-    for &(own, value) in line {
+/// Subtracts a multiple of one row from another.
+fn subtract_multiple(tape: &mut Tape, target: &mut Line, multiplier: Value, line: &[(u32, Value)]) {
+    for &(column, value) in line {
         let product = tape.mul(multiplier, value);
-        match target.iter_mut().find(|(known, _)| *known == own) {
+        match target.iter_mut().find(|(other, _)| *other == column) {
             Some((_, entry)) => *entry = tape.sub(*entry, product),
-            None => target.push((own, product.negated())),
+            None => target.push((column, product.negated())),
         }
     }
 }
 
-/// Whether an order of rows with their columns takes an odd number of exchanges to make.
+/// Returns whether the permutation of rows to columns is odd.
 fn is_odd(pivots: &[(u32, u32)]) -> bool {
     let mut column_of = vec![0; pivots.len()];
     for &(row, column) in pivots {

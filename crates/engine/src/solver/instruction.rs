@@ -1,42 +1,42 @@
-//! What a solver does, one after the other: operations, as a program has them, and what joins these to the world.
+//! Instructions of a solver: the operations of a program, with inputs, outputs and checks.
 
-use mechc_ir::program::{Column, Few, Op, Register};
+use mechc_ir::program::{Column, Op, Register, RegisterList};
 
-/// One instruction, on lanes.
+/// An instruction, executed in every lane.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-#[allow(missing_docs)] // operands and results say themselves
+#[allow(missing_docs)] // operands and results explain themselves
 pub enum Instruction {
-    /// Registers to registers.
+    /// An operation on registers.
     Compute(Op),
     /// A number, by its bits.
     Number { to: Register, bits: [u32; 2] },
-    /// What stands in a register of the program: it depends on parameters alone, or is a switch.
+    /// A register of the program that depends on parameters alone or is a switch.
     Load { to: Register, from: Register },
     /// The time (s).
     Time { to: Register },
-    /// What has been stored in a column of the row.
+    /// The stored value of a column of the row.
     Column { to: Register, column: u32 },
-    /// A tear, by its number, on the curve of the step: where Newton begins.
+    /// The initial guess for a tear, given by its number.
     Curve { to: Register, tear: u32 },
-    /// `a b`, a multiplier that is watched, by the number of its weight.
+    /// The product `a b`, an elimination multiplier that is checked with the weight of this number.
     Multiplier { to: Register, a: Register, b: Register, weight: u32 },
-    /// One over a pivot, by the pivot's number; the sign of all pivots of a block tells its branches apart.
+    /// The inverse of a pivot, given by its number. The sign of the product of a block's pivots distinguishes its branches.
     Pivot { a: Register, pivot: u32 },
-    /// What is left of a row of `Φ`, which must be next to nothing.
+    /// The residual of a row of `Φ`, which is checked.
     Residual { a: Register, row: u32 },
-    /// A result, by its column.
+    /// Stores a result in a column.
     Store { column: u32, a: Register },
 }
 
 impl Instruction {
-    /// A number.
+    /// Creates an instruction for a number.
     #[must_use]
     pub fn number(to: Register, value: f64) -> Instruction {
         let bits = value.to_bits();
         Instruction::Number { to, bits: [bits as u32, (bits >> 32) as u32] }
     }
 
-    /// The same with other registers: `read` for those it reads, then `write` for those it writes.
+    /// Replaces the registers: first those that are read, by `read`, then those that are written, by `write`.
     #[must_use]
     pub fn renumbered(
         mut self,
@@ -61,7 +61,7 @@ impl Instruction {
         self
     }
 
-    /// The column of a table that it looks into.
+    /// Returns the table and column that the instruction looks up, if any.
     #[must_use]
     pub fn column(self) -> Option<(u32, Column)> {
         match self {
@@ -70,24 +70,24 @@ impl Instruction {
         }
     }
 
-    /// The registers that it reads.
+    /// Returns the registers that the instruction reads.
     #[must_use]
-    pub fn reads(self) -> Few<5> {
-        let mut reads = Few::default();
+    pub fn reads(self) -> RegisterList<5> {
+        let mut reads = RegisterList::default();
         let _ = self.renumbered(|register| reads.note(register), |register| register);
         reads
     }
 
-    /// The registers that it writes.
+    /// Returns the registers that the instruction writes.
     #[must_use]
-    pub fn writes(self) -> Few<2> {
-        let mut writes = Few::default();
+    pub fn writes(self) -> RegisterList<2> {
+        let mut writes = RegisterList::default();
         let _ = self.renumbered(|register| register, |register| writes.note(register));
         writes
     }
 }
 
-/// The number that bits are of.
+/// Returns the number with these bits.
 #[must_use]
 pub fn from_bits([low, high]: [u32; 2]) -> f64 {
     f64::from_bits(u64::from(low) | (u64::from(high) << 32))

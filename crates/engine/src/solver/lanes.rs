@@ -1,7 +1,7 @@
-//! Running a solver in several lanes at once: at several times of one mechanism, or for several variants of it (`variants.rs`). Allocates
-//! nothing but the registers, once.
+//! Runs a solver in several lanes: at several times of one mechanism, or for several variants of it (`variants.rs`). Allocates only the registers,
+//! once.
 
-use super::curve::Bend;
+use super::predictor::Bend;
 use super::{Instruction, LARGEST_MULTIPLIER, Solver, Tear, from_bits};
 use mechc_expr::math::grid::{bound_at_first, going_on, next_point, on_grid};
 use mechc_expr::math::{self, Vectors, WIDE};
@@ -10,127 +10,134 @@ use mechc_ir::tolerances::solving::lanes::{BORDER, ITERATIONS, LARGEST_CORRECTIO
 use std::array::from_fn;
 use std::ops::Range;
 
-/// Lanes that are gone through together: as many as the widest vector registers hold.
-pub const PART: usize = WIDE;
+/// The number of lanes in a chunk, which are executed together: that of the widest vector registers.
+pub const CHUNK: usize = WIDE;
 
-/// Registers for `W` times.
+/// The registers of a solver in `W` lanes.
 #[derive(Clone, Debug)]
 pub struct Lanes<const W: usize> {
     vectors: Vectors,
     values: Vec<LaneValues<W>>,
-    /// The columns of rows, to be turned to these; none where that does not pay.
+    /// The columns of rows, to be transposed into these; empty if that does not pay.
     columns: Vec<LaneValues<W>>,
-    watched: Watched<W>,
-    /// What is seen of what depends on numbers and parameters alone.
-    of_fixed: Watched<W>,
+    checks: RunChecks<W>,
+    /// The checks of the prologue, which stay valid until its next run.
+    prologue_checks: RunChecks<W>,
 }
 
-/// What is seen of each lane in a run.
+/// The checks of a run, by lane.
 #[derive(Clone, Debug)]
-struct Watched<const W: usize> {
-    /// The largest multiplier, and the largest part of its bound that a residual takes.
+struct RunChecks<const W: usize> {
+    /// The largest scaled multiplier, and the largest ratio of a residual to its bound.
     multiplier: LaneValues<W>,
     residual: LaneValues<W>,
     /// The largest correction, and the largest first one, scaled.
-    farthest: LaneValues<W>,
+    max_correction: LaneValues<W>,
     first_correction: LaneValues<W>,
-    /// With which largest correction Newton ends, in cells.
+    /// The largest correction with which Newton ends, in cells.
     bound: LaneValues<W>,
-    /// 0 if all that was stored is finite, else not a number.
+    /// 0 if all stored values are finite, else NaN.
     finite: LaneValues<W>,
 }
 
-impl<const W: usize> Watched<W> {
-    const NOTHING: Watched<W> = {
+impl<const W: usize> RunChecks<W> {
+    const CLEAR: RunChecks<W> = {
         let zero = LaneValues([0.0; W]);
-        Watched { multiplier: zero, residual: zero, farthest: zero, first_correction: zero, bound: zero, finite: zero }
+        RunChecks {
+            multiplier: zero,
+            residual: zero,
+            max_correction: zero,
+            first_correction: zero,
+            bound: zero,
+            finite: zero,
+        }
     };
 
-    /// Goes on from what has been seen of what stays, before there is any correction; bounds are set where Newton begins.
-    fn begin_behind(&mut self, fixed: &Watched<W>) {
+    /// Resets to the checks of the prologue, without corrections. Bounds are set when Newton begins.
+    fn reset_to(&mut self, prologue: &RunChecks<W>) {
         let zero = LaneValues([0.0; W]);
-        (self.farthest, self.first_correction) = (zero, zero);
-        (self.multiplier, self.residual, self.finite) = (fixed.multiplier, fixed.residual, fixed.finite);
+        (self.max_correction, self.first_correction) = (zero, zero);
+        (self.multiplier, self.residual, self.finite) = (prologue.multiplier, prologue.residual, prologue.finite);
     }
 }
 
-/// What a run reads beside its registers, and where it leaves its results: part by part of its lanes, `P` in each.
-pub(super) trait Around<const P: usize> {
-    /// How many parts there are.
-    fn parts(&self) -> usize;
-    /// The value of one of the program's registers.
-    fn loaded(&self, from: Register, part: usize) -> [f64; P];
-    /// The times (s).
-    fn times(&self, part: usize) -> [f64; P];
-    /// Where Newton begins with a tear.
-    fn guess(&self, tear: u32, part: usize) -> [f64; P];
-    /// What has been left in a column.
-    fn stored(&self, column: u32, part: usize) -> [f64; P];
-    /// Leaves a result in a column, told part by part.
+/// The inputs and outputs of a run other than its registers, by chunk of `P` lanes.
+pub(super) trait LaneEnvironment<const P: usize> {
+    /// Returns the number of chunks to execute.
+    fn chunks(&self) -> usize;
+    /// Returns the value of a register of the program.
+    fn loaded(&self, from: Register, chunk: usize) -> [f64; P];
+    /// Returns the times (s).
+    fn times(&self, chunk: usize) -> [f64; P];
+    /// Returns the initial guess for a tear.
+    fn guess(&self, tear: u32, chunk: usize) -> [f64; P];
+    /// Returns the stored value of a column.
+    fn stored(&self, column: u32, chunk: usize) -> [f64; P];
+    /// Stores a column; `values` returns its values by chunk.
     fn store(&mut self, column: u32, values: impl FnMut(usize) -> [f64; P]);
-    /// One over what may be left of a row of `Φ`.
-    fn bound(&self, row: u32) -> f64;
-    /// Takes note of one over a pivot.
-    fn note(&mut self, pivot: u32, part: usize, inverse: &[f64; P]);
-    /// With corrections of up to so many cells Newton ends, where nobody asks for bits; 0 where only the grid point next to the solution will do.
-    fn nearly(&self) -> f64;
+    /// Returns the inverse of the bound on the residual of a row of `Φ`.
+    fn inverse_bound(&self, row: u32) -> f64;
+    /// Records the inverse of a pivot.
+    fn note_pivot(&mut self, pivot: u32, chunk: usize, inverse: &[f64; P]);
+    /// Returns the largest correction, in cells, with which Newton ends if bits do not matter; 0 if only the grid point next to the solution will do.
+    fn loose_bound(&self) -> f64;
 }
 
-/// Times to solve at, and what is known there.
+/// The times to solve at, with the step that contains them.
 #[derive(Clone, Copy, Debug)]
 pub struct Batch<'b, const W: usize> {
-    /// The times (s), ascending; all within a step.
+    /// The times (s), ascending, all within the step.
     pub times: [f64; W],
-    /// Where the step begins (s).
+    /// The start of the step (s).
     pub from: f64,
     /// The length of the step (s).
     pub length: f64,
-    /// Each coordinate as a polynomial of the part of the step.
+    /// By coordinate: a polynomial in the fraction of the step, its coefficients.
     pub curve: &'b [[f64; 6]],
-    /// How the curve of each tear goes on from the step before, where there was one.
+    /// By tear: the correction of its curve from the step before; empty without one.
     pub bends: &'b [Bend],
-    /// By row of `Φ`: one over what may be left of it.
+    /// By row of `Φ`: the inverse of the bound on its residual.
     pub bounds: &'b [f64],
 }
 
 impl<const W: usize> Lanes<W> {
-    /// Registers for a solver, which is run with some vector instructions.
+    /// Allocates the registers for a solver, which runs with the given vector instructions.
     #[must_use]
     pub fn new(solver: &Solver, vectors: Vectors) -> Lanes<W> {
         Lanes {
             vectors,
             values: vec![LaneValues([0.0; W]); solver.registers],
             columns: Vec::new(),
-            watched: Watched::NOTHING,
-            of_fixed: Watched::NOTHING,
+            checks: RunChecks::CLEAR,
+            prologue_checks: RunChecks::CLEAR,
         }
     }
 
-    /// The same, for rows of which each has its numbers one behind the other ([`Lanes::run`]).
+    /// Allocates the registers for a solver that writes contiguous rows ([`Lanes::run`]).
     #[must_use]
     pub fn for_rows(solver: &Solver, vectors: Vectors) -> Lanes<W> {
         let stride = solver.layout.stride;
-        let are_turned = W.is_multiple_of(WIDE) && stride <= MOST_TURNED;
-        let columns = vec![LaneValues([0.0; W]); if are_turned { stride } else { 0 }];
+        let is_transposed = W.is_multiple_of(WIDE) && stride <= MOST_TURNED;
+        let columns = vec![LaneValues([0.0; W]); if is_transposed { stride } else { 0 }];
         Lanes { columns, ..Lanes::new(solver, vectors) }
     }
 
-    /// How far the curve was from the solution in the last run: the largest first correction, scaled; not a number if one is not.
+    /// Returns the largest first correction of the last run, scaled: the error of the initial guess; NaN if a correction is NaN.
     #[must_use]
     pub fn first_correction(&self) -> f64 {
         self.first_corrections().0.iter().copied().fold(0.0, math::max)
     }
 
-    /// Whether all numbers of a lane's row are finite.
+    /// Returns whether all numbers in the row of a lane are finite.
     #[must_use]
     pub fn is_finite(&self, lane: usize) -> bool {
-        self.watched.finite.0[lane] == 0.0
+        self.checks.finite.0[lane] == 0.0
     }
 
-    /// Solves at the times of a batch and writes a row for each, one behind the other; says which of them hold: their Newton
-    /// has settled, every equation is met, and no pivot was too small.
+    /// Solves at the times of a batch and writes their rows, one after the other. Returns the lanes that are accepted: Newton has converged, every
+    /// residual is within its bound, and no multiplier is too large.
     ///
-    /// `scalars` are the program's registers, whose switches stand as they are in this step.
+    /// `scalars` are the program's registers, with the switches of this step.
     pub fn run(
         &mut self,
         solver: &Solver,
@@ -139,9 +146,13 @@ impl<const W: usize> Lanes<W> {
         batch: &Batch<'_, W>,
         rows: &mut [f64],
     ) -> [bool; W] {
-        // all at once: there is work for all of them
+        // all lanes in one chunk
         let mut columns = std::mem::take(&mut self.columns);
-        self.solve::<W>(solver, (program, scalars), OfTimes { solver, scalars, batch, rows, columns: &mut columns });
+        self.solve::<W>(
+            solver,
+            (program, scalars),
+            TimesEnvironment { solver, scalars, batch, rows, columns: &mut columns },
+        );
         let stride = solver.layout.stride;
         for (group, columns) in columns.chunks_exact(WIDE).enumerate() {
             self.vectors.turn(from_fn(|column| &columns[column].0), rows, (group * WIDE, stride));
@@ -150,39 +161,39 @@ impl<const W: usize> Lanes<W> {
         for (row, t) in rows.chunks_exact_mut(stride).zip(batch.times) {
             row[0] = t;
         }
-        let Watched { farthest, multiplier, residual, .. } = &self.watched;
-        from_fn(|k| !is_lost(farthest.0[k]) && multiplier.0[k] <= LARGEST_MULTIPLIER && residual.0[k] <= 1.0)
+        let RunChecks { max_correction, multiplier, residual, .. } = &self.checks;
+        from_fn(|k| !has_diverged(max_correction.0[k]) && multiplier.0[k] <= LARGEST_MULTIPLIER && residual.0[k] <= 1.0)
     }
 
-    /// Computes what depends on numbers and parameters alone, and leaves what results of it: it stays until they are others.
-    pub(super) fn prepare<const P: usize>(
+    /// Runs the prologue, the instructions that depend on numbers and parameters alone. Its results stay until its next run.
+    pub(super) fn run_prologue<const P: usize>(
         &mut self,
         solver: &Solver,
-        of: (&Program, &Registers),
-        around: impl Around<P>,
+        program: (&Program, &Registers),
+        env: impl LaneEnvironment<P>,
     ) {
-        self.watched = Watched::NOTHING;
+        self.checks = RunChecks::CLEAR;
         let vectors = self.vectors;
-        let mut run = Run { lanes: self, solver, of, around };
+        let mut run = Run { lanes: self, solver, program, env };
         vectors.run(
             #[inline(always)]
-            || run.instructions::<false>(0..solver.fixed),
+            || run.instructions::<false>(0..solver.prologue_len),
         );
-        self.of_fixed = self.watched.clone();
+        self.prologue_checks = self.checks.clone();
     }
 
-    /// Solves in the lanes of the parts that there are, of `P` lanes each.
+    /// Runs the solver in the chunks of `env`, of `P` lanes each.
     pub(super) fn solve<const P: usize>(
         &mut self,
         solver: &Solver,
-        of: (&Program, &Registers),
-        around: impl Around<P>,
+        program: (&Program, &Registers),
+        env: impl LaneEnvironment<P>,
     ) {
-        self.watched.begin_behind(&self.of_fixed);
-        // one lane has nothing to do at once
+        self.checks.reset_to(&self.prologue_checks);
+        // vector instructions do not pay for one lane
         let vectors = if W == 1 { Vectors::BASE } else { self.vectors };
-        let is_all = around.parts() == W / P;
-        let mut run = Run { lanes: self, solver, of, around };
+        let is_all = env.chunks() == W / P;
+        let mut run = Run { lanes: self, solver, program, env };
         if is_all {
             vectors.run(
                 #[inline(always)]
@@ -196,46 +207,46 @@ impl<const W: usize> Lanes<W> {
         }
     }
 
-    /// Adds to each lane in which Newton has not settled, an equation is not met, a multiplier is above a part of the largest, or what was
-    /// stored is not finite.
+    /// Increments the count of each lane that is rejected: Newton has not converged, a residual exceeds its bound, a multiplier exceeds a fraction of
+    /// its limit, or a stored value is not finite.
     #[inline(always)]
-    #[allow(clippy::inline_always, clippy::needless_range_loop)] // compiled for several kinds of processors; by lane it vectorises best
-    pub(super) fn write_doubts(&self, part: f64, doubts: &mut LaneValues<W>) {
-        let largest = part * LARGEST_MULTIPLIER;
-        let Watched { farthest, residual, multiplier, finite, .. } = &self.watched;
-        for part in 0..W / PART {
-            let (far, left) = (*farthest.part::<PART>(part), *residual.part::<PART>(part));
-            let (grown, finite) = (*multiplier.part::<PART>(part), *finite.part::<PART>(part));
-            let mut in_doubt = *doubts.part::<PART>(part);
-            for k in 0..PART {
-                let is_settled = far[k] <= LARGEST_CORRECTION && left[k] <= 1.0;
-                let is_certain = grown[k] <= largest && finite[k] == 0.0;
-                in_doubt[k] += if is_settled & is_certain { 0.0 } else { 1.0 };
+    #[allow(clippy::inline_always, clippy::needless_range_loop)] // compiled for several vector instruction sets; lane indices vectorise best
+    pub(super) fn add_rejections(&self, fraction: f64, rejections: &mut LaneValues<W>) {
+        let limit = fraction * LARGEST_MULTIPLIER;
+        let RunChecks { max_correction, residual, multiplier, finite, .. } = &self.checks;
+        for chunk in 0..W / CHUNK {
+            let (corrections, residuals) = (*max_correction.part::<CHUNK>(chunk), *residual.part::<CHUNK>(chunk));
+            let (multipliers, finite) = (*multiplier.part::<CHUNK>(chunk), *finite.part::<CHUNK>(chunk));
+            let mut counts = *rejections.part::<CHUNK>(chunk);
+            for k in 0..CHUNK {
+                let is_settled = corrections[k] <= LARGEST_CORRECTION && residuals[k] <= 1.0;
+                let is_certain = multipliers[k] <= limit && finite[k] == 0.0;
+                counts[k] += if is_settled & is_certain { 0.0 } else { 1.0 };
             }
-            *doubts.part_mut(part) = in_doubt;
+            *rejections.part_mut(chunk) = counts;
         }
     }
 
-    /// How far the guess of each lane was from its solution, scaled.
+    /// Returns by lane the error of the initial guess, scaled.
     pub(super) fn first_corrections(&self) -> &LaneValues<W> {
-        &self.watched.first_correction
+        &self.checks.first_correction
     }
 }
 
-/// Several times of one mechanism, and a row for each.
-struct OfTimes<'r, const W: usize> {
+/// Several times of one mechanism, with a row for each.
+struct TimesEnvironment<'r, const W: usize> {
     solver: &'r Solver,
     scalars: &'r Registers,
     batch: &'r Batch<'r, W>,
     rows: &'r mut [f64],
-    /// What is turned to rows when all is there; none where it goes there at once.
+    /// The columns that are transposed into rows at the end; empty if results are stored in the rows at once.
     columns: &'r mut [LaneValues<W>],
 }
 
-#[allow(clippy::inline_always)] // as all that `Lanes::solve` does
-impl<const W: usize, const P: usize> Around<P> for OfTimes<'_, W> {
+#[allow(clippy::inline_always)] // inlined into `Lanes::solve`
+impl<const W: usize, const P: usize> LaneEnvironment<P> for TimesEnvironment<'_, W> {
     #[inline(always)]
-    fn parts(&self) -> usize {
+    fn chunks(&self) -> usize {
         W / P
     }
 
@@ -245,22 +256,22 @@ impl<const W: usize, const P: usize> Around<P> for OfTimes<'_, W> {
     }
 
     #[inline(always)]
-    fn times(&self, part: usize) -> [f64; P] {
-        self.batch.times.as_chunks().0[part]
+    fn times(&self, chunk: usize) -> [f64; P] {
+        self.batch.times.as_chunks().0[chunk]
     }
 
     #[inline(always)]
-    fn guess(&self, tear: u32, part: usize) -> [f64; P] {
-        self.batch.on_curve(self.solver, tear, part)
+    fn guess(&self, tear: u32, chunk: usize) -> [f64; P] {
+        self.batch.on_curve(self.solver, tear, chunk)
     }
 
     #[inline(always)]
-    fn stored(&self, column: u32, part: usize) -> [f64; P] {
+    fn stored(&self, column: u32, chunk: usize) -> [f64; P] {
         if let Some(column) = self.columns.get(column as usize) {
-            return *column.part(part);
+            return *column.part(chunk);
         }
         let stride = self.solver.layout.stride;
-        let (mut at, mut values) = (column as usize + part * P * stride, [0.0; P]);
+        let (mut at, mut values) = (column as usize + chunk * P * stride, [0.0; P]);
         for value in &mut values {
             *value = self.rows[at];
             at += stride;
@@ -271,14 +282,14 @@ impl<const W: usize, const P: usize> Around<P> for OfTimes<'_, W> {
     #[inline(always)]
     fn store(&mut self, column: u32, mut values: impl FnMut(usize) -> [f64; P]) {
         if let Some(column) = self.columns.get_mut(column as usize) {
-            for part in 0..W / P {
-                *column.part_mut(part) = values(part);
+            for chunk in 0..W / P {
+                *column.part_mut(chunk) = values(chunk);
             }
             return;
         }
         let (mut at, stride) = (column as usize, self.solver.layout.stride);
-        for part in 0..W / P {
-            for value in values(part) {
+        for chunk in 0..W / P {
+            for value in values(chunk) {
                 self.rows[at] = value;
                 at += stride;
             }
@@ -286,15 +297,15 @@ impl<const W: usize, const P: usize> Around<P> for OfTimes<'_, W> {
     }
 
     #[inline(always)]
-    fn bound(&self, row: u32) -> f64 {
+    fn inverse_bound(&self, row: u32) -> f64 {
         self.batch.bounds[row as usize]
     }
 
     #[inline(always)]
-    fn note(&mut self, _: u32, _: usize, _: &[f64; P]) {}
+    fn note_pivot(&mut self, _: u32, _: usize, _: &[f64; P]) {}
 
     #[inline(always)]
-    fn nearly(&self) -> f64 {
+    fn loose_bound(&self) -> f64 {
         0.0
     }
 }
@@ -302,113 +313,113 @@ impl<const W: usize, const P: usize> Around<P> for OfTimes<'_, W> {
 struct Run<'r, A, const W: usize, const P: usize> {
     lanes: &'r mut Lanes<W>,
     solver: &'r Solver,
-    of: (&'r Program, &'r Registers),
-    around: A,
+    program: (&'r Program, &'r Registers),
+    env: A,
 }
 
-// All of it becomes part of `Lanes::solve`, once for each kind of vector instructions.
+// All of it is inlined into `Lanes::solve`, once for each set of vector instructions.
 #[allow(clippy::inline_always)]
-impl<A: Around<P>, const W: usize, const P: usize> Run<'_, A, W, P> {
+impl<A: LaneEnvironment<P>, const W: usize, const P: usize> Run<'_, A, W, P> {
     #[inline(always)]
     fn segments<const ALL: bool>(&mut self) {
         for segment in &self.solver.segments {
             let tears = segment.tears();
-            self.begin(tears);
+            self.snap_guesses(tears);
             for iteration in 0..ITERATIONS {
                 self.instructions::<ALL>(segment.range());
-                // what is run once is done then
-                if tears.is_empty() || self.go_on(tears, iteration) {
+                // a segment without tears runs once
+                if tears.is_empty() || self.newton_step(tears, iteration) {
                     break;
                 }
             }
-            self.end(tears);
+            self.apply_corrections(tears);
         }
     }
 
-    /// Newton begins at the grid points next to its guesses.
+    /// Moves the initial guesses to the nearest grid points.
     #[inline(always)]
-    fn begin(&mut self, tears: &[Tear]) {
-        let nearly = self.around.nearly();
-        self.lanes.watched.bound = LaneValues([if nearly > 0.0 { nearly } else { bound_at_first(BORDER) }; W]);
+    fn snap_guesses(&mut self, tears: &[Tear]) {
+        let loose_bound = self.env.loose_bound();
+        self.lanes.checks.bound = LaneValues([if loose_bound > 0.0 { loose_bound } else { bound_at_first(BORDER) }; W]);
         for tear in tears {
             let x = &mut self.lanes.values[tear.x as usize];
-            for part in 0..self.around.parts() {
-                x.part_mut::<P>(part).iter_mut().for_each(|x| *x = on_grid(*x, tear.cell));
+            for chunk in 0..self.env.chunks() {
+                x.part_mut::<P>(chunk).iter_mut().for_each(|x| *x = on_grid(*x, tear.cell));
             }
         }
     }
 
-    /// Goes on to the next grid points in the lanes that have not settled; says whether there are none.
+    /// Moves to the next grid points in the lanes that have not converged; returns whether all have.
     #[inline(always)]
-    fn go_on(&mut self, tears: &[Tear], iteration: usize) -> bool {
-        let mut have_settled = true;
-        for part in 0..self.around.parts() {
-            have_settled &= self.go_on_in(part, tears, iteration);
+    fn newton_step(&mut self, tears: &[Tear], iteration: usize) -> bool {
+        let mut has_settled = true;
+        for chunk in 0..self.env.chunks() {
+            has_settled &= self.newton_step_in(chunk, tears, iteration);
         }
-        have_settled
+        has_settled
     }
 
-    /// The same in a part of the lanes (`math/grid.rs`). A lane that has settled stays where it is, whatever the others do.
+    /// Does a Newton step in a chunk of lanes (`math/grid.rs`). A lane that has converged does not move any more, whatever the others do.
     #[inline(always)]
-    fn go_on_in(&mut self, part: usize, tears: &[Tear], iteration: usize) -> bool {
-        let nearly = self.around.nearly();
-        let Lanes { values, watched, .. } = &mut *self.lanes;
-        let (mut largest, mut far) = ([0.0; P], [0.0; P]);
+    fn newton_step_in(&mut self, chunk: usize, tears: &[Tear], iteration: usize) -> bool {
+        let loose_bound = self.env.loose_bound();
+        let Lanes { values, checks, .. } = &mut *self.lanes;
+        let (mut in_cells, mut scaled) = ([0.0; P], [0.0; P]);
         for tear in tears {
-            let delta = values[tear.delta as usize].part(part);
-            keep_largest(&mut largest, delta, tear.per_cell);
-            keep_largest(&mut far, delta, tear.per_scale);
+            let delta = values[tear.delta as usize].part(chunk);
+            keep_max(&mut in_cells, delta, tear.per_cell);
+            keep_max(&mut scaled, delta, tear.per_scale);
         }
-        let mut farthest = *watched.farthest.part(part);
-        keep_largest(&mut farthest, &far, 1.0);
-        *watched.farthest.part_mut(part) = farthest;
+        let mut max_correction = *checks.max_correction.part(chunk);
+        keep_max(&mut max_correction, &scaled, 1.0);
+        *checks.max_correction.part_mut(chunk) = max_correction;
         if iteration == 0 {
-            keep_largest(watched.first_correction.part_mut(part), &far, 1.0);
+            keep_max(checks.first_correction.part_mut(chunk), &scaled, 1.0);
         }
-        let (mut bound, mut moves) = (*watched.bound.part::<P>(part), [0.0_f64; P]);
+        let (mut bound, mut moves) = (*checks.bound.part::<P>(chunk), [0.0_f64; P]);
         for k in 0..P {
-            // those that are lost stay where they are
-            let (is_beyond, is_near) = (largest[k] > bound[k], farthest[k] <= LARGEST_CORRECTION);
+            // diverged lanes do not move either
+            let (is_beyond, is_near) = (in_cells[k] > bound[k], max_correction[k] <= LARGEST_CORRECTION);
             moves[k] = if is_beyond & is_near { 1.0 } else { 0.0 };
         }
-        // mostly none does, which is seen in all lanes at once
+        // mostly no lane moves, which one test for all lanes shows
         if moves.iter().fold(0, |open, moves| open | moves.to_bits()) == 0 {
-            *watched.bound.part_mut(part) = [f64::INFINITY; P];
+            *checks.bound.part_mut(chunk) = [f64::INFINITY; P];
             return true;
         }
-        // by lane: the cells, in cells, among whose points coordinates next to a border go on; 0 where all stay
+        // by lane: the spacing, in cells, of the points to which coordinates next to a border move; 0 for lanes that do not move
         let mut cells = [0.0; P];
         for k in 0..P {
-            let (next, width) = going_on(largest[k], bound[k], BORDER);
-            let next = if nearly > 0.0 { nearly } else { next };
+            let (next, width) = going_on(in_cells[k], bound[k], BORDER);
+            let next = if loose_bound > 0.0 { loose_bound } else { next };
             bound[k] = if moves[k] == 0.0 { f64::INFINITY } else { next };
             cells[k] = if moves[k] == 0.0 { 0.0 } else { width };
         }
-        *watched.bound.part_mut(part) = bound;
+        *checks.bound.part_mut(chunk) = bound;
         for tear in tears {
-            let delta = *values[tear.delta as usize].part::<P>(part);
-            let x = values[tear.x as usize].part_mut::<P>(part);
+            let delta = *values[tear.delta as usize].part::<P>(chunk);
+            let x = values[tear.x as usize].part_mut::<P>(chunk);
             for k in 0..P {
                 let next = next_point(x[k], delta[k], tear.cell, cells[k], BORDER);
                 x[k] = if cells[k] > 0.0 { next } else { x[k] };
             }
         }
         if iteration + 1 == ITERATIONS {
-            // lanes that have not settled never will
-            for (farthest, cells) in watched.farthest.part_mut::<P>(part).iter_mut().zip(cells) {
-                *farthest = if cells > 0.0 { f64::INFINITY } else { *farthest };
+            // lanes that still move have not converged
+            for (max_correction, cells) in checks.max_correction.part_mut::<P>(chunk).iter_mut().zip(cells) {
+                *max_correction = if cells > 0.0 { f64::INFINITY } else { *max_correction };
             }
         }
         false
     }
 
-    /// From the last grid points the corrections lead to the solution.
+    /// Adds the last corrections to the last grid points, which gives the solution.
     #[inline(always)]
-    fn end(&mut self, tears: &[Tear]) {
+    fn apply_corrections(&mut self, tears: &[Tear]) {
         for tear in tears {
-            for part in 0..self.around.parts() {
-                let delta = *self.lanes.values[tear.delta as usize].part::<P>(part);
-                let x = self.lanes.values[tear.x as usize].part_mut::<P>(part);
+            for chunk in 0..self.env.chunks() {
+                let delta = *self.lanes.values[tear.delta as usize].part::<P>(chunk);
+                let x = self.lanes.values[tear.x as usize].part_mut::<P>(chunk);
                 x.iter_mut().zip(delta).for_each(|(x, delta)| *x += delta);
             }
         }
@@ -416,49 +427,49 @@ impl<A: Around<P>, const W: usize, const P: usize> Run<'_, A, W, P> {
 
     #[inline(always)]
     fn instructions<const ALL: bool>(&mut self, range: Range<usize>) {
-        let Lanes { values, watched, .. } = &mut *self.lanes;
-        let around = &mut self.around;
-        let mut machine = LaneMachine::<W, P, ALL>::new(values, around.parts(), self.of);
-        let parts = machine.parts();
+        let Lanes { values, checks, .. } = &mut *self.lanes;
+        let env = &mut self.env;
+        let mut machine = LaneMachine::<W, P, ALL>::new(values, env.chunks(), self.program);
+        let chunks = machine.parts();
         for instruction in &self.solver.instructions[range] {
-            // most are operations: one choice of many, and not two
+            // most instructions are operations, which are dispatched once and not twice
             if let Instruction::Compute(op) = instruction {
                 op.run(&mut machine);
                 continue;
             }
-            macro_rules! by_part {
-                ($part:ident, $does:expr) => {
-                    for $part in 0..parts {
-                        machine.go_to($part);
+            macro_rules! by_chunk {
+                ($chunk:ident, $does:expr) => {
+                    for $chunk in 0..chunks {
+                        machine.go_to($chunk);
                         $does;
                     }
                 };
             }
             match *instruction {
                 Instruction::Compute(_) => {}
-                Instruction::Pivot { a, pivot } => by_part!(part, around.note(pivot, part, &machine.read(a))),
-                Instruction::Number { to, bits } => by_part!(part, machine.write(to, [from_bits(bits); P])),
-                Instruction::Load { to, from } => by_part!(part, machine.write(to, around.loaded(from, part))),
-                Instruction::Time { to } => by_part!(part, machine.write(to, around.times(part))),
-                Instruction::Column { to, column } => by_part!(part, machine.write(to, around.stored(column, part))),
-                Instruction::Store { column, a } => around.store(column, |part| {
-                    machine.go_to(part);
+                Instruction::Pivot { a, pivot } => by_chunk!(chunk, env.note_pivot(pivot, chunk, &machine.read(a))),
+                Instruction::Number { to, bits } => by_chunk!(chunk, machine.write(to, [from_bits(bits); P])),
+                Instruction::Load { to, from } => by_chunk!(chunk, machine.write(to, env.loaded(from, chunk))),
+                Instruction::Time { to } => by_chunk!(chunk, machine.write(to, env.times(chunk))),
+                Instruction::Column { to, column } => by_chunk!(chunk, machine.write(to, env.stored(column, chunk))),
+                Instruction::Store { column, a } => env.store(column, |chunk| {
+                    machine.go_to(chunk);
                     // −0 would surprise a reader
                     let values = machine.read(a).map(|value| value + 0.0);
-                    for (finite, value) in watched.finite.part_mut::<P>(part).iter_mut().zip(values) {
+                    for (finite, value) in checks.finite.part_mut::<P>(chunk).iter_mut().zip(values) {
                         *finite += 0.0 * value;
                     }
                     values
                 }),
-                Instruction::Curve { to, tear } => by_part!(part, machine.write(to, around.guess(tear, part))),
-                Instruction::Multiplier { to, a, b, weight } => by_part!(part, {
+                Instruction::Curve { to, tear } => by_chunk!(chunk, machine.write(to, env.guess(tear, chunk))),
+                Instruction::Multiplier { to, a, b, weight } => by_chunk!(chunk, {
                     let (a, b) = (machine.read(a), machine.read(b));
                     let product = machine.mul(a, b);
                     machine.write(to, product);
-                    keep_largest(watched.multiplier.part_mut(part), &product, self.solver.weights[weight as usize]);
+                    keep_max(checks.multiplier.part_mut(chunk), &product, self.solver.weights[weight as usize]);
                 }),
-                Instruction::Residual { a, row } => by_part!(part, {
-                    keep_largest(watched.residual.part_mut(part), &machine.read(a), around.bound(row));
+                Instruction::Residual { a, row } => by_chunk!(chunk, {
+                    keep_max(checks.residual.part_mut(chunk), &machine.read(a), env.inverse_bound(row));
                 }),
             }
         }
@@ -466,15 +477,15 @@ impl<A: Around<P>, const W: usize, const P: usize> Run<'_, A, W, P> {
 }
 
 impl<const W: usize> Batch<'_, W> {
-    /// Where Newton begins with a tear: on the curve of the step.
+    /// Returns the initial guess for a tear, on the curve of the step.
     #[inline(always)]
-    #[allow(clippy::inline_always)] // as all that `Lanes::solve` does
-    fn on_curve<const P: usize>(&self, solver: &Solver, tear: u32, part: usize) -> [f64; P] {
+    #[allow(clippy::inline_always)] // inlined into `Lanes::solve`
+    fn on_curve<const P: usize>(&self, solver: &Solver, tear: u32, chunk: usize) -> [f64; P] {
         let curve = &self.curve[solver.tears[tear as usize] as usize];
         let bend = self.bends.get(tear as usize).unwrap_or(&Bend::NONE);
         let per_second = 1.0 / self.length;
-        let mut values = self.times.as_chunks().0[part];
-        // no closure, which would be compiled for every processor
+        let mut values = self.times.as_chunks().0[chunk];
+        // no closure, which would be compiled without the vector instructions
         for value in &mut values {
             *value = bend.on_curve(curve, (*value - self.from) * per_second);
         }
@@ -482,17 +493,17 @@ impl<const W: usize> Batch<'_, W> {
     }
 }
 
-/// Whether an iteration has gone astray whose largest correction, scaled, is this.
+/// Returns whether an iteration with this largest scaled correction has diverged.
 #[inline(always)]
-#[allow(clippy::inline_always)] // as all that `Lanes::solve` does
-fn is_lost(farthest: f64) -> bool {
-    farthest.is_nan() || farthest > LARGEST_CORRECTION
+#[allow(clippy::inline_always)] // inlined into `Lanes::solve`
+fn has_diverged(max_correction: f64) -> bool {
+    max_correction.is_nan() || max_correction > LARGEST_CORRECTION
 }
 
-/// Keeps the larger of what is known and `|value| factor`; what is not a number stays.
+/// Updates a maximum with `|value| factor`; NaN stays.
 #[inline(always)]
-#[allow(clippy::inline_always)] // as all that `Lanes::solve` does
-fn keep_largest<const W: usize>(largest: &mut [f64; W], values: &[f64; W], factor: f64) {
+#[allow(clippy::inline_always)] // inlined into `Lanes::solve`
+fn keep_max<const W: usize>(largest: &mut [f64; W], values: &[f64; W], factor: f64) {
     for (largest, value) in largest.iter_mut().zip(values) {
         *largest = math::max(*largest, value.abs() * factor);
     }
@@ -500,13 +511,13 @@ fn keep_largest<const W: usize>(largest: &mut [f64; W], values: &[f64; W], facto
 
 #[cfg(test)]
 mod tests {
-    use super::keep_largest;
+    use super::keep_max;
 
     #[test]
-    fn what_is_not_a_number_stays_the_largest() {
+    fn nan_stays_the_maximum() {
         let mut largest = [0.0; 2];
         for values in [[1.0, f64::NAN], [f64::NAN, -3.0], [2.0, 2.0]] {
-            keep_largest(&mut largest, &values, 0.5);
+            keep_max(&mut largest, &values, 0.5);
         }
         assert!(largest.iter().all(|size| size.is_nan()), "{largest:?}");
     }

@@ -1,120 +1,123 @@
-//! The determined system as straight-line operations that solve it.
+//! Compiles a determined system to straight-line instructions that solve it, and runs them.
 //!
-//! What is solved at compile time, and how:
+//! How a system is solved:
 //!
 //! - Blocks that depend on each other make a component; components are independent.
-//! - In a block, equations with a pivot that is a number (`±1` mostly) give their coordinate once the others are known: such
-//!   coordinates become assignments. What is left is a few *tears*, guessed from the motion so far, and as many equations,
-//!   solved by Newton.
-//! - The linear systems, of Newton, velocity, acceleration and jerk, are eliminated symbolically in an order that is chosen once
-//!   ([`Order`]); numbers fold, and what nothing needs is left out. Velocity and acceleration share the factors.
+//! - In a block, equations with a constant pivot, mostly `±1`, give their coordinate by assignment once the others are solved. A few *tears* remain,
+//!   guessed from the motion so far, with as many equations, which Newton solves.
+//! - The linear systems of Newton, velocity, acceleration and jerk are eliminated symbolically in one order ([`Order`]), with constant folding,
+//!   dead-code elimination and register allocation. Velocity and acceleration share the factors.
 //!
-//! A tear's iterates lie on a grid, coarse beside rounding and fine beside convergence: Newton steps from the grid point next to the
-//! solution, whichever way that was found. So the numbers do not depend on where the iteration
-//! began (`math/grid.rs`).
+//! A tear's iterates lie on a grid, coarse compared with rounding and fine compared with convergence: the last Newton step begins at the grid point
+//! nearest to the solution. So the numbers do not depend on the initial guess (`math/grid.rs`).
 //!
-//! The operations work on several times at once, as [`Lanes`]; each lane has the bits that it would have alone.
+//! The instructions run at several times or for several variants, as [`Lanes`]; each lane has the bits that it has alone.
+//!
+//! The solver knows the constraint system and its operations, but neither motion, steps nor events.
 
-mod age;
-mod alike;
 mod build;
-mod curve;
+mod components;
+mod constant_folding;
+mod derivative_solves;
 mod elimination;
-mod finish;
-mod folding;
-mod forces;
-mod fusion;
-mod groups;
 mod instruction;
+mod lane_invariants;
 mod lanes;
+mod multiplier_solves;
+mod optimize;
 mod order;
+mod peephole;
 mod pivoting;
-mod rates;
+mod predictor;
+mod schedule;
+mod symbolic_values;
 mod tape;
 mod tear;
-mod terms;
 mod variants;
 
-pub use curve::Bend;
 pub use instruction::{Instruction, from_bits};
-pub use lanes::{Batch, Lanes, PART};
-use mechc_ir::tolerances::solving::solver::{LARGEST_MULTIPLIER, MOST_OPERATIONS};
-pub use order::{BlockEntry, Order};
-pub use pivoting::{BlockTables, Equations, Pivoting};
-pub use variants::{Abreast, Guesses};
+pub(crate) use lanes::CHUNK;
+pub use lanes::{Batch, Lanes};
+pub(crate) use order::{BlockEntry, Order};
+pub use pivoting::BlockTables;
+pub(crate) use pivoting::{Equations, Pivoting};
+pub use predictor::Bend;
+pub(crate) use variants::{VariantBatch, VariantLanes};
 
 use mechc_ir::layout::RowLayout;
 use mechc_ir::program::{Program, Register};
 use mechc_ir::structure::Determined;
+use mechc_ir::tolerances::solving::solver::{LARGEST_MULTIPLIER, MOST_OPERATIONS};
 use std::ops::Range;
 
-/// Operations that solve a constraint system at given times: position, velocity, acceleration, measures.
+/// The instructions that solve a constraint system at given times: position, velocity, acceleration, measures.
 #[derive(Clone, Debug)]
 pub struct Solver {
-    /// Those of all components one behind the other: they are read in a row, time and again.
+    /// The instructions of all components, contiguous because they are read in sequence.
     instructions: Vec<Instruction>,
-    /// So many of them, the first ones, are run once for numbers and parameters; none where nothing is set apart.
-    fixed: usize,
-    /// What there is to run, component by component, and last the measures that join components, from what these have stored.
+    /// The number of leading instructions, the prologue, that run once for numbers and parameters; 0 without a prologue.
+    prologue_len: usize,
+    /// The segments in order of execution: by component, and last the shared outputs, which read the stored columns of components.
     segments: Vec<Segment>,
     registers: usize,
-    /// Scales of the multipliers that are watched.
+    /// The weights of checked multipliers.
     weights: Vec<f64>,
     tears: Vec<u32>,
-    /// What its operations note of pivots; empty unless they are asked to.
+    /// The variable pivots; empty for [`Purpose::Lanes`].
     pivots: Vec<Pivot>,
     turns: Vec<Turn>,
     layout: RowLayout,
 }
 
-/// A pivot that is no number.
+/// A pivot that is not constant.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Pivot {
-    /// Which of [`Solver::turns`] it counts for.
+    /// The index in [`Solver::turns`] of its block.
     pub turn: u32,
-    /// What makes one over it a pure number.
+    /// The scale that makes its inverse dimensionless.
     pub weight: f64,
 }
 
-/// A block whose determinant changes with the position.
+/// A block whose determinant depends on the position.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Turn {
-    /// The block, by its number.
+    /// The number of the block.
     pub block: u32,
-    /// Whether the determinant is negative where its pivots are positive.
+    /// True if the determinant is negative if the product of its variable pivots is positive.
     pub is_negative: bool,
 }
 
-/// Of a register, while a solver is laid out: that what it holds is fixed.
-const FIXED: Register = 1 << 31;
+/// The flag of a register of the prologue while a solver is generated.
+const PROLOGUE: Register = 1 << 31;
 
-/// Blocks that depend on each other, in an order of solution, as operations.
+/// The instructions of blocks that depend on each other, in an order of solution.
 #[derive(Clone, Debug, Default)]
 struct Component {
-    /// What only numbers and parameters lead to, where that is set apart, and how many registers it has of its own, each of them [`FIXED`].
-    fixed: Vec<Instruction>,
-    fixed_registers: usize,
+    /// The instructions that depend on numbers and parameters alone, if they are hoisted, and the number of their registers, each with the flag
+    /// [`PROLOGUE`].
+    prologue: Vec<Instruction>,
+    prologue_registers: usize,
     instructions: Vec<Instruction>,
     segments: Vec<Segment>,
     registers: usize,
 }
 
-/// Instructions that are run once, or until their tears have settled.
+/// Instructions that run once, or until their tears converge.
 #[derive(Clone, Debug)]
 pub enum Segment {
-    /// Instructions that are run once.
+    /// Instructions that run once.
     Once(Range<usize>),
-    /// Instructions that are run until the tears stay where they are.
+    /// Instructions that run until the tears converge.
     Newton {
-        /// The loop's instructions.
+        /// The instructions of the loop.
         instructions: Range<usize>,
-        /// What it solves for.
+        /// The tears that it solves for.
         tears: Vec<Tear>,
     },
 }
 
 impl Segment {
-    /// Its instructions.
+    /// Returns the range of its instructions.
     #[must_use]
     pub fn range(&self) -> Range<usize> {
         match self {
@@ -122,7 +125,7 @@ impl Segment {
         }
     }
 
-    /// What it solves for.
+    /// Returns the tears that it solves for.
     #[must_use]
     pub fn tears(&self) -> &[Tear] {
         match self {
@@ -131,27 +134,27 @@ impl Segment {
         }
     }
 
-    /// Whether it is run until its tears have settled.
+    /// Returns whether it is a Newton loop.
     #[must_use]
-    pub fn is_loop(&self) -> bool {
+    pub(crate) fn is_loop(&self) -> bool {
         matches!(self, Segment::Newton { .. })
     }
 
-    /// The same, of instructions that stand so many places further on.
-    fn behind(self, places: usize) -> Segment {
-        let moved = |range: Range<usize>| range.start + places..range.end + places;
+    /// Moves the segment by a number of instructions.
+    fn shifted(self, by: usize) -> Segment {
+        let shifted = |range: Range<usize>| range.start + by..range.end + by;
         match self {
-            Segment::Once(range) => Segment::Once(moved(range)),
-            Segment::Newton { instructions, tears } => Segment::Newton { instructions: moved(instructions), tears },
+            Segment::Once(range) => Segment::Once(shifted(range)),
+            Segment::Newton { instructions, tears } => Segment::Newton { instructions: shifted(instructions), tears },
         }
     }
 
-    /// The same with other registers.
+    /// Replaces the registers.
     #[must_use]
-    pub fn renumbered(mut self, own: impl Fn(Register) -> Register) -> Segment {
+    pub fn renumbered(mut self, new: impl Fn(Register) -> Register) -> Segment {
         if let Segment::Newton { tears, .. } = &mut self {
             for tear in tears {
-                (tear.x, tear.delta) = (own(tear.x), own(tear.delta));
+                (tear.x, tear.delta) = (new(tear.x), new(tear.delta));
             }
         }
         self
@@ -161,164 +164,164 @@ impl Segment {
 /// A coordinate that Newton solves for.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Tear {
-    /// Where its value stands.
+    /// The register of its value.
     pub x: Register,
-    /// Where the correction of it stands.
+    /// The register of its correction.
     pub delta: Register,
-    /// What a change is judged against (m, or 1 rad).
+    /// The scale of its changes (m, or 1 rad).
     pub scale: f64,
-    /// The width of a cell of its grid.
+    /// The width of a grid cell (m or rad).
     pub cell: f64,
-    /// One over [`Tear::scale`].
+    /// The inverse of [`Tear::scale`].
     pub per_scale: f64,
-    /// One over [`Tear::cell`].
+    /// The inverse of [`Tear::cell`].
     pub per_cell: f64,
 }
 
 impl Tear {
-    /// Of a coordinate that is judged against a scale (m, or 1 rad).
+    /// Creates a tear with a scale (m, or 1 rad).
     fn new(x: Register, delta: Register, scale: f64) -> Tear {
         let cell = build::cell(scale);
         Tear { x, delta, scale, cell, per_scale: 1.0 / scale, per_cell: 1.0 / cell }
     }
 }
 
-/// What a solver is laid out for.
+/// The purpose that a solver is generated for.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 enum Purpose {
-    /// To be run here: registers are used again and again.
+    /// Lanes at several times: registers are reused.
     Lanes,
-    /// The same for variants in the lanes: with notes of the pivots, and every multiplier watched.
+    /// Lanes of several variants: registers are reused, the pivots are recorded, and every multiplier is checked.
     Variants,
-    /// To be written as code: with notes of the pivots, which tell branches apart, and a register of its own for every value.
+    /// Emitted code: the pivots, which distinguish branches, are recorded, and every value has its own register.
     Code,
 }
 
-/// What is known of `Φ_q` where the orders of elimination are chosen.
-pub trait Values {
-    /// An entry by its position in the pattern, in scaled terms.
+/// Reference values of `Φ_q`, by which orders of elimination are chosen.
+pub(crate) trait Values {
+    /// Returns a scaled entry by its position in the pattern.
     fn entry(&self, position: usize) -> f64;
-    /// The norm of a row in the scaled `Φ_q`.
+    /// Returns the norm of a row of the scaled `Φ_q`.
     fn row_norm(&self, row: usize) -> f64;
 }
 
 impl Solver {
-    /// Lays the solution of a system out; none where that takes too many operations.
+    /// Generates a solver for lanes at several times; returns `None` if that takes too many instructions.
     #[must_use]
-    pub fn new(determined: &Determined, program: &Program, values: &impl Values) -> Option<Solver> {
-        build::build(determined, program, values, (Purpose::Lanes, &|_| true))
+    pub(crate) fn new(determined: &Determined, program: &Program, reference: &impl Values) -> Option<Solver> {
+        build::build(determined, program, reference, Purpose::Lanes, &|_| true)
     }
 
-    /// As [`Solver::new`] to be written as code: with notes of the pivots, which tell branches apart, and with a register of its own
-    /// for every value.
+    /// Generates a solver for emitted code, which records the pivots and has a register for every value; returns `None` if that takes too many
+    /// instructions.
     #[must_use]
-    pub fn for_code(determined: &Determined, program: &Program, values: &impl Values) -> Option<Solver> {
-        build::build(determined, program, values, (Purpose::Code, &|_| true))
+    pub(crate) fn for_code(determined: &Determined, program: &Program, reference: &impl Values) -> Option<Solver> {
+        build::build(determined, program, reference, Purpose::Code, &|_| true)
     }
 
-    /// The same operations as those of [`Solver::new`], with notes of the pivots, for variants of a mechanism side by side; only what leads to
-    /// some columns.
+    /// Generates a solver for lanes of variants, with the operations of [`Solver::new`], which records the pivots and computes only what the
+    /// requested columns depend on. Returns `None` if that takes too many instructions.
     #[must_use]
-    pub fn for_variants(
+    pub(crate) fn for_variants(
         determined: &Determined,
         program: &Program,
-        values: &impl Values,
-        is_wanted: &dyn Fn(u32) -> bool,
+        reference: &impl Values,
+        is_requested: &dyn Fn(u32) -> bool,
     ) -> Option<Solver> {
-        let whole = build::build(determined, program, values, (Purpose::Variants, &|_| true))?;
-        // what joins components is read where it was left
+        let whole = build::build(determined, program, reference, Purpose::Variants, &|_| true)?;
+        // shared outputs read columns, which must be stored too
         let read = |instruction: &Instruction| match *instruction {
             Instruction::Column { column, .. } => Some(column),
             _ => None,
         };
-        let joining: Vec<u32> = whole.instructions.iter().filter_map(read).collect();
-        let is_kept = |column: u32| is_wanted(column) || joining.contains(&column);
-        build::build(determined, program, values, (Purpose::Variants, &is_kept))
+        let shared: Vec<u32> = whole.instructions.iter().filter_map(read).collect();
+        let is_kept = |column: u32| is_requested(column) || shared.contains(&column);
+        build::build(determined, program, reference, Purpose::Variants, &is_kept)
     }
 
-    /// What there is to run, in order.
+    /// Returns the segments in order of execution.
     #[must_use]
     pub fn segments(&self) -> &[Segment] {
         &self.segments
     }
 
-    /// The scale of a multiplier that is watched.
+    /// Returns the weight of a checked multiplier: its product with the multiplier is dimensionless.
     #[must_use]
     pub fn weight(&self, number: u32) -> f64 {
         self.weights[number as usize]
     }
 
-    /// What its operations note of pivots.
+    /// Returns the variable pivots, if they are recorded.
     #[must_use]
     pub fn pivots(&self) -> &[Pivot] {
         &self.pivots
     }
 
-    /// The blocks whose determinants change with the position, by the numbers that pivots have.
+    /// Returns the blocks whose determinants depend on the position, in the order of [`Pivot::turn`].
     #[must_use]
     pub fn turns(&self) -> &[Turn] {
         &self.turns
     }
 
-    /// Where its rows hold what.
+    /// Returns the layout of its rows.
     #[must_use]
     pub fn layout(&self) -> &RowLayout {
         &self.layout
     }
 
-    /// The coordinates that Newton solves for.
+    /// Returns the coordinates that Newton solves for.
     #[must_use]
     pub fn tears(&self) -> &[u32] {
         &self.tears
     }
 
-    /// All instructions.
+    /// Returns all instructions.
     #[must_use]
     pub fn instructions(&self) -> &[Instruction] {
         &self.instructions
     }
 
-    /// The program's registers that they load.
-    pub fn loads(&self) -> impl Iterator<Item = Register> {
+    /// Returns the program's registers that the instructions load.
+    pub(crate) fn loads(&self) -> impl Iterator<Item = Register> {
         self.instructions.iter().filter_map(|instruction| match *instruction {
             Instruction::Load { from, .. } => Some(from),
             _ => None,
         })
     }
 
-    /// The columns in which they leave what only numbers and parameters lead to.
-    fn fixed_columns(&self) -> impl Iterator<Item = u32> {
-        stored(&self.instructions[..self.fixed])
+    /// Returns the columns that the prologue stores.
+    fn prologue_columns(&self) -> impl Iterator<Item = u32> {
+        stored_columns(&self.instructions[..self.prologue_len])
     }
 
-    /// Which columns have one number at all times.
-    pub fn is_fixed(&self) -> impl Fn(u32) -> bool + use<> {
-        let is_fixed = self.by_column(self.fixed_columns());
-        move |column| is_fixed[column as usize]
+    /// Returns a predicate: whether a column is stored by the prologue, and so is equal at all times.
+    pub(crate) fn is_prologue_column(&self) -> impl Fn(u32) -> bool + use<> {
+        let is_among = self.column_mask(self.prologue_columns());
+        move |column| is_among[column as usize]
     }
 
-    /// Which columns they leave something in.
-    pub fn keeps(&self) -> impl Fn(u32) -> bool + use<> {
-        let is_kept = self.by_column(stored(&self.instructions));
-        move |column| is_kept[column as usize]
+    /// Returns a predicate: whether a column is stored.
+    pub(crate) fn is_stored_column(&self) -> impl Fn(u32) -> bool + use<> {
+        let is_stored = self.column_mask(stored_columns(&self.instructions));
+        move |column| is_stored[column as usize]
     }
 
-    /// By column: whether it is among some.
-    fn by_column(&self, columns: impl Iterator<Item = u32>) -> Vec<bool> {
+    /// Returns by column whether it is among `columns`.
+    fn column_mask(&self, columns: impl Iterator<Item = u32>) -> Vec<bool> {
         let mut is_among = vec![false; self.layout.stride];
         columns.for_each(|column| is_among[column as usize] = true);
         is_among
     }
 
-    /// How many registers they need.
+    /// Returns the number of registers.
     #[must_use]
     pub fn registers(&self) -> usize {
         self.registers
     }
 }
 
-/// The columns in which instructions leave something.
-fn stored(instructions: &[Instruction]) -> impl Iterator<Item = u32> {
+/// Returns the columns that instructions store.
+fn stored_columns(instructions: &[Instruction]) -> impl Iterator<Item = u32> {
     instructions.iter().filter_map(|instruction| match *instruction {
         Instruction::Store { column, .. } => Some(column),
         _ => None,

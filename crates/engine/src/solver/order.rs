@@ -1,4 +1,5 @@
-//! In which order the unknowns of a block are eliminated: pivots for few entries and for size (H. M. Markowitz, 1957).
+//! The order in which the unknowns of a block are eliminated, with pivots chosen for few entries and for size (H. M. Markowitz, *Management Science*
+//! 3, 1957).
 
 use mechc_ir::tolerances::solving::order::{CANDIDATES, LEAST_PIVOT, THRESHOLD};
 
@@ -7,11 +8,11 @@ use mechc_ir::tolerances::solving::order::{CANDIDATES, LEAST_PIVOT, THRESHOLD};
 pub struct BlockEntry {
     /// Its row within the block.
     pub row: u32,
-    /// Its column there.
+    /// Its column within the block.
     pub column: u32,
-    /// Its value where the order is chosen, scaled.
+    /// Its scaled value where the order is chosen.
     pub value: f64,
-    /// Whether it is a number that depends on nothing, so that it makes a good pivot.
+    /// True for a number, which is independent of position and parameters and so a good pivot.
     pub is_number: bool,
 }
 
@@ -20,14 +21,14 @@ pub struct BlockEntry {
 pub struct Order {
     /// Row and column of each pivot.
     pub pivots: Vec<(u32, u32)>,
-    /// For each pivot the rows that it is eliminated from.
+    /// By pivot: the rows that it is eliminated from.
     pub below: Vec<Vec<u32>>,
-    /// For each pivot the other columns of its row.
+    /// By pivot: the other columns of its row.
     pub right: Vec<Vec<u32>>,
 }
 
 impl Order {
-    /// A good order for a block of size `n` with these entries, whose pattern must not be singular.
+    /// Chooses an order for a block of size `n`, whose pattern must not be singular.
     #[must_use]
     pub fn new(n: usize, entries: &[BlockEntry]) -> Order {
         let mut elimination = Elimination::new(n, entries);
@@ -38,18 +39,27 @@ impl Order {
     }
 }
 
-/// Entries that a pivot makes, whether it is no number, and its size, turned.
+/// The cost of a pivot: fill-in, whether it is not a number, and its size, negated.
 type Cost = (usize, bool, f64);
 
-/// The elimination that finds an order.
+/// An entry of a row during the elimination.
+#[derive(Clone, Copy)]
+struct RowEntry {
+    column: u32,
+    value: f64,
+    /// True while it is a number.
+    is_number: bool,
+}
+
+/// A numerical elimination that chooses the order.
 struct Elimination {
-    /// What is left of each row: columns, values, and whether these are numbers from the first.
-    rows: Vec<Vec<(u32, f64, bool)>>,
-    /// The rows that use each column, those that are done too.
+    /// By row: its remaining entries.
+    rows: Vec<Vec<RowEntry>>,
+    /// By column: the rows that use it, eliminated ones included.
     users: Vec<Vec<u32>>,
-    is_done: Vec<bool>,
+    is_eliminated: Vec<bool>,
     order: Order,
-    /// Rows by how many entries they had when they were put there.
+    /// Rows by their number of entries when they were sorted in; outdated entries remain.
     by_length: Vec<Vec<u32>>,
 }
 
@@ -57,12 +67,13 @@ impl Elimination {
     fn new(n: usize, entries: &[BlockEntry]) -> Elimination {
         let (mut rows, mut users) = (vec![Vec::new(); n], vec![Vec::new(); n]);
         for entry in entries {
-            rows[entry.row as usize].push((entry.column, entry.value, entry.is_number));
+            let BlockEntry { column, value, is_number, .. } = *entry;
+            rows[entry.row as usize].push(RowEntry { column, value, is_number });
             users[entry.column as usize].push(entry.row);
         }
         let order = Order { pivots: Vec::new(), below: Vec::new(), right: Vec::new() };
         let by_length = vec![Vec::new(); n + 1];
-        let mut elimination = Elimination { rows, users, is_done: vec![false; n], order, by_length };
+        let mut elimination = Elimination { rows, users, is_eliminated: vec![false; n], order, by_length };
         (0..n as u32).for_each(|row| elimination.sort_in(row));
         elimination
     }
@@ -74,27 +85,27 @@ impl Elimination {
 
     /// Eliminates one unknown.
     fn step(&mut self) {
-        let Some((row, column)) = self.choose() else {
+        let Some((row, column)) = self.choose_pivot() else {
             return;
         };
-        self.is_done[row as usize] = true;
+        self.is_eliminated[row as usize] = true;
         let pivot_row = std::mem::take(&mut self.rows[row as usize]);
-        let pivot = pivot_row.iter().find(|(c, ..)| *c == column).map_or(LEAST_PIVOT, |(_, value, _)| *value);
+        let pivot = pivot_row.iter().find(|entry| entry.column == column).map_or(LEAST_PIVOT, |entry| entry.value);
         let pivot = if pivot.abs() < LEAST_PIVOT { LEAST_PIVOT } else { pivot };
         let users = std::mem::take(&mut self.users[column as usize]);
-        let below: Vec<u32> = users.into_iter().filter(|&user| !self.is_done[user as usize]).collect();
+        let below: Vec<u32> = users.into_iter().filter(|&user| !self.is_eliminated[user as usize]).collect();
         for &other in &below {
-            let line = &mut self.rows[other as usize];
-            let Some(at) = line.iter().position(|(c, ..)| *c == column) else {
+            let entries = &mut self.rows[other as usize];
+            let Some(at) = entries.iter().position(|entry| entry.column == column) else {
                 continue;
             };
-            let multiplier = line.swap_remove(at).1 / pivot;
-            for &(c, value, _) in pivot_row.iter().filter(|(c, ..)| *c != column) {
-                if let Some((_, own, is_number)) = line.iter_mut().find(|(own, ..)| *own == c) {
-                    *own -= multiplier * value;
-                    *is_number = false;
+            let multiplier = entries.swap_remove(at).value / pivot;
+            for &RowEntry { column: c, value, .. } in pivot_row.iter().filter(|entry| entry.column != column) {
+                if let Some(entry) = entries.iter_mut().find(|entry| entry.column == c) {
+                    entry.value -= multiplier * value;
+                    entry.is_number = false;
                 } else {
-                    line.push((c, -multiplier * value, false));
+                    entries.push(RowEntry { column: c, value: -multiplier * value, is_number: false });
                     self.users[c as usize].push(other);
                 }
             }
@@ -104,31 +115,31 @@ impl Elimination {
         }
         self.order.pivots.push((row, column));
         self.order.below.push(below);
-        self.order.right.push(pivot_row.into_iter().map(|(c, ..)| c).filter(|&c| c != column).collect());
+        self.order.right.push(pivot_row.into_iter().map(|entry| entry.column).filter(|&c| c != column).collect());
     }
 
-    /// The pivot that makes fewest entries among the shortest rows; among equals a number, and then the largest.
-    fn choose(&mut self) -> Option<(u32, u32)> {
-        let shortest = self.shortest();
+    /// Returns the pivot with the least fill-in among the shortest rows; on a tie a number, and then the largest.
+    fn choose_pivot(&mut self) -> Option<(u32, u32)> {
+        let shortest = self.shortest_rows();
         let mut best: Option<(Cost, (u32, u32))> = None;
         for &row in &shortest {
-            let line = &self.rows[row as usize];
-            for &(column, value, is_number) in line {
-                let (count, largest) = self.column(column);
+            let entries = &self.rows[row as usize];
+            for &RowEntry { column, value, is_number } in entries {
+                let (count, largest) = self.column_usage(column);
                 if value == 0.0 || value.abs() < THRESHOLD * largest {
                     continue;
                 }
-                let cost = ((line.len() - 1) * (count - 1), !is_number, -value.abs());
-                if best.is_none_or(|(known, _)| cost < known) {
+                let cost = ((entries.len() - 1) * (count - 1), !is_number, -value.abs());
+                if best.is_none_or(|(least_cost, _)| cost < least_cost) {
                     best = Some((cost, (row, column)));
                 }
             }
         }
-        best.map(|(_, pivot)| pivot).or_else(|| self.largest_of_all())
+        best.map(|(_, pivot)| pivot).or_else(|| self.largest_entry())
     }
 
-    /// Some of the shortest rows that are left.
-    fn shortest(&mut self) -> Vec<u32> {
+    /// Returns up to [`CANDIDATES`] of the shortest rows that are left.
+    fn shortest_rows(&mut self) -> Vec<u32> {
         let mut shortest: Vec<u32> = Vec::with_capacity(CANDIDATES);
         for length in 0..self.by_length.len() {
             let bucket = &mut self.by_length[length];
@@ -136,8 +147,8 @@ impl Elimination {
             while k > 0 && shortest.len() < CANDIDATES {
                 k -= 1;
                 let row = bucket[k];
-                if self.is_done[row as usize] || self.rows[row as usize].len() != length {
-                    // what has changed since it was put there is elsewhere too
+                if self.is_eliminated[row as usize] || self.rows[row as usize].len() != length {
+                    // a row whose length has changed has been sorted in a second time
                     bucket.swap_remove(k);
                 } else if !shortest.contains(&row) {
                     shortest.push(row);
@@ -150,19 +161,18 @@ impl Elimination {
         shortest
     }
 
-    /// How many rows that are left use a column, and its largest entry in them.
-    fn column(&self, column: u32) -> (usize, f64) {
-        let left = self.users[column as usize].iter().filter(|&&row| !self.is_done[row as usize]);
-        let values = left.filter_map(|&row| self.rows[row as usize].iter().find(|(c, ..)| *c == column));
-        values.fold((0, 0.0), |(count, largest), (_, value, _)| (count + 1, f64::max(largest, value.abs())))
+    /// Returns the number of remaining rows that use a column, and its largest entry in them.
+    fn column_usage(&self, column: u32) -> (usize, f64) {
+        let left = self.users[column as usize].iter().filter(|&&row| !self.is_eliminated[row as usize]);
+        let values = left.filter_map(|&row| self.rows[row as usize].iter().find(|entry| entry.column == column));
+        values.fold((0, 0.0), |(count, largest), entry| (count + 1, f64::max(largest, entry.value.abs())))
     }
 
-    /// Where the shortest rows hold no pivot that is large enough.
-    fn largest_of_all(&self) -> Option<(u32, u32)> {
-        let left = (0..self.rows.len()).filter(|&row| !self.is_done[row]);
-        let entries =
-            left.flat_map(|row| self.rows[row].iter().map(move |&(column, value, _)| (row as u32, column, value)));
-        let found = entries.max_by(|a, b| a.2.abs().total_cmp(&b.2.abs()));
-        found.map(|(row, column, _)| (row, column))
+    /// Returns the largest entry of all, for when the shortest rows hold no pivot that is large enough.
+    fn largest_entry(&self) -> Option<(u32, u32)> {
+        let left = (0..self.rows.len()).filter(|&row| !self.is_eliminated[row]);
+        let entries = left.flat_map(|row| self.rows[row].iter().map(move |entry| (row as u32, entry)));
+        let largest = entries.max_by(|(_, a), (_, b)| a.value.abs().total_cmp(&b.value.abs()));
+        largest.map(|(row, entry)| (row, entry.column))
     }
 }

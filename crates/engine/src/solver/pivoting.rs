@@ -1,5 +1,4 @@
-//! Solving where the order of elimination that was laid out loses digits: all coordinates at once, block by block, with partial
-//! pivoting.
+//! Solves with partial pivoting where the fixed order of elimination loses digits: all coordinates at once, block by block.
 
 use super::build::cell;
 use mechc_expr::math::blocks::{Blocks, solve, work_of};
@@ -10,8 +9,8 @@ use mechc_ir::tolerances::solving::build::CELL;
 use mechc_ir::tolerances::solving::lanes::{BORDER, ITERATIONS};
 use mechc_ir::tolerances::solving::pivoting::LARGEST_BLOCK;
 
-/// The blocks of a system, ready to be solved with partial pivoting. Iterates lie on a grid as those of the
-/// [`Solver`](super::Solver) do, but of all coordinates.
+/// The blocks of a system with memory to solve them with partial pivoting. Iterates lie on a grid, like those of the [`Solver`](super::Solver), but
+/// in all coordinates.
 #[derive(Clone, Debug)]
 pub struct Pivoting {
     tables: BlockTables,
@@ -20,12 +19,11 @@ pub struct Pivoting {
     right: Vec<f64>,
     slopes: Vec<f64>,
     delta: Vec<f64>,
-    /// For the multipliers, where somebody asks for forces.
+    /// The transposed system for the multipliers, if there are forces.
     transposed: Option<Transposed>,
 }
 
-/// The transposed matrix: an equation for each coordinate, for unknowns of which each row of `Φ` has one. Its blocks are those of the
-/// matrix, from the last to the first.
+/// The transposed matrix: an equation for each coordinate, with an unknown for each row of `Φ`. Its blocks are those of the matrix in reverse order.
 #[derive(Clone, Debug)]
 struct Transposed {
     tables: BlockTables,
@@ -37,7 +35,7 @@ struct Transposed {
 
 /// The lists that [`Blocks`] borrows.
 #[derive(Clone, Debug)]
-#[allow(missing_docs)] // they are those of `Blocks`
+#[allow(missing_docs)] // documented at `Blocks`
 pub struct BlockTables {
     pub sizes: Vec<usize>,
     pub rows: Vec<usize>,
@@ -46,12 +44,12 @@ pub struct BlockTables {
     pub entries: Vec<usize>,
     pub places: Vec<usize>,
     pub units: Vec<f64>,
-    /// By coordinate: the width of a cell of its grid.
+    /// By coordinate: the width of a grid cell (m or rad).
     pub cells: Vec<f64>,
 }
 
 impl BlockTables {
-    /// Those of a system; none if a block is too large.
+    /// Creates the tables of a system; returns `None` if a block has more than [`LARGEST_BLOCK`] rows.
     #[must_use]
     pub fn new(determined: &Determined) -> Option<BlockTables> {
         let (system, blocks) = (determined.system(), determined.blocks());
@@ -78,7 +76,7 @@ impl BlockTables {
         })
     }
 
-    /// Those of the transposed matrix, and by entry its position in the pattern.
+    /// Returns the tables of the transposed matrix, and by entry its position in the pattern.
     #[must_use]
     pub fn transposed(&self) -> (BlockTables, Vec<usize>) {
         let n = self.rows.len();
@@ -119,13 +117,13 @@ impl BlockTables {
         (transposed, of_column.into_iter().flatten().map(|(_, position)| position).collect())
     }
 
-    /// The size of the largest block.
+    /// Returns the size of the largest block.
     #[must_use]
     pub fn largest(&self) -> usize {
         self.sizes.iter().copied().max().unwrap_or(0)
     }
 
-    /// What is borrowed for [`solve`].
+    /// Borrows the tables for [`solve`].
     #[must_use]
     pub fn blocks(&self) -> Blocks<'_> {
         Blocks {
@@ -140,18 +138,18 @@ impl BlockTables {
     }
 }
 
-/// What equations say at a position.
+/// Equations that are evaluated at a position.
 pub trait Equations {
-    /// Evaluates `Φ` and `Φ_q` at a position [m, rad]; false where a formula has no value.
+    /// Evaluates `Φ` and `Φ_q` at a position [m, rad]; returns `false` if a formula has no value.
     fn set_position(&mut self, q: &[f64]) -> bool;
-    /// An entry of `Φ`.
+    /// Returns an entry of `Φ`.
     fn phi(&self, row: usize) -> f64;
-    /// An entry of `Φ_q`, by its position in the pattern.
+    /// Returns an entry of `Φ_q`, by its position in the pattern.
     fn slope(&self, position: usize) -> f64;
 }
 
 impl Pivoting {
-    /// For a system; none if a block is too large.
+    /// Allocates memory for a system; returns `None` if a block has more than [`LARGEST_BLOCK`] rows.
     #[must_use]
     pub fn new(determined: &Determined) -> Option<Pivoting> {
         let tables = BlockTables::new(determined)?;
@@ -171,7 +169,8 @@ impl Pivoting {
         })
     }
 
-    /// Newton from grid point to grid point; the position (m, rad) is set when it has settled. Says whether it has.
+    /// Solves for a position [m, rad] by Newton on the grid, from the initial guess in `q`; returns whether it has converged. The equations are then
+    /// evaluated at the solution.
     pub fn position(&mut self, equations: &mut impl Equations, q: &mut [f64]) -> bool {
         let mut bound = bound_at_first(BORDER);
         for (q, &cell) in q.iter_mut().zip(&self.tables.cells) {
@@ -209,7 +208,7 @@ impl Pivoting {
         }
     }
 
-    /// Solves `Φ_q x = b` where the position has settled.
+    /// Solves `Φ_q x = b` at the last position.
     pub fn solve(&mut self, right: impl Fn(usize) -> f64, x: &mut [f64]) {
         for (row, value) in self.right.iter_mut().enumerate() {
             *value = right(row);
@@ -218,7 +217,7 @@ impl Pivoting {
         solve(&tables.blocks(), slopes, right, x, work, is_negative);
     }
 
-    /// Solves `Φ_qᵀ λ = p` where the position has settled, if somebody asks for forces.
+    /// Solves `Φ_qᵀ λ = p` at the last position; does nothing without forces.
     pub fn solve_for_multipliers(&mut self, needed: impl Fn(usize) -> f64, multipliers: &mut [f64]) {
         let Pivoting { transposed, work, is_negative, right, slopes, .. } = self;
         let Some(Transposed { tables, positions, slopes: across }) = transposed else { return };

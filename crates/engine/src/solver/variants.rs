@@ -1,228 +1,232 @@
-//! Running a solver for several variants of a mechanism at once, each with parameters and a time of its own.
+//! Runs a solver for several variants of a mechanism, each with its own parameters and time.
 
-use super::lanes::{Around, Lanes, PART};
+use super::lanes::{CHUNK, LaneEnvironment, Lanes};
 use super::{Pivot, Solver};
 use mechc_expr::math::{Vectors, max};
 use mechc_ir::program::{LaneValues, Program, Register, Registers};
 use mechc_ir::tolerances::solving::variants::CERTAIN_MULTIPLIER;
 use std::ops::Range;
 
-/// No column is left there.
-const NOWHERE: u32 = u32::MAX;
+/// The index of a column that is not kept.
+const NOT_KEPT: u32 = u32::MAX;
 
-/// Registers for `W` variants, and what a run leaves of each.
+/// The registers and outputs of a solver for `W` variants.
 #[derive(Clone, Debug)]
-pub struct Abreast<const W: usize> {
+pub struct VariantLanes<const W: usize> {
     lanes: Lanes<W>,
-    out: Out<W>,
+    outputs: VariantOutputs<W>,
 }
 
-/// What a run leaves.
+/// The outputs of a run.
 #[derive(Clone, Debug)]
-struct Out<const W: usize> {
-    /// By column of a row: where it is among the numbers that are kept.
-    places: Vec<Place>,
-    /// By column that is kept, by row of those that are kept of it.
+struct VariantOutputs<const W: usize> {
+    /// By column of a row: its location in `kept`.
+    slots: Vec<Slot>,
+    /// The kept values: by kept column, then by row.
     kept: Vec<LaneValues<W>>,
-    /// Which of the rows is written and read.
+    /// The row that is written and read.
     row: usize,
-    /// By turn of the solver: one over the block's determinant, but for its sign where pivots are positive.
+    /// By turn of the solver: the product of the inverse pivots, which is the inverse of the determinant up to a constant sign.
     determinants: Vec<LaneValues<W>>,
-    /// One over the smallest pivot, scaled.
-    steepest: LaneValues<W>,
+    /// The largest scaled inverse of a pivot.
+    max_inverse_pivots: LaneValues<W>,
 }
 
-/// Where a column is among the numbers that are kept, and of how many rows.
+/// The location of a column in the kept values: its first index, and its number of rows.
 #[derive(Clone, Copy, Debug)]
-struct Place {
+struct Slot {
     first: u32,
     rows: u32,
 }
 
-impl Place {
-    /// Of a column that is not kept.
-    const NOWHERE: Place = Place { first: NOWHERE, rows: 0 };
+impl Slot {
+    /// The slot of a column that is not kept.
+    const NOT_KEPT: Slot = Slot { first: NOT_KEPT, rows: 0 };
 }
 
-/// What variants are solved with.
+/// The inputs of a run.
 #[derive(Clone, Copy, Debug)]
-pub struct Guesses<'g, const W: usize> {
+pub struct VariantBatch<'g, const W: usize> {
     /// The times (s).
     pub times: [f64; W],
-    /// By tear: where Newton begins.
+    /// By tear: the initial guess.
     pub tears: &'g [LaneValues<W>],
-    /// The program's registers, as far as they depend on parameters alone.
+    /// By register of the program: its values, as far as they depend on parameters alone.
     pub loaded: &'g [LaneValues<W>],
-    /// By row of `Φ`: one over what may be left of it.
+    /// By row of `Φ`: the inverse of the bound on its residual.
     pub bounds: &'g [f64],
-    /// In so many parts of the lanes somebody goes, the first ones.
-    pub parts: usize,
-    /// With corrections of up to so many cells Newton ends; 0 where rows are wanted, whose bits must not depend on the guesses.
-    pub nearly: f64,
+    /// The number of leading chunks of lanes to execute.
+    pub chunks: usize,
+    /// The largest correction with which Newton ends, in cells; 0 for rows, whose bits must not depend on the guesses.
+    pub loose_bound: f64,
 }
 
-impl<const W: usize> Abreast<W> {
-    /// For a solver that is laid out for variants, which keeps so many rows of each column: of none, of the last one, or of as many as of others.
+impl<const W: usize> VariantLanes<W> {
+    /// Allocates the registers for a solver for variants. `rows` returns the number of rows that are kept of a column: 0, 1 for the last row, or a
+    /// number common to the other columns.
     #[must_use]
-    pub fn new(solver: &Solver, rows: impl Fn(u32) -> u32, vectors: Vectors) -> Abreast<W> {
-        let (mut places, mut count) = (vec![Place::NOWHERE; solver.layout.stride], 0);
-        for (column, place) in places.iter_mut().enumerate() {
+    pub fn new(solver: &Solver, rows: impl Fn(u32) -> u32, vectors: Vectors) -> VariantLanes<W> {
+        let (mut slots, mut count) = (vec![Slot::NOT_KEPT; solver.layout.stride], 0);
+        for (column, slot) in slots.iter_mut().enumerate() {
             let rows = rows(column as u32);
             if rows > 0 {
-                *place = Place { first: count, rows };
-                // an odd number of rows apart: else all columns of a row would want the same few places of the processor's memory
+                *slot = Slot { first: count, rows };
+                // an odd distance, for otherwise all columns of a row would map to the same few cache sets
                 count += rows | 1;
             }
         }
         let zero = LaneValues([0.0; W]);
         let (kept, determinants) = (vec![zero; count as usize], vec![zero; solver.turns.len()]);
-        Abreast { lanes: Lanes::new(solver, vectors), out: Out { places, kept, row: 0, determinants, steepest: zero } }
-    }
-
-    /// Takes over what depends on parameters alone, of the program's registers, in so many parts of the lanes, and leaves in all rows that are kept
-    /// what is so itself: it stays until this is called again.
-    pub fn load(&mut self, solver: &Solver, of: (&Program, &Registers), loaded: &[LaneValues<W>], parts: usize) {
-        let guesses = Guesses { times: [0.0; W], tears: &[], loaded, bounds: &[], parts, nearly: 0.0 };
-        let around = OfVariants { guesses: &guesses, pivots: &solver.pivots, out: &mut self.out };
-        self.lanes.prepare::<PART>(solver, of, around);
-        for column in solver.fixed_columns() {
-            let (value, all) = (*self.column(column), self.out.all(column));
-            self.out.kept[all].fill(value);
+        VariantLanes {
+            lanes: Lanes::new(solver, vectors),
+            outputs: VariantOutputs { slots, kept, row: 0, determinants, max_inverse_pivots: zero },
         }
     }
 
-    /// Solves for all variants, once what depends on their parameters is loaded.
-    pub fn run(&mut self, solver: &Solver, of: (&Program, &Registers), guesses: &Guesses<'_, W>) {
-        let out = &mut self.out;
-        out.determinants.fill(LaneValues([1.0; W]));
-        out.steepest = LaneValues([0.0; W]);
-        self.lanes.solve::<PART>(solver, of, OfVariants { guesses, pivots: &solver.pivots, out });
+    /// Runs the prologue in the leading chunks, from registers of the program that depend on parameters alone, and stores its results in all kept
+    /// rows, where they stay until the next call.
+    pub fn load(&mut self, solver: &Solver, program: (&Program, &Registers), loaded: &[LaneValues<W>], chunks: usize) {
+        let batch = VariantBatch { times: [0.0; W], tears: &[], loaded, bounds: &[], chunks, loose_bound: 0.0 };
+        let env = VariantsEnvironment { batch: &batch, pivots: &solver.pivots, outputs: &mut self.outputs };
+        self.lanes.run_prologue::<CHUNK>(solver, program, env);
+        for column in solver.prologue_columns() {
+            let (value, rows) = (*self.column(column), self.outputs.rows_of(column));
+            self.outputs.kept[rows].fill(value);
+        }
     }
 
-    /// Adds to each lane that does not hold beyond doubt: its Newton has settled, every equation is met, no pivot was too small, and all that
-    /// was kept is finite.
+    /// Solves for all variants; their parameters must have been loaded.
+    pub fn run(&mut self, solver: &Solver, program: (&Program, &Registers), batch: &VariantBatch<'_, W>) {
+        let outputs = &mut self.outputs;
+        outputs.determinants.fill(LaneValues([1.0; W]));
+        outputs.max_inverse_pivots = LaneValues([0.0; W]);
+        self.lanes.solve::<CHUNK>(solver, program, VariantsEnvironment { batch, pivots: &solver.pivots, outputs });
+    }
+
+    /// Increments the count of each lane that is rejected: Newton has not converged, a residual exceeds its bound, a multiplier is too close to its
+    /// limit, or a kept value is not finite.
     #[inline(always)]
-    #[allow(clippy::inline_always)] // it is compiled for several kinds of processors
-    pub fn write_doubts(&self, doubts: &mut LaneValues<W>) {
-        self.lanes.write_doubts(CERTAIN_MULTIPLIER, doubts);
+    #[allow(clippy::inline_always)] // compiled for several vector instruction sets
+    pub fn add_rejections(&self, rejections: &mut LaneValues<W>) {
+        self.lanes.add_rejections(CERTAIN_MULTIPLIER, rejections);
     }
 
-    /// How far the guess of each lane was from its solution, scaled.
+    /// Returns by lane the error of the initial guess, scaled.
     #[must_use]
     pub fn first_corrections(&self) -> &LaneValues<W> {
         self.lanes.first_corrections()
     }
 
-    /// One over the smallest pivot of a lane, scaled.
+    /// Returns by lane the largest scaled inverse of a pivot.
     #[must_use]
-    pub fn steepest(&self) -> &LaneValues<W> {
-        &self.out.steepest
+    pub fn max_inverse_pivots(&self) -> &LaneValues<W> {
+        &self.outputs.max_inverse_pivots
     }
 
-    /// By turn of the solver: one over the block's determinant, but for a sign that stays.
+    /// Returns by turn of the solver the inverse of the block's determinant, up to a constant sign.
     #[must_use]
     pub fn determinants(&self) -> &[LaneValues<W>] {
-        &self.out.determinants
+        &self.outputs.determinants
     }
 
-    /// Goes to one of the rows that are kept: that is written and read from then on.
-    pub fn turn_to(&mut self, row: usize) {
-        self.out.row = row;
+    /// Selects the kept row that is written and read from now on.
+    pub fn select_row(&mut self, row: usize) {
+        self.outputs.row = row;
     }
 
-    /// What is in a column that is kept.
+    /// Returns the selected row of a kept column.
     #[must_use]
     #[inline]
     pub fn column(&self, column: u32) -> &LaneValues<W> {
-        &self.out.kept[self.out.place(column)]
+        &self.outputs.kept[self.outputs.slot(column)]
     }
 
-    /// What is in a column of all rows that are kept.
+    /// Returns all kept rows of a column.
     #[must_use]
     pub fn rows(&self, column: u32) -> &[LaneValues<W>] {
-        &self.out.kept[self.out.all(column)]
+        &self.outputs.kept[self.outputs.rows_of(column)]
     }
 }
 
-impl<const W: usize> Out<W> {
+impl<const W: usize> VariantOutputs<W> {
     #[inline]
-    fn place(&self, column: u32) -> usize {
-        let Place { first, rows } = self.places[column as usize];
+    fn slot(&self, column: u32) -> usize {
+        let Slot { first, rows } = self.slots[column as usize];
         first as usize + if rows > 1 { self.row } else { 0 }
     }
 
-    /// The places of all rows.
+    /// Returns the indices of all kept rows of a column.
     #[inline]
-    fn all(&self, column: u32) -> Range<usize> {
-        let Place { first, rows } = self.places[column as usize];
+    fn rows_of(&self, column: u32) -> Range<usize> {
+        let Slot { first, rows } = self.slots[column as usize];
         first as usize..first as usize + rows as usize
     }
 }
 
-/// Several variants.
-struct OfVariants<'r, const W: usize> {
-    guesses: &'r Guesses<'r, W>,
+/// Several variants, with the inputs and outputs of a run.
+struct VariantsEnvironment<'r, const W: usize> {
+    batch: &'r VariantBatch<'r, W>,
     pivots: &'r [Pivot],
-    out: &'r mut Out<W>,
+    outputs: &'r mut VariantOutputs<W>,
 }
 
-#[allow(clippy::inline_always)] // as all that `Lanes::solve` does
-impl<const W: usize> Around<PART> for OfVariants<'_, W> {
+#[allow(clippy::inline_always)] // inlined into `Lanes::solve`
+impl<const W: usize> LaneEnvironment<CHUNK> for VariantsEnvironment<'_, W> {
     #[inline(always)]
-    fn parts(&self) -> usize {
-        self.guesses.parts
+    fn chunks(&self) -> usize {
+        self.batch.chunks
     }
 
     #[inline(always)]
-    fn loaded(&self, from: Register, part: usize) -> [f64; PART] {
-        *self.guesses.loaded[from as usize].part(part)
+    fn loaded(&self, from: Register, chunk: usize) -> [f64; CHUNK] {
+        *self.batch.loaded[from as usize].part(chunk)
     }
 
     #[inline(always)]
-    fn times(&self, part: usize) -> [f64; PART] {
-        self.guesses.times.as_chunks().0[part]
+    fn times(&self, chunk: usize) -> [f64; CHUNK] {
+        self.batch.times.as_chunks().0[chunk]
     }
 
     #[inline(always)]
-    fn guess(&self, tear: u32, part: usize) -> [f64; PART] {
-        *self.guesses.tears[tear as usize].part(part)
+    fn guess(&self, tear: u32, chunk: usize) -> [f64; CHUNK] {
+        *self.batch.tears[tear as usize].part(chunk)
     }
 
     #[inline(always)]
-    fn stored(&self, column: u32, part: usize) -> [f64; PART] {
-        *self.out.kept[self.out.place(column)].part(part)
+    fn stored(&self, column: u32, chunk: usize) -> [f64; CHUNK] {
+        *self.outputs.kept[self.outputs.slot(column)].part(chunk)
     }
 
     #[inline(always)]
-    fn store(&mut self, column: u32, mut values: impl FnMut(usize) -> [f64; PART]) {
-        let (place, parts) = (self.out.place(column), self.guesses.parts);
-        let kept = &mut self.out.kept[place];
-        for part in 0..parts {
-            *kept.part_mut(part) = values(part);
+    fn store(&mut self, column: u32, mut values: impl FnMut(usize) -> [f64; CHUNK]) {
+        let (slot, chunks) = (self.outputs.slot(column), self.batch.chunks);
+        let kept = &mut self.outputs.kept[slot];
+        for chunk in 0..chunks {
+            *kept.part_mut(chunk) = values(chunk);
         }
     }
 
     #[inline(always)]
-    fn bound(&self, row: u32) -> f64 {
-        self.guesses.bounds[row as usize]
+    fn inverse_bound(&self, row: u32) -> f64 {
+        self.batch.bounds[row as usize]
     }
 
     #[inline(always)]
-    fn nearly(&self) -> f64 {
-        self.guesses.nearly
+    fn loose_bound(&self) -> f64 {
+        self.batch.loose_bound
     }
 
     #[inline(always)]
-    fn note(&mut self, pivot: u32, part: usize, inverse: &[f64; PART]) {
+    fn note_pivot(&mut self, pivot: u32, chunk: usize, inverse: &[f64; CHUNK]) {
         let Pivot { turn, weight } = self.pivots[pivot as usize];
-        let of_turn = &mut self.out.determinants[turn as usize];
-        let mut determinants = *of_turn.part::<PART>(part);
-        let mut steepest = *self.out.steepest.part::<PART>(part);
-        for k in 0..PART {
+        let of_block = &mut self.outputs.determinants[turn as usize];
+        let mut determinants = *of_block.part::<CHUNK>(chunk);
+        let mut max_inverse_pivots = *self.outputs.max_inverse_pivots.part::<CHUNK>(chunk);
+        for k in 0..CHUNK {
             determinants[k] *= inverse[k];
-            steepest[k] = max(steepest[k], inverse[k].abs() * weight);
+            max_inverse_pivots[k] = max(max_inverse_pivots[k], inverse[k].abs() * weight);
         }
-        *of_turn.part_mut(part) = determinants;
-        *self.out.steepest.part_mut(part) = steepest;
+        *of_block.part_mut(chunk) = determinants;
+        *self.outputs.max_inverse_pivots.part_mut(chunk) = max_inverse_pivots;
     }
 }

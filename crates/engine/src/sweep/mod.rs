@@ -1,28 +1,20 @@
-//! Many variants of one mechanism: which there are, what they share, and what became of them. They differ in the values of its parameters alone,
-//! so that it is lowered, proven and compiled once, with these as symbols at the values of its text.
+//! Sweeps: many variants of one mechanism, which differ only in the values of its parameters. The mechanism is lowered, proven and compiled
+//! once, with the parameters as symbols; each variant is continued from the nominal values, those of the text, to its own.
 
-mod asked;
-mod base;
-mod each;
-mod judge;
-mod numbers;
+mod batch;
+mod block;
+mod column_buffer;
+mod continuation;
 mod points;
-mod sheet;
 mod sobol;
-mod steps;
-mod survey;
-mod swept;
-mod table;
-mod team;
-mod together;
-mod walk;
 
-pub use base::{Arrived, Base, Lost, Whole};
-pub use each::{Each, LANES, PART};
-pub use numbers::{Numbers, Spare};
-pub use points::{Levels, MOST_OF_SOBOL, Method, Points, Sampling, Varying, evenly, rounded};
-pub use sheet::SweptColumn;
-pub use swept::{OneVariant, Status, Swept};
-pub use table::Room;
-pub use team::Team;
-pub use together::{Together, WantedOfEach};
+pub use batch::{BatchContext, BatchRequest, BatchRunner, LANES};
+pub use block::{Status, Swept, SweptColumn, VariantOutcome};
+pub use column_buffer::{BufferPool, Numbers};
+pub use continuation::ContinuedVariant;
+pub use points::{Levels, MAX_SOBOL_DIMENSIONS, Method, Points, Sampling, Varying};
+
+// the names by which other crates use these
+pub use batch::{CHUNK, PerLane, RowBuffer};
+pub use continuation::{CompiledSystem, ContinuationBase, ContinuationError};
+pub use points::{linspace_value, round_to_15_digits};

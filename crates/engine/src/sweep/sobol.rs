@@ -1,36 +1,36 @@
 //! Points of Sobol's sequence, each computed from its index alone.
 //!
-//! No crate that is kept up gives a point by its index in more than single precision; the sequence is a table and ten lines.
+//! No maintained crate computes a point from its index in double precision; the sequence is a table and ten lines.
 //!
-//! Source: I. M. Sobol, *USSR Computational Mathematics and Mathematical Physics* 7 (1967) 86–112; direction numbers of S. Joe and
-//! F. Y. Kuo, *SIAM Journal on Scientific Computing* 30 (2008) 2635–2654, the set `new-joe-kuo-6`.
+//! Source: I. M. Sobol, *USSR Computational Mathematics and Mathematical Physics* 7 (1967) 86–112; direction numbers of S. Joe and F. Y. Kuo, *SIAM
+//! Journal on Scientific Computing* 30 (2008) 2635–2654, the set `new-joe-kuo-6`.
 
-/// So many coordinates a point can have.
-pub(super) const MOST: usize = DIRECTIONS.len() + 1;
+/// The largest number of coordinates of a point.
+pub(super) const MAX_DIMENSIONS: usize = DIRECTIONS.len() + 1;
 
-/// Binary digits of a coordinate, all of which a double holds; the sequence has so many points before it repeats itself.
+/// The number of binary digits of a coordinate, which a double holds exactly; the sequence repeats after 2^52 points.
 const BITS: u32 = 52;
 
-/// The sequence in some coordinates.
+/// Sobol's sequence in some coordinates, digitally shifted.
 #[derive(Clone, PartialEq, Debug)]
 pub(super) struct Sobol {
-    /// By coordinate and binary digit of the index: the direction number, its first digit behind the point the highest of 52.
+    /// By coordinate and binary digit of the index: the direction number, as a binary fraction of 52 digits.
     directions: Vec<[u64; BITS as usize]>,
-    /// By coordinate: what is added digit by digit, without carrying.
+    /// By coordinate: the shift, added digit by digit without carry.
     shift: Vec<u64>,
 }
 
 impl Sobol {
-    /// In so many coordinates, at most [`MOST`]. Each is shifted by the leading digits of a number of its own; by 0 it is the sequence
-    /// itself.
+    /// Creates the sequence in as many coordinates as there are shifts, at most [`MAX_DIMENSIONS`]. Each coordinate is shifted by the leading digits
+    /// of its number; 0 leaves it as it is.
     pub fn new(shift: impl Iterator<Item = u64>) -> Sobol {
         let shift: Vec<u64> = shift.map(|shift| shift >> (u64::BITS - BITS)).collect();
         Sobol { directions: (0..shift.len()).map(directions).collect(), shift }
     }
 
-    /// A coordinate of a point, from 0 to below 1.
+    /// Returns coordinate `k` of a point, in [0, 1).
     pub fn coordinate(&self, index: u64, k: usize) -> f64 {
-        // in the order of Gray's code neighbours differ by one direction number, as the sequence is usually given
+        // in the order of the Gray code, as the sequence is usually given, neighbours differ by one direction number
         let gray = index ^ (index >> 1);
         let digits = self.directions[k].iter().enumerate().filter(|(digit, _)| gray >> digit & 1 == 1);
         let point = digits.fold(self.shift[k], |point, (_, direction)| point ^ direction);
@@ -38,29 +38,29 @@ impl Sobol {
     }
 }
 
-/// The direction numbers of a coordinate, the first of which is 0.
+/// Returns the direction numbers of coordinate `k`, counted from 0.
 fn directions(k: usize) -> [u64; BITS as usize] {
-    let place = |m: u64, digit: usize| m << (BITS as usize - 1 - digit);
+    let shifted = |m: u64, digit: usize| m << (BITS as usize - 1 - digit);
     let Some((a, first)) = k.checked_sub(1).map(|k| DIRECTIONS[k]) else {
-        return std::array::from_fn(|digit| place(1, digit));
+        return std::array::from_fn(|digit| shifted(1, digit));
     };
     let degree = first.len();
-    let mut found = [0; BITS as usize];
-    for digit in 0..found.len() {
-        found[digit] = if let Some(&m) = first.get(digit) {
-            place(m, digit)
+    let mut numbers = [0; BITS as usize];
+    for digit in 0..numbers.len() {
+        numbers[digit] = if let Some(&m) = first.get(digit) {
+            shifted(m, digit)
         } else {
-            let before = found[digit - degree];
-            // of the primitive polynomial the first and the last coefficient are 1
+            let before = numbers[digit - degree];
+            // the first and the last coefficient of the primitive polynomial are 1
             let inner = (1..degree).filter(|j| a >> (degree - 1 - j) & 1 == 1);
-            inner.fold(before ^ (before >> degree), |direction, j| direction ^ found[digit - j])
+            inner.fold(before ^ (before >> degree), |direction, j| direction ^ numbers[digit - j])
         };
     }
-    found
+    numbers
 }
 
-/// For each coordinate from the second on: the inner coefficients of its primitive polynomial as binary digits, and the first direction
-/// numbers, as many as its degree.
+/// For each coordinate from the second on: the inner coefficients of its primitive polynomial as binary digits, and the first direction numbers, as
+/// many as its degree.
 #[rustfmt::skip]
 const DIRECTIONS: [(u32, &[u64]); 63] = [
     (0, &[1]),
@@ -130,14 +130,14 @@ const DIRECTIONS: [(u32, &[u64]); 63] = [
 
 #[cfg(test)]
 mod tests {
-    use super::{MOST, Sobol};
+    use super::{MAX_DIMENSIONS, Sobol};
 
     #[test]
     fn the_first_points_are_those_of_the_sequence() {
         let sobol = Sobol::new([0; 4].into_iter());
         let point = |index| [0, 1, 2, 3].map(|k| sobol.coordinate(index, k));
-        // as scipy.stats.qmc.Sobol(4, scramble=False) gives them
-        let wanted = [
+        // reference: scipy.stats.qmc.Sobol(4, scramble=False)
+        let expected = [
             [0.0, 0.0, 0.0, 0.0],
             [0.5, 0.5, 0.5, 0.5],
             [0.75, 0.25, 0.25, 0.25],
@@ -147,35 +147,35 @@ mod tests {
             [0.625, 0.125, 0.875, 0.625],
             [0.125, 0.625, 0.375, 0.125],
         ];
-        for (index, wanted) in wanted.into_iter().enumerate() {
-            assert_eq!(point(index as u64).map(f64::to_bits), wanted.map(f64::to_bits), "{index}");
+        for (index, expected) in expected.into_iter().enumerate() {
+            assert_eq!(point(index as u64).map(f64::to_bits), expected.map(f64::to_bits), "{index}");
         }
     }
 
-    /// In which of so many equal intervals a coordinate lies.
+    /// Returns the index of the interval that holds a coordinate, out of `count` equal ones.
     #[allow(clippy::cast_sign_loss)] // none is negative
     fn cell(coordinate: f64, count: usize) -> usize {
         (coordinate * count as f64) as usize
     }
 
-    /// Of 2^k points in a row that begin at a multiple of 2^k, each interval of length 2^-k holds one, in every coordinate, shifted or not.
+    /// Checks that of 2^k consecutive points, from a multiple of 2^k on, each interval of length 2^-k holds one in every coordinate, shifted or not.
     #[test]
     fn points_are_spread_evenly_in_every_coordinate() {
-        let sobol = Sobol::new((0..MOST as u64).map(|k| k.wrapping_mul(0x9e37_79b9_7f4a_7c15)));
-        for k in 0..MOST {
+        let sobol = Sobol::new((0..MAX_DIMENSIONS as u64).map(|k| k.wrapping_mul(0x9e37_79b9_7f4a_7c15)));
+        for k in 0..MAX_DIMENSIONS {
             for first in [0, 1024, 1 << 40] {
-                let mut is_met = [false; 1024];
+                let mut is_hit = [false; 1024];
                 for index in first..first + 1024 {
                     let coordinate = sobol.coordinate(index, k);
                     assert!((0.0..1.0).contains(&coordinate));
-                    let met = &mut is_met[cell(coordinate, 1024)];
-                    assert!(!std::mem::replace(met, true), "coordinate {k} of {index}");
+                    let hit = &mut is_hit[cell(coordinate, 1024)];
+                    assert!(!std::mem::replace(hit, true), "coordinate {k} of {index}");
                 }
             }
         }
     }
 
-    /// In the first two coordinates, and in later pairs, boxes of equal size hold one point each (a net in base 2).
+    /// Checks that in the first two coordinates, and in later pairs, boxes of equal size hold about one point each (a net in base 2).
     #[test]
     fn pairs_of_coordinates_fill_the_square() {
         let sobol = Sobol::new([0; 40].into_iter());

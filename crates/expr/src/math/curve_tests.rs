@@ -1,6 +1,6 @@
-//! Curves between the ends of a step: tests, which stand apart since the file itself may be emitted.
+//! Tests of the curves between the ends of a step. They stand apart from code that may be emitted.
 
-use super::curve::{about, along, farthest, parabola, predicted, quintic, value_and_slopes};
+use super::curve::{about, along, farthest, parabola, predicted, quintic, value_and_derivatives};
 
 #[test]
 fn a_quintic_has_value_slope_and_curvature_of_both_ends() {
@@ -8,19 +8,19 @@ fn a_quintic_has_value_slope_and_curvature_of_both_ends() {
     let end = |t: f64| [t * t * t * t * t, 5.0 * t * t * t * t, 20.0 * t * t * t];
     let curve = quintic(end(1.0), end(3.0), 2.0);
     for x in [0.0, 0.25, 0.5, 1.0] {
-        let wanted = end(1.0 + 2.0 * x)[0];
-        assert!((along(&curve, x) - wanted).abs() < 1e-11 * wanted, "{x}");
-        let [value, slope, curvature] = value_and_slopes(&curve, x);
-        // by the part of a step of length 2
+        let expected = end(1.0 + 2.0 * x)[0];
+        assert!((along(&curve, x) - expected).abs() < 1e-11 * expected, "{x}");
+        let [value, slope, curvature] = value_and_derivatives(&curve, x);
+        // derivatives by the fraction of a step of length 2
         let found = [value, slope / 2.0, curvature / 4.0];
         let is_met =
-            found.iter().zip(end(1.0 + 2.0 * x)).all(|(found, wanted)| (found - wanted).abs() < 1e-11 * wanted);
+            found.iter().zip(end(1.0 + 2.0 * x)).all(|(found, expected)| (found - expected).abs() < 1e-11 * expected);
         assert!(is_met, "{found:?} at {x}");
     }
 }
 
 #[test]
-fn a_curve_about_another_place_is_the_same() {
+fn a_taylor_shift_keeps_the_curve() {
     let curve = [0.3, -1.2, 0.7, 0.4, -0.9, 1.1];
     let moved = about(&curve, 0.4);
     for x in [-0.3, 0.0, 0.2] {
@@ -30,7 +30,7 @@ fn a_curve_about_another_place_is_the_same() {
 }
 
 #[test]
-fn a_parabola_leads_where_is_predicted() {
+fn a_parabola_ends_at_the_extrapolated_value() {
     let start = [1.0, 2.0, 3.0];
     assert!((along(&parabola(start, 0.5), 1.0) - predicted(start, 0.5)).abs() < 1e-15);
 }

@@ -1,9 +1,9 @@
 use super::grid::{bound_at_first, going_on, next_point, on_grid};
 
-/// Of a cell, as the solver has it.
+/// Border of a cell, as in the solver.
 const BORDER: f64 = 1.0 / 4096.0;
 
-/// Numbers without a pattern (`SplitMix64`).
+/// A pseudo-random sequence (`SplitMix64`).
 struct Random(u64);
 
 impl Random {
@@ -14,7 +14,7 @@ impl Random {
         z ^ (z >> 31)
     }
 
-    /// Between −1 and 1.
+    /// Returns a number between −1 and 1.
     fn number(&mut self) -> f64 {
         (self.next() >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
     }
@@ -24,9 +24,9 @@ impl Random {
     }
 }
 
-/// Where an iteration ends that begins somewhere, and after how many evaluations; cells are 1 wide. What rounding makes of a correction may
-/// depend on all of the point, but on nothing else.
-fn settled(solution: &[f64], start: &[f64], error: impl Fn(&[f64], usize) -> f64) -> Option<(Vec<f64>, usize)> {
+/// Iterates from `start` on a grid of cells of width 1; returns the end and the number of evaluations. The rounding error of a correction
+/// may depend on the whole point, but on nothing else.
+fn iterate(solution: &[f64], start: &[f64], error: impl Fn(&[f64], usize) -> f64) -> Option<(Vec<f64>, usize)> {
     let mut x: Vec<f64> = start.iter().map(|x| on_grid(*x, 1.0)).collect();
     let mut bound = bound_at_first(BORDER);
     for evaluation in 1..=8 {
@@ -42,7 +42,7 @@ fn settled(solution: &[f64], start: &[f64], error: impl Fn(&[f64], usize) -> f64
     None
 }
 
-/// A solution, some of whose coordinates lie where it matters.
+/// Returns a solution, some of whose coordinates lie near the borders of cells.
 fn critical(random: &mut Random) -> Vec<f64> {
     let n = random.choice(&[1, 2, 3]);
     let kind = random.choice(&[0, 1, 2]);
@@ -53,14 +53,14 @@ fn critical(random: &mut Random) -> Vec<f64> {
             1 => random.choice(&[0.5 - BORDER, 0.5 + BORDER, BORDER - 0.5, inside]),
             _ => 0.5 * random.number(),
         };
-        let beside = random.number() * random.choice(&[0.0, 1e-9, 1e-6, BORDER / 8.0]);
-        random.choice(&[-5.0, -4.0, -1.0, 0.0, 3.0, 4.0]) + place + beside
+        let offset = random.number() * random.choice(&[0.0, 1e-9, 1e-6, BORDER / 8.0]);
+        random.choice(&[-5.0, -4.0, -1.0, 0.0, 3.0, 4.0]) + place + offset
     };
     (0..n).map(coordinate).collect()
 }
 
 #[test]
-fn where_an_iteration_begins_leaves_no_trace() {
+fn the_end_does_not_depend_on_the_start() {
     let mut random = Random(2);
     let mut longest = 0;
     for trial in 0..30_000_u64 {
@@ -72,7 +72,7 @@ fn where_an_iteration_begins_leaves_no_trace() {
         let mut ends: Vec<(Vec<f64>, usize)> = Vec::new();
         for _ in 0..10 {
             let start: Vec<f64> = solution.iter().map(|x| x + 3.0 * random.number()).collect();
-            let end = settled(&solution, &start, error);
+            let end = iterate(&solution, &start, error);
             ends.push(end.unwrap_or_else(|| panic!("{solution:?} is not found from {start:?}")));
         }
         longest = ends.iter().fold(longest, |longest, (_, evaluations)| longest.max(*evaluations));
@@ -82,26 +82,26 @@ fn where_an_iteration_begins_leaves_no_trace() {
 }
 
 #[test]
-fn a_border_is_judged_from_the_even_point() {
+fn a_border_is_decided_by_the_even_point() {
     for (solution, end) in [(0.5, 0.0), (1.5, 2.0), (-0.5, 0.0), (-2.5, -2.0)] {
         for start in [solution - 1.6, solution - 0.4, solution + 0.4, solution + 1.6] {
-            let (found, _) = settled(&[solution], &[start], |_, _| 0.0).expect("it settles");
+            let (found, _) = iterate(&[solution], &[start], |_, _| 0.0).expect("it settles");
             assert_eq!(found, [end], "{solution} from {start}");
         }
     }
-    // beyond the border as seen from the even point it is the odd one, whatever that says
+    // beyond the border of the even point the iteration goes to the odd one, whatever the correction there
     let error = |x: &[f64], _: usize| if x[0] == 0.0 { 1e-5 } else { -1e-5 };
     for start in [0.1, 0.9] {
-        let (found, _) = settled(&[0.5], &[start], error).expect("it settles");
+        let (found, _) = iterate(&[0.5], &[start], error).expect("it settles");
         assert_eq!(found, [1.0], "from {start}");
     }
 }
 
 #[test]
-fn what_is_clear_of_borders_ends_at_the_nearest_point_at_once() {
+fn solutions_away_from_borders_take_the_nearest_point_at_once() {
     for k in -49..=49 {
         let solution = [7.0 + 0.01 * f64::from(k), -3.0];
-        assert_eq!(settled(&solution, &[7.0, -3.0], |_, _| 0.0), Some((vec![7.0, -3.0], 1)));
-        assert_eq!(settled(&solution, &[9.0, -3.0], |_, _| 0.0), Some((vec![7.0, -3.0], 2)));
+        assert_eq!(iterate(&solution, &[7.0, -3.0], |_, _| 0.0), Some((vec![7.0, -3.0], 1)));
+        assert_eq!(iterate(&solution, &[9.0, -3.0], |_, _| 0.0), Some((vec![7.0, -3.0], 2)));
     }
 }

@@ -1,30 +1,29 @@
-//! Where something happens in an interval: golden section, halving.
+//! Searches in an interval: secants, golden section, bisection.
 
 use super::grid::on_grid;
 use super::neighbours::bisect;
 
-/// The golden ratio's fraction: it sections intervals for their minimum, and its multiples never come close to a period.
+/// Fraction of the golden section. Its multiples never come close to a period.
 pub const GOLDEN: f64 = 0.618_033_988_749_894_9;
 
-/// Where something begins that is not at the first of two places and is at the second, to the last bit.
+/// Returns where a predicate becomes true between two positions, to the last bit. It is false at `low` and true at `high`.
 #[must_use]
 pub fn boundary(low: f64, high: f64, mut is_beyond: impl FnMut(f64) -> bool) -> f64 {
-    let [low, high] = bisect([low, high], usize::MAX, |place| !is_beyond(place));
+    let [low, high] = bisect([low, high], usize::MAX, |x| !is_beyond(x));
     0.5 * (low + high)
 }
 
-/// Where something is crossed between two places, and how far off each of them is, by secants: the last place before it and the first one
-/// behind, of those that are multiples of `grid`, a power of two, or of all doubles where that is 0; so they do not depend on where the search
-/// began. `look` says of a place whether it is behind, and how far off: any measure that goes to zero at the crossing, or not a number where that
-/// is not known; or nothing, which ends the search. Where secants do not close in, halves do.
-///
+/// Encloses a crossing between two positions by secants, with bisection where secants converge slowly. Returns the last position before it
+/// and the first one behind it, of the multiples of `grid`, a power of two, or of all doubles if `grid` is 0; the result does not depend on
+/// the start of the search. Each start is a position with its distance from the crossing. `look` returns whether a position is behind the
+/// crossing, and its distance: any measure that vanishes at the crossing, or NaN if unknown. `None` from `look` ends the search.
 /// Source: the Illinois method, M. Dowell and P. Jarratt, *A modified regula falsi method*, BIT 11, 1971.
-pub fn close_in(
+pub fn enclose_root(
     [mut before, mut behind]: [[f64; 2]; 2],
     grid: f64,
     mut look: impl FnMut(f64) -> Option<(bool, f64)>,
 ) -> Option<[f64; 2]> {
-    // the first and the last place that lie strictly between two others
+    // Returns the first and the last position strictly between two others.
     let inner = |from: f64, to: f64| {
         if grid > 0.0 && grid > 0.5 * f64::EPSILON * f64::max(from.abs(), to.abs()) {
             [((from / grid).floor() + 1.0) * grid, ((to / grid).ceil() - 1.0) * grid]
@@ -41,49 +40,49 @@ pub fn close_in(
         }
         let secant = from + width * (off / (off + off_behind));
         let is_closing = secant.is_finite() && width <= 0.5 * widths[1];
-        let wanted = if is_closing { secant } else { 0.5 * from + 0.5 * to };
-        let place = if grid > 0.0 { on_grid(wanted, grid) } else { wanted }.clamp(first, end);
-        let (is_behind, off_here) = look(place)?;
+        let target = if is_closing { secant } else { 0.5 * from + 0.5 * to };
+        let x = if grid > 0.0 { on_grid(target, grid) } else { target }.clamp(first, end);
+        let (is_behind, off_here) = look(x)?;
         let (end, other) = if is_behind { (&mut behind, &mut before) } else { (&mut before, &mut behind) };
-        *end = [place, off_here];
+        *end = [x, off_here];
         if last.replace(is_behind) == Some(is_behind) {
-            // the end that stays is counted as nearer, so that it does not stay for ever
+            // halving the distance of the end that stays moves the next secant towards it
             other[1] *= 0.5;
         }
         widths = [width, widths[0]];
     }
 }
 
-/// An interval that is sectioned for the least value of a function.
+/// An interval that is narrowed to the minimum of a function by golden section.
 #[derive(Clone, Copy, Debug)]
 pub struct GoldenSection {
-    /// The ends, with the function there.
+    /// Lower end, with the value there.
     pub low: [f64; 2],
-    /// As [`GoldenSection::low`].
+    /// Upper end, with the value there.
     pub high: [f64; 2],
     left: [f64; 2],
     right: [f64; 2],
 }
 
 impl GoldenSection {
-    /// Begins between two places with the function there.
+    /// Evaluates a function at two inner positions. Each end is a position with its value.
     ///
     /// # Errors
-    /// The function's own.
+    /// Errors of the function.
     pub fn new<E>(
         low: [f64; 2],
         high: [f64; 2],
         mut value: impl FnMut(f64) -> Result<f64, E>,
     ) -> Result<GoldenSection, E> {
-        let way = GOLDEN * (high[0] - low[0]);
-        let (left, right) = (high[0] - way, low[0] + way);
+        let length = GOLDEN * (high[0] - low[0]);
+        let (left, right) = (high[0] - length, low[0] + length);
         Ok(GoldenSection { low, high, left: [left, value(left)?], right: [right, value(right)?] })
     }
 
-    /// Leaves the part out that cannot hold the least value.
+    /// Removes the section that cannot contain the minimum.
     ///
     /// # Errors
-    /// The function's own.
+    /// Errors of the function.
     pub fn narrow<E>(&mut self, value: impl FnOnce(f64) -> Result<f64, E>) -> Result<(), E> {
         if self.left[1] < self.right[1] {
             (self.high, self.right) = (self.right, self.left);
@@ -97,22 +96,22 @@ impl GoldenSection {
         Ok(())
     }
 
-    /// The least value that has been met.
+    /// Returns the least value at the inner positions.
     #[must_use]
     pub fn least(&self) -> f64 {
         f64::min(self.left[1], self.right[1])
     }
 
-    /// The middle of what is left.
+    /// Returns the middle of the interval.
     #[must_use]
     pub fn middle(&self) -> f64 {
         0.5 * (self.low[0] + self.high[0])
     }
 }
 
-/// An interval whose parts are looked at from its start to its end, each of which may be halved.
+/// A depth-first bisection of an interval, from its start to its end.
 pub struct Halving<const N: usize> {
-    /// What is still to be looked at, the first part last.
+    /// Sections still to be visited, the first one last.
     open: [[f64; 2]; N],
     count: usize,
     looked_at: usize,
@@ -121,7 +120,7 @@ pub struct Halving<const N: usize> {
 }
 
 impl<const N: usize> Halving<N> {
-    /// Into parts that are no smaller than `finest`, of which about `most` are looked at before no more are made.
+    /// Creates a bisection to sections no shorter than `finest`. After about `most` visits no more sections are halved.
     #[must_use]
     pub fn new(whole: [f64; 2], finest: f64, most: usize) -> Halving<N> {
         let mut open = [[0.0; 2]; N];
@@ -129,14 +128,14 @@ impl<const N: usize> Halving<N> {
         Halving { open, count: 1, looked_at: 0, finest, most }
     }
 
-    /// The next part.
+    /// Returns the next section.
     pub fn next_part(&mut self) -> Option<[f64; 2]> {
         self.count = self.count.checked_sub(1)?;
         self.looked_at += 1;
         Some(self.open[self.count])
     }
 
-    /// Puts both halves of the part that was just looked at before what comes behind it, unless it is small enough.
+    /// Replaces the section that was just visited by its halves, unless it is short enough; returns whether it did.
     pub fn halve(&mut self, [a, b]: [f64; 2]) -> bool {
         let middle = 0.5 * (a + b);
         let is_large = b - a > self.finest && self.looked_at < self.most && middle > a && middle < b;
@@ -150,7 +149,7 @@ impl<const N: usize> Halving<N> {
     }
 }
 
-/// Returns the upper median of some numbers; 0 if there are none.
+/// Returns the upper median of some numbers; 0 for an empty list.
 #[must_use]
 pub fn median(mut values: Vec<f64>) -> f64 {
     let middle = values.len() / 2;

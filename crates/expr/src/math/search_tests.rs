@@ -1,7 +1,7 @@
-//! Bisection, golden section and halving: tests. Those of what is emitted stand apart from it.
+//! Tests of bisection, secants, golden section and halving. They stand apart from code that may be emitted.
 
 use super::neighbours::{bisect, shortly_after};
-use super::search::{GoldenSection, Halving, boundary, close_in};
+use super::search::{GoldenSection, Halving, boundary, enclose_root};
 use std::convert::Infallible;
 
 #[test]
@@ -45,7 +45,7 @@ fn secants_close_in_on_neighbours() {
             }
         };
         let ends = ends.map(|x| [x, f(x).abs()]);
-        let found = close_in(ends, 0.0, |x| {
+        let found = enclose_root(ends, 0.0, |x| {
             looks += 1;
             Some((is_behind(x), f(x).abs()))
         });
@@ -55,10 +55,10 @@ fn secants_close_in_on_neighbours() {
     }
     for ends in [[0.0, 1.0], [0.3, 7.0], [-0.1, 0.6]] {
         let ends = ends.map(|x| [x, f64::abs(x - 0.51)]);
-        let coarse = close_in(ends, 0.25, |x| Some((x >= 0.51, (x - 0.51).abs()))).unwrap_or_default();
+        let coarse = enclose_root(ends, 0.25, |x| Some((x >= 0.51, (x - 0.51).abs()))).unwrap_or_default();
         assert_eq!(coarse.to_vec(), [0.5, f64::min(0.75, ends[1][0])], "{ends:?}");
     }
-    assert!(close_in([[0.0, 1.0], [1.0, 1.0]], 0.0, |_| None).is_none());
+    assert!(enclose_root([[0.0, 1.0], [1.0, 1.0]], 0.0, |_| None).is_none());
 }
 
 #[test]
@@ -83,17 +83,17 @@ fn a_section_keeps_the_least_value() {
 }
 
 #[test]
-fn parts_come_in_their_order_and_no_finer_than_is_meant() {
+fn sections_come_in_order_and_no_finer_than_requested() {
     let mut parts = Halving::<8>::new([0.0, 1.0], 0.2, 100);
-    let mut seen = Vec::new();
+    let mut visited = Vec::new();
     while let Some(part) = parts.next_part() {
         if !parts.halve(part) {
-            seen.push(part);
+            visited.push(part);
         }
     }
     let eighths: Vec<[f64; 2]> = (0..8).map(|k| [f64::from(k) / 8.0, f64::from(k + 1) / 8.0]).collect();
-    assert_eq!(seen, eighths);
+    assert_eq!(visited, eighths);
     let mut parts = Halving::<8>::new([0.0, 1.0], 0.2, 1);
     assert!(parts.next_part().is_some());
-    assert!(!parts.halve([0.0, 1.0]) && parts.next_part().is_none(), "no more are looked at than are meant");
+    assert!(!parts.halve([0.0, 1.0]) && parts.next_part().is_none(), "the number of visits is limited");
 }

@@ -1,11 +1,11 @@
-//! Where in a text the cursor stands, by the words and characters before it: the text is half-typed, and need not follow the grammar.
+//! The syntactic context of the cursor, from the tokens before it: the text is unfinished and need not follow the grammar.
 
-use crate::written::{Within, is_of_word, within};
+use crate::lexical::{LexicalContext, is_word_char, lexical_context};
 use mechc_syntax::{Token, begins_declaration, tokens};
 use mechc_text::vocabulary::{Dimension, Keyword, Unit, is_feature};
 use std::ops::Range;
 
-/// Between which braces a place is.
+/// The kind of block around the cursor.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Block {
     File,
@@ -16,44 +16,44 @@ pub(super) enum Block {
 /// A call that is open before the cursor.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) struct Call<'t> {
-    /// What is called; nothing before plain parentheses.
+    /// The name of the callee; empty for plain parentheses and `[` for brackets.
     pub name: &'t str,
-    /// So many commas stand between its parenthesis and the cursor.
+    /// The index of the argument at the cursor.
     pub argument: usize,
-    /// The token of its parenthesis.
+    /// The index of the token of its parenthesis.
     pub open: usize,
 }
 
-/// A compound unit of which some is written: `90 deg/`.
+/// An unfinished compound unit: `90 deg/`.
 #[derive(Clone, PartialEq, Debug)]
-pub(super) struct Begun {
-    /// Of its units, from the last one on.
+pub(super) struct PartialUnit {
+    /// The dimensions of its units, last one first.
     pub dimensions: Vec<Dimension>,
 }
 
-/// What stands before the cursor.
+/// The cursor with the tokens before it.
 pub(super) struct Cursor<'t> {
     pub text: &'t str,
-    /// The word under the cursor, which may be empty; in a string all of it.
+    /// The word under the cursor, which may be empty; in a string its whole content.
     pub word: Range<usize>,
     pub is_in_string: bool,
-    /// All before that.
+    /// The tokens before the word.
     tokens: Vec<Token<'t>>,
-    /// The first token of the declaration.
+    /// The index of the declaration's first token.
     first: usize,
     pub block: Block,
 }
 
 impl<'t> Cursor<'t> {
-    /// Nothing in a comment.
-    pub fn at(text: &'t str, offset: usize) -> Option<Cursor<'t>> {
-        let within = within(text.get(..offset)?, offset);
+    /// Analyses the text before an offset; `None` in a comment.
+    pub fn new(text: &'t str, offset: usize) -> Option<Cursor<'t>> {
+        let context = lexical_context(text.get(..offset)?, offset);
         let mut word = word_at(text, offset);
         let mut end = word.start;
-        match within {
-            Within::Code => {}
-            Within::Comment => return None,
-            Within::String(quote) => {
+        match context {
+            LexicalContext::Code => {}
+            LexicalContext::Comment => return None,
+            LexicalContext::String(quote) => {
                 let rest = &text[offset..];
                 word = quote + 1..offset + rest.find(['"', '\n', '\r']).unwrap_or(rest.len());
                 end = quote;
@@ -61,37 +61,37 @@ impl<'t> Cursor<'t> {
         }
         let tokens = tokens(&text[..end]);
         let (first, block) = declaration(&text[..end], &tokens);
-        Some(Cursor { text, word, is_in_string: matches!(within, Within::String(_)), tokens, first, block })
+        Some(Cursor { text, word, is_in_string: matches!(context, LexicalContext::String(_)), tokens, first, block })
     }
 
-    /// The tokens of the declaration.
+    /// Returns the tokens of the declaration.
     pub fn declaration(&self) -> &[Token<'t>] {
         &self.tokens[self.first..]
     }
 
-    /// The byte where the declaration begins; that of the word, where it may begin a new one.
+    /// Returns the start of the declaration; that of the word, if the word may begin a new one.
     pub fn start(&self) -> usize {
         let first = self.declaration().first().filter(|_| !self.may_begin());
         first.map_or(self.word.start, |token| token.start)
     }
 
-    /// Whether a declaration may begin with the word: the one before can end there.
+    /// Returns whether the word may begin a declaration, because the one before can end there.
     pub fn may_begin(&self) -> bool {
         let can_end = || self.is_first_on_line() && self.is_behind_operand() && self.call().is_none();
         self.head().is_empty() || can_end()
     }
 
-    /// Its keyword.
+    /// Returns the keyword of the declaration.
     pub fn head(&self) -> &'t str {
         self.declaration().first().map_or("", |token| token.text)
     }
 
-    /// The token before the cursor, if it is one of the declaration.
+    /// Returns the last token of the declaration before the cursor.
     pub fn last(&self) -> Option<&'t str> {
         self.declaration().last().map(|token| token.text)
     }
 
-    /// Whether a word stands in the declaration outside of all parentheses.
+    /// Returns whether the declaration contains a word outside parentheses.
     pub fn has(&self, word: &str) -> bool {
         let mut depth = 0_usize;
         self.declaration().iter().any(|token| {
@@ -104,7 +104,7 @@ impl<'t> Cursor<'t> {
         })
     }
 
-    /// Whether an operand ends right before the cursor, so that only what joins may follow.
+    /// Returns whether an operand ends before the cursor, so that only an operator or keyword may follow.
     pub fn is_behind_operand(&self) -> bool {
         self.last().is_some_and(|last| {
             let is_word = last.starts_with(|c: char| c.is_alphanumeric() || "_\"".contains(c));
@@ -113,18 +113,18 @@ impl<'t> Cursor<'t> {
         })
     }
 
-    /// Whether the cursor is right behind a number, be it with a space between.
+    /// Returns whether the last token is a number.
     pub fn is_behind_number(&self) -> bool {
         self.last().is_some_and(|last| last.starts_with(|c: char| c.is_ascii_digit()))
     }
 
-    /// Whether nothing but the word stands on its line before the cursor.
+    /// Returns whether the word is the first of its line or block.
     pub fn is_first_on_line(&self) -> bool {
         let before = self.text[..self.word.start].trim_end_matches([' ', '\t']);
         before.is_empty() || before.ends_with(['\n', '{', '}'])
     }
 
-    /// The innermost parenthesis that is open.
+    /// Returns the innermost open parenthesis or bracket.
     pub fn call(&self) -> Option<Call<'t>> {
         let (mut depth, mut argument) = (0_usize, 0);
         for at in (self.first..self.tokens.len()).rev() {
@@ -147,7 +147,7 @@ impl<'t> Cursor<'t> {
         None
     }
 
-    /// The last of `from` and `to` in the window of a call before the cursor.
+    /// Returns the last `from` or `to` in the window of a call before the cursor.
     pub fn window(&self, call: Call<'_>) -> Option<&'t str> {
         let (mut depth, mut found, mut before) = (0_usize, None, "");
         for token in self.tokens.get(call.open + 1..).unwrap_or_default() {
@@ -164,12 +164,12 @@ impl<'t> Cursor<'t> {
         found
     }
 
-    /// The unit that goes on at the cursor, behind a number or behind the `in` of what is printed. What a quotient of formulas is divided by
-    /// has a space before it.
-    pub fn unit(&self) -> Option<Begun> {
+    /// Returns the unfinished unit at the cursor, after a number or after the `in` of a printed quantity. A `/` after a space divides
+    /// formulas instead.
+    pub fn unit(&self) -> Option<PartialUnit> {
         let tokens = self.declaration();
         let mut at = tokens.len().checked_sub(1)?;
-        let is_apart = self.text[..self.word.start].ends_with(char::is_whitespace)
+        let has_space = self.text[..self.word.start].ends_with(char::is_whitespace)
             || self.text[..tokens[at].start].ends_with(char::is_whitespace);
         let mut dimensions = Vec::new();
         while matches!(tokens[at].text, "/" | "*") {
@@ -178,7 +178,7 @@ impl<'t> Cursor<'t> {
                 at -= 2;
             }
             match tokens[at].text {
-                // `in 1/s`
+                // as in `in 1/s`
                 "1" => at = at.checked_sub(1)?,
                 unit => {
                     dimensions.push(Unit::named(unit)?.dimension);
@@ -189,11 +189,11 @@ impl<'t> Cursor<'t> {
         let is_printed = tokens[at].text == "in" && matches!(self.head(), "measure" | "trace" | "result");
         let is_of_number = tokens[at].text.starts_with(|c: char| c.is_ascii_digit()) && self.last() == Some("/");
         let begins =
-            !dimensions.is_empty() && (is_printed || is_of_number && !is_apart) || is_printed && at + 1 < tokens.len();
-        begins.then_some(Begun { dimensions })
+            !dimensions.is_empty() && (is_printed || is_of_number && !has_space) || is_printed && at + 1 < tokens.len();
+        begins.then_some(PartialUnit { dimensions })
     }
 
-    /// The names before the dot at the cursor, numbers in brackets left out; nothing where there is no dot.
+    /// Returns the names before the dot at the cursor, without indices; `None` without a dot.
     pub fn path(&self) -> Option<Vec<&'t str>> {
         let tokens = self.declaration();
         let mut at = tokens.len().checked_sub(1).filter(|last| tokens[*last].text == ".")?;
@@ -213,7 +213,7 @@ impl<'t> Cursor<'t> {
         Some(names)
     }
 
-    /// What stands in the arguments of the innermost call, before the cursor, one after the other.
+    /// Returns the complete arguments of a call before the cursor.
     pub fn arguments(&self, call: Call<'t>) -> Vec<&'t str> {
         let (mut depth, mut from, mut found) = (0_usize, self.tokens[call.open].end(), Vec::new());
         for token in &self.tokens[call.open + 1..] {
@@ -230,16 +230,16 @@ impl<'t> Cursor<'t> {
         found
     }
 
-    /// The token before the innermost argument's first one is reached, seen from the cursor: the last so many tokens.
+    /// Returns the token at a distance before the cursor; 1 is the last one.
     pub fn back(&self, count: usize) -> Option<&'t str> {
         let tokens = self.declaration();
         tokens.len().checked_sub(count).map(|at| tokens[at].text)
     }
 }
 
-/// The word that holds a place or touches it; digits before it are a number.
+/// Returns the word around an offset; digits before it are a number and not part of it.
 pub(super) fn word_at(text: &str, offset: usize) -> Range<usize> {
-    let is_part = |c: &char| is_of_word(*c);
+    let is_part = |c: &char| is_word_char(*c);
     let before = text[..offset].chars().rev().take_while(is_part).map(char::len_utf8).sum::<usize>();
     let behind = text[offset..].chars().take_while(is_part).map(char::len_utf8).sum::<usize>();
     let digits = text[offset - before..offset].chars().take_while(char::is_ascii_digit).count();
@@ -247,7 +247,7 @@ pub(super) fn word_at(text: &str, offset: usize) -> Range<usize> {
     start..if digits == before && digits > 0 { offset } else { offset + behind }
 }
 
-/// The first token of the declaration at the end of a text, and between which braces it is.
+/// Returns the index of the first token of the last declaration, and the block that it is in.
 fn declaration(text: &str, tokens: &[Token<'_>]) -> (usize, Block) {
     let (mut blocks, mut first, mut head) = (Vec::new(), 0, "");
     for (at, token) in tokens.iter().enumerate() {
@@ -263,7 +263,7 @@ fn declaration(text: &str, tokens: &[Token<'_>]) -> (usize, Block) {
             word if begins(text, tokens, at) => {
                 match blocks.last() {
                     _ if word == "mechanism" || word == "use" => blocks.clear(),
-                    // a body that was not closed
+                    // the declaration cannot be in a body, so the brace of that is missing
                     Some(Block::Features) if !is_feature(word) => drop(blocks.pop()),
                     _ => {}
                 }
@@ -296,7 +296,7 @@ mod tests {
         let of = |text: &str| {
             let at = text.find('‸').expect("a cursor");
             let text = text.replacen('‸', "", 1);
-            let cursor = Cursor::at(&text, at)?;
+            let cursor = Cursor::new(&text, at)?;
             Some((
                 cursor.head().to_owned(),
                 cursor.block,
@@ -318,11 +318,11 @@ mod tests {
     #[test]
     fn calls_and_paths_are_those_before_the_cursor() {
         let text = "mechanism m { measure x1 = max(a, rotation(k[1, 2].b.";
-        let cursor = Cursor::at(text, text.len()).expect("no comment");
+        let cursor = Cursor::new(text, text.len()).expect("no comment");
         assert_eq!(cursor.path(), Some(vec!["k", "b"]));
         assert_eq!(cursor.call().map(|call| (call.name, call.argument)), Some(("rotation", 0)));
         let text = "mechanism m { joint j: revolute(a.B, b";
-        let cursor = Cursor::at(text, text.len()).expect("no comment");
+        let cursor = Cursor::new(text, text.len()).expect("no comment");
         let call = cursor.call().expect("a call");
         assert_eq!((call.argument, cursor.arguments(call)), (1, vec!["a.B"]));
     }

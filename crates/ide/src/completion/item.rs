@@ -1,43 +1,43 @@
-//! What is proposed, and what comes into the text.
+//! Completion items and the text that they insert.
 
 use mechc_text::vocabulary::{Category, Keyword, Word};
 use std::ops::Range;
 
-/// What is proposed.
+/// A completion item.
 #[derive(Clone, PartialEq, Debug)]
 pub struct CompletionItem {
-    /// What is shown, and what the letters typed are looked for in.
+    /// The text that is shown and matched with the letters typed.
     pub label: String,
-    /// What is shown right behind that: arguments.
+    /// The arguments, shown directly after the label.
     pub signature: String,
-    /// What it is, in short.
+    /// A short description.
     pub detail: String,
-    /// More about it, in Markdown.
+    /// The documentation, in Markdown.
     pub docs: String,
-    /// What it is.
+    /// The kind of item.
     pub kind: CompletionItemKind,
-    /// What comes.
+    /// The text to insert.
     pub insert: Template,
-    /// What goes.
+    /// The range to replace.
     pub replaces: Range<u32>,
-    /// The better it fits the smaller.
+    /// The rank; items with smaller ranks fit better.
     pub rank: u8,
 }
 
-/// What a proposal is.
+/// The kinds of completion items.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum CompletionItemKind {
     /// A word of a declaration or formula.
     Keyword,
     /// A whole declaration.
     Declaration,
-    /// What is called with numbers, points, bodies, or joints.
+    /// A function, quantity, reduction or motion law.
     Function,
     /// A kind of joint.
     Joint,
     /// A unit.
     Unit,
-    /// What always has the same value.
+    /// A constant of the language.
     Constant,
     /// A declared number.
     Value,
@@ -55,24 +55,24 @@ pub enum CompletionItemKind {
     Folder,
 }
 
-/// A text with places that are to be filled in.
+/// A text with holes to fill in.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub struct Template {
-    /// As it stands with nothing filled in.
+    /// The text with its holes unchanged.
     pub text: String,
-    /// The places, in bytes, in their order.
+    /// The ranges of the holes, in bytes and in order.
     pub holes: Vec<Range<usize>>,
 }
 
 impl Template {
-    /// Without places.
+    /// Creates a template without holes.
     pub fn plain(text: impl Into<String>) -> Template {
         Template { text: text.into(), holes: Vec::new() }
     }
 
-    /// Places stand between `«` and `»`.
+    /// Creates a template from a text with its holes between `«` and `»`.
     #[must_use]
-    pub fn marked(marked: &str) -> Template {
+    pub fn from_marked(marked: &str) -> Template {
         let (mut template, mut open) = (Template::default(), 0);
         for c in marked.chars() {
             match c {
@@ -84,9 +84,10 @@ impl Template {
         template
     }
 
-    /// By a form of the vocabulary, `revolute(P, Q)`: all words are places but its first one, and keywords outside of parentheses.
+    /// Creates a template from a form of the vocabulary, `revolute(P, Q)`: all words are holes except the first one and keywords outside
+    /// parentheses.
     #[must_use]
-    pub fn of_form(form: &str) -> Template {
+    pub fn from_form(form: &str) -> Template {
         let mut marked = String::new();
         let is_part = |c: char| c.is_alphanumeric() || c == '_' || c == '…';
         let (mut rest, mut depth) = (form, 0_usize);
@@ -99,17 +100,17 @@ impl Template {
                 ')' => depth = depth.saturating_sub(1),
                 _ => {}
             }
-            let is_own = depth == 0 && Keyword::named(word).is_some() || word == "mech";
-            let is_place = is_part(first) && !marked.is_empty() && !is_own;
-            marked += &if is_place { format!("«{word}»") } else { word.to_owned() };
+            let is_fixed = depth == 0 && Keyword::named(word).is_some() || word == "mech";
+            let is_hole = is_part(first) && !marked.is_empty() && !is_fixed;
+            marked += &if is_hole { format!("«{word}»") } else { word.to_owned() };
             rest = behind;
         }
-        Template::marked(
+        Template::from_marked(
             &marked.replace("{ «…» }", "{\n    «»\n}").replace("«BINDING», «…»", "«»").replace("«…»", "«»"),
         )
     }
 
-    /// With another one behind it.
+    /// Appends another template.
     pub(super) fn followed_by(mut self, other: Template) -> Template {
         let before = self.text.len();
         self.text += &other.text;
@@ -117,7 +118,7 @@ impl Template {
         self
     }
 
-    /// What can be written where no places can be filled in: all up to the first one.
+    /// Returns the text up to the first hole, for clients without snippets.
     #[must_use]
     pub fn up_to_first_hole(&self) -> &str {
         let end = self.holes.first().map_or(self.text.len(), |hole| hole.start);
@@ -133,7 +134,7 @@ impl CompletionItem {
         CompletionItem { label, signature, detail, docs, kind, insert, replaces: 0..0, rank }
     }
 
-    /// A word of the language, with what belongs to it.
+    /// Creates an item for a word of the language, with its documentation.
     pub(super) fn word(word: &'static Word, rank: u8) -> CompletionItem {
         let kind = match word.category {
             Category::Keyword => CompletionItemKind::Keyword,
@@ -151,7 +152,7 @@ impl CompletionItem {
         if matches!(kind, CompletionItemKind::Function | CompletionItemKind::Joint)
             && let Some(form) = word.forms.first()
         {
-            item.insert = Template::of_form(form);
+            item.insert = Template::from_form(form);
             form.strip_prefix(word.name).unwrap_or_default().clone_into(&mut item.signature);
         }
         item

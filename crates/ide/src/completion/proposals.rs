@@ -1,112 +1,121 @@
-//! What is missing in a mechanism: joints between points that are drawn onto each other, drivers for what is left free.
+//! Proposals for declarations that a mechanism lacks: joints between coincident points, and drivers for free quantities.
 
 use super::cursor::Cursor;
 use super::item::{CompletionItem, CompletionItemKind, Template};
-use crate::place::Place;
+use crate::location::FilePosition;
 use crate::snapshot::Snapshot;
 use mechc_lang::check::name_of;
-use mechc_pipeline::{Checked, Drawn};
+use mechc_pipeline::{Checked, InitialPose};
 use mechc_syntax::ast::{ItemKind as Declared, Mechanism};
 use mechc_text::vocabulary::KEYWORDS;
 use std::f64::consts::PI;
 
-/// In longer texts no joints are proposed: the text would have to be checked without the declaration at the cursor (bytes).
-const LONGEST_CHECKED: usize = 65_536;
+/// The maximum length of a text for which joints are proposed (bytes), since it must be checked without the declaration at the cursor.
+const MAX_CHECKED: usize = 65_536;
 
-/// In longer texts no drivers are proposed: that would have to be proven as well (bytes).
-const LONGEST_PROVEN: usize = 8_192;
+/// The maximum length of a text for which drivers are proposed (bytes), since it must be proven too.
+const MAX_PROVEN: usize = 8_192;
 
-/// Points nearer to each other than this part of the drawing's size are meant to coincide.
-const NEAR: f64 = 0.02;
+/// The distance below which points count as coincident, as a fraction of the drawing's size.
+const COINCIDENCE: f64 = 0.02;
 
-/// So many joints are proposed.
-const MOST: usize = 8;
+/// The maximum number of joints to propose.
+const MAX_JOINTS: usize = 8;
 
 /// A mechanism without the declaration at the cursor.
-pub(super) struct Whole {
+pub(super) struct OtherDeclarations {
     snapshot: Snapshot,
-    place: Place,
+    position: FilePosition,
     is_quickly_proven: bool,
 }
 
-impl Whole {
-    /// Nothing where the text is long.
-    pub fn of(snapshot: &Snapshot, place: &Place, cursor: &Cursor<'_>) -> Option<Whole> {
+impl OtherDeclarations {
+    /// Removes the declaration at the cursor from the text; `None` if the text is too long.
+    pub fn new(snapshot: &Snapshot, position: &FilePosition, cursor: &Cursor<'_>) -> Option<OtherDeclarations> {
         let text = cursor.text;
-        if text.len() > LONGEST_CHECKED {
+        if text.len() > MAX_CHECKED {
             return None;
         }
         let end = text[cursor.word.end..].find('\n').map_or(text.len(), |line| cursor.word.end + line);
-        let gone: String = text[cursor.start()..end].chars().map(|c| if c == '\n' { '\n' } else { ' ' }).collect();
-        // what closes a block stays
+        let blank: String = text[cursor.start()..end].chars().map(|c| if c == '\n' { '\n' } else { ' ' }).collect();
+        // a brace that closes the block stays
         let closes = text[cursor.word.end..end].contains('}') && cursor.start() == cursor.word.start;
-        let whole = if closes { text.to_owned() } else { [&text[..cursor.start()], &gone, &text[end..]].concat() };
-        let place = Place { offset: cursor.start() as u32, ..place.clone() };
-        let is_quickly_proven = text.len() <= LONGEST_PROVEN;
-        Some(Whole { snapshot: snapshot.supposing(&place.path, whole.into()), place, is_quickly_proven })
+        let rest = if closes { text.to_owned() } else { [&text[..cursor.start()], &blank, &text[end..]].concat() };
+        let position = FilePosition { offset: cursor.start() as u32, ..position.clone() };
+        let is_quickly_proven = text.len() <= MAX_PROVEN;
+        Some(OtherDeclarations {
+            snapshot: snapshot.with_trial_text(&position.path, rest.into()),
+            position,
+            is_quickly_proven,
+        })
     }
 
     fn with<T>(&self, act: impl FnOnce(&Checked) -> Option<T>) -> Option<T> {
-        let analysed = self.snapshot.checked(&self.place.path)?;
-        act(analysed.mechanism_at(self.place.offset)?)
+        let file = self.snapshot.checked(&self.position.path)?;
+        act(file.mechanism_at(self.position.offset)?)
     }
 
-    /// Pairs of points that lie on each other and that no joint holds together, `crank.B` and `coupler.B`.
-    pub fn touching(&self) -> Vec<[String; 2]> {
-        self.with(|checked| Some(touching(&checked.drawn()?, checked.tree()?))).unwrap_or_default()
+    /// Returns pairs of coincident points that no joint connects, such as `crank.B` and `coupler.B`.
+    pub fn coincident_points(&self) -> Vec<[String; 2]> {
+        self.with(|checked| Some(coincident_points(&checked.initial_pose()?, checked.tree()?))).unwrap_or_default()
     }
 
-    /// What could be driven: the left side of an equation, with one that takes it from where it is.
-    pub fn free(&self) -> Vec<(String, String)> {
-        if self.is_quickly_proven { free(&self.snapshot, &self.place).unwrap_or_default() } else { Vec::new() }
+    /// Returns quantities that could be driven, each with a formula that starts at its drawn value.
+    pub fn free_quantities(&self) -> Vec<(String, String)> {
+        if self.is_quickly_proven {
+            free_quantities(&self.snapshot, &self.position).unwrap_or_default()
+        } else {
+            Vec::new()
+        }
     }
 }
 
-fn touching(drawn: &Drawn, tree: &Mechanism) -> Vec<[String; 2]> {
+fn coincident_points(drawn: &InitialPose, tree: &Mechanism) -> Vec<[String; 2]> {
     let points: Vec<_> = drawn.points.iter().filter(|point| point.at.iter().all(|x| x.is_finite())).collect();
     let largest = |k: usize| points.iter().map(|point| point.at[k]).fold(f64::NEG_INFINITY, f64::max);
     let least = |k: usize| points.iter().map(|point| point.at[k]).fold(f64::INFINITY, f64::min);
     let size = f64::max(largest(0) - least(0), largest(1) - least(1));
-    let held: Vec<Vec<String>> = tree.items.iter().filter_map(joined).collect();
+    let joined_points: Vec<Vec<String>> = tree.items.iter().filter_map(joint_arguments).collect();
     let mut found: Vec<(f64, [String; 2])> = Vec::new();
     for (k, a) in points.iter().enumerate() {
         for b in points[k + 1..].iter().filter(|b| b.body != a.body) {
             let [x, y] = [0, 1].map(|k| a.at[k] - b.at[k]);
-            let apart = (x * x + y * y).sqrt();
-            if apart > NEAR * size {
+            let distance = (x * x + y * y).sqrt();
+            if distance > COINCIDENCE * size {
                 continue;
             }
             let pair = [format!("{}.{}", a.body, a.name), format!("{}.{}", b.body, b.name)];
-            if !held.iter().any(|joint| pair.iter().all(|point| joint.contains(point))) {
-                found.push((apart, pair));
+            if !joined_points.iter().any(|joint| pair.iter().all(|point| joint.contains(point))) {
+                found.push((distance, pair));
             }
         }
     }
     found.sort_by(|(a, _), (b, _)| a.total_cmp(b));
-    found.into_iter().map(|(_, pair)| pair).take(MOST).collect()
+    found.into_iter().map(|(_, pair)| pair).take(MAX_JOINTS).collect()
 }
 
-/// What a joint joins.
-fn joined(item: &mechc_syntax::ast::Item) -> Option<Vec<String>> {
+/// Returns the paths that a joint connects.
+fn joint_arguments(item: &mechc_syntax::ast::Item) -> Option<Vec<String>> {
     let Declared::Joint { arguments, .. } = &item.kind else { return None };
-    Some(arguments.iter().filter_map(crate::names::path_text).collect())
+    Some(arguments.iter().filter_map(crate::occurrences::path_text).collect())
 }
 
-/// What the proof says that could be driven in the mechanism at a place, with a formula that begins where it is drawn.
-pub(crate) fn free(snapshot: &Snapshot, place: &Place) -> Option<Vec<(String, String)>> {
-    let analysed = snapshot.checked(&place.path)?;
-    let at = analysed
+/// Returns the quantities that could be driven in the mechanism at a position according to its proof, each with a formula that starts at
+/// its drawn value.
+pub(crate) fn free_quantities(snapshot: &Snapshot, position: &FilePosition) -> Option<Vec<(String, String)>> {
+    let file = snapshot.checked(&position.path)?;
+    let at = file
         .mechanisms
         .iter()
-        .position(|one| one.span().is_some_and(|span| (span.start..=span.end).contains(&place.offset)))?;
-    let (checked, proven) = (analysed.mechanisms.get(at)?, snapshot.proven(&place.path)?);
-    let drawn = checked.drawn()?;
-    let driven = proven.get(at)?.said.iter().flat_map(|said| &said.drives);
+        .position(|one| one.span().is_some_and(|span| (span.start..=span.end).contains(&position.offset)))?;
+    let (checked, proofs) = (file.mechanisms.get(at)?, snapshot.proofs(&position.path)?);
+    let drawn = checked.initial_pose()?;
+    let driven = proofs.get(at)?.diagnostics.iter().flat_map(|diagnostic| &diagnostic.drives);
     Some(driven.map(|driven| (driven.clone(), formula(&drawn, driven))).collect())
 }
 
-/// A formula of time that begins where a quantity is drawn.
-fn formula(drawn: &Drawn, driven: &str) -> String {
+/// Returns a formula of time that starts at the drawn value of a quantity.
+fn formula(drawn: &InitialPose, driven: &str) -> String {
     let (quantity, of) = driven.trim_end_matches(')').split_once('(').unwrap_or_default();
     let point = |k: usize| {
         drawn.points.iter().find(|point| format!("{}.{}", point.body, point.name) == of).map(|point| point.at[k])
@@ -124,12 +133,12 @@ fn formula(drawn: &Drawn, driven: &str) -> String {
         "rotation" | "angle" => (value * 180.0 / PI, "deg", "60 deg/s"),
         _ => (value * 1e3, "mm", "10 mm/s"),
     };
-    // as exact as a drawing is, which has few digits
+    // six decimals are more than a drawing is accurate to
     let start = (start * 1e6).round() / 1e6;
     if start == 0.0 { format!("{rate} * t") } else { format!("{start} {unit} + {rate} * t") }
 }
 
-/// A name that is free in a mechanism.
+/// Returns a name that a mechanism does not use yet.
 pub(crate) fn free_name(tree: &Mechanism, names: &[&str]) -> String {
     let is_free = |name: &str| {
         let is_taken = tree.items.iter().filter_map(name_of).any(|taken| taken.text == name);
@@ -138,48 +147,48 @@ pub(crate) fn free_name(tree: &Mechanism, names: &[&str]) -> String {
     let plain = names.iter().find(|name| is_free(name)).map(|name| (*name).to_owned());
     plain.unwrap_or_else(|| {
         let base = names.first().copied().unwrap_or("name");
-        // more than there are declarations
+        // one more name than declarations, so one of them is free
         (2..tree.items.len() + 3).map(|k| format!("{base}_{k}")).find(|name| is_free(name)).unwrap_or_default()
     })
 }
 
-/// Whole declarations of what is missing.
-pub(super) fn declarations(whole: &Whole, tree: &Mechanism) -> Vec<CompletionItem> {
+/// Proposes whole declarations that are missing.
+pub(super) fn declarations(others: &OtherDeclarations, tree: &Mechanism) -> Vec<CompletionItem> {
     let joint = free_name(tree, &["pin", "hinge", "bearing"]);
     let driver = free_name(tree, &["motor", "drive", "feed"]);
-    let joints = whole.touching().into_iter().map(|[a, b]| {
+    let joints = others.coincident_points().into_iter().map(|[a, b]| {
         let text = format!("joint {joint}: revolute({a}, {b})");
         let marked = format!("joint «{joint}»: revolute({a}, {b})");
         CompletionItem::new(text, CompletionItemKind::Declaration, 0)
             .detail("these points lie on each other")
-            .inserts(Template::marked(&marked))
+            .inserts(Template::from_marked(&marked))
     });
-    let drivers = whole.free().into_iter().map(|(driven, formula)| {
+    let drivers = others.free_quantities().into_iter().map(|(driven, formula)| {
         let text = format!("driver {driver}: {driven} = {formula}");
         let marked = format!("driver «{driver}»: {driven} = «{formula}»");
         CompletionItem::new(text, CompletionItemKind::Declaration, 0)
             .detail("this is left free")
-            .inserts(Template::marked(&marked))
+            .inserts(Template::from_marked(&marked))
     });
     drivers.chain(joints).collect()
 }
 
-/// Kinds of joints with what they join: points that lie on each other.
-pub(super) fn joints(whole: &Whole) -> Vec<CompletionItem> {
+/// Proposes joints between coincident points.
+pub(super) fn joints(others: &OtherDeclarations) -> Vec<CompletionItem> {
     let item = |[a, b]: [String; 2]| {
         CompletionItem::new(format!("revolute({a}, {b})"), CompletionItemKind::Declaration, 0)
             .detail("these points lie on each other")
     };
-    whole.touching().into_iter().map(item).collect()
+    others.coincident_points().into_iter().map(item).collect()
 }
 
-/// Equations that take what is left free.
-pub(super) fn drivers(whole: &Whole) -> Vec<CompletionItem> {
+/// Proposes driver equations for free quantities.
+pub(super) fn drivers(others: &OtherDeclarations) -> Vec<CompletionItem> {
     let item = |(driven, formula): (String, String)| {
         let marked = format!("{driven} = «{formula}»");
         CompletionItem::new(format!("{driven} = {formula}"), CompletionItemKind::Declaration, 0)
             .detail("this is left free")
-            .inserts(Template::marked(&marked))
+            .inserts(Template::from_marked(&marked))
     };
-    whole.free().into_iter().map(item).collect()
+    others.free_quantities().into_iter().map(item).collect()
 }

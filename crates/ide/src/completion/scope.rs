@@ -1,12 +1,12 @@
-//! The names that are known at a place, by what they are.
+//! The names in scope at a position, by kind.
 
-use super::MOST;
+use super::MAX_ITEMS;
 use super::cursor::{Block, Cursor};
+use super::expected::Expected;
 use super::item::{CompletionItem, CompletionItemKind, Template};
-use super::wanted::Wanted;
-use crate::names::{item_named, known};
-use crate::written::holds_letters;
-use mechc_lang::check::{KnownMechanism, NameKind, name_of};
+use crate::lexical::matches_letters;
+use crate::occurrences::{find_mechanism, item_named};
+use mechc_lang::check::{LibraryMechanism, NameKind, name_of};
 use mechc_pipeline::Checked;
 use mechc_syntax::ast::{ExprKind, Feature, Item as Declaration, ItemKind as Declared, Mechanism, MechanismName, Name};
 use mechc_text::source::Span;
@@ -17,82 +17,82 @@ use std::cell::Cell;
 pub(super) struct Scope<'s> {
     pub checked: &'s Checked,
     pub tree: &'s Mechanism,
-    /// Where the declaration around the cursor begins: it is not known in itself.
+    /// The start of the declaration around the cursor, whose name is not in scope in itself.
     pub declared_at: u32,
-    /// What is left out where there are very many names.
-    pub sieve: &'s Sieve<'s>,
+    /// The filter for mechanisms with very many names.
+    pub filter: &'s NameFilter<'s>,
 }
 
-/// Keeps very many names from taking long: those are left out that do not go with the letters typed, and the first ones alone described.
-pub(super) struct Sieve<'s> {
+/// A filter that limits the work for very many names: it keeps those that match the letters typed, and only the first get a description.
+pub(super) struct NameFilter<'s> {
     letters: Option<&'s str>,
     described: Cell<usize>,
 }
 
-impl<'s> Sieve<'s> {
-    /// For a mechanism, with the letters typed.
-    pub fn of(tree: Option<&Mechanism>, letters: &'s str) -> Sieve<'s> {
-        let has_many = tree.is_some_and(|tree| tree.items.len() > MOST);
-        Sieve { letters: has_many.then_some(letters), described: Cell::new(0) }
+impl<'s> NameFilter<'s> {
+    /// Creates a filter for a mechanism and the letters typed.
+    pub fn new(tree: Option<&Mechanism>, letters: &'s str) -> NameFilter<'s> {
+        let has_many = tree.is_some_and(|tree| tree.items.len() > MAX_ITEMS);
+        NameFilter { letters: has_many.then_some(letters), described: Cell::new(0) }
     }
 
-    /// Whether anything may have been left out.
+    /// Returns whether names may have been left out.
     pub fn is_needed(&self) -> bool {
         self.letters.is_some()
     }
 
-    fn lets_pass(&self, label: &str) -> bool {
-        self.letters.is_none_or(|letters| holds_letters(label, letters))
+    fn admits(&self, label: &str) -> bool {
+        self.letters.is_none_or(|letters| matches_letters(label, letters))
     }
 
-    fn is_described(&self) -> bool {
+    fn admits_description(&self) -> bool {
         self.described.set(self.described.get() + 1);
-        self.letters.is_none() || self.described.get() <= MOST
+        self.letters.is_none() || self.described.get() <= MAX_ITEMS
     }
 }
 
-/// What a path leads to.
-enum Inside<'s> {
+/// The target of a path.
+enum PathTarget<'s> {
     Features(&'s str, &'s [Feature]),
     Part(&'s Mechanism),
     Coordinates,
 }
 
 impl Scope<'_> {
-    /// What fits of a mechanism's names.
-    pub fn fitting(&self, wanted: Wanted, cursor: &Cursor<'_>) -> Vec<CompletionItem> {
+    /// Returns items for the names of the expected kind.
+    pub fn fitting(&self, expected: Expected, cursor: &Cursor<'_>) -> Vec<CompletionItem> {
         let items = self.tree.items.iter().filter(|item| item.span.start != self.declared_at);
-        match wanted {
-            _ if wanted.is_feature() => {
-                let mut found = self.own_features(wanted, cursor);
-                found.extend(items.clone().flat_map(|item| self.features_of(item, wanted)));
-                if wanted == Wanted::Point {
+        match expected {
+            _ if expected.is_feature() => {
+                let mut found = self.local_features(expected, cursor);
+                found.extend(items.clone().flat_map(|item| self.features_of(item, expected)));
+                if expected == Expected::Point {
                     found.extend(items.filter(|item| is_point(item)).filter_map(|item| self.named(item, 2)));
                 }
                 found
             }
-            Wanted::Body => items.filter_map(|item| self.body(item)).collect(),
-            Wanted::Joint(quantity) => items.filter_map(|item| self.joint(item, quantity)).collect(),
-            Wanted::Equation => items.filter_map(|item| self.equation(item)).collect(),
-            Wanted::Variable => {
+            Expected::Body => items.filter_map(|item| self.body(item)).collect(),
+            Expected::Joint(quantity) => items.filter_map(|item| self.joint(item, quantity)).collect(),
+            Expected::Equation => items.filter_map(|item| self.equation(item)).collect(),
+            Expected::Variable => {
                 let is_variable =
                     |item: &&Declaration| matches!(item.kind, Declared::Param { .. } | Declared::Input { .. });
                 items.filter(is_variable).filter_map(|item| self.named(item, 1)).collect()
             }
-            Wanted::Number(_) => self.numbers(items, cursor),
+            Expected::Number(_) => self.numbers(items, cursor),
             _ => Vec::new(),
         }
     }
 
-    /// The points of the body around the cursor, by their names alone.
-    fn own_features(&self, wanted: Wanted, cursor: &Cursor<'_>) -> Vec<CompletionItem> {
+    /// Returns items for the features of the body around the cursor, by their names alone.
+    fn local_features(&self, expected: Expected, cursor: &Cursor<'_>) -> Vec<CompletionItem> {
         if cursor.block != Block::Features {
             return Vec::new();
         }
         let at = cursor.start() as u32;
         let around = self.tree.items.iter().find(|item| item.span.start <= at && at <= item.span.end);
         let features = around.map(features).unwrap_or_default();
-        let others = features.iter().filter(|feature| feature.span.start != at && wanted.is(&feature.kind));
+        let others = features.iter().filter(|feature| feature.span.start != at && expected.matches(&feature.kind));
         others.map(|feature| self.feature(feature, "this body", 1)).collect()
     }
 
@@ -100,9 +100,9 @@ impl Scope<'_> {
         self.checked.sources().text(span)
     }
 
-    /// A declared name with its declaration.
+    /// Returns an item for a declared name, described by its declaration.
     fn named(&self, item: &Declaration, rank: u8) -> Option<CompletionItem> {
-        let name = name_of(item).filter(|name| self.sieve.lets_pass(&name.text))?;
+        let name = name_of(item).filter(|name| self.filter.admits(&name.text))?;
         let kind = match NameKind::of(item) {
             NameKind::Function | NameKind::Table => CompletionItemKind::Function,
             NameKind::Body | NameKind::Ground | NameKind::Part => CompletionItemKind::Body,
@@ -110,7 +110,7 @@ impl Scope<'_> {
             _ => CompletionItemKind::Value,
         };
         let mut found = CompletionItem::new(&name.text, kind, rank);
-        if self.sieve.is_described() {
+        if self.filter.admits_description() {
             found = found.detail(self.head(item)).docs(self.docs(item));
         }
         if kind == CompletionItemKind::Function {
@@ -119,15 +119,15 @@ impl Scope<'_> {
                 _ => "u",
             };
             found.signature = format!("({argument})");
-            found.insert = Template::marked(&format!("{}(«{argument}»)", name.text));
+            found.insert = Template::from_marked(&format!("{}(«{argument}»)", name.text));
         } else if !item.ranges.is_empty() {
-            found.insert = Template::marked(&with_indices(item, &name.text));
+            found.insert = Template::from_marked(&with_indices(item, &name.text));
             "[…]".clone_into(&mut found.signature);
         }
         Some(found)
     }
 
-    /// The declaration without what stands in its braces, on one line.
+    /// Returns the declaration without its block, on one line.
     fn head(&self, item: &Declaration) -> String {
         let text = self.text(item.span);
         let text = text.split('{').next().unwrap_or(text);
@@ -142,7 +142,7 @@ impl Scope<'_> {
 
     fn feature(&self, feature: &Feature, of: &str, rank: u8) -> CompletionItem {
         let found = CompletionItem::new(&feature.name.text, CompletionItemKind::Feature, rank);
-        if !self.sieve.is_described() {
+        if !self.filter.admits_description() {
             return found;
         }
         let text = self.text(feature.span);
@@ -150,25 +150,25 @@ impl Scope<'_> {
         found.detail(format!("{text}, of {of}")).docs(docs)
     }
 
-    /// Those of a body or the ground, by their paths; of a part its name.
-    fn features_of(&self, item: &Declaration, wanted: Wanted) -> Vec<CompletionItem> {
+    /// Returns items for the features of a body or the ground, by their paths; for a part, an item for its name.
+    fn features_of(&self, item: &Declaration, expected: Expected) -> Vec<CompletionItem> {
         if let Declared::Part(part) = &item.kind {
             let marked = format!("{}.", with_indices(item, &part.name.text));
             return vec![
                 CompletionItem::new(format!("{}.", part.name.text), CompletionItemKind::Body, 3)
                     .detail(self.head(item))
-                    .inserts(Template::marked(&marked)),
+                    .inserts(Template::from_marked(&marked)),
             ];
         }
         let owner = name_of(item).map_or("ground", |name| name.text.as_str());
-        let fitting = features(item).iter().filter(|feature| wanted.is(&feature.kind));
+        let fitting = features(item).iter().filter(|feature| expected.matches(&feature.kind));
         let path = |feature: &Feature| {
             let label = format!("{owner}.{}", feature.name.text);
-            if !self.sieve.lets_pass(&label) {
+            if !self.filter.admits(&label) {
                 return None;
             }
             let marked = format!("{}.{}", with_indices(item, owner), feature.name.text);
-            Some(CompletionItem { label, insert: Template::marked(&marked), ..self.feature(feature, owner, 1) })
+            Some(CompletionItem { label, insert: Template::from_marked(&marked), ..self.feature(feature, owner, 1) })
         };
         fitting.filter_map(path).collect()
     }
@@ -179,7 +179,7 @@ impl Scope<'_> {
             Declared::Ground { .. } => {
                 Some(CompletionItem::new("ground", CompletionItemKind::Body, 2).detail("the body that does not move"))
             }
-            Declared::Part(_) => self.features_of(item, Wanted::Point).pop(),
+            Declared::Part(_) => self.features_of(item, Expected::Point).pop(),
             _ => None,
         }
     }
@@ -187,7 +187,7 @@ impl Scope<'_> {
     fn joint(&self, item: &Declaration, quantity: &str) -> Option<CompletionItem> {
         match &item.kind {
             Declared::Joint { kind, .. } if has_quantity(kind, quantity) => self.named(item, 1),
-            Declared::Part(_) => self.features_of(item, Wanted::Point).pop(),
+            Declared::Part(_) => self.features_of(item, Expected::Point).pop(),
             _ => None,
         }
     }
@@ -195,12 +195,12 @@ impl Scope<'_> {
     fn equation(&self, item: &Declaration) -> Option<CompletionItem> {
         match &item.kind {
             Declared::Equation { .. } => self.named(item, 1),
-            Declared::Part(_) => self.features_of(item, Wanted::Point).pop(),
+            Declared::Part(_) => self.features_of(item, Expected::Point).pop(),
             _ => None,
         }
     }
 
-    /// What is a number where the declaration around the cursor stands.
+    /// Returns items for the numbers that the declaration around the cursor may use.
     fn numbers<'i>(&self, items: impl Iterator<Item = &'i Declaration>, cursor: &Cursor<'_>) -> Vec<CompletionItem> {
         let head = cursor.head();
         let has_time =
@@ -224,46 +224,46 @@ impl Scope<'_> {
         found
     }
 
-    /// What stands behind a path with a dot; all of it where nothing is wanted.
-    pub fn inside(&self, path: &[&str], wanted: &[Wanted]) -> Vec<CompletionItem> {
-        match self.lead(path) {
+    /// Returns items for the members after a path; for all of them if `expected` is empty.
+    pub fn members(&self, path: &[&str], expected: &[Expected]) -> Vec<CompletionItem> {
+        match self.resolve(path) {
             None => Vec::new(),
-            Some(Inside::Coordinates) => ["x", "y"]
+            Some(PathTarget::Coordinates) => ["x", "y"]
                 .iter()
-                .filter(|_| wanted.is_empty())
+                .filter(|_| expected.is_empty())
                 .map(|name| CompletionItem::new(*name, CompletionItemKind::Value, 1).detail("coordinate of the point"))
                 .collect(),
-            Some(Inside::Features(owner, features)) => {
+            Some(PathTarget::Features(owner, features)) => {
                 let fits =
-                    |feature: &&Feature| wanted.is_empty() || wanted.iter().any(|wanted| wanted.is(&feature.kind));
+                    |feature: &&Feature| expected.is_empty() || expected.iter().any(|kind| kind.matches(&feature.kind));
                 features.iter().filter(fits).map(|feature| self.feature(feature, owner, 1)).collect()
             }
-            Some(Inside::Part(tree)) => {
+            Some(PathTarget::Part(tree)) => {
                 let scope = Scope { tree, declared_at: u32::MAX, ..*self };
-                tree.items.iter().filter_map(|item| scope.of_part(item, wanted)).collect()
+                tree.items.iter().filter_map(|item| scope.of_part(item, expected)).collect()
             }
         }
     }
 
-    /// A name of a part, as it is seen from outside.
-    fn of_part(&self, item: &Declaration, wanted: &[Wanted]) -> Option<CompletionItem> {
-        let leads_on = |wanted: &Wanted| match item.kind {
+    /// Returns an item for a name of a part, as seen from outside the part.
+    fn of_part(&self, item: &Declaration, expected: &[Expected]) -> Option<CompletionItem> {
+        let has_members = |kind: &Expected| match item.kind {
             Declared::Part(_) => {
-                wanted.is_feature() || matches!(wanted, Wanted::Joint(_) | Wanted::Equation | Wanted::Body)
+                kind.is_feature() || matches!(kind, Expected::Joint(_) | Expected::Equation | Expected::Body)
             }
-            Declared::Body { .. } | Declared::Ground { .. } => wanted.is_feature(),
+            Declared::Body { .. } | Declared::Ground { .. } => kind.is_feature(),
             _ => false,
         };
-        let fits = |wanted: &Wanted| match (wanted, &item.kind) {
-            (Wanted::Joint(quantity), Declared::Joint { kind, .. }) => has_quantity(kind, quantity),
-            (Wanted::Body, Declared::Body { .. } | Declared::Ground { .. })
-            | (Wanted::Equation, Declared::Equation { .. })
-            | (Wanted::Number(_), Declared::Measure { .. } | Declared::Result { .. })
-            | (Wanted::Number(_) | Wanted::Variable, Declared::Param { .. } | Declared::Input { .. }) => true,
-            (Wanted::Point, Declared::Param { .. }) => is_point(item),
+        let fits = |kind: &Expected| match (kind, &item.kind) {
+            (Expected::Joint(quantity), Declared::Joint { kind: joint, .. }) => has_quantity(joint, quantity),
+            (Expected::Body, Declared::Body { .. } | Declared::Ground { .. })
+            | (Expected::Equation, Declared::Equation { .. })
+            | (Expected::Number(_), Declared::Measure { .. } | Declared::Result { .. })
+            | (Expected::Number(_) | Expected::Variable, Declared::Param { .. } | Declared::Input { .. }) => true,
+            (Expected::Point, Declared::Param { .. }) => is_point(item),
             _ => false,
         };
-        if !wanted.is_empty() && !wanted.iter().any(|wanted| fits(wanted) || leads_on(wanted)) {
+        if !expected.is_empty() && !expected.iter().any(|kind| fits(kind) || has_members(kind)) {
             return None;
         }
         match &item.kind {
@@ -278,48 +278,48 @@ impl Scope<'_> {
         }
     }
 
-    fn lead(&self, path: &[&str]) -> Option<Inside<'_>> {
+    fn resolve(&self, path: &[&str]) -> Option<PathTarget<'_>> {
         let (first, mut rest) = path.split_first()?;
         let mut item = item_named(self.tree, first)?;
         loop {
             match (&item.kind, rest) {
                 (Declared::Body { features, .. } | Declared::Ground { features }, []) => {
                     let owner = name_of(item).map_or("ground", |name| name.text.as_str());
-                    return Some(Inside::Features(owner, features));
+                    return Some(PathTarget::Features(owner, features));
                 }
-                (Declared::Part(part), []) => return Some(Inside::Part(self.mechanism(&part.mechanism)?)),
+                (Declared::Part(part), []) => return Some(PathTarget::Part(self.mechanism(&part.mechanism)?)),
                 (Declared::Part(part), [next, behind @ ..]) => {
                     item = item_named(self.mechanism(&part.mechanism)?, next)?;
                     rest = behind;
                 }
-                (Declared::Param { .. }, []) if is_point(item) => return Some(Inside::Coordinates),
-                (Declared::Body { .. } | Declared::Ground { .. }, [_]) => return Some(Inside::Coordinates),
+                (Declared::Param { .. }, []) if is_point(item) => return Some(PathTarget::Coordinates),
+                (Declared::Body { .. } | Declared::Ground { .. }, [_]) => return Some(PathTarget::Coordinates),
                 _ => return None,
             }
         }
     }
 
     fn mechanism(&self, name: &MechanismName) -> Option<&Mechanism> {
-        known(self.checked.library(), name, self.checked).map(|known| self.checked.library().tree(known))
+        find_mechanism(self.checked.library(), name, self.checked).map(|id| self.checked.library().tree(id))
     }
 
-    /// What can be bound of a mechanism as a part.
+    /// Returns items for the names of a part's mechanism that can be bound.
     pub fn bindable(&self, prefix: Option<&str>, name: &str) -> Vec<CompletionItem> {
         let library = self.checked.library();
-        let found = all_mechanisms(self.checked)
-            .find(|(before, known)| *before == prefix && library.tree(*known).name.text == name);
-        let Some(tree) = found.map(|(_, known)| library.tree(known)) else { return Vec::new() };
+        let found =
+            all_mechanisms(self.checked).find(|(before, id)| *before == prefix && library.tree(*id).name.text == name);
+        let Some(tree) = found.map(|(_, id)| library.tree(id)) else { return Vec::new() };
         let is_bindable = |item: &&Declaration| matches!(item.kind, Declared::Param { .. } | Declared::Input { .. });
         let item = |item: &Declaration| {
             let found = self.named(item, 1)?;
-            let insert = Template::marked(&format!("{} = «»", found.label));
+            let insert = Template::from_marked(&format!("{} = «»", found.label));
             Some(CompletionItem { signature: String::new(), ..found }.inserts(insert))
         };
         tree.items.iter().filter(is_bindable).filter_map(item).collect()
     }
 }
 
-/// The argument of the function or curve, and the numbers of the repetition around the cursor.
+/// Returns items for the argument of the function or curve and the indices of the repetition around the cursor.
 fn arguments(cursor: &Cursor<'_>) -> Vec<CompletionItem> {
     let tokens = cursor.declaration();
     let is_called = matches!(cursor.head(), "fn" | "curve");
@@ -335,7 +335,7 @@ fn arguments(cursor: &Cursor<'_>) -> Vec<CompletionItem> {
         .collect()
 }
 
-/// The features of a body or of the ground.
+/// Returns the features of a body or the ground.
 fn features(item: &Declaration) -> &[Feature] {
     match &item.kind {
         Declared::Body { features, .. } | Declared::Ground { features } => features,
@@ -343,7 +343,7 @@ fn features(item: &Declaration) -> &[Feature] {
     }
 }
 
-/// Whether a param is a point, as far as its own words tell.
+/// Returns whether a param is evidently a point: a tuple, or a call that returns a point.
 fn is_point(item: &Declaration) -> bool {
     match &item.kind {
         Declared::Param { value, .. } => match &value.bare().kind {
@@ -355,7 +355,7 @@ fn is_point(item: &Declaration) -> bool {
     }
 }
 
-/// A name with places for the numbers of what is repeated.
+/// Returns a name with holes for its indices, marked with `«` and `»`.
 fn with_indices(item: &Declaration, name: &str) -> String {
     if item.ranges.is_empty() {
         return name.to_owned();
@@ -364,39 +364,39 @@ fn with_indices(item: &Declaration, name: &str) -> String {
     format!("{name}[{}]", indices.join(", "))
 }
 
-/// All mechanisms that can be parts in the text, each with the prefix before it.
-fn all_mechanisms(checked: &Checked) -> impl Iterator<Item = (Option<&str>, KnownMechanism)> {
+/// Returns all mechanisms that can be parts in the text, each with its prefix.
+fn all_mechanisms(checked: &Checked) -> impl Iterator<Item = (Option<&str>, LibraryMechanism)> {
     let files = checked.library().files();
-    let own = files.first();
+    let this_file = files.first();
     let of = move |file: usize| {
         let count = files.get(file).map_or(0, |file| file.read.tree.mechanisms.len());
-        (0..count).map(move |number| KnownMechanism { file, number })
+        (0..count).map(move |number| LibraryMechanism { file, number })
     };
-    let used = own.into_iter().flat_map(|own| own.read.tree.uses.iter().zip(&own.uses));
+    let used = this_file.into_iter().flat_map(|file| file.read.tree.uses.iter().zip(&file.uses));
     let used =
         used.filter_map(|(used, number)| Some((used.prefix.as_ref().map(|prefix| prefix.text.as_str()), (*number)?)));
-    let own = of(0).map(|known| (None, known));
-    own.chain(used.flat_map(move |(prefix, file)| of(file).map(move |known| (prefix, known))))
+    let local = of(0).map(|id| (None, id));
+    local.chain(used.flat_map(move |(prefix, file)| of(file).map(move |id| (prefix, id))))
 }
 
-/// Whether a joint, by the word that it is declared with, has a quantity.
+/// Returns whether a joint of a given kind has a quantity.
 fn has_quantity(joint: &Name, quantity: &str) -> bool {
     JointWord::named(&joint.text).is_some_and(|joint| joint.kind.has_quantity(quantity))
 }
 
-/// Mechanisms that can be parts; behind a prefix those of its file.
+/// Returns items for the mechanisms that can be parts; after a prefix, for those of its file.
 pub(super) fn mechanisms(checked: &Checked, prefix: Option<&str>) -> Vec<CompletionItem> {
-    let own = checked.tree().map(|tree| tree.name.span);
+    let this = checked.tree().map(|tree| tree.name.span);
     let library = checked.library();
-    let others = all_mechanisms(checked).filter(|(_, known)| Some(library.tree(*known).name.span) != own);
-    let item = |(before, known): (Option<&str>, KnownMechanism)| {
-        let tree = library.tree(known);
+    let others = all_mechanisms(checked).filter(|(_, id)| Some(library.tree(*id).name.span) != this);
+    let item = |(before, id): (Option<&str>, LibraryMechanism)| {
+        let tree = library.tree(id);
         let label = match before.filter(|_| prefix.is_none()) {
             Some(before) => format!("{before}.{}", tree.name.text),
             None => tree.name.text.clone(),
         };
         let is_here = prefix.is_none() || prefix == before;
-        let insert = Template::marked(&format!("{label}(«»)"));
+        let insert = Template::from_marked(&format!("{label}(«»)"));
         is_here.then(|| {
             CompletionItem::new(label, CompletionItemKind::Mechanism, 1).docs(tree.docs.join("\n")).inserts(insert)
         })

@@ -1,14 +1,13 @@
-//! What is proposed in half-typed texts.
+//! Tests of completions in unfinished texts.
 
 use super::completions;
 use crate::testing::{FOUR_BAR, TWO_FILES, at_cursor};
 
-/// The first so many proposals of a text with a cursor: how well each fits, its label with its arguments, what it is, and what it
-/// writes where that is something else.
+/// Lists the first completions at a cursor: rank, label with arguments, description, and the inserted text if it differs from the label.
 #[track_caller]
 fn proposed(text: &str, count: usize) -> String {
-    let (snapshot, place) = at_cursor(text);
-    let items = completions(&snapshot, &place).expect("a file").items;
+    let (snapshot, position) = at_cursor(text);
+    let items = completions(&snapshot, &position).expect("a file").items;
     let line = |item: &super::CompletionItem| {
         let mut written = item.insert.text.clone();
         for hole in item.insert.holes.iter().rev() {
@@ -22,7 +21,7 @@ fn proposed(text: &str, count: usize) -> String {
     items.iter().take(count).map(line).collect::<Vec<_>>().join("\n")
 }
 
-/// The four-bar with a line in the place of another one.
+/// Replaces a line of the four-bar.
 fn with(from: &str, to: &str) -> String {
     assert!(FOUR_BAR.contains(from), "{from}");
     FOUR_BAR.replacen(from, to, 1)
@@ -45,7 +44,7 @@ fn points_of_a_body_come_behind_its_dot() {
 }
 
 #[test]
-fn a_joint_asks_for_what_it_joins() {
+fn a_joint_proposes_its_arguments() {
     insta::assert_snapshot!(proposed(&with(KNEE, "joint knee: revolute($0\n"), 20), @r"
     1 ground.A — point A = (0, 0), of ground
     1 ground.D — point D = (100 mm, 0), of ground
@@ -85,7 +84,7 @@ fn a_joint_asks_for_what_it_joins() {
 }
 
 #[test]
-fn what_is_missing_is_proposed() {
+fn missing_declarations_are_proposed() {
     insta::assert_snapshot!(proposed(&with(PIN, "$0\n"), 5), @r"
     0 driver drive: rotation(pivot) = 100 deg + 60 deg/s * t — this is left free → driver «drive»: rotation(pivot) = «100 deg + 60 deg/s * t»
     0 driver drive: rotation(knee) = 70 deg + 60 deg/s * t — this is left free → driver «drive»: rotation(knee) = «70 deg + 60 deg/s * t»
@@ -192,7 +191,7 @@ fn units_come_behind_numbers_those_that_fit_first() {
 }
 
 #[test]
-fn formulas_know_what_may_stand_in_them() {
+fn formulas_propose_fitting_operands() {
     insta::assert_snapshot!(proposed(&with("    analysis", "    measure w = $0\n    analysis"), 44), @r"
     1 crank_length — param crank_length = 30 mm
     2 if — one formula or another → if «CONDITION» then «A» else «B»
@@ -296,8 +295,8 @@ fn words_join_the_parts_of_declarations() {
 fn a_window_is_proposed_behind_the_formula_of_a_reduction() {
     let of = |typed: &str| {
         let text = with("    analysis", &format!("    param late = 0.5 s\n    result r = {typed}$0\n    analysis"));
-        let (snapshot, place) = at_cursor(&text);
-        let labels = completions(&snapshot, &place).expect("a file").items.into_iter().map(|item| item.label);
+        let (snapshot, position) = at_cursor(&text);
+        let labels = completions(&snapshot, &position).expect("a file").items.into_iter().map(|item| item.label);
         labels.filter(|label| ["from", "to", "late"].contains(&label.as_str())).collect::<Vec<_>>().join(" ")
     };
     assert_eq!(of("max(x(crank.B),"), "late from to");
@@ -310,10 +309,10 @@ fn a_window_is_proposed_behind_the_formula_of_a_reduction() {
 }
 
 #[test]
-fn a_unit_goes_on_with_units_alone() {
+fn a_unit_continues_with_units_only() {
     let labels = |text: &str| {
-        let (snapshot, place) = at_cursor(text);
-        let items = completions(&snapshot, &place).expect("a file").items;
+        let (snapshot, position) = at_cursor(text);
+        let items = completions(&snapshot, &position).expect("a file").items;
         items.into_iter().map(|item| item.label).collect::<Vec<_>>().join(" ")
     };
     insta::assert_snapshot!(labels(&with("90 deg/s", "90 deg/$0")), @"s ms us µs mm m cm um µm km in ft");
@@ -327,7 +326,7 @@ fn a_unit_goes_on_with_units_alone() {
     assert!(measure("crank_length/").contains("crank_length"));
 }
 
-/// A text with so many bytes of comments that not everything would be quick in it.
+/// Adds so many bytes of comments that some completions are too slow.
 fn long(text: &str, bytes: usize) -> String {
     format!("{text}{}", "// what was tried before\n".repeat(bytes / 25))
 }
@@ -342,14 +341,14 @@ fn long_texts_know_joints_and_units_as_well() {
     assert_eq!(best(&long(&units, 30_000)), best(&units));
 }
 
-/// The two files with another text for the part in the first one.
+/// Replaces the text of the part in the first of the two files.
 fn parts(from: &str, to: &str) -> String {
     assert!(TWO_FILES.contains(from), "{from}");
     TWO_FILES.replacen(from, to, 1)
 }
 
 #[test]
-fn parts_are_known_by_their_files() {
+fn parts_come_from_their_files() {
     insta::assert_snapshot!(proposed(&parts("levers.lever(turn = 30 deg * t / (1 s), reach = 60 mm)", "$0"), 4), @"1 levers.lever → levers.lever(«»)");
     insta::assert_snapshot!(proposed(&parts("levers.lever(turn = 30 deg * t / (1 s), reach = 60 mm)", "levers.$0"), 4), @"1 lever → lever(«»)");
     insta::assert_snapshot!(proposed(&parts("levers.lever(turn = 30 deg * t / (1 s), reach = 60 mm)", "levers.lever(reach = 60 mm, $0"), 4), @"1 turn — input turn = 10 deg * sin(1 rev/s * t) → turn = «»");
@@ -372,8 +371,8 @@ fn parts_are_known_by_their_files() {
 #[test]
 fn letters_beyond_the_first_plane_are_parts_of_words() {
     let text = with(KNEE, "joint knee: revolute(𝛼𝛽$0γ, rocker.C)\n");
-    let (snapshot, place) = at_cursor(&text);
-    let items = completions(&snapshot, &place).expect("a file").items;
+    let (snapshot, position) = at_cursor(&text);
+    let items = completions(&snapshot, &position).expect("a file").items;
     let text = text.replacen("$0", "", 1);
     let range = items[0].replaces.clone();
     assert_eq!(&text[range.start as usize..range.end as usize], "𝛼𝛽γ");
@@ -383,18 +382,18 @@ fn letters_beyond_the_first_plane_are_parts_of_words() {
 fn every_place_of_every_prefix_has_an_answer() {
     for end in (0..FOUR_BAR.len()).step_by(7) {
         let text = format!("{}$0", &FOUR_BAR[..end]);
-        let (snapshot, place) = at_cursor(&text);
-        assert!(completions(&snapshot, &place).is_some(), "{text}");
+        let (snapshot, position) = at_cursor(&text);
+        assert!(completions(&snapshot, &position).is_some(), "{text}");
     }
 }
 
 #[test]
-fn of_very_many_names_those_come_that_go_with_the_letters() {
+fn very_many_names_are_filtered_by_the_letters() {
     let params = (0..2_000).map(|k| format!("    param length_{k} = {k} mm\n")).collect::<Vec<_>>().concat();
     let of = |letters: &str| {
-        let (snapshot, place) =
+        let (snapshot, position) =
             at_cursor(&format!("mechanism many {{\n{params}    measure most = 2 * {letters}$0\n}}"));
-        completions(&snapshot, &place).expect("a file")
+        completions(&snapshot, &position).expect("a file")
     };
     let found = of("");
     assert_eq!((found.items.len(), found.is_incomplete), (200, true));

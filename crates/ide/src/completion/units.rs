@@ -1,20 +1,20 @@
-//! The units behind a number: of the dimension that fits there first.
+//! Completion of units after a number; those of the fitting dimension come first.
 
-use super::cursor::{Begun, Cursor};
+use super::cursor::{Cursor, PartialUnit};
+use super::expected::{Expected, expected};
 use super::item::{CompletionItem, CompletionItemKind, Template};
-use super::wanted::{Wanted, wanted};
-use crate::edits::faults;
-use crate::place::Place;
+use crate::location::FilePosition;
 use crate::snapshot::Snapshot;
+use crate::trial_edits::word_diagnostics;
 use mechc_text::diag::Severity;
 use mechc_text::vocabulary::{Dimension, UNITS, Unit};
 use std::sync::Arc;
 
-/// Longer texts are not checked with each dimension that a number could have (bytes).
-const LONGEST: usize = 32_768;
+/// The maximum length of a text that is checked with each dimension that a number could have (bytes).
+const MAX_LENGTH: usize = 32_768;
 
-/// What is tried: the units in which drawings and drives are mostly written, which come first.
-const TRIED: &[(&str, Dimension)] = &[
+/// The usual units of drawings and drives. They come first, and their dimensions are tried.
+const USUAL: &[(&str, Dimension)] = &[
     ("mm", Dimension::LENGTH),
     ("deg", Dimension::PURE),
     ("s", Dimension::TIME),
@@ -22,7 +22,7 @@ const TRIED: &[(&str, Dimension)] = &[
     ("mm/s", Dimension::SPEED),
 ];
 
-/// Rates, which are written with `/`.
+/// Rates that are written with `/`, with their meaning.
 const RATES: &[(&str, Dimension, &str)] = &[
     ("deg/s", Dimension::RATE, "degrees in a second"),
     ("rad/s", Dimension::RATE, "radians in a second"),
@@ -30,18 +30,18 @@ const RATES: &[(&str, Dimension, &str)] = &[
     ("m/s", Dimension::SPEED, "metres in a second"),
 ];
 
-/// All units, in a good order for the number before the cursor.
-pub(super) fn behind_number(snapshot: &Snapshot, place: &Place, cursor: &Cursor<'_>) -> Vec<CompletionItem> {
+/// Proposes all units, ordered by how well they fit the number before the cursor.
+pub(super) fn after_number(snapshot: &Snapshot, position: &FilePosition, cursor: &Cursor<'_>) -> Vec<CompletionItem> {
     let like = in_sum(cursor);
-    let known = like.map(|unit| unit.dimension).or_else(|| known(cursor));
-    let fitting = known.map_or_else(|| tried(snapshot, place, cursor), |dimension| vec![dimension]);
+    let dimension = like.map(|unit| unit.dimension).or_else(|| expected_dimension(cursor));
+    let fitting = dimension.map_or_else(|| best_dimensions(snapshot, position, cursor), |dimension| vec![dimension]);
     let is_right_behind = cursor.text[..cursor.word.start].ends_with(|c: char| c.is_ascii_digit());
     let space = if is_right_behind && cursor.word.is_empty() { " " } else { "" };
     let fits = |dimension: Dimension| fitting.iter().any(|fitting| fitting.is(dimension));
     let mut items: Vec<CompletionItem> = Vec::new();
     for unit in UNITS {
         let is_like = like.is_some_and(|like| std::ptr::eq(like, unit));
-        let is_usual = TRIED.iter().any(|(usual, _)| *usual == unit.word.name);
+        let is_usual = USUAL.iter().any(|(usual, _)| *usual == unit.word.name);
         let rank = if is_like { 0 } else { u8::from(!fits(unit.dimension)) * 4 + u8::from(!is_usual) + 1 };
         items.push(
             CompletionItem::word(&unit.word, rank).inserts(Template::plain(format!("{space}{}", unit.word.name))),
@@ -56,11 +56,11 @@ pub(super) fn behind_number(snapshot: &Snapshot, place: &Place, cursor: &Cursor<
     items
 }
 
-/// How a compound unit can go on, of which some is written: times first, since most are rates. What is a rate already, or of a dimension
-/// that the unit has, makes no sense there.
-pub(super) fn going_on(begun: &Begun) -> Vec<CompletionItem> {
+/// Proposes units that continue a compound unit: units of time first, since most compound units are rates. Dimensions that the unit
+/// already has are left out.
+pub(super) fn continuations(partial: &PartialUnit) -> Vec<CompletionItem> {
     let rank = |dimension: Dimension| match dimension {
-        it if begun.dimensions.iter().any(|known| known.is(it)) => None,
+        it if partial.dimensions.iter().any(|used| used.is(it)) => None,
         it if it.is(Dimension::TIME) => Some(1),
         it if it.is(Dimension::LENGTH) => Some(2),
         it if it.is(Dimension::PURE) => Some(3),
@@ -69,7 +69,7 @@ pub(super) fn going_on(begun: &Begun) -> Vec<CompletionItem> {
     let mut items: Vec<CompletionItem> = UNITS
         .iter()
         .filter_map(|unit| {
-            let is_usual = TRIED.iter().any(|(usual, _)| *usual == unit.word.name);
+            let is_usual = USUAL.iter().any(|(usual, _)| *usual == unit.word.name);
             let insert = Template::plain(unit.word.name);
             Some(CompletionItem::word(&unit.word, 2 * rank(unit.dimension)? - u8::from(is_usual)).inserts(insert))
         })
@@ -78,42 +78,43 @@ pub(super) fn going_on(begun: &Begun) -> Vec<CompletionItem> {
     items
 }
 
-/// The units in which a measure, trace or result can be printed.
+/// Proposes the units in which a measure, trace or result can be printed.
 pub(super) fn printed() -> Vec<CompletionItem> {
     UNITS.iter().map(|unit| CompletionItem::word(&unit.word, 1)).collect()
 }
 
-/// The unit of the term before, where the number is one of a sum or compared.
+/// Returns the unit of the term before, if the number is added to it or compared with it.
 fn in_sum(cursor: &Cursor<'_>) -> Option<&'static Unit> {
     let is_sum = matches!(cursor.back(2)?, "+" | "-" | "<" | ">" | "<=" | ">=" | "==" | "!=");
     let is_number = cursor.back(4)?.starts_with(|c: char| c.is_ascii_digit());
     Unit::named(cursor.back(3)?).filter(|_| is_sum && is_number)
 }
 
-/// The dimension that the place asks for.
-fn known(cursor: &Cursor<'_>) -> Option<Dimension> {
-    // as a factor it may have any
+/// Returns the dimension that the position requires.
+fn expected_dimension(cursor: &Cursor<'_>) -> Option<Dimension> {
+    // a factor may have any dimension
     if matches!(cursor.back(2), Some("*" | "/" | "^")) {
         return None;
     }
-    wanted(cursor).into_iter().find_map(|wanted| match wanted {
-        Wanted::Number(dimension) => dimension,
-        Wanted::Point => Some(Dimension::LENGTH),
+    expected(cursor).into_iter().find_map(|kind| match kind {
+        Expected::Number(dimension) => dimension,
+        Expected::Point => Some(Dimension::LENGTH),
         _ => None,
     })
 }
 
-/// The dimensions with which the text has the fewest faults: what uses the number tells what it is.
-fn tried(snapshot: &Snapshot, place: &Place, cursor: &Cursor<'_>) -> Vec<Dimension> {
-    if cursor.text.len() > LONGEST {
+/// Returns the dimensions with which the text has the fewest diagnostics, since uses of the number reveal its dimension.
+fn best_dimensions(snapshot: &Snapshot, position: &FilePosition, cursor: &Cursor<'_>) -> Vec<Dimension> {
+    if cursor.text.len() > MAX_LENGTH {
         return Vec::new();
     }
     let mut counts = Vec::new();
-    for (unit, dimension) in TRIED {
+    for (unit, dimension) in USUAL {
         let text = [&cursor.text[..cursor.word.start], " ", unit, " ", &cursor.text[cursor.word.end..]].concat();
-        let tried = snapshot.supposing(&place.path, text.into());
-        let found = faults(&tried, &[Arc::clone(&place.path)]);
-        counts.push((found.iter().filter(|said| said.severity != Severity::Note).count(), *dimension));
+        let trial = snapshot.with_trial_text(&position.path, text.into());
+        let diagnostics = word_diagnostics(&trial, &[Arc::clone(&position.path)]);
+        counts
+            .push((diagnostics.iter().filter(|diagnostic| diagnostic.severity != Severity::Note).count(), *dimension));
     }
     let least = counts.iter().map(|(count, _)| *count).min();
     counts.iter().filter(|(count, _)| Some(*count) == least).map(|(_, dimension)| *dimension).collect()

@@ -1,28 +1,28 @@
-//! What the client can do, and what the server does.
+//! The capabilities of the client and of the server.
 
-use super::legend::{MODIFIERS, types};
+use super::handlers::tokens::{TOKEN_MODIFIERS, token_types};
 use mechc_text::source::Encoding;
 use serde_json::{Value, json};
 use std::path::PathBuf;
 
-/// What the client can do, as far as it matters here. What it does not say it cannot.
+/// The capabilities of the client, as far as the server uses them.
 #[derive(Clone, Debug)]
 pub(super) struct Client {
-    /// What columns count.
+    /// The unit of columns.
     pub encoding: Encoding,
-    /// Whether it asks for diagnostics, and can be told to ask again; else it is told them.
+    /// True if it requests diagnostics and supports refreshes; otherwise the server pushes them.
     pub pulls_diagnostics: bool,
-    /// What else.
+    /// Further capabilities.
     abilities: Vec<Ability>,
-    /// Whether it has the commands `mechc.run` and `mechc.check`, each called with a URI and the name of a mechanism.
+    /// True if it has the commands `mechc.run` and `mechc.check`, which take a URI and the name of a mechanism.
     pub can_run: bool,
-    /// Whether it has the command that shows a page.
+    /// True if it has the command that shows a page.
     pub can_view: bool,
-    /// What it can be told to ask for again.
+    /// The features that it can be asked to refresh.
     pub refreshes: Refreshes,
 }
 
-/// What a client can be told to ask for again.
+/// The features that a client can be asked to refresh.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Refreshes {
     pub hints: bool,
@@ -30,22 +30,22 @@ pub(super) struct Refreshes {
     pub tokens: bool,
 }
 
-/// What a client may be able to do.
+/// A capability that a client may have.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Ability {
-    /// It folds whole lines alone.
+    /// Folding of whole lines only.
     LineFolding,
-    /// It shows from where a name leads to its declaration.
+    /// Location links, which also hold the range of the name.
     Links,
-    /// What is completed may have places to fill in.
+    /// Snippets in completions.
     Snippets,
-    /// It can be asked to tell which files have changed.
+    /// Notifications of changed files.
     WatchedFiles,
-    /// An edit may say of which version of a text it is.
+    /// Edits with the version of a text.
     VersionedEdits,
 }
 
-/// Where a client says it.
+/// The paths of abilities in the params of `initialize`.
 const ABILITIES: &[(Ability, &str)] = &[
     (Ability::LineFolding, "/capabilities/textDocument/foldingRange/lineFoldingOnly"),
     (Ability::Links, "/capabilities/textDocument/definition/linkSupport"),
@@ -55,13 +55,13 @@ const ABILITIES: &[(Ability, &str)] = &[
 ];
 
 impl Client {
-    /// By the params of `initialize`.
-    pub fn of(params: &Value) -> Client {
+    /// Reads the capabilities from the params of `initialize`.
+    pub fn from_params(params: &Value) -> Client {
         let is =
             |path: &str| params.pointer(path).is_some_and(|value| value != &Value::Bool(false) && !value.is_null());
         let encodings = params.pointer("/capabilities/general/positionEncodings").and_then(Value::as_array);
         let offers = |name: &str| encodings.is_some_and(|list| list.iter().any(|offered| offered == name));
-        // its own commands a client tells as it likes: as an option, or as rust-analyzer's do
+        // commands of clients are not in the protocol: they are given as an option, or as for rust-analyzer
         let lists = ["/initializationOptions/commands", "/capabilities/experimental/commands/commands"];
         let commands: Vec<&Value> =
             lists.iter().filter_map(|list| params.pointer(list)?.as_array()).flatten().collect();
@@ -81,13 +81,13 @@ impl Client {
         }
     }
 
-    /// Whether it can do something.
+    /// Returns whether the client has an ability.
     pub fn can(&self, ability: Ability) -> bool {
         self.abilities.contains(&ability)
     }
 }
 
-/// The folders that the client has open, by the params of `initialize`.
+/// Returns the folders that the client has open, from the params of `initialize`.
 pub(super) fn folders(params: &Value) -> Vec<PathBuf> {
     let listed = params.get("workspaceFolders").and_then(Value::as_array).filter(|list| !list.is_empty());
     let uris: Vec<&str> = match listed {
@@ -97,8 +97,8 @@ pub(super) fn folders(params: &Value) -> Vec<PathBuf> {
     uris.into_iter().map(super::uri::path_of).collect()
 }
 
-/// The answer to `initialize`.
-pub(super) fn of_server(client: &Client) -> Value {
+/// Returns the response to `initialize`.
+pub(super) fn initialize_result(client: &Client) -> Value {
     let encoding = match client.encoding {
         Encoding::Utf8 => "utf-8",
         Encoding::Utf16 => "utf-16",
@@ -106,13 +106,13 @@ pub(super) fn of_server(client: &Client) -> Value {
     };
     let mut capabilities = json!({
         "positionEncoding": encoding,
-        // incremental
+        // 2: incremental
         "textDocumentSync": { "openClose": true, "change": 2 },
         "codeActionProvider": {
             "codeActionKinds": ["quickfix", "refactor.extract", "refactor.rewrite", "source.fixAll"],
         },
         "codeLensProvider": {},
-        // not a space: a list at every one would be in the way
+        // no space: a list after every one would be in the way
         "completionProvider": { "triggerCharacters": [".", "(", ",", "\"", "/"] },
         "definitionProvider": true,
         "documentFormattingProvider": true,
@@ -128,7 +128,7 @@ pub(super) fn of_server(client: &Client) -> Value {
         "renameProvider": { "prepareProvider": true },
         "selectionRangeProvider": true,
         "semanticTokensProvider": {
-            "legend": { "tokenTypes": types(), "tokenModifiers": MODIFIERS },
+            "legend": { "tokenTypes": token_types(), "tokenModifiers": TOKEN_MODIFIERS },
             "full": true,
             "range": true,
         },
@@ -150,12 +150,12 @@ mod tests {
     use serde_json::json;
 
     #[test]
-    fn utf_8_is_taken_where_it_is_offered() {
+    fn utf_8_is_preferred() {
         let of = |encodings: serde_json::Value| {
-            Client::of(&json!({ "capabilities": { "general": { "positionEncodings": encodings } } })).encoding
+            Client::from_params(&json!({ "capabilities": { "general": { "positionEncodings": encodings } } })).encoding
         };
         assert_eq!(of(json!(["utf-16", "utf-8"])), Encoding::Utf8);
         assert_eq!(of(json!(["utf-32"])), Encoding::Utf16);
-        assert_eq!(Client::of(&json!(null)).encoding, Encoding::Utf16);
+        assert_eq!(Client::from_params(&json!(null)).encoding, Encoding::Utf16);
     }
 }

@@ -1,8 +1,8 @@
-//! Between places of files and the words of the protocol.
+//! Conversion between positions in files and types of the protocol.
 
 use super::capabilities::Client;
 use super::documents::{Document, Documents};
-use crate::{Change, Place, Said, Severity, Snapshot, Stretch};
+use crate::{Change, EditorDiagnostic, FilePosition, FileRange, Severity, Snapshot};
 use gen_lsp_types as lsp;
 use mechc_lang::check::NameKind;
 use mechc_text::source::Encoding;
@@ -12,32 +12,32 @@ use std::ops::Range;
 use std::path::Path;
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// What it takes to turn places of one moment into the client's: its open texts, and how it counts.
+/// The snapshot and documents of one moment, with what is needed to convert positions.
 #[derive(Clone)]
-pub(super) struct Texts {
+pub(super) struct ProtocolContext {
     pub snapshot: Snapshot,
     pub documents: Documents,
     pub encoding: Encoding,
     pub client: Client,
-    /// Files that nobody has open, with their lines, once they were read.
+    /// Files that are not open, with their lines, once they were read.
     pub closed: Arc<Mutex<BTreeMap<Arc<Path>, Arc<Document>>>>,
 }
 
-impl Texts {
-    /// The file of a URI, by its identity.
+impl ProtocolContext {
+    /// Returns the file of a URI, by identity.
     pub fn path(&self, uri: &lsp::Uri) -> Arc<Path> {
         file_of(&uri.0, &self.documents, &self.snapshot)
     }
 
-    /// A place that the client gives.
-    pub fn place(&self, given: &lsp::TextDocumentPositionParams) -> Option<Place> {
+    /// Converts a position of the client.
+    pub fn position(&self, given: &lsp::TextDocumentPositionParams) -> Option<FilePosition> {
         let path = self.path(&given.text_document.uri);
         let document = self.text(&path)?;
         let offset = document.offset((given.position.line, given.position.character), self.encoding);
-        Some(Place { path, offset })
+        Some(FilePosition { path, offset })
     }
 
-    /// A stretch that the client gives.
+    /// Converts a range of the client in a document, with its ends in order.
     pub fn bytes(&self, given: &lsp::TextDocumentIdentifier, range: &lsp::Range) -> Option<Range<u32>> {
         let document = self.text(&self.path(&given.uri))?;
         let [start, end] = [&range.start, &range.end]
@@ -45,57 +45,58 @@ impl Texts {
         Some(start.min(end)..start.max(end))
     }
 
-    /// A change of a text in its file.
+    /// Converts a change to an edit of its file.
     pub fn text_edit(&self, change: &Change) -> Option<lsp::TextEdit> {
-        let range = self.location(&change.place)?.range;
+        let range = self.location(&change.location)?.range;
         Some(lsp::TextEdit { range, new_text: change.text.clone() })
     }
 
-    /// Changes of texts.
+    /// Converts changes to a workspace edit.
     pub fn edit(&self, changes: &[Change]) -> Option<lsp::WorkspaceEdit> {
         let mut files: HashMap<lsp::Uri, Vec<lsp::TextEdit>> = HashMap::new();
         for change in changes {
-            let uri = self.location(&change.place)?.uri;
+            let uri = self.location(&change.location)?.uri;
             files.entry(uri).or_default().push(self.text_edit(change)?);
         }
         Some(lsp::WorkspaceEdit { changes: Some(files), ..lsp::WorkspaceEdit::default() })
     }
 
-    /// A stretch of a file, for the client.
+    /// Converts a range of a file to one of the client.
     pub fn range(&self, path: &Path, range: &Range<u32>) -> Option<lsp::Range> {
         Some(range_in(&*self.text(path)?, range, self.encoding))
     }
 
-    /// A stretch of a file that the client gives.
-    pub fn stretch(&self, path: &Path, given: &lsp::Range) -> Option<Range<u32>> {
+    /// Converts a range of the client in a file.
+    pub fn bytes_in(&self, path: &Path, given: &lsp::Range) -> Option<Range<u32>> {
         let document = self.text(path)?;
         let [start, end] = [given.start, given.end].map(|at| document.offset((at.line, at.character), self.encoding));
         Some(start..end.max(start))
     }
 
-    /// A stretch with its file, for the client.
-    pub fn location(&self, place: &Stretch) -> Option<lsp::Location> {
-        let path: Arc<Path> = self.snapshot.buffers().identity(&place.path).into();
-        let range = self.range(&path, &place.range())?;
+    /// Converts a range with its file to a location of the client.
+    pub fn location(&self, location: &FileRange) -> Option<lsp::Location> {
+        let path: Arc<Path> = self.snapshot.buffers().identity(&location.path).into();
+        let range = self.range(&path, &location.range())?;
         Some(lsp::Location { uri: lsp::Uri(self.documents.uri(&path)), range })
     }
 
-    /// A diagnostic of a file.
-    pub fn diagnostic(&self, path: &Path, said: &Said) -> Option<lsp::Diagnostic> {
-        let related = said.related.iter().filter_map(|related| {
-            let message = if related.text.is_empty() { said.message.clone() } else { related.text.clone() };
-            Some(lsp::DiagnosticRelatedInformation { location: self.location(&related.place)?, message })
+    /// Converts a diagnostic of a file.
+    pub fn diagnostic(&self, path: &Path, diagnostic: &EditorDiagnostic) -> Option<lsp::Diagnostic> {
+        let related = diagnostic.related.iter().filter_map(|related| {
+            let message = if related.text.is_empty() { diagnostic.message.clone() } else { related.text.clone() };
+            Some(lsp::DiagnosticRelatedInformation { location: self.location(&related.location)?, message })
         });
         let related: Vec<_> = related.collect();
-        let lines: Vec<&str> = std::iter::once(&said.message).chain(&said.more).map(String::as_str).collect();
+        let lines: Vec<&str> =
+            std::iter::once(&diagnostic.message).chain(&diagnostic.details).map(String::as_str).collect();
         Some(lsp::Diagnostic {
-            range: self.range(path, &said.range)?,
-            severity: Some(match said.severity {
+            range: self.range(path, &diagnostic.range)?,
+            severity: Some(match diagnostic.severity {
                 Severity::Error => lsp::DiagnosticSeverity::Error,
                 Severity::Warning => lsp::DiagnosticSeverity::Warning,
                 Severity::Note => lsp::DiagnosticSeverity::Information,
             }),
-            code: Some(said.code.to_owned().into()),
+            code: Some(diagnostic.code.to_owned().into()),
             code_description: None,
             source: Some("mechc".to_owned()),
             message: lines.join("\n").into(),
@@ -105,7 +106,7 @@ impl Texts {
         })
     }
 
-    /// A file with its lines.
+    /// Returns a file with its lines.
     fn text(&self, path: &Path) -> Option<Arc<Document>> {
         if let Some(open) = self.documents.get(path) {
             return Some(Arc::clone(open));
@@ -121,10 +122,10 @@ impl Texts {
     }
 }
 
-/// What tells the file of a URI from all others: as it was opened, or as it is found on the disk.
+/// Returns the identity of the file of a URI: the one under which it was opened, or that on disk.
 pub(super) fn file_of(uri: &str, documents: &Documents, snapshot: &Snapshot) -> Arc<Path> {
-    let found = || snapshot.buffers().identity(&super::uri::path_of(uri)).into();
-    documents.file(uri).cloned().unwrap_or_else(found)
+    let identity = || snapshot.buffers().identity(&super::uri::path_of(uri)).into();
+    documents.file(uri).cloned().unwrap_or_else(identity)
 }
 
 fn range_in(document: &Document, range: &Range<u32>, encoding: Encoding) -> lsp::Range {
@@ -135,12 +136,12 @@ fn range_in(document: &Document, range: &Range<u32>, encoding: Encoding) -> lsp:
     lsp::Range { start: position(range.start), end: position(range.end) }
 }
 
-/// Text with formatting.
+/// Wraps Markdown.
 pub(super) fn markdown(text: String) -> lsp::MarkupContent {
     lsp::MarkupContent { kind: lsp::MarkupKind::Markdown, value: text }
 }
 
-/// What the client shows a declaration as.
+/// Returns the symbol kind with which the client shows a declaration.
 pub(super) fn symbol_kind(kind: NameKind) -> lsp::SymbolKind {
     match kind {
         NameKind::Mechanism => lsp::SymbolKind::Module,

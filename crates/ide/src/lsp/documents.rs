@@ -9,55 +9,55 @@ use std::path::Path;
 use std::sync::Arc;
 
 /// The byte-order mark.
-const MARK: char = '\u{feff}';
+const BYTE_ORDER_MARK: char = '\u{feff}';
 
 /// A text with its lines.
 #[derive(Clone)]
 pub(super) struct Document {
-    /// As the client names it.
+    /// The URI that the client uses.
     pub uri: String,
-    /// The client's number of it.
+    /// The version number of the client.
     pub version: i32,
-    /// Without a byte-order mark.
+    /// The text without a byte-order mark.
     text: Arc<str>,
     lines: Lines,
-    /// Whether it begins with a byte-order mark, which the client counts and nobody else.
+    /// True if the client's text begins with a byte-order mark, which only its positions count.
     has_mark: bool,
 }
 
-/// An edit of a text, in bytes: what goes, and how long what comes is.
+/// An edit of a text in bytes: the replaced range, and the length of the new text.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub(super) struct Moved {
+pub(super) struct Splice {
     pub range: Range<u32>,
     pub length: u32,
 }
 
 impl Document {
     pub fn new(uri: String, version: i32, text: &str) -> Document {
-        let has_mark = text.starts_with(MARK);
-        let text: Arc<str> = text.strip_prefix(MARK).unwrap_or(text).into();
-        let lines = Lines::of(&text);
+        let has_mark = text.starts_with(BYTE_ORDER_MARK);
+        let text: Arc<str> = text.strip_prefix(BYTE_ORDER_MARK).unwrap_or(text).into();
+        let lines = Lines::new(&text);
         Document { uri, version, text, lines, has_mark }
     }
 
-    /// Without a byte-order mark.
+    /// Returns the text without a byte-order mark.
     pub fn text(&self) -> &Arc<str> {
         &self.text
     }
 
-    /// The byte at a position, which need not be there.
+    /// Returns the byte at a position, which may lie outside the text.
     pub fn offset(&self, (line, column): Position, encoding: Encoding) -> u32 {
         let column = column.saturating_sub(self.mark_on(line, encoding));
         self.lines.offset(&self.text, (line, column), encoding)
     }
 
-    /// The position of a byte, which need not be there.
+    /// Returns the position of a byte, which may lie outside the text.
     pub fn position(&self, offset: u32, encoding: Encoding) -> Position {
         let (line, column) = self.lines.position(&self.text, self.character_at(offset), encoding);
         (line, column + self.mark_on(line, encoding))
     }
 
-    /// The beginning of the character that a byte belongs to.
+    /// Returns the beginning of the character that contains a byte.
     fn character_at(&self, offset: u32) -> u32 {
         let text = &self.text;
         let offset = (offset as usize).min(text.len());
@@ -65,53 +65,53 @@ impl Document {
     }
 
     fn mark_on(&self, line: u32, encoding: Encoding) -> u32 {
-        if self.has_mark && line == 0 { encoding.width(MARK) as u32 } else { 0 }
+        if self.has_mark && line == 0 { encoding.width(BYTE_ORDER_MARK) as u32 } else { 0 }
     }
 
     fn replace_text(&mut self, text: &str) {
         *self = Document::new(std::mem::take(&mut self.uri), self.version, text);
     }
 
-    /// Another text in the place of a stretch, or of all.
-    pub fn edit(&mut self, range: Option<[Position; 2]>, new: &str, encoding: Encoding) -> Moved {
+    /// Replaces a range of the text, or the whole text; returns the edit.
+    pub fn edit(&mut self, range: Option<[Position; 2]>, new: &str, encoding: Encoding) -> Splice {
         let Some(ends) = range else {
-            let moved = difference(&self.text, new.strip_prefix(MARK).unwrap_or(new));
+            let splice = difference(&self.text, new.strip_prefix(BYTE_ORDER_MARK).unwrap_or(new));
             self.replace_text(new);
-            return moved;
+            return splice;
         };
         let [start, end] = ends.map(|position| self.offset(position, encoding));
         let range = start.min(end)..start.max(end);
         let takes_mark = ends[0] == (0, 0) && ends[1] != (0, 0);
-        let mark = if self.has_mark && !takes_mark { MARK.len_utf8() } else { 0 };
+        let mark = if self.has_mark && !takes_mark { BYTE_ORDER_MARK.len_utf8() } else { 0 };
         let mut text = String::with_capacity(mark + self.text.len() + new.len());
-        text.extend((mark > 0).then_some(MARK));
+        text.extend((mark > 0).then_some(BYTE_ORDER_MARK));
         text += &self.text[..range.start as usize];
         text += new;
         text += &self.text[range.end as usize..];
         self.replace_text(&text);
-        Moved { range, length: new.len() as u32 }
+        Splice { range, length: new.len() as u32 }
     }
 }
 
-/// The one stretch in which two texts differ.
-fn difference(old: &str, new: &str) -> Moved {
+/// Returns the edit that turns one text into another: the single range in which they differ.
+fn difference(old: &str, new: &str) -> Splice {
     let same = |a: &mut dyn Iterator<Item = (u8, u8)>| a.take_while(|(a, b)| a == b).count();
     let before = same(&mut old.bytes().zip(new.bytes()));
     let shorter = old.len().min(new.len());
     let behind = same(&mut old.bytes().rev().zip(new.bytes().rev())).min(shorter - before);
-    Moved { range: before as u32..(old.len() - behind) as u32, length: (new.len() - before - behind) as u32 }
+    Splice { range: before as u32..(old.len() - behind) as u32, length: (new.len() - before - behind) as u32 }
 }
 
-impl Moved {
-    /// Whether the edit changes a stretch, or stands right beside it.
-    pub fn meets(&self, range: &Range<u32>) -> bool {
+impl Splice {
+    /// Returns whether the edit changes or adjoins a range.
+    pub fn touches(&self, range: &Range<u32>) -> bool {
         self.range.start <= range.end && range.start <= self.range.end
     }
 
-    /// Where a stretch is after the edit.
-    pub fn applied(&self, range: &Range<u32>) -> Range<u32> {
+    /// Returns a range after the edit.
+    pub fn shift(&self, range: &Range<u32>) -> Range<u32> {
         let at = |offset: u32, is_end: bool| match offset {
-            // what is put in at an end lies outside
+            // text inserted at an end lies outside
             _ if offset < self.range.start || is_end && offset == self.range.start => offset,
             _ if offset >= self.range.end => offset - (self.range.end - self.range.start) + self.length,
             _ => self.range.start + if is_end { 0 } else { self.length },
@@ -125,8 +125,7 @@ impl Moved {
 #[derive(Clone, Default)]
 pub(super) struct Documents {
     open: BTreeMap<Arc<Path>, Arc<Document>>,
-    /// The files of the URIs by which they were opened, of which a file may have several: it is the same one to the end, whatever becomes
-    /// of links and files on the disk.
+    /// The files by the URIs that opened them. A file may have several URIs, and keeps its identity while links and files on disk change.
     files: BTreeMap<String, Arc<Path>>,
 }
 
@@ -135,7 +134,7 @@ impl Documents {
         self.open.get(path)
     }
 
-    /// The file that was opened by a URI.
+    /// Returns the file that was opened by a URI.
     pub fn file(&self, uri: &str) -> Option<&Arc<Path>> {
         self.files.get(uri)
     }
@@ -145,7 +144,7 @@ impl Documents {
         self.open.insert(path, Arc::new(document));
     }
 
-    /// Closes what was opened by a URI; gives its file, if nobody has that open any more.
+    /// Closes a URI; returns its file if no other URI has it open.
     pub fn close(&mut self, uri: &str) -> Option<Arc<Path>> {
         let path = self.files.remove(uri)?;
         if let Some((other, _)) = self.files.iter().find(|(_, other)| **other == path) {
@@ -161,7 +160,7 @@ impl Documents {
         self.open.keys()
     }
 
-    /// The URI of a file: as the client has it, where it has.
+    /// Returns the URI of a file, that of the client if the file is open.
     pub fn uri(&self, path: &Path) -> String {
         self.get(path).map_or_else(
             || uri::uri_of(&std::path::absolute(path).unwrap_or_else(|_| path.to_owned())),
@@ -172,7 +171,7 @@ impl Documents {
 
 #[cfg(test)]
 mod tests {
-    use super::{Document, Documents, Moved, difference};
+    use super::{Document, Documents, Splice, difference};
     use mechc_text::source::Encoding;
     use std::path::Path;
 
@@ -181,7 +180,7 @@ mod tests {
     }
 
     #[test]
-    fn positions_of_every_encoding_lead_back() {
+    fn positions_round_trip_in_every_encoding() {
         let document = document("a𝛼µ\r\nx\n");
         for encoding in [Encoding::Utf8, Encoding::Utf16, Encoding::Characters] {
             for (offset, _) in document.text().char_indices().filter(|(_, c)| *c != '\n') {
@@ -195,14 +194,14 @@ mod tests {
     }
 
     #[test]
-    fn edits_change_the_text_and_say_what_moved() {
+    fn edits_change_the_text_and_return_a_splice() {
         let mut text = document("a𝛼µ\nx\n");
-        let moved = text.edit(Some([(0, 1), (0, 3)]), "bc", Encoding::Utf16);
-        assert_eq!((&**text.text(), moved), ("abcµ\nx\n", Moved { range: 1..5, length: 2 }));
-        let moved = text.edit(Some([(9, 9), (9, 9)]), "end", Encoding::Utf16);
-        assert_eq!((&**text.text(), moved), ("abcµ\nx\nend", Moved { range: 8..8, length: 3 }));
-        let moved = text.edit(None, "abcµ\ny\nend", Encoding::Utf16);
-        assert_eq!((&**text.text(), moved), ("abcµ\ny\nend", Moved { range: 6..7, length: 1 }));
+        let splice = text.edit(Some([(0, 1), (0, 3)]), "bc", Encoding::Utf16);
+        assert_eq!((&**text.text(), splice), ("abcµ\nx\n", Splice { range: 1..5, length: 2 }));
+        let splice = text.edit(Some([(9, 9), (9, 9)]), "end", Encoding::Utf16);
+        assert_eq!((&**text.text(), splice), ("abcµ\nx\nend", Splice { range: 8..8, length: 3 }));
+        let splice = text.edit(None, "abcµ\ny\nend", Encoding::Utf16);
+        assert_eq!((&**text.text(), splice), ("abcµ\ny\nend", Splice { range: 6..7, length: 1 }));
     }
 
     #[test]
@@ -233,23 +232,23 @@ mod tests {
     }
 
     #[test]
-    fn the_difference_is_one_stretch() {
-        assert_eq!(difference("abab", "abxab"), Moved { range: 2..2, length: 1 });
-        assert_eq!(difference("aaa", "aa"), Moved { range: 2..3, length: 0 });
-        assert_eq!(difference("", ""), Moved { range: 0..0, length: 0 });
+    fn the_difference_is_one_range() {
+        assert_eq!(difference("abab", "abxab"), Splice { range: 2..2, length: 1 });
+        assert_eq!(difference("aaa", "aa"), Splice { range: 2..3, length: 0 });
+        assert_eq!(difference("", ""), Splice { range: 0..0, length: 0 });
     }
 
     #[test]
-    fn stretches_move_with_edits() {
-        let insert = Moved { range: 5..5, length: 3 };
-        assert_eq!(insert.applied(&(6..8)), 9..11);
-        assert_eq!(insert.applied(&(5..8)), 8..11);
-        assert_eq!(insert.applied(&(2..5)), 2..5);
-        assert_eq!(insert.applied(&(2..6)), 2..9);
-        let delete = Moved { range: 4..8, length: 0 };
-        assert_eq!(delete.applied(&(2..6)), 2..4);
-        assert_eq!(delete.applied(&(5..7)), 4..4);
-        assert_eq!(delete.applied(&(6..10)), 4..6);
-        assert_eq!(delete.applied(&(8..10)), 4..6);
+    fn ranges_shift_with_edits() {
+        let insert = Splice { range: 5..5, length: 3 };
+        assert_eq!(insert.shift(&(6..8)), 9..11);
+        assert_eq!(insert.shift(&(5..8)), 8..11);
+        assert_eq!(insert.shift(&(2..5)), 2..5);
+        assert_eq!(insert.shift(&(2..6)), 2..9);
+        let delete = Splice { range: 4..8, length: 0 };
+        assert_eq!(delete.shift(&(2..6)), 2..4);
+        assert_eq!(delete.shift(&(5..7)), 4..4);
+        assert_eq!(delete.shift(&(6..10)), 4..6);
+        assert_eq!(delete.shift(&(8..10)), 4..6);
     }
 }

@@ -1,49 +1,48 @@
-//! The language server: what `ide` answers, in the words of the language server protocol.
+//! The language server: the features of this crate in the language server protocol.
 //!
-//! Thin: it keeps the open documents, hands requests to a pool with the snapshot of their moment, and says what is to be said of texts
-//! in stages. What a text means is for `ide`. It knows threads, the clock and its own pipe, and nobody else's files: these come through
+//! The server is thin: it keeps the open documents, hands each request with a snapshot to a pool of threads, and publishes diagnostics by
+//! stage. The meaning of texts is left to the features. The server uses threads, the clock and its pipe, and reaches files only through
 //! [`World`].
 //!
 //! ```text
-//! pipe ──transport──▶ server ──▶ pool: answers ──▶ ide ──▶ server ──transport──▶ pipe
-//!                       └─ documents, stages (what is said of each)
+//! pipe ──transport──▶ server ──▶ pool: handlers ──▶ ide ──▶ server ──transport──▶ pipe
+//!                       └─ documents, published (the diagnostics of each)
 //! ```
 
-mod answers;
+mod apply_edits;
 mod capabilities;
 mod convert;
 mod documents;
-mod edits;
-mod legend;
+mod handlers;
 mod lines;
+mod live_pages;
 mod log;
 mod parent;
 mod pool;
+mod published;
 mod server;
-mod stages;
 mod transport;
 mod uri;
-mod views;
 
 pub use log::Log;
-pub use server::{Ended, serve};
+pub use server::{SessionEnd, serve};
 
 use mechc_text::world::World;
 use std::sync::Arc;
 
-/// The names of all requests that are answered, once a session has begun.
+/// Returns the names of all requests that a running session answers.
 pub fn methods() -> impl Iterator<Item = &'static str> {
     let pull = std::iter::once(server::PULL);
-    answers::TABLE.iter().map(|method| method.name).chain(pull)
+    handlers::TABLE.iter().map(|method| method.name).chain(pull)
 }
 
-/// Serves the client at the other end of standard input and output, until that says that it is enough, or is gone.
+/// Serves a client on standard input and output until it ends the session or disappears.
 #[must_use]
-pub fn serve_pipe(world: Arc<dyn World>, log: Log) -> Ended {
+pub fn serve_pipe(world: Arc<dyn World>, log: Log) -> SessionEnd {
     let (connection, transport) = transport::standard();
     let ended = serve(connection, world, log);
-    // who waits at a pipe that stays open does not come to an end, and what is written there nobody reads
-    if ended != Ended::Left {
+    // after the client's process has ended, a pipe that others hold open would block the writer for ever
+    if ended != SessionEnd::Left {
         transport.finish();
     }
     ended

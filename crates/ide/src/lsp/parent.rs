@@ -1,30 +1,30 @@
-//! The process of the client: when it is gone nobody speaks any more, whoever else may hold the pipe open.
+//! The process of the client: the session ends with it, even if another process holds the pipe open.
 
 use serde_json::Value;
 #[cfg(unix)]
 use std::os::unix::process::parent_id;
 use std::time::Duration;
 
-/// So often it is looked whether it is still there.
-pub(super) const TICK: Duration = Duration::from_secs(1);
+/// The interval of checks whether it has ended.
+pub(super) const CHECK_INTERVAL: Duration = Duration::from_secs(1);
 
-/// The process that began this one, and says that it is the client's.
+/// The parent process, if it is the client.
 pub(super) struct Parent(u32);
 
 impl Parent {
-    /// By the params of `initialize`; nothing where something else stands between the two.
-    pub fn of(params: &Value) -> Option<Parent> {
-        let told = params.get("processId").and_then(Value::as_u64).and_then(|id| u32::try_from(id).ok())?;
-        (told > 0 && parent_id() == told).then_some(Parent(told))
+    /// Reads the client's process id from the params of `initialize`; `None` if it is not the parent of this process.
+    pub fn from_params(params: &Value) -> Option<Parent> {
+        let id = params.get("processId").and_then(Value::as_u64).and_then(|id| u32::try_from(id).ok())?;
+        (id > 0 && parent_id() == id).then_some(Parent(id))
     }
 
-    /// Whether it has ended: then this process has another parent.
-    pub fn is_gone(&self) -> bool {
+    /// Returns whether it has ended, which gives this process another parent.
+    pub fn has_ended(&self) -> bool {
         parent_id() != self.0
     }
 }
 
-/// Where nobody tells of parents there is none to be seen.
+/// Returns 0, which is no client's id: other platforms do not tell the parent.
 #[cfg(not(unix))]
 fn parent_id() -> u32 {
     0

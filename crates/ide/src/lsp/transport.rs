@@ -1,6 +1,6 @@
-//! Messages over standard input and output.
+//! Transport of messages over standard input and output.
 //!
-//! What is no message is answered as the protocol says, with an error that names no request, and the next one is read.
+//! An invalid message is answered with an error, as the protocol requires, and the next one is read.
 
 use crossbeam_channel::{Receiver, Sender, unbounded};
 use lsp_server::{Connection, ErrorCode, Message, Notification};
@@ -8,26 +8,26 @@ use serde_json::{Value, json};
 use std::io::{self, BufRead, BufReader, Read, Write};
 use std::thread::{self, JoinHandle};
 
-/// The method of what is written instead of an answer to what was no message: with `code`, `message`, and `id` where it has one.
+/// The internal method that stands for the error response to an invalid message, with `code`, `message` and the `id` if it has one.
 const REFUSED: &str = "$/mechc/refused";
 
-/// No message is larger (bytes).
-const LARGEST: u64 = 1 << 30;
+/// The maximum length of a message (bytes).
+const MAX_MESSAGE: u64 = 1 << 30;
 
-/// The threads at the pipe.
+/// The thread that writes to the pipe.
 pub(super) struct Transport {
     writer: JoinHandle<()>,
 }
 
 impl Transport {
-    /// Waits until all is written; what still comes is not read.
+    /// Waits until all messages are written.
     pub fn finish(self) {
         // a writer that panicked has nothing more to write
         let _ = self.writer.join();
     }
 }
 
-/// A connection over standard input and output.
+/// Opens a connection over standard input and output.
 pub(super) fn standard() -> (Connection, Transport) {
     let (to_server, receiver) = unbounded();
     let (sender, to_client) = unbounded();
@@ -55,7 +55,7 @@ fn read_all(mut input: impl BufRead, to_server: &Sender<Message>, refuse: impl F
     }
 }
 
-/// Writes messages until nobody sends any more, or nobody reads.
+/// Writes messages until the channel is closed or the output fails.
 fn write_all(to_client: &Receiver<Message>, output: &mut impl Write) {
     for message in to_client {
         let written = match &message {
@@ -75,10 +75,10 @@ fn write_refusal(refused: &Value, output: &mut impl Write) -> io::Result<()> {
     output.flush()
 }
 
-/// The bytes of the next message; nothing at the end of the input.
+/// Reads the bytes of the next message; `None` at the end of the input.
 ///
 /// # Errors
-/// The input cannot be read, or not be told where its messages begin.
+/// The input cannot be read, or a message has no valid length.
 fn frame(input: &mut impl BufRead) -> io::Result<Option<Vec<u8>>> {
     let mut length: Option<u64> = None;
     loop {
@@ -97,20 +97,23 @@ fn frame(input: &mut impl BufRead) -> io::Result<Option<Vec<u8>>> {
             length = value.trim().parse().ok();
         }
     }
-    let length = length.filter(|length| *length <= LARGEST).ok_or(io::ErrorKind::InvalidData)?;
+    let length = length.filter(|length| *length <= MAX_MESSAGE).ok_or(io::ErrorKind::InvalidData)?;
     let mut bytes = Vec::new();
     let read = input.take(length).read_to_end(&mut bytes)?;
     Ok((read as u64 == length).then_some(bytes))
 }
 
-/// The message that bytes are, or why they are none.
+/// Parses a message.
+///
+/// # Errors
+/// The refusal to send if the bytes are not a valid message.
 fn message(bytes: &[u8]) -> Result<Message, Notification> {
     let refused = |code: ErrorCode, why: &str, id: Value| Notification {
         method: REFUSED.to_owned(),
         params: json!({ "code": code as i32, "message": why, "id": id }),
     };
     match serde_json::from_slice(bytes) {
-        // a request whose id cannot be one is read as a notification
+        // `lsp-server` parses a request with an invalid id as a notification
         Ok(Message::Notification(notification)) if bytes.windows(4).any(|four| four == br#""id""#) => {
             let id = serde_json::from_slice::<Value>(bytes).ok().and_then(|value| value.get("id").cloned());
             let why = "an id is a string or a whole number of 32 bits";
@@ -134,7 +137,7 @@ mod tests {
         texts.iter().flat_map(|text| format!("Content-Length: {}\r\n\r\n{text}", text.len()).into_bytes()).collect()
     }
 
-    /// The methods of what is read, and all that is written back.
+    /// Returns the methods of the messages that are read, and the text written back.
     fn read(input: &[u8]) -> (Vec<String>, String) {
         let (to_server, server) = unbounded();
         let (refuse, refused) = unbounded();
@@ -151,7 +154,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_message_is_refused_and_the_next_one_is_read() {
+    fn invalid_messages_are_refused_and_the_next_one_is_read() {
         let good = r#"{"jsonrpc":"2.0","id":1,"method":"shutdown"}"#;
         let (methods, written) = read(&framed(&["{\"jsonrpc\":", "[]", "{}", good]));
         assert_eq!(methods, ["shutdown"]);
@@ -170,7 +173,7 @@ mod tests {
     }
 
     #[test]
-    fn it_ends_with_its_input_and_with_exit() {
+    fn reading_ends_with_the_input_or_exit() {
         let exit = r#"{"jsonrpc":"2.0","method":"exit"}"#;
         assert_eq!(read(&framed(&[exit, exit])).0, ["exit"]);
         assert!(read(b"Content-Length: 100\r\n\r\n{}").0.is_empty());

@@ -1,10 +1,10 @@
-//! Paths of files and the URIs by which a client names them.
+//! Conversion between paths of files and URIs.
 //!
-//! Works on text alone, so that it is the same on every system: a path has `/`, and may begin with a drive.
+//! It works on text alone, so that it is the same on every platform: a path has `/` and may begin with a drive.
 
 use std::path::{Path, PathBuf};
 
-/// The path of a URI. One that is not of a file (`untitled:…`) is a path without a folder, which is its own text.
+/// Converts a URI to a path. A URI of another scheme (`untitled:…`) becomes a path of its own text.
 pub(super) fn path_of(uri: &str) -> PathBuf {
     let Some(rest) = strip_scheme(uri) else {
         return PathBuf::from(uri);
@@ -19,16 +19,16 @@ pub(super) fn path_of(uri: &str) -> PathBuf {
     match path.strip_prefix('/').and_then(with_drive) {
         Some(path) => PathBuf::from(path),
         None if is_here => PathBuf::from(path),
-        // a share of another machine
+        // another host means a network share
         None => PathBuf::from(format!("//{}{path}", decoded(host))),
     }
 }
 
-/// The URI of the file of an absolute path.
+/// Converts an absolute path to a URI.
 pub(super) fn uri_of(path: &Path) -> String {
     let text = path.to_string_lossy();
     let text = if cfg!(windows) { text.replace('\\', "/") } else { text.into_owned() };
-    // the long form of a share, and of any other path
+    // Windows has a long form for shares and another for other paths
     let share = text.strip_prefix("//?/UNC/");
     let text = text.strip_prefix("//?/").unwrap_or(&text);
     match (share.or_else(|| text.strip_prefix("//")), with_drive(text)) {
@@ -43,7 +43,7 @@ fn strip_scheme(uri: &str) -> Option<&str> {
     scheme.eq_ignore_ascii_case("file").then_some(rest)
 }
 
-/// A path that begins with a drive, its letter in upper case.
+/// Returns a path that begins with a drive, with the letter in upper case.
 fn with_drive(path: &str) -> Option<String> {
     let mut chars = path.chars();
     let letter = chars.next().filter(char::is_ascii_alphabetic)?;
@@ -51,7 +51,7 @@ fn with_drive(path: &str) -> Option<String> {
     (rest.is_empty() || rest.starts_with('/')).then(|| format!("{}:{rest}", letter.to_ascii_uppercase()))
 }
 
-/// Without `%`; what is no number behind one stays.
+/// Decodes percent encoding; an invalid sequence stays as it is.
 fn decoded(text: &str) -> String {
     let (mut bytes, mut rest) = (Vec::new(), text.as_bytes());
     while let Some((&first, behind)) = rest.split_first() {
@@ -88,7 +88,7 @@ mod tests {
     }
 
     #[test]
-    fn paths_have_uris_and_these_lead_back() {
+    fn paths_and_uris_round_trip() {
         both_ways("file:///home/ann/four_bar.mech", "/home/ann/four_bar.mech");
         both_ways("file:///home/ann/my%20files/100%25%20%23%3F.mech", "/home/ann/my files/100% #?.mech");
         both_ways("file:///tmp/%C3%9Cbung/%F0%9D%9B%BC.mech", "/tmp/Übung/𝛼.mech");
@@ -116,7 +116,7 @@ mod tests {
 
     #[test]
     fn names_keep_their_case_and_their_form() {
-        // composed and decomposed: which of them are one file is for the system to say
+        // whether composed and decomposed names are the same file depends on the file system
         both_ways("file:///a/%C3%A9.mech", "/a/é.mech");
         both_ways("file:///a/e%CC%81.mech", "/a/e\u{301}.mech");
         both_ways("file:///a/A.MECH", "/a/A.MECH");

@@ -1,27 +1,27 @@
-//! The columns of the table, as they are shown.
+//! The columns of the table for display.
 
-use super::rows::{Holds, holds};
+use super::rows::{ColumnContent, holds};
 use crate::{ConstraintSystem, Coordinate, Outcome, Owner, Units};
 
 /// A column of the table.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Column {
-    /// `crank.phi.d`
+    /// Name, such as `crank.phi.d`.
     pub name: String,
-    /// The unit that it is printed in; rows are in SI.
+    /// Unit of the printed values; rows hold SI values.
     pub unit: ColumnUnit,
-    /// What it holds.
+    /// Kind of its content.
     pub kind: ColumnKind,
 }
 
-/// The unit that a column is printed in.
+/// Unit of the printed values of a column.
 #[derive(Clone, PartialEq, Debug)]
 pub struct ColumnUnit {
-    /// `mm/s`; `1` for a pure number.
+    /// Text, such as `mm/s`; `1` for a pure number.
     pub text: String,
-    /// What SI is divided by, multiplied with and divided by to be in this unit.
+    /// Factors `[a, b, c]` from SI to this unit: `value / a * b / c`.
     scale: [f64; 3],
-    /// Whether that changes nothing.
+    /// True if all factors are 1.
     is_si: bool,
 }
 
@@ -35,92 +35,92 @@ impl ColumnUnit {
         ColumnUnit::new(text.into(), [1.0; 3])
     }
 
-    /// That of a value, or of its time derivative of some order.
-    fn of(units: &Units, order: usize) -> ColumnUnit {
+    /// Creates the unit of a value, or of its time derivative of an order.
+    fn from_units(units: &Units, order: usize) -> ColumnUnit {
         ColumnUnit::new(units.printed[order].clone(), units.scale)
     }
 
-    /// What SI is divided by, multiplied with and divided by to be in this unit.
+    /// Returns the factors `[a, b, c]` from SI to this unit: `value / a * b / c`.
     #[must_use]
     pub fn scale(&self) -> [f64; 3] {
         self.scale
     }
 
-    /// Whether it is that of SI.
+    /// Returns whether this is the SI unit.
     #[must_use]
     pub fn is_si(&self) -> bool {
         self.is_si
     }
 
-    /// Values in SI, in this unit from then on.
+    /// Converts SI values to this unit in place.
     pub fn print_all(&self, values: &mut [f64]) {
         for value in values {
             *value = self.printed(*value);
         }
     }
 
-    /// A value in SI, in this unit.
+    /// Converts an SI value to this unit.
     #[must_use]
     pub fn printed(&self, value: f64) -> f64 {
-        // one is divided by and multiplied with in vain, which takes as long as a digit
+        // skips divisions by 1, which take as long as printing a digit
         if self.is_si { value } else { value / self.scale[0] * self.scale[1] / self.scale[2] }
     }
 }
 
-/// What a column holds.
+/// Kinds of columns.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum ColumnKind {
     /// Time.
     Time,
     /// A coordinate of a body, or its derivative.
     Body,
-    /// A coordinate that a joint brings along, or its derivative.
+    /// A coordinate that a joint adds, or its derivative.
     Joint,
-    /// What a joint exerts, or a constraint or driver supplies.
+    /// An effect of a joint, or an effort of a constraint or driver.
     Reaction,
-    /// What the text measures or traces.
+    /// A measure or trace.
     Measure,
-    /// A derivative of that.
+    /// A time derivative of a measure or trace.
     Rate,
-    /// A derivative with something else than time.
+    /// A derivative with respect to an input or parameter.
     Variation,
 }
 
-/// What stands behind a name, by how often it is differentiated by time; and behind a unit.
+/// Suffixes of names and of units, by the order of the time derivative.
 const ENDINGS: [(&str, &str); 3] = [("", ""), (".d", "/s"), (".dd", "/s^2")];
 
-/// The columns of the table, in order.
+/// Returns the columns of the table, in order.
 #[must_use]
 pub fn columns(system: &ConstraintSystem) -> Vec<Column> {
     holds(system).into_iter().filter_map(|holds| column(system, holds)).collect()
 }
 
-/// The column of the table that holds something; none where that is not of the table.
-fn column(system: &ConstraintSystem, holds: Holds) -> Option<Column> {
+/// Returns the column of the table with a content; `None` if the table does not show it.
+fn column(system: &ConstraintSystem, holds: ColumnContent) -> Option<Column> {
     Some(match holds {
-        Holds::Time => Column { name: "t".to_owned(), unit: ColumnUnit::si("s"), kind: ColumnKind::Time },
-        Holds::Coordinate { index, order } => of_coordinate(&system.coordinates()[index], order),
-        Holds::Reaction(index) => {
+        ColumnContent::Time => Column { name: "t".to_owned(), unit: ColumnUnit::si("s"), kind: ColumnKind::Time },
+        ColumnContent::Coordinate { index, order } => coordinate_column(&system.coordinates()[index], order),
+        ColumnContent::Reaction(index) => {
             let of = &system.reactions()[index];
             let unit = ColumnUnit::si(of.unit.clone());
             Column { name: of.name.clone(), unit, kind: ColumnKind::Reaction }
         }
-        Holds::Measure { index, order } => {
+        ColumnContent::Measure { index, order } => {
             let measure = &system.measures()[index];
             let name = measure.name.clone() + ENDINGS[order].0;
             let kind = if order == 0 { ColumnKind::Measure } else { ColumnKind::Rate };
-            Column { name, unit: ColumnUnit::of(&measure.units, order), kind }
+            Column { name, unit: ColumnUnit::from_units(&measure.units, order), kind }
         }
-        Holds::Appended(index) => {
-            let of = &system.appended()[index];
+        ColumnContent::DerivativeColumn(index) => {
+            let of = &system.derivative_columns()[index];
             let unit = ColumnUnit::new(of.unit.clone(), of.scale);
             Column { name: of.name.clone(), unit, kind: ColumnKind::Variation }
         }
-        Holds::Slope { .. } | Holds::Varied | Holds::Multiplier => return None,
+        ColumnContent::Slope { .. } | ColumnContent::Varied | ColumnContent::Multiplier => return None,
     })
 }
 
-fn of_coordinate(coordinate: &Coordinate, order: usize) -> Column {
+fn coordinate_column(coordinate: &Coordinate, order: usize) -> Column {
     let (ending, per) = ENDINGS[order];
     let unit = match coordinate.kind.unit() {
         "" => "1",
@@ -133,9 +133,9 @@ fn of_coordinate(coordinate: &Coordinate, order: usize) -> Column {
     Column { name: coordinate.name.clone() + ending, unit: ColumnUnit::si(unit.to_owned() + per), kind }
 }
 
-/// Names of the results, and the units in which they are told, in order.
+/// Returns the names and units of the results, in order.
 #[must_use]
 pub fn results(system: &ConstraintSystem) -> Vec<(String, ColumnUnit)> {
-    let result = |outcome: &Outcome| (outcome.name.clone(), ColumnUnit::of(&outcome.units, 0));
+    let result = |outcome: &Outcome| (outcome.name.clone(), ColumnUnit::from_units(&outcome.units, 0));
     system.results().outcomes.iter().map(result).collect()
 }

@@ -1,10 +1,10 @@
-//! What the columns of a row hold, in which order, by which names, in which units.
+//! Layout of a row: contents, order, names and units of its columns.
 //!
-//! Here alone stands the order: of the table that is printed, and behind it of what a row holds for the solver. Whoever looks for a column
-//! asks a [`RowLayout`] for its place; whoever shows columns takes them as [`columns`]. The first columns are time and the coordinates.
+//! This module alone defines the order of the printed table, and of the values that a row holds for the solver after it. [`RowLayout`]
+//! gives the positions of columns, [`columns`] the columns for display. The first columns are time and the coordinates.
 
 mod columns;
 mod rows;
 
 pub use columns::{Column, ColumnKind, ColumnUnit, columns, results};
-pub use rows::{Holds, RowLayout, holds, row_holds};
+pub use rows::{ColumnContent, RowLayout, holds, row_contents};

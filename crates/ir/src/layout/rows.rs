@@ -1,169 +1,171 @@
-//! Where a row holds what.
+//! Positions of the contents of a row.
 
 use crate::{BodyId, ConstraintSystem, With};
 use mechc_expr::math::WIDE;
 use std::ops::Range;
 
-/// Columns that stand together in a row.
+/// Adjacent columns of one kind in a row.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-enum Stretch {
+enum Section {
     /// Time.
     Time,
-    /// All coordinates, differentiated so many times by time.
+    /// All coordinates, differentiated the given number of times with respect to time.
     Coordinates(usize),
-    /// What joints exert and drivers supply.
+    /// Reactions of joints and efforts of drivers.
     Reactions,
-    /// The measures that can be differentiated so many times by time, likewise.
+    /// The measures that have a time derivative of the given order.
     Measures(usize),
-    /// Derivatives that were asked for as columns of their own.
-    Appended,
-    /// The derivatives of `q` by each input, and then by each parameter.
+    /// Derivatives with columns of their own.
+    DerivativeColumn,
+    /// Derivatives of `q` with respect to each input, then each parameter.
     Slopes,
-    /// The variations: for each `q`, `q̇` and `q̈`, one behind the other.
+    /// The variations: `q`, `q̇` and `q̈` of each, one after the other.
     Varied,
-    /// The multipliers, where forces are asked for; behind them how these vary, variation by variation.
+    /// The multipliers, if forces are requested, followed by the variations of all multipliers.
     Multipliers,
 }
 
-/// The stretches of the table, in their order.
-const PRINTED: [Stretch; 9] = [
-    Stretch::Time,
-    Stretch::Coordinates(0),
-    Stretch::Reactions,
-    Stretch::Measures(0),
-    Stretch::Coordinates(1),
-    Stretch::Measures(1),
-    Stretch::Coordinates(2),
-    Stretch::Measures(2),
-    Stretch::Appended,
+/// Sections of the table, in order.
+const PRINTED: [Section; 9] = [
+    Section::Time,
+    Section::Coordinates(0),
+    Section::Reactions,
+    Section::Measures(0),
+    Section::Coordinates(1),
+    Section::Measures(1),
+    Section::Coordinates(2),
+    Section::Measures(2),
+    Section::DerivativeColumn,
 ];
 
-/// What only measures need, behind the table.
-const UNPRINTED: [Stretch; 4] = [Stretch::Coordinates(3), Stretch::Slopes, Stretch::Varied, Stretch::Multipliers];
+/// Sections that only measures need, after the table.
+const UNPRINTED: [Section; 4] = [Section::Coordinates(3), Section::Slopes, Section::Varied, Section::Multipliers];
 
-/// What a column holds.
+/// Content of a column.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Holds {
+pub enum ColumnContent {
     /// Time.
     Time,
-    /// A coordinate, differentiated so many times by time.
+    /// A coordinate, differentiated `order` times with respect to time.
     Coordinate {
-        /// Its number.
+        /// Number of the coordinate.
         index: usize,
-        /// How many times.
+        /// Order of the time derivative.
         order: usize,
     },
-    /// What a joint exerts or a driver supplies, by its place among all of these.
+    /// A reaction or effort, by its position among all of them.
     Reaction(usize),
-    /// A measure, likewise.
+    /// A measure, differentiated `order` times with respect to time.
     Measure {
-        /// Its number.
+        /// Number of the measure.
         index: usize,
-        /// How many times.
+        /// Order of the time derivative.
         order: usize,
     },
-    /// A derivative that was asked for as a column of its own, by its number.
-    Appended(usize),
-    /// The derivative of a coordinate by an input or a parameter.
+    /// A derivative with a column of its own, by its number.
+    DerivativeColumn(usize),
+    /// A derivative of a coordinate with respect to an input or a parameter.
     Slope {
-        /// The number of the coordinate.
+        /// Number of the coordinate.
         of: usize,
-        /// What it is by.
+        /// Variable of differentiation.
         by: With,
     },
-    /// A part of a variation.
+    /// An entry of a variation.
     Varied,
-    /// A multiplier, or how one varies.
+    /// A multiplier, or a variation of one.
     Multiplier,
 }
 
-/// What the columns of the table hold, in order.
+/// Returns the contents of the table's columns, in order.
 #[must_use]
-pub fn holds(system: &ConstraintSystem) -> Vec<Holds> {
-    PRINTED.into_iter().flat_map(|stretch| stretch.holds(system)).collect()
+pub fn holds(system: &ConstraintSystem) -> Vec<ColumnContent> {
+    PRINTED.into_iter().flat_map(|section| section.holds(system)).collect()
 }
 
-/// What all columns of a row hold, in order: those of the table, and what stands behind it.
+/// Returns the contents of all columns of a row, in order: those of the table, then those that only the solver uses.
 #[must_use]
-pub fn row_holds(system: &ConstraintSystem) -> Vec<Holds> {
-    PRINTED.into_iter().chain(UNPRINTED).flat_map(|stretch| stretch.holds(system)).collect()
+pub fn row_contents(system: &ConstraintSystem) -> Vec<ColumnContent> {
+    PRINTED.into_iter().chain(UNPRINTED).flat_map(|section| section.holds(system)).collect()
 }
 
-/// The measures that have a time derivative of some order.
+/// Returns the indices of the measures that have a time derivative of an order.
 fn measures_with(system: &ConstraintSystem, order: usize) -> impl Iterator<Item = usize> {
     (0..system.measures().len()).filter(move |&index| system.measures()[index].has(order))
 }
 
-impl Stretch {
-    /// How many columns it has.
+impl Section {
+    /// Returns the number of columns.
     fn length(self, system: &ConstraintSystem) -> usize {
         let n = system.coordinates().len();
         match self {
-            Stretch::Time => 1,
-            Stretch::Coordinates(3) if system.jerk().is_none() => 0,
-            Stretch::Coordinates(_) => n,
-            Stretch::Reactions => system.reactions().len(),
-            Stretch::Measures(order) => measures_with(system, order).count(),
-            Stretch::Appended => system.appended().len(),
-            Stretch::Slopes => n * system.slopes().len(),
-            Stretch::Varied => 3 * n * system.variations().len(),
-            Stretch::Multipliers => system.needed_forces().len() * (1 + system.variations().len()),
+            Section::Time => 1,
+            Section::Coordinates(3) if system.jerk().is_none() => 0,
+            Section::Coordinates(_) => n,
+            Section::Reactions => system.reactions().len(),
+            Section::Measures(order) => measures_with(system, order).count(),
+            Section::DerivativeColumn => system.derivative_columns().len(),
+            Section::Slopes => n * system.slopes().len(),
+            Section::Varied => 3 * n * system.variations().len(),
+            Section::Multipliers => system.required_forces().len() * (1 + system.variations().len()),
         }
     }
 
-    fn holds(self, system: &ConstraintSystem) -> Vec<Holds> {
+    fn holds(self, system: &ConstraintSystem) -> Vec<ColumnContent> {
         match self {
-            Stretch::Time => vec![Holds::Time],
-            Stretch::Coordinates(3) if system.jerk().is_none() => Vec::new(),
-            Stretch::Coordinates(order) => {
-                (0..system.coordinates().len()).map(|index| Holds::Coordinate { index, order }).collect()
+            Section::Time => vec![ColumnContent::Time],
+            Section::Coordinates(3) if system.jerk().is_none() => Vec::new(),
+            Section::Coordinates(order) => {
+                (0..system.coordinates().len()).map(|index| ColumnContent::Coordinate { index, order }).collect()
             }
-            Stretch::Reactions => (0..system.reactions().len()).map(Holds::Reaction).collect(),
-            Stretch::Measures(order) => {
-                measures_with(system, order).map(|index| Holds::Measure { index, order }).collect()
+            Section::Reactions => (0..system.reactions().len()).map(ColumnContent::Reaction).collect(),
+            Section::Measures(order) => {
+                measures_with(system, order).map(|index| ColumnContent::Measure { index, order }).collect()
             }
-            Stretch::Appended => (0..system.appended().len()).map(Holds::Appended).collect(),
-            Stretch::Slopes => {
-                let of_each = |by| (0..system.coordinates().len()).map(move |of| Holds::Slope { of, by });
+            Section::DerivativeColumn => {
+                (0..system.derivative_columns().len()).map(ColumnContent::DerivativeColumn).collect()
+            }
+            Section::Slopes => {
+                let of_each = |by| (0..system.coordinates().len()).map(move |of| ColumnContent::Slope { of, by });
                 system.slopes().into_iter().flat_map(of_each).collect()
             }
-            Stretch::Varied => vec![Holds::Varied; self.length(system)],
-            Stretch::Multipliers => vec![Holds::Multiplier; self.length(system)],
+            Section::Varied => vec![ColumnContent::Varied; self.length(system)],
+            Section::Multipliers => vec![ColumnContent::Multiplier; self.length(system)],
         }
     }
 }
 
-/// Where a row holds what. Rows are in the order of the table, with what only measures need behind.
+/// Column positions in a row: first the columns of the table, then those that only measures need.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct RowLayout {
     /// First column of `q`, `q̇`, `q̈`, `q⃛`.
     pub coordinates: [u32; 4],
-    /// First column of what joints exert and drivers supply.
+    /// First column of reactions and efforts.
     pub reactions: u32,
     /// First column of the measures, and of their first and second derivatives.
     pub measures: [u32; 3],
-    /// First of the derivatives that stand behind all other columns of the table.
+    /// First of the derivative columns, which follow all other columns of the table.
     pub appended: u32,
-    /// First column of the variations: for each `q`, `q̇` and `q̈`, one behind the other.
+    /// First column of the variations: `q`, `q̇` and `q̈` of each, one after the other.
     pub varied: u32,
-    /// First column of the multipliers; behind them how these vary, variation by variation.
+    /// First column of the multipliers, which are followed by their variations.
     pub multipliers: u32,
-    /// Whether there are columns for `q⃛`.
+    /// True if there are columns for `q⃛`.
     pub has_jerk: bool,
-    /// First column of the derivatives of `q` by each input and parameter.
+    /// First column of the derivatives of `q` with respect to each input, then each parameter.
     pub slopes: u32,
-    /// Columns that the table has.
+    /// Number of columns of the table.
     pub printed: usize,
-    /// All columns, filled up to whole lines of the processor's memory.
+    /// Number of all columns, rounded up to whole cache lines.
     pub stride: usize,
-    /// How many coordinates there are.
+    /// Number of coordinates.
     n: u32,
-    /// How many columns of reactions.
-    reacting: u32,
+    /// Number of reaction columns.
+    reaction_count: u32,
 }
 
 impl RowLayout {
-    /// The layout of a system's rows.
+    /// Creates the layout of a system's rows.
     #[must_use]
     pub fn new(system: &ConstraintSystem) -> RowLayout {
         let mut layout = RowLayout {
@@ -175,78 +177,78 @@ impl RowLayout {
             multipliers: 0,
             has_jerk: system.jerk().is_some(),
             slopes: 0,
-            printed: PRINTED.iter().map(|stretch| stretch.length(system)).sum(),
+            printed: PRINTED.iter().map(|section| section.length(system)).sum(),
             stride: 0,
             n: system.coordinates().len() as u32,
-            reacting: system.reactions().len() as u32,
+            reaction_count: system.reactions().len() as u32,
         };
-        for stretch in PRINTED.into_iter().chain(UNPRINTED) {
+        for section in PRINTED.into_iter().chain(UNPRINTED) {
             let first = layout.stride as u32;
-            match stretch {
-                Stretch::Time => {}
-                Stretch::Coordinates(order) => layout.coordinates[order] = first,
-                Stretch::Reactions => layout.reactions = first,
-                Stretch::Measures(order) => layout.measures[order] = first,
-                Stretch::Appended => layout.appended = first,
-                Stretch::Slopes => layout.slopes = first,
-                Stretch::Varied => layout.varied = first,
-                Stretch::Multipliers => layout.multipliers = first,
+            match section {
+                Section::Time => {}
+                Section::Coordinates(order) => layout.coordinates[order] = first,
+                Section::Reactions => layout.reactions = first,
+                Section::Measures(order) => layout.measures[order] = first,
+                Section::DerivativeColumn => layout.appended = first,
+                Section::Slopes => layout.slopes = first,
+                Section::Varied => layout.varied = first,
+                Section::Multipliers => layout.multipliers = first,
             }
-            layout.stride += stretch.length(system);
+            layout.stride += section.length(system);
         }
         layout.stride = layout.stride.next_multiple_of(WIDE);
         layout
     }
 
-    /// The coordinates in a row (m, rad).
+    /// Returns the coordinates in a row (m, rad).
     #[must_use]
     pub fn position<'r>(&self, row: &'r [f64]) -> &'r [f64] {
         let first = self.coordinates[0] as usize;
         &row[first..first + self.n as usize]
     }
 
-    /// The columns of what joints exert and drivers supply.
+    /// Returns the columns of reactions and efforts.
     #[must_use]
     pub fn reactions(&self) -> Range<usize> {
-        self.reactions as usize..(self.reactions + self.reacting) as usize
+        self.reactions as usize..(self.reactions + self.reaction_count) as usize
     }
 
-    /// The column of a coordinate, differentiated so many times by time.
+    /// Returns the column of a coordinate, differentiated `order` times with respect to time.
     #[must_use]
     pub fn coordinate(&self, index: u32, order: usize) -> u32 {
         self.coordinates[order] + index
     }
 
-    /// The column of how a coordinate, differentiated so many times by time, changes in a variation.
+    /// Returns the column of a varied coordinate, differentiated `order` times with respect to time.
     #[must_use]
     pub fn varied(&self, variation: u32, order: u32, index: u32) -> u32 {
         self.varied + (3 * variation + order) * self.n + index
     }
 
-    /// The column of the multiplier of a row of `Φ`.
+    /// Returns the column of the multiplier of a row of `Φ`.
     #[must_use]
     pub fn multiplier(&self, row: u32) -> u32 {
         self.multipliers + row
     }
 
-    /// The column of how that changes in a variation.
+    /// Returns the column of a varied multiplier.
     #[must_use]
     pub fn varied_multiplier(&self, variation: u32, row: u32) -> u32 {
         self.multiplier((1 + variation) * self.n + row)
     }
 
-    /// How many times a column of the table is differentiated by time, as far as it stands with coordinates that are.
+    /// Returns the order of the time derivative (0 to 2) of the coordinates that a column of the table stands with.
     #[must_use]
     pub fn order_of(&self, column: usize) -> usize {
         let [_, first, second, _] = self.coordinates.map(|first| first as usize);
         usize::from(column >= first) + usize::from(column >= second)
     }
 
-    /// The columns of x, y and phi of a body; of their first, and of their second time derivatives.
+    /// Returns the columns of x, y and phi of a body, and of their first and second time derivatives.
     #[must_use]
     pub fn pose(&self, system: &ConstraintSystem, body: BodyId) -> [[usize; 3]; 3] {
-        let [places, rates, accelerations, _] = self.coordinates;
+        let [positions, rates, accelerations, _] = self.coordinates;
         let pose = system.pose_of(body);
-        [places, rates, accelerations].map(|first| pose.map(|coordinate| first as usize + coordinate))
+        [positions, rates, accelerations].map(|first| pose.map(|coordinate| first as usize + coordinate))
     }
 }

@@ -1,8 +1,8 @@
-//! Laying a constraint system out as operations.
+//! Compilation of a constraint system to operations.
 
 use super::{
-    Inputs, Op, Outputs, PlacedCheckSlopes, PlacedRim, PlacedSide, Program, Register, STAGES, Stage, Switch,
-    TableLayout,
+    BoundaryRegisters, CheckSlopeRegisters, Inputs, Op, Outputs, Program, Register, RightSideRegisters, STAGES, Stage,
+    Switch, TableLayout,
 };
 use crate::{self as ir, ConstraintSystem, RightSide, With};
 use mechc_expr::{Binary, Comparison, Dependence, ExprId, Graph, Node, Symbol, TIME_SIGNAL, TableId, Unary};
@@ -10,77 +10,78 @@ use rustc_hash::{FxHashMap, FxHashSet};
 
 const NONE: Register = Register::MAX;
 
-/// Where a table of the graph has been laid out.
+/// Placement of a table of the graph in the program.
 #[derive(Clone, Copy)]
-pub(super) struct Place {
-    /// Its number in the program.
+pub(super) struct TablePlacement {
+    /// Number in the program.
     pub number: u32,
-    /// The length of its range.
+    /// Length of the table's range.
     pub period: Register,
 }
 
-/// Where a table has been entered: the piece, and the way from the piece's knot.
+/// Piece of a table at an argument: the piece, and the offset of the argument from the piece's knot.
 #[derive(Clone, Copy)]
-pub(super) struct Reached {
+pub(super) struct TablePiece {
     pub piece: Register,
-    pub way: Register,
+    pub offset: Register,
 }
 
 impl Program {
-    /// The program of a constraint system.
+    /// Compiles a constraint system.
     #[must_use]
     pub fn new(system: &ConstraintSystem) -> Program {
         let mut layout = Layout::new(system);
         layout.signals(system);
         let mut outputs = Outputs {
-            estimates: layout.place(Stage::Prologue, system.coordinates().iter().map(|c| c.estimate)),
-            phi: layout.place(Stage::Position, system.rows().iter().map(|row| row.phi)),
-            phi_q: layout.place(Stage::Position, system.phi_q().entries().iter().map(|&(_, id)| id)),
-            conditions: layout.place(Stage::Position, system.conditions().iter().map(|c| c.positive)),
-            checks: layout.place(Stage::Position, system.checks().iter().map(|c| c.phi)),
-            watches: layout.place(Stage::Position, system.watches().iter().map(|w| w.value)),
+            estimates: layout.emit_all(Stage::Prologue, system.coordinates().iter().map(|c| c.estimate)),
+            phi: layout.emit_all(Stage::Position, system.rows().iter().map(|row| row.phi)),
+            phi_q: layout.emit_all(Stage::Position, system.phi_q().entries().iter().map(|&(_, id)| id)),
+            conditions: layout.emit_all(Stage::Position, system.conditions().iter().map(|c| c.positive)),
+            checks: layout.emit_all(Stage::Position, system.checks().iter().map(|c| c.phi)),
+            watches: layout.emit_all(Stage::Position, system.monitors().iter().map(|w| w.value)),
             ..Outputs::default()
         };
         outputs.terms =
-            system.rows().iter().map(|row| layout.place(Stage::Position, system.graph().terms(row.phi))).collect();
+            system.rows().iter().map(|row| layout.emit_all(Stage::Position, system.graph().terms(row.phi))).collect();
         let (at_position, comparisons) = (layout.register_of.clone(), layout.comparisons.clone());
         outputs.right_sides = layout.right_sides(system);
-        outputs.forces = layout.place(Stage::Forces, system.needed_forces().iter().copied());
-        let mut varied = |list: &[ExprId]| layout.place(Stage::Variation, list.iter().copied());
+        outputs.forces = layout.emit_all(Stage::Forces, system.required_forces().iter().copied());
+        let mut varied = |list: &[ExprId]| layout.emit_all(Stage::Variation, list.iter().copied());
         let slopes = system.check_slopes();
-        outputs.check_slopes = PlacedCheckSlopes {
+        outputs.check_slopes = CheckSlopeRegisters {
             coordinates: varied(&slopes.by_q),
             inputs: slopes.by_inputs().map(&mut varied).collect(),
             params: slopes.by_params().map(&mut varied).collect(),
         };
         for scope in system.scopes() {
             let entries = scope.phi_q.entries().iter().map(|&(_, id)| id);
-            outputs.scopes.push(layout.place(Stage::Variation, entries));
+            outputs.scopes.push(layout.emit_all(Stage::Variation, entries));
         }
         for variation in system.variations() {
             let rights = variation.rights.each_ref();
-            outputs.variations.push(rights.map(|rights| layout.place(Stage::Variation, rights.iter().copied())));
-            outputs.varied_forces.push(layout.place(Stage::Variation, variation.forces.iter().copied()));
+            outputs.variations.push(rights.map(|rights| layout.emit_all(Stage::Variation, rights.iter().copied())));
+            outputs.varied_forces.push(layout.emit_all(Stage::Variation, variation.forces.iter().copied()));
         }
-        outputs.reactions = layout.place(Stage::Measures, system.reactions().iter().map(|of| of.value));
-        outputs.measures = layout.place(Stage::Measures, system.measures().iter().map(|m| m.value));
-        outputs.measures_d = layout.place(Stage::Measures, system.measures().iter().filter_map(|m| m.first));
-        outputs.measures_dd = layout.place(Stage::Measures, system.measures().iter().filter_map(|m| m.second));
-        outputs.appended = layout.place(Stage::Measures, system.appended().iter().map(|column| column.value));
-        // rims are asked for where nothing but time and position has been evaluated
+        outputs.reactions = layout.emit_all(Stage::Measures, system.reactions().iter().map(|of| of.value));
+        outputs.measures = layout.emit_all(Stage::Measures, system.measures().iter().map(|m| m.value));
+        outputs.measures_d = layout.emit_all(Stage::Measures, system.measures().iter().filter_map(|m| m.first));
+        outputs.measures_dd = layout.emit_all(Stage::Measures, system.measures().iter().filter_map(|m| m.second));
+        outputs.appended =
+            layout.emit_all(Stage::Measures, system.derivative_columns().iter().map(|column| column.value));
+        // boundaries are evaluated after time and position alone
         (layout.register_of, layout.comparisons) = (at_position, comparisons);
-        outputs.rims = system.rims().iter().map(|rim| layout.rim(rim)).collect();
+        outputs.rims = system.domain_boundaries().iter().map(|rim| layout.rim(rim)).collect();
         layout.finish(outputs)
     }
 }
 
-/// When a right side can be evaluated.
+/// Returns the stage in which a right side is evaluated.
 fn stage_of(with: With) -> Stage {
     match with {
         With::Time(0 | 1) | With::Input(_) => Stage::Velocity,
         With::Time(2) => Stage::Acceleration,
         With::Time(_) => Stage::Jerk,
-        // as variations have it: what is differentiated brings no branches of its own
+        // as for variations: differentiation adds no branches
         With::Param(_) => Stage::Variation,
     }
 }
@@ -88,18 +89,18 @@ fn stage_of(with: With) -> Stage {
 pub(super) struct Layout<'s> {
     pub graph: &'s Graph,
     pub register_of: Vec<Register>,
-    /// Angles of which sine and cosine are both wanted somewhere.
+    /// Angles whose sine and cosine both occur.
     pairs: FxHashSet<ExprId>,
     pub operations: Vec<Vec<Op>>,
     pub constants: Vec<(Register, f64)>,
-    /// Comparisons already made, so that a function and its derivative share one.
+    /// Comparisons by operands, so that a function and its derivative share one.
     comparisons: FxHashMap<(Comparison, Register, Register), Register>,
     zero: Option<Register>,
-    /// The graph's tables that have been laid out.
-    pub tables: FxHashMap<TableId, Place>,
+    /// Tables of the graph that have been laid out.
+    pub tables: FxHashMap<TableId, TablePlacement>,
     pub table_layouts: Vec<TableLayout>,
-    /// Where tables have been entered.
-    pub reached: FxHashMap<(TableId, ExprId), Reached>,
+    /// Pieces of tables, by table and argument.
+    pub table_pieces: FxHashMap<(TableId, ExprId), TablePiece>,
     inputs: Inputs,
     next: Register,
 }
@@ -118,8 +119,8 @@ impl<'s> Layout<'s> {
         Layout::of(system.graph(), counts.map(|count| count as u32))
     }
 
-    /// For formulas of a graph over so many parameters, coordinates, signals, inputs and parameters by which the coordinates are
-    /// differentiated, and variations of the coordinates; and so many multipliers.
+    /// Creates a layout for formulas of a graph, by the numbers of parameters, coordinates, signals, variables that coordinates are
+    /// differentiated by, variations, and multipliers.
     pub fn of(graph: &'s Graph, [params, n, signals, slopes, variations, multipliers]: [u32; 6]) -> Layout<'s> {
         let coordinates = [0, 1, 2, 3].map(|order| params + 1 + order * n);
         let signals_at = params + 1 + 4 * n;
@@ -136,7 +137,7 @@ impl<'s> Layout<'s> {
             zero: None,
             tables: FxHashMap::default(),
             table_layouts: Vec::new(),
-            reached: FxHashMap::default(),
+            table_pieces: FxHashMap::default(),
             inputs: Inputs {
                 params: 0,
                 time: params,
@@ -152,27 +153,27 @@ impl<'s> Layout<'s> {
         }
     }
 
-    /// All right sides, those first that are evaluated first.
-    fn right_sides(&mut self, system: &ConstraintSystem) -> Vec<PlacedSide> {
+    /// Lays out all right sides, in the order of their stages.
+    fn right_sides(&mut self, system: &ConstraintSystem) -> Vec<RightSideRegisters> {
         let mut sides: Vec<(Stage, &RightSide)> =
             system.right_sides().iter().map(|side| (stage_of(side.with), side)).collect();
         sides.sort_by_key(|(stage, side)| (*stage, side.with));
-        let mut placed: Vec<PlacedSide> = Vec::with_capacity(sides.len());
+        let mut placed: Vec<RightSideRegisters> = Vec::with_capacity(sides.len());
         for (stage, RightSide { with, entries }) in sides {
-            placed.push(PlacedSide { with: *with, entries: self.place(stage, entries.iter().copied()) });
+            placed.push(RightSideRegisters { with: *with, entries: self.emit_all(stage, entries.iter().copied()) });
         }
         placed.sort_by_key(|side| side.with);
         placed
     }
 
-    /// Emits what the roots need that is not there yet, and gives their registers.
-    pub fn place(&mut self, stage: Stage, roots: impl IntoIterator<Item = ExprId>) -> Vec<Register> {
+    /// Emits the operations for roots that have no register yet, and returns the registers of all roots.
+    pub fn emit_all(&mut self, stage: Stage, roots: impl IntoIterator<Item = ExprId>) -> Vec<Register> {
         let roots: Vec<ExprId> = roots.into_iter().collect();
         let mut needed: Vec<ExprId> = Vec::new();
-        let mut seen: FxHashSet<ExprId> = FxHashSet::default();
+        let mut visited: FxHashSet<ExprId> = FxHashSet::default();
         let mut open = roots.clone();
         while let Some(id) = open.pop() {
-            if self.register_of[id.index()] == NONE && seen.insert(id) {
+            if self.register_of[id.index()] == NONE && visited.insert(id) {
                 needed.push(id);
                 open.extend_from_slice(self.graph.node(id).children().as_slice());
             }
@@ -187,10 +188,10 @@ impl<'s> Layout<'s> {
         roots.iter().map(|id| self.register_of[id.index()]).collect()
     }
 
-    /// What signals are by the text, for those who run the program as it is.
+    /// Emits the default formulas of signals, for callers that do not set signals.
     fn signals(&mut self, system: &ConstraintSystem) {
         for (signal, input) in system.inputs().iter().enumerate().take(self.inputs.count as usize) {
-            let formulas = self.place(Stage::Time, input.formulas);
+            let formulas = self.emit_all(Stage::Time, input.formulas);
             for (order, a) in formulas.into_iter().enumerate() {
                 let to = self.inputs.signal(signal as u32, order as u32);
                 self.operations[Stage::Time as usize].push(Op::Copy { to, a });
@@ -198,27 +199,27 @@ impl<'s> Layout<'s> {
         }
     }
 
-    fn rim(&mut self, rim: &ir::Rim) -> PlacedRim {
+    fn rim(&mut self, rim: &ir::DomainBoundary) -> BoundaryRegisters {
         let moves = self.graph.dependence(rim.gauge).highest_order().is_some();
-        let terms = self.place(Stage::Rims, self.graph.terms(rim.gauge));
-        let found = self.place(Stage::Rims, [rim.gauge, rim.slope]);
-        PlacedRim { gauge: found[0], slope: found[1], terms, on_time: !moves }
+        let terms = self.emit_all(Stage::Rims, self.graph.terms(rim.gauge));
+        let registers = self.emit_all(Stage::Rims, [rim.gauge, rim.slope]);
+        BoundaryRegisters { gauge: registers[0], slope: registers[1], terms, on_time: !moves }
     }
 
-    /// The stage in which a node is computed when `wanted` needs it first.
-    fn stage_of(&self, wanted: Stage, id: ExprId) -> Stage {
+    /// Returns the stage in which a node is computed when stage `needed_in` needs it first.
+    fn stage_of(&self, needed_in: Stage, id: ExprId) -> Stage {
         let dependence = self.graph.dependence(id);
         if dependence.is_constant() {
             Stage::Prologue
-        } else if wanted == Stage::Position && !dependence.on(Dependence::coordinates(0)) {
+        } else if needed_in == Stage::Position && !dependence.on(Dependence::coordinates(0)) {
             Stage::Time
         } else {
-            wanted
+            needed_in
         }
     }
 
-    fn emit(&mut self, wanted: Stage, id: ExprId) {
-        let stage = self.stage_of(wanted, id);
+    fn emit(&mut self, needed_in: Stage, id: ExprId) {
+        let stage = self.stage_of(needed_in, id);
         let register = match self.graph.node(id) {
             Node::Const(bits) => self.constant(f64::from_bits(bits)),
             Node::Symbol(symbol) => self.input(symbol),
@@ -248,12 +249,12 @@ impl<'s> Layout<'s> {
         self.register_of[id.index()] = register;
     }
 
-    /// Where a node's value is, which has been laid out.
+    /// Returns the register of a node that has been laid out.
     pub fn register(&self, id: ExprId) -> Register {
         self.register_of[id.index()]
     }
 
-    /// Adds an operation that writes a register of its own.
+    /// Adds an operation that writes a new register, and returns the register.
     pub fn push(&mut self, stage: Stage, op: impl FnOnce(Register) -> Op) -> Register {
         let to = self.fresh();
         self.operations[stage as usize].push(op(to));
@@ -266,7 +267,7 @@ impl<'s> Layout<'s> {
         to
     }
 
-    /// `|a|` as a choice, so that it can be frozen.
+    /// Emits `|a|` as a selection, so that it can be frozen.
     fn absolute(&mut self, stage: Stage, a: Register) -> Register {
         let zero = if let Some(zero) = self.zero {
             zero
@@ -280,7 +281,7 @@ impl<'s> Layout<'s> {
         self.push(stage, |to| Op::Select { to, condition, a: turned, b: a })
     }
 
-    /// `a − b·⌊a/b⌋`, by the operations of `math::modulo`.
+    /// Emits `a − b·⌊a/b⌋` with the operations of `math::modulo`.
     fn modulo(&mut self, stage: Stage, a: Register, b: Register) -> Register {
         let quotient = self.push(stage, |to| Op::Div { to, a, b });
         let whole = self.push(stage, |to| Op::Unary { function: Unary::Floor, to, a: quotient });
@@ -289,13 +290,13 @@ impl<'s> Layout<'s> {
     }
 
     fn comparison(&mut self, stage: Stage, comparison: Comparison, a: Register, b: Register) -> Register {
-        // any zero is the same here
+        // all registers that hold zero are equivalent here
         let b = self.zero.filter(|_| self.is_zero(b)).unwrap_or(b);
         if self.is_zero(b) {
             self.zero.get_or_insert(b);
         }
-        if let Some(&known) = self.comparisons.get(&(comparison, a, b)) {
-            return known;
+        if let Some(&register) = self.comparisons.get(&(comparison, a, b)) {
+            return register;
         }
         let register = self.push(stage, |to| Op::Compare { comparison, to, a, b });
         self.comparisons.insert((comparison, a, b), register);
@@ -303,12 +304,12 @@ impl<'s> Layout<'s> {
     }
 
     fn is_zero(&self, register: Register) -> bool {
-        // constants are laid out in the order of their registers
-        let found = self.constants.binary_search_by_key(&register, |&(register, _)| register);
-        found.is_ok_and(|at| self.constants[at].1 == 0.0)
+        // constants are sorted by register
+        let position = self.constants.binary_search_by_key(&register, |&(register, _)| register);
+        position.is_ok_and(|at| self.constants[at].1 == 0.0)
     }
 
-    /// An operation that is one of the graph's.
+    /// Emits an operation that corresponds to a node of the graph.
     fn operation(&mut self, stage: Stage, node: Node) -> Register {
         let r = |child: ExprId| self.register_of[child.index()];
         let op = match node {
@@ -331,7 +332,7 @@ impl<'s> Layout<'s> {
         self.fresh()
     }
 
-    /// Both at once, at the first need of either.
+    /// Emits sine and cosine together when either is needed first.
     fn sine_and_cosine(&mut self, stage: Stage, id: ExprId, function: Unary, angle: ExprId) -> Register {
         let (sin, cos) = (self.fresh(), self.fresh());
         let a = self.register_of[angle.index()];
@@ -345,7 +346,7 @@ impl<'s> Layout<'s> {
         this_register
     }
 
-    /// `baseⁿ` for n ≥ 1, by the products of `math::whole_power`.
+    /// Emits `baseⁿ` for n ≥ 1 with the products of `math::whole_power`.
     fn power(&mut self, stage: Stage, base: Register, n: u32) -> Register {
         if n == 1 {
             return base;
@@ -407,11 +408,11 @@ impl<'s> Layout<'s> {
 }
 
 fn pairs(graph: &Graph) -> FxHashSet<ExprId> {
-    let arguments = |wanted: Unary| -> FxHashSet<ExprId> {
+    let arguments = |searched: Unary| -> FxHashSet<ExprId> {
         graph
             .nodes()
             .filter_map(|(_, node)| match node {
-                Node::Unary(function, a) if function == wanted => Some(a),
+                Node::Unary(function, a) if function == searched => Some(a),
                 _ => None,
             })
             .collect()

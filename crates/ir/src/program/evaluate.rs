@@ -1,35 +1,35 @@
-//! Running a program. Allocates nothing but the registers, once.
+//! Evaluation of a program on numbers. Allocates only the registers, once.
 
 use super::{Column, Machine, Op, Program, Register, Stage, Switch, TableLayout};
 use mechc_expr::math;
 use mechc_expr::{Binary, Comparison, Unary, binary_value, compare, piece, unary_value};
 
-/// A program's registers.
+/// Register file of a program.
 #[derive(Clone, Debug)]
 pub struct Registers {
     values: Vec<f64>,
-    /// Which switches stay as they are.
-    frozen: Frozen,
+    /// Switches that keep their results.
+    frozen: FrozenSwitches,
 }
 
-/// Which switches stay as they are, instead of following their formulas.
+/// Selection of the switches that keep their results instead of following their formulas.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
-pub struct Frozen {
-    /// Those that depend on time alone.
+pub struct FrozenSwitches {
+    /// True for the switches that depend on time alone.
     pub time: bool,
-    /// All others.
+    /// True for all other switches.
     pub motion: bool,
 }
 
 impl Registers {
-    /// The value of one.
+    /// Returns the value of a register.
     #[must_use]
     pub fn get(&self, register: Register) -> f64 {
         self.values[register as usize]
     }
 
-    /// From now on these switches stay as they are, and the others follow their formulas.
-    pub fn freeze(&mut self, frozen: Frozen) {
+    /// Freezes the selected switches from now on; all others follow their formulas.
+    pub fn freeze(&mut self, frozen: FrozenSwitches) {
         self.frozen = frozen;
     }
 
@@ -38,17 +38,17 @@ impl Registers {
         self.values[register as usize] = value;
     }
 
-    /// Sets a run of inputs.
+    /// Sets a run of registers.
     pub fn set_all(&mut self, first: Register, values: &[f64]) {
         self.values[first as usize..first as usize + values.len()].copy_from_slice(values);
     }
 }
 
 impl Program {
-    /// Registers with the constants and parameters in place, and the prologue run.
+    /// Creates the registers with constants and parameters, and runs the prologue.
     #[must_use]
     pub fn start(&self, params: &[f64]) -> Registers {
-        let mut registers = Registers { values: vec![0.0; self.registers()], frozen: Frozen::default() };
+        let mut registers = Registers { values: vec![0.0; self.registers()], frozen: FrozenSwitches::default() };
         for &(register, value) in &self.constants {
             registers.set(register, value);
         }
@@ -57,7 +57,7 @@ impl Program {
         registers
     }
 
-    /// The result that a switch would have now, frozen or not.
+    /// Returns the current result of a switch, whether it is frozen or not.
     #[must_use]
     pub fn live(&self, switch: &Switch, registers: &Registers) -> f64 {
         let v = registers.values.as_slice();
@@ -69,7 +69,7 @@ impl Program {
         }
     }
 
-    /// What a switch is decided by, and how far that is from the nearest edge.
+    /// Returns the quantity that decides a switch, and its distance to the nearest edge.
     #[must_use]
     pub fn edge(&self, switch: &Switch, registers: &Registers) -> (f64, f64) {
         let v = registers.values.as_slice();
@@ -89,19 +89,19 @@ impl Program {
         }
     }
 
-    /// The number of the piece that an argument lies in; what is no number lies nowhere.
+    /// Returns the index of the table piece that contains an argument; NaN for NaN.
     #[must_use]
     pub fn piece(&self, table: u32, x: f64, registers: &Registers) -> f64 {
         piece_in(&self.tables[table as usize], x, &registers.values)
     }
 
-    /// The entry of a table's column for a piece.
+    /// Returns the entry of a table's column for a piece.
     #[must_use]
     pub fn pick(&self, table: u32, column: Column, piece: f64, registers: &Registers) -> f64 {
         pick_in(&self.tables[table as usize], column, piece, &registers.values)
     }
 
-    /// Runs the operations of one stage; where registers are frozen, all but the switches of the equations.
+    /// Runs the operations of a stage, except frozen switches.
     pub fn run(&self, stage: Stage, registers: &mut Registers) {
         let frozen = match stage {
             Stage::Time => registers.frozen.time,
@@ -119,7 +119,7 @@ impl Program {
 
 impl Program {
     /// Runs some operations of a stage whose switches are never frozen.
-    pub fn run_only(&self, operations: &[Op], registers: &mut Registers) {
+    pub fn run_operations(&self, operations: &[Op], registers: &mut Registers) {
         let mut numbers = Numbers { tables: &self.tables, v: registers.values.as_mut_slice() };
         for op in operations {
             op.run(&mut numbers);
@@ -127,7 +127,7 @@ impl Program {
     }
 }
 
-/// Registers that hold numbers.
+/// Machine on registers that hold numbers.
 struct Numbers<'n> {
     tables: &'n [TableLayout],
     v: &'n mut [f64],
@@ -233,7 +233,7 @@ impl Machine for Numbers<'_> {
     }
 }
 
-/// The number of the piece that an argument lies in; what is no number lies nowhere.
+/// Returns the index of the table piece that contains an argument; NaN for NaN.
 fn piece_in(layout: &TableLayout, x: f64, v: &[f64]) -> f64 {
     if x.is_nan() {
         return x;
@@ -241,45 +241,45 @@ fn piece_in(layout: &TableLayout, x: f64, v: &[f64]) -> f64 {
     piece(layout.pieces as usize, |k| v[layout.knots as usize + k], x) as f64
 }
 
-/// The entry of a table's column for a piece.
+/// Returns the entry of a table's column for a piece; NaN for NaN.
 fn pick_in(layout: &TableLayout, column: Column, piece: f64, v: &[f64]) -> f64 {
     if piece.is_nan() {
         return piece;
     }
     let range = layout.column(column);
-    // a piece is a small whole number
+    // a piece is a small nonnegative integer
     #[allow(clippy::cast_sign_loss)]
     let at = range.start as usize + piece as usize;
     v[at.min(range.end as usize - 1)]
 }
 
-/// Numbers as truths: 0 is false, 1 is true.
+/// Truth values as numbers: 0 is false, 1 is true.
 pub mod truth {
-    /// Whether both hold.
+    /// Returns 1 if both are true.
     #[must_use]
     pub fn and(a: f64, b: f64) -> f64 {
         f64::from(a != 0.0 && b != 0.0)
     }
 
-    /// Whether either holds.
+    /// Returns 1 if either is true.
     #[must_use]
     pub fn or(a: f64, b: f64) -> f64 {
         f64::from(a != 0.0 || b != 0.0)
     }
 
-    /// Whether it does not hold.
+    /// Returns 1 if `a` is false.
     #[must_use]
     pub fn not(a: f64) -> f64 {
         f64::from(a == 0.0)
     }
 
-    /// `a` if the condition holds, else `b`.
+    /// Returns `a` if the condition is true, else `b`.
     #[must_use]
     pub fn select(condition: f64, a: f64, b: f64) -> f64 {
         if condition == 0.0 { b } else { a }
     }
 
-    /// The same; not a number if either is not.
+    /// Returns the result of [`select`], or NaN if either operand is NaN.
     #[must_use]
     pub fn either(condition: f64, a: f64, b: f64) -> f64 {
         if a.is_nan() || b.is_nan() { f64::NAN } else { select(condition, a, b) }

@@ -1,37 +1,37 @@
-//! Formulas of the motion that are evaluated beside the equations.
+//! Programs of formulas that are evaluated separately from the equations.
 
 use super::compile::Layout;
-use super::enclose::behind;
+use super::interval_eval::backward_slice;
 use super::{Op, Outputs, Program, Register, Stage};
 use mechc_expr::{ExprId, Graph};
 use rustc_hash::FxHashMap;
 
 impl Program {
-    /// A program of nothing but formulas, over so many parameters, coordinates, variations of these and multipliers, and where each is
-    /// left: by the stage [`Stage::Measures`].
+    /// Compiles formulas alone, for given numbers of parameters, coordinates, variations and multipliers. Returns the program, which
+    /// evaluates them in [`Stage::Measures`], and their registers.
     #[must_use]
     pub fn of_formulas(graph: &Graph, counts: [usize; 4], roots: &[ExprId]) -> (Program, Vec<Register>) {
-        let (program, registers, _) = Program::of_formulas_and_nodes(graph, counts, roots);
+        let (program, registers, _) = Program::from_formulas_with_nodes(graph, counts, roots);
         (program, registers)
     }
 
-    /// As [`Program::of_formulas`], with the register of each node of the graph that the formulas depend on.
+    /// Compiles formulas as [`Program::of_formulas`] does; also returns the node of each register that the formulas depend on.
     #[must_use]
-    pub fn of_formulas_and_nodes(
+    pub fn from_formulas_with_nodes(
         graph: &Graph,
         counts: [usize; 4],
         roots: &[ExprId],
     ) -> (Program, Vec<Register>, FxHashMap<Register, ExprId>) {
         let [params, coordinates, variations, multipliers] = counts.map(|count| count as u32);
         let mut layout = Layout::of(graph, [params, coordinates, 0, 0, variations, multipliers]);
-        let registers = layout.place(Stage::Measures, roots.iter().copied());
+        let registers = layout.emit_all(Stage::Measures, roots.iter().copied());
         let nodes = graph.reachable(roots).into_iter().map(|id| (layout.register(id), id)).collect();
         (layout.finish(Outputs::default()), registers, nodes)
     }
 
-    /// The operations of a stage that some registers depend on, in the order in which they run.
+    /// Returns the operations of a stage that some registers depend on, in order of evaluation.
     #[must_use]
     pub fn operations_behind(&self, roots: &[Register], stage: Stage) -> Vec<Op> {
-        behind(self, roots, &[stage])
+        backward_slice(self, roots, &[stage])
     }
 }

@@ -1,25 +1,25 @@
-//! Operations on several numbers at once, a lane for each.
+//! Operations on batches: several numbers at once, one per lane.
 
 use super::{Column, Machine, Program, Register, Registers, truth};
 use mechc_expr::math;
 use mechc_expr::{Binary, Comparison, Unary, binary_value, compare, unary_value};
 use std::array::from_fn;
 
-/// The values of one register, a lane for each.
+/// Values of one register, one per lane.
 #[derive(Clone, Copy, Debug)]
 #[repr(align(64))]
 pub struct LaneValues<const W: usize>(pub [f64; W]);
 
-#[allow(clippy::inline_always)] // as all that is done in lanes
+#[allow(clippy::inline_always)] // loops over lanes are compiled for several kinds of processors
 impl<const W: usize> LaneValues<W> {
-    /// Some of them next to each other, `P` in a part.
+    /// Returns `P` adjacent lanes.
     #[inline(always)]
     #[must_use]
     pub fn part<const P: usize>(&self, part: usize) -> &[f64; P] {
         &self.0.as_chunks().0[part]
     }
 
-    /// The same, to be written.
+    /// Returns `P` adjacent lanes for writing.
     #[inline(always)]
     #[must_use]
     pub fn part_mut<const P: usize>(&mut self, part: usize) -> &mut [f64; P] {
@@ -27,32 +27,32 @@ impl<const W: usize> LaneValues<W> {
     }
 }
 
-/// Registers that hold a number for each lane, which are gone through in parts of `P` lanes: as many as a processor's vector registers hold a
-/// few times over, so that what an operation reads stays in these. With `ALL`, all parts are, which is known where it is compiled.
+/// Machine on registers with one number per lane. It processes `P` lanes at a time, a small multiple of the width of vector registers, so
+/// that operands stay in these. With `ALL` the number of parts is a compile-time constant.
 pub struct LaneMachine<'n, const W: usize, const P: usize, const ALL: bool = false> {
-    /// What stands in them.
+    /// Lane values by register.
     v: &'n mut [LaneValues<W>],
-    /// How many parts there are that somebody asks for, and which of them is gone through.
+    /// Number of parts to process, and the current part.
     parts: usize,
     part: usize,
-    /// Tables, and what they hold.
+    /// Program with the tables.
     program: &'n Program,
-    /// The program's own registers.
+    /// Scalar registers, which hold the table columns.
     scalars: &'n Registers,
 }
 
 impl<'n, const W: usize, const P: usize, const ALL: bool> LaneMachine<'n, W, P, ALL> {
-    /// For registers of which so many parts are gone through.
+    /// Creates a machine that processes the first `parts` parts of the registers.
     #[inline]
     #[must_use]
     pub fn new(v: &'n mut [LaneValues<W>], parts: usize, (program, scalars): (&'n Program, &'n Registers)) -> Self {
         LaneMachine { v, parts, part: 0, program, scalars }
     }
 
-    /// Whether all lanes of a register hold the same bits.
+    /// Returns whether all lanes of a register hold the same bits.
     #[inline(always)]
-    #[allow(clippy::inline_always)] // as all that is done in lanes
-    fn is_alike(&self, register: Register) -> bool {
+    #[allow(clippy::inline_always)] // loops over lanes are compiled for several kinds of processors
+    fn is_uniform(&self, register: Register) -> bool {
         let values = &self.v[register as usize];
         let first = values.0[0].to_bits();
         let differs =
@@ -61,7 +61,7 @@ impl<'n, const W: usize, const P: usize, const ALL: bool> LaneMachine<'n, W, P, 
     }
 }
 
-#[allow(clippy::inline_always)] // each is an arm of a loop that is compiled for several kinds of processors
+#[allow(clippy::inline_always)] // each method becomes part of a loop that is compiled for several kinds of processors
 impl<const W: usize, const P: usize, const ALL: bool> Machine for LaneMachine<'_, W, P, ALL> {
     type Value = [f64; P];
 
@@ -105,7 +105,7 @@ impl<const W: usize, const P: usize, const ALL: bool> Machine for LaneMachine<'_
         from_fn(|k| a[k] / b[k])
     }
 
-    // in one go, so that no lane's product is put away
+    // in one loop, so that no product is spilled
 
     #[inline(always)]
     fn mul_add(&mut self, a: [f64; P], b: [f64; P], c: [f64; P]) -> [f64; P] {
@@ -155,13 +155,13 @@ impl<const W: usize, const P: usize, const ALL: bool> Machine for LaneMachine<'_
 
     #[inline(always)]
     fn sin_cos(&mut self, a: [f64; P]) -> [[f64; P]; 2] {
-        math::sin_cos_of_each(&a).into()
+        math::sin_cos_lanes(&a).into()
     }
 
-    /// Where all lanes ask for the same, one part is enough: variants that go side by side have one time.
+    /// Evaluates one part if all lanes are equal: variants in a batch share the time.
     #[inline(always)]
     fn sin_cos_in(&mut self, [sin, cos]: [Register; 2], a: Register) {
-        let evaluated = if self.parts() > 1 && self.is_alike(a) { 1 } else { self.parts() };
+        let evaluated = if self.parts() > 1 && self.is_uniform(a) { 1 } else { self.parts() };
         for part in 0..self.parts() {
             self.go_to(part);
             if part < evaluated {

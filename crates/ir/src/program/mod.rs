@@ -1,59 +1,57 @@
-//! From expressions to straight-line operations, and their evaluation.
+//! Programs: expressions compiled to straight-line operations, and their evaluation.
 //!
-//! A program is one file of registers and a list of operations per [`Stage`]. Registers live through all stages, so
-//! that what the position needed is not computed again for the acceleration. Common subexpressions are computed once
-//! (the graph has them once), sine and cosine of an angle together.
+//! A program has one register file and a list of operations per [`Stage`]. Registers live through all stages, so the acceleration reuses
+//! what the position has computed. The graph holds common subexpressions once; sine and cosine of an angle are computed together.
 //!
-//! Where a formula has branches, the program has a [`Switch`]: its result can be frozen while a step is tried, and looked
-//! at when the step is done.
+//! Each branch of a formula is decided by a [`Switch`], whose result can be frozen while a step is tried, and checked when the step is done.
 //!
-//! What depends on parameters alone is computed once, in the prologue; what depends on time alone, once per time and
-//! not once per iteration.
+//! Operations that depend on parameters alone run once, in the prologue; those that depend on time alone run once per time and not once per
+//! iteration.
 
-#[allow(missing_docs)] // each is the number of the operation whose name it has
+#[allow(missing_docs)] // each constant is the opcode of the operation that it is named after
 pub mod codes;
-/// The text of the file, for emitted code that carries it along.
+/// Source text of `codes.rs`, which emitted code includes.
 pub const CODES: &str = include_str!("codes.rs");
 mod compile;
-mod enclose;
 mod evaluate;
 mod formulas;
+mod interval_eval;
 mod lanes;
 mod op;
-mod ranges;
-mod signals;
+mod range_bounds;
 mod tables;
+mod time_terms;
 
-pub use enclose::Enclosure;
-pub use evaluate::{Frozen, Registers, truth};
+pub use evaluate::{FrozenSwitches, Registers, truth};
+pub use interval_eval::Enclosure;
 pub use lanes::{LaneMachine, LaneValues};
-pub use op::{Few, Machine, Op};
-pub use ranges::{Hold, Range, Ranges};
-pub use signals::Signal;
+pub use op::{Machine, Op, RegisterList};
+pub use range_bounds::{Range, Ranges, Restriction};
+pub use time_terms::Signal;
 
 use crate::With;
 use rustc_hash::FxHashSet;
 
-/// A place for one number.
+/// Index of a register, which holds one number.
 pub type Register = u32;
 
 impl Stage {
-    /// Whether what is computed here enters the equations as the motion goes on, so that it must be smooth within a step.
-    /// A measure takes the branch it is on.
+    /// Returns whether operations of this stage enter the equations along the motion, so that they must be smooth within a step. In other
+    /// stages a formula takes the branch that the equations are on.
     #[must_use]
     pub fn can_switch(self) -> bool {
         !matches!(self, Stage::Prologue | Stage::Forces | Stage::Variation | Stage::Measures | Stage::Rims)
     }
 }
 
-/// When operations are run.
+/// Stages of evaluation.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub enum Stage {
-    /// Once: what depends on parameters alone, the estimates too.
+    /// Once: operations that depend on parameters alone, and the estimates.
     Prologue,
-    /// Once per time: what depends on time alone.
+    /// Once per time: operations that depend on time alone.
     Time,
-    /// Once per iteration: `Φ`, `Φ_q`, the conditions, what is watched.
+    /// Once per iteration: `Φ`, `Φ_q`, conditions and monitors.
     Position,
     /// `ν`.
     Velocity,
@@ -61,18 +59,17 @@ pub enum Stage {
     Acceleration,
     /// The right side of the jerk equation; needs `q̈`.
     Jerk,
-    /// What the multipliers have to hold; needs `q̈`. At a jump of a load the later side counts.
+    /// The forces that the multipliers balance; needs `q̈`. At a jump of a load the later side counts.
     Forces,
-    /// The right sides of the variations, each of which needs `q̇`, `q̈` and the variations before it. A branch is the one that the
-    /// equations are on.
+    /// The right sides of the variations; each needs `q̇`, `q̈` and the variations before it. Branches are those of the equations.
     Variation,
     /// The measures; needs all derivatives of `q`.
     Measures,
-    /// The rims, where they are asked for; needs `q̇`.
+    /// The domain boundaries, where they are evaluated; needs `q̇`.
     Rims,
 }
 
-/// All stages, in the order in which they may be run.
+/// All stages, in the order of evaluation.
 pub const STAGES: [Stage; 10] = [
     Stage::Prologue,
     Stage::Time,
@@ -86,12 +83,12 @@ pub const STAGES: [Stage; 10] = [
     Stage::Rims,
 ];
 
-/// A column of a table.
+/// A column of a spline table.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub enum Column {
-    /// Where each piece begins, and where the last one ends.
+    /// First arguments of the pieces, followed by the end of the last piece.
     Knots,
-    /// A coefficient of each piece, 0 to 3.
+    /// Coefficients of one degree, 0 to 3, one per piece.
     Coefficient(u8),
 }
 
@@ -100,7 +97,7 @@ impl Column {
     pub const ALL: [Column; 5] =
         [Column::Knots, Column::Coefficient(0), Column::Coefficient(1), Column::Coefficient(2), Column::Coefficient(3)];
 
-    /// Its place among all.
+    /// Returns the index among all columns.
     #[must_use]
     pub fn number(self) -> u32 {
         match self {
@@ -110,25 +107,25 @@ impl Column {
     }
 }
 
-/// Where a table's columns stand: each is a run of registers.
+/// Registers of a table; each column is a run of consecutive registers.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct TableLayout {
     /// Its name.
     pub name: String,
-    /// One less than there are knots.
+    /// Number of pieces, one less than knots.
     pub pieces: u32,
     /// First knot.
     pub knots: Register,
-    /// First of each coefficient.
+    /// First register of each coefficient column.
     pub coefficients: [Register; 4],
-    /// Of a periodic one: where it stands how many whole periods its arguments are beyond its range.
+    /// Registers of the number of whole periods that arguments of a periodic table lie beyond its range.
     pub periods: Vec<Register>,
-    /// Where third derivatives of it stand, which jump at its knots.
+    /// Registers of its third derivatives, which jump at the knots.
     pub thirds: Vec<Register>,
 }
 
 impl TableLayout {
-    /// The registers of a column.
+    /// Returns the registers of a column.
     #[must_use]
     pub fn column(&self, column: Column) -> std::ops::Range<Register> {
         match column {
@@ -141,7 +138,7 @@ impl TableLayout {
     }
 }
 
-/// Where a program finds its inputs; each is a run of registers.
+/// Registers of the inputs; each field is the start of a run of registers.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Inputs {
     /// First parameter.
@@ -152,37 +149,37 @@ pub struct Inputs {
     pub coordinates: [Register; 4],
     /// Number of coordinates.
     pub n: u32,
-    /// First signal: value, rate and acceleration of each, one behind the other.
+    /// First signal; value, rate and acceleration of each are adjacent.
     pub signals: Register,
-    /// First of the derivatives of `q` by each input that is a signal, and then by each parameter where these are asked for; `n` for each.
+    /// First derivative of `q` with respect to each input signal, then each parameter if requested; `n` for each.
     pub slopes: Register,
     /// Number of signals.
     pub count: u32,
-    /// First of the variations: for each `q`, `q̇` and `q̈`, one behind the other.
+    /// First variation: `q`, `q̇` and `q̈` of each, one after the other.
     pub varied: Register,
-    /// First multiplier, one for each equation where forces are asked for; behind them how these vary, variation by variation.
+    /// First multiplier, one per equation if forces are requested; followed by the variations of all multipliers.
     pub multipliers: Register,
 }
 
-/// How equations that were left out change.
+/// Registers of the slopes of left-out equations.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
-pub struct PlacedCheckSlopes {
-    /// With the coordinates: by the pattern of [`crate::CheckSlopes`].
+pub struct CheckSlopeRegisters {
+    /// Slopes with respect to coordinates, in the order of [`crate::CheckSlopes::pattern`].
     pub coordinates: Vec<Register>,
-    /// With each input, one entry per check.
+    /// Slopes with respect to each input, one entry per check.
     pub inputs: Vec<Vec<Register>>,
-    /// With each parameter, likewise.
+    /// Slopes with respect to each parameter, one entry per check.
     pub params: Vec<Vec<Register>>,
 }
 
 impl Inputs {
-    /// First register of a variation of `q` (order 0), `q̇` or `q̈`.
+    /// Returns the first register of a variation of `q` (order 0), `q̇` (1) or `q̈` (2).
     #[must_use]
     pub fn varied(&self, variation: u32, order: u32) -> Register {
         self.varied + (3 * variation + order) * self.n
     }
 
-    /// First register of how the multipliers vary.
+    /// Returns the first register of the varied multipliers of a variation.
     #[must_use]
     pub fn varied_multipliers(&self, variation: u32) -> Register {
         self.multipliers + (1 + variation) * self.n
@@ -190,112 +187,112 @@ impl Inputs {
 }
 
 impl Inputs {
-    /// The registers of all signals.
+    /// Returns the registers of all signals.
     #[must_use]
     pub fn all_signals(&self) -> std::ops::Range<Register> {
         self.signals..self.signals + ORDERS * self.count
     }
 
-    /// The register of a signal's value, rate or acceleration.
+    /// Returns the register of a signal's value (order 0), rate (1) or acceleration (2).
     #[must_use]
     pub fn signal(&self, signal: u32, order: u32) -> Register {
         self.signals + ORDERS * signal + order
     }
 }
 
-/// What is given of a signal: value, rate, acceleration.
+/// Number of values per signal: value, rate, acceleration.
 const ORDERS: u32 = 3;
 
-/// Where a program leaves its results.
+/// Registers of the results. `n` is the number of coordinates.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub struct Outputs {
-    /// Where assembly starts, `n`.
+    /// Estimates of the coordinates, `n`.
     pub estimates: Vec<Register>,
     /// `Φ`, `n`.
     pub phi: Vec<Register>,
-    /// `Φ_q`, in the order of its pattern's entries.
+    /// `Φ_q`, in the order of the entries of its pattern.
     pub phi_q: Vec<Register>,
-    /// The right sides of the equations for the derivatives of `q`, in the order of what these are by.
-    pub right_sides: Vec<PlacedSide>,
-    /// `p` of `Φ_qᵀ λ = p`, `n`, or none where nobody asks for forces.
+    /// Right sides of the differentiated equations, in the order of [`With`].
+    pub right_sides: Vec<RightSideRegisters>,
+    /// `p` of `Φ_qᵀ λ = p`, `n`; empty if forces are not requested.
     pub forces: Vec<Register>,
-    /// The right sides of each variation of `q`, `q̇` and `q̈`, `n` each.
+    /// Right sides of each variation of `q`, `q̇` and `q̈`, `n` each.
     pub variations: Vec<[Vec<Register>; 3]>,
-    /// Likewise of the multipliers; none of variations that have none.
+    /// Right sides of the varied multipliers of each variation; empty where it has none.
     pub varied_forces: Vec<Vec<Register>>,
-    /// By part of whose own equations there are variations: the entries of its matrix, row by row.
+    /// Entries of the matrix of each scope, row by row.
     pub scopes: Vec<Vec<Register>>,
-    /// Derivatives that stand behind all other columns.
+    /// Derivative columns.
     pub appended: Vec<Register>,
-    /// What joints exert and drivers supply, where that is tabulated.
+    /// Reactions and efforts, if they are tabulated.
     pub reactions: Vec<Register>,
-    /// Measures' values.
+    /// Values of the measures.
     pub measures: Vec<Register>,
-    /// Measures' first derivatives, where they have one.
+    /// First time derivatives of the measures that have one.
     pub measures_d: Vec<Register>,
-    /// Measures' second derivatives, where they have one.
+    /// Second time derivatives of the measures that have one.
     pub measures_dd: Vec<Register>,
     /// Formulas that must be positive.
     pub conditions: Vec<Register>,
-    /// Entries of `Φ` that follow from the others.
+    /// Entries of `Φ` that are checked instead of solved.
     pub checks: Vec<Register>,
-    /// How they change.
-    pub check_slopes: PlacedCheckSlopes,
-    /// Quantities that keep their signs.
+    /// Slopes of the checks.
+    pub check_slopes: CheckSlopeRegisters,
+    /// Quantities that keep their signs along a branch.
     pub watches: Vec<Register>,
-    /// Where formulas come to the end of what their functions take.
-    pub rims: Vec<PlacedRim>,
-    /// For each row, the terms of its sum, against whose size its rounding is judged.
+    /// Domain boundaries.
+    pub rims: Vec<BoundaryRegisters>,
+    /// Terms of the sum of each row, which scale its rounding.
     pub terms: Vec<Vec<Register>>,
 }
 
-/// Where a right side is.
+/// Registers of a right side.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub struct PlacedSide {
-    /// What `Φ = 0` was differentiated with.
+pub struct RightSideRegisters {
+    /// Variable of differentiation.
     pub with: With,
-    /// Its entries, `n`.
+    /// Entries, `n`.
     pub entries: Vec<Register>,
 }
 
 impl Outputs {
-    /// `ν`, `n`.
+    /// Returns `ν`, `n` registers.
     #[must_use]
     pub fn nu(&self) -> &[Register] {
         self.right_side(With::Time(1))
     }
 
-    /// `γ`, `n`.
+    /// Returns `γ`, `n` registers.
     #[must_use]
     pub fn gamma(&self) -> &[Register] {
         self.right_side(With::Time(2))
     }
 
-    /// Right side of the jerk equation, `n`, or none.
+    /// Returns the right side of the jerk equation, `n` registers; empty if it has none.
     #[must_use]
     pub fn jerk(&self) -> &[Register] {
         self.right_side(With::Time(3))
     }
 
-    /// By input: the right side of the equation for the derivatives of `q` by it, `n`.
+    /// Returns for each input the right side for the derivatives of `q` with respect to it, `n` registers.
     pub fn by_inputs(&self) -> impl Iterator<Item = &[Register]> {
         self.all_with(|with| matches!(with, With::Input(_)))
     }
 
-    /// Likewise by parameter, where that is asked for.
+    /// Returns for each parameter the right side for the derivatives of `q` with respect to it, if requested.
     pub fn by_params(&self) -> impl Iterator<Item = &[Register]> {
         self.all_with(|with| matches!(with, With::Param(_)))
     }
 
-    fn right_side(&self, wanted: With) -> &[Register] {
-        self.all_with(|with| with == wanted).next().unwrap_or_default()
+    fn right_side(&self, with: With) -> &[Register] {
+        self.all_with(|other| other == with).next().unwrap_or_default()
     }
 
-    fn all_with(&self, is_wanted: impl Fn(With) -> bool) -> impl Iterator<Item = &[Register]> {
-        self.right_sides.iter().filter(move |side| is_wanted(side.with)).map(|side| side.entries.as_slice())
+    fn all_with(&self, is_selected: impl Fn(With) -> bool) -> impl Iterator<Item = &[Register]> {
+        self.right_sides.iter().filter(move |side| is_selected(side.with)).map(|side| side.entries.as_slice())
     }
 
-    /// Shows every register of a result.
+    /// Calls `show` with every register of a result.
     fn all(&self, mut show: impl FnMut(Register)) {
         let lists = [&self.estimates, &self.phi, &self.phi_q, &self.forces];
         let more = [&self.measures, &self.measures_d, &self.measures_dd, &self.conditions, &self.checks, &self.watches];
@@ -311,51 +308,51 @@ impl Outputs {
     }
 }
 
-/// Where a quantity stands at whose zero a formula may have an edge.
+/// Registers of a domain boundary.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub struct PlacedRim {
-    /// The quantity.
+pub struct BoundaryRegisters {
+    /// The event function.
     pub gauge: Register,
     /// Its time derivative.
     pub slope: Register,
-    /// The terms of its sum, against whose size its rounding is judged.
+    /// Terms of its sum, which scale its rounding.
     pub terms: Vec<Register>,
-    /// Whether it depends on time alone.
+    /// True if it depends on time alone.
     pub on_time: bool,
 }
 
-/// Operations that evaluate a constraint system.
+/// Straight-line operations that evaluate a constraint system.
 #[derive(Clone, Debug)]
 pub struct Program {
     operations: Vec<Vec<Op>>,
     tables: Vec<TableLayout>,
-    /// Where the right side of an equation may have an edge, in order of evaluation.
+    /// Switches of the equations, in order of evaluation.
     switches: Vec<Switch>,
     constants: Vec<(Register, f64)>,
     registers: usize,
-    /// Where the inputs go.
+    /// Registers of the inputs.
     pub inputs: Inputs,
-    /// Where the results are.
+    /// Registers of the results.
     pub outputs: Outputs,
 }
 
-/// An operation whose result goes in jumps: a comparison, a rounding, the piece of a table.
+/// An operation whose result jumps: a comparison, a rounding, the piece of a table.
 ///
-/// While registers are frozen its result stays, so that what is computed from it goes on smoothly beyond its edge.
+/// A frozen switch keeps its result, so that formulas continue smoothly beyond the edge.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Switch {
     /// The operation.
     pub op: Op,
-    /// Where its result stands.
+    /// Register of its result.
     pub to: Register,
-    /// Whether it depends on time alone.
+    /// True if it depends on time alone.
     pub on_time: bool,
 }
 
 impl Program {
-    /// The same with its signals as inputs: without the operations that say what they are by the text. Registers stay what they are.
+    /// Returns the program with signals as inputs: without the operations that compute them from the text's formulas. Registers keep their indices.
     #[must_use]
-    pub fn with_signals_given(&self) -> Program {
+    pub fn with_signals_as_inputs(&self) -> Program {
         let signals = self.inputs.all_signals();
         let mut is_read = vec![false; self.registers];
         self.outputs.all(|register| is_read[register as usize] = true);
@@ -381,7 +378,7 @@ impl Program {
         Program { operations, switches, ..self.clone() }
     }
 
-    /// The same without results by parameter.
+    /// Returns the program without right sides for parameters.
     #[must_use]
     pub fn without_params(&self) -> Program {
         let mut program = self.clone();
@@ -389,7 +386,7 @@ impl Program {
         program
     }
 
-    /// The same without what joints exert and drivers supply, as columns of their own.
+    /// Returns the program without reaction columns.
     #[must_use]
     pub fn without_reactions(&self) -> Program {
         let mut program = self.clone();
@@ -397,31 +394,31 @@ impl Program {
         program
     }
 
-    /// The tables, by their number.
+    /// Returns the tables, by number.
     #[must_use]
     pub fn tables(&self) -> &[TableLayout] {
         &self.tables
     }
 
-    /// Where the equations may have edges.
+    /// Returns the switches of the equations.
     #[must_use]
     pub fn switches(&self) -> &[Switch] {
         &self.switches
     }
 
-    /// The operations of a stage.
+    /// Returns the operations of a stage.
     #[must_use]
     pub fn stage(&self, stage: Stage) -> &[Op] {
         &self.operations[stage as usize]
     }
 
-    /// The numbers that stand in registers from the start.
+    /// Returns the registers that hold constants, with their values.
     #[must_use]
     pub fn constants(&self) -> &[(Register, f64)] {
         &self.constants
     }
 
-    /// What each register is written by, if by an operation, and when.
+    /// Returns for each register the operation that writes it, with its stage; `None` for inputs and constants.
     #[must_use]
     pub fn definitions(&self) -> Vec<Option<(Stage, Op)>> {
         let mut definitions = vec![None; self.registers];
@@ -435,13 +432,13 @@ impl Program {
         definitions
     }
 
-    /// How many registers it needs.
+    /// Returns the number of registers.
     #[must_use]
     pub fn registers(&self) -> usize {
         self.registers
     }
 
-    /// The registers that an operation reads, tables' columns too.
+    /// Returns the registers that an operation reads, with those of the table columns that it looks into.
     pub fn reads(&self, op: Op) -> impl Iterator<Item = Register> + use<> {
         let cells = op.column().map_or(0..0, |(table, column)| self.tables[table as usize].column(column));
         cells.chain(op.reads())

@@ -1,15 +1,14 @@
-//! The operations, each declared once: what it reads and writes, what it does, and what it is called where it is written as a
-//! number.
+//! The operations, each declared once: its operands and results, its meaning, and its opcode.
 //!
-//! What an operation does is said in terms of a [`Machine`]. Numbers, several numbers at once, intervals, expressions that fold,
-//! and the text of code are machines: each says what a sum or a sine is to it, and none needs to know the list of operations.
+//! The meaning of an operation is expressed in terms of a [`Machine`]. Numbers, lanes, intervals, folding expressions and emitted text are
+//! machines; none of them needs to know the list of operations.
 
 use super::{Column, Register, codes};
 use mechc_expr::{Binary, Comparison, Unary};
 
-/// One operation: reads registers, writes `to`.
+/// One operation: reads registers and writes `to`.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-#[allow(missing_docs)] // operands and results say themselves
+#[allow(missing_docs)] // operands and results are named after their roles
 pub enum Op {
     Add {
         to: Register,
@@ -93,7 +92,7 @@ pub enum Op {
         d: Register,
         e: Register,
     },
-    /// Sine and cosine of an angle after a small turn `delta`, by those before it and half of it: three terms of Taylor's series.
+    /// Sine and cosine of an angle after a small rotation by `delta`, from those before and half of `delta`: three terms of the Taylor series.
     Turn {
         to_sin: Register,
         to_cos: Register,
@@ -153,7 +152,7 @@ pub enum Op {
         a: Register,
         b: Register,
     },
-    /// As `Select`, but not a number if either operand is not.
+    /// `Select`, but NaN if either operand is NaN.
     Either {
         to: Register,
         condition: Register,
@@ -164,13 +163,13 @@ pub enum Op {
         to: Register,
         a: Register,
     },
-    /// The piece of a table that `a` lies in, counted from 0.
+    /// Index of the table piece that contains `a`, from 0.
     Piece {
         to: Register,
         table: u32,
         a: Register,
     },
-    /// An entry of a table's column.
+    /// Entry of a table's column for a piece.
     Pick {
         to: Register,
         table: u32,
@@ -179,18 +178,18 @@ pub enum Op {
     },
 }
 
-/// What operations are carried out on.
-#[allow(missing_docs)] // each is what the operation of its name does
+/// A domain of values that operations run on.
+#[allow(missing_docs)] // each method is the operation of its name
 pub trait Machine {
-    /// What stands in a register, or a part of that.
+    /// Value of a register, or of a part of it.
     type Value: Clone;
 
-    /// In how many parts registers are gone through.
+    /// Number of parts that registers are processed in.
     #[inline]
     fn parts(&self) -> usize {
         1
     }
-    /// Goes to one of them: that is read and written from then on.
+    /// Selects the part that is read and written from now on.
     #[inline]
     fn go_to(&mut self, _part: usize) {}
     fn read(&mut self, register: Register) -> Self::Value;
@@ -236,7 +235,7 @@ pub trait Machine {
         let product = self.mul(c, d);
         self.mul_less(a, b, product)
     }
-    /// Sine and cosine of an angle after a turn `delta`, by those before it and half of it.
+    /// Sine and cosine of an angle after a rotation by `delta`, from those before and half of `delta`.
     #[inline]
     fn turn(&mut self, [sin, cos]: [Self::Value; 2], half: Self::Value, delta: Self::Value) -> [Self::Value; 2] {
         let slope = self.less_mul(half.clone(), sin.clone(), cos.clone());
@@ -246,11 +245,11 @@ pub trait Machine {
     }
     fn neg(&mut self, a: Self::Value) -> Self::Value;
     fn recip(&mut self, a: Self::Value) -> Self::Value;
-    /// Sine and cosine.
+    /// Sine and cosine of an angle.
     fn sin_cos(&mut self, a: Self::Value) -> [Self::Value; 2];
-    /// The same from a register to two others, in all parts.
+    /// Writes sine and cosine of a register to two others, in all parts.
     #[inline(always)]
-    #[allow(clippy::inline_always)] // as what is done with a value
+    #[allow(clippy::inline_always)] // so that the loop is compiled with the caller's vector instructions
     fn sin_cos_in(&mut self, [sin, cos]: [Register; 2], a: Register) {
         for part in 0..self.parts() {
             self.go_to(part);
@@ -262,64 +261,68 @@ pub trait Machine {
     }
     fn unary(&mut self, function: Unary, a: Self::Value) -> Self::Value;
     fn binary(&mut self, function: Binary, a: Self::Value, b: Self::Value) -> Self::Value;
-    /// 1 where it holds, else 0.
+    /// 1 if the comparison holds, else 0.
     fn compare(&mut self, comparison: Comparison, a: Self::Value, b: Self::Value) -> Self::Value;
     fn and(&mut self, a: Self::Value, b: Self::Value) -> Self::Value;
     fn or(&mut self, a: Self::Value, b: Self::Value) -> Self::Value;
     fn not(&mut self, a: Self::Value) -> Self::Value;
-    /// `a` where the condition is not 0, else `b`.
+    /// `a` if the condition is not 0, else `b`.
     fn select(&mut self, condition: Self::Value, a: Self::Value, b: Self::Value) -> Self::Value;
-    /// The same, but not a number if either is not.
+    /// `select`, but NaN if either operand is NaN.
     fn either(&mut self, condition: Self::Value, a: Self::Value, b: Self::Value) -> Self::Value;
-    /// The piece of a table that a value lies in.
+    /// Index of the table piece that contains `a`.
     fn piece(&mut self, table: u32, a: Self::Value) -> Self::Value;
-    /// The entry of a table's column for a piece.
+    /// Entry of a table's column for a piece.
     fn pick(&mut self, table: u32, column: Column, piece: Self::Value) -> Self::Value;
 }
 
 impl Op {
-    /// Carries the operation out.
+    /// Runs the operation on a machine.
     #[inline(always)]
-    #[allow(clippy::inline_always)] // what a machine does is to become one with the choice of it
+    #[allow(clippy::inline_always)] // so that the methods of the machine are inlined into the dispatch
     pub fn run<M: Machine>(&self, m: &mut M) {
-        // one choice for all parts
-        macro_rules! of {
-            ($to:ident = |$($operand:ident),+| $does:expr) => {
+        // one dispatch for all parts
+        macro_rules! apply {
+            ($to:ident = |$($operand:ident),+| $expression:expr) => {
                 for part in 0..m.parts() {
                     m.go_to(part);
                     $(let $operand = m.read($operand);)+
-                    let value = $does;
+                    let value = $expression;
                     m.write($to, value);
                 }
             };
-            ($to:ident = $does:ident($($given:ident),*; $($operand:ident),+)) => {
-                of!($to = |$($operand),+| m.$does($($given,)* $($operand),+))
+            ($to:ident = $method:ident($($immediate:ident),*; $($operand:ident),+)) => {
+                apply!($to = |$($operand),+| m.$method($($immediate,)* $($operand),+))
             };
-            ($to:ident = $does:ident($($operand:ident),+)) => { of!($to = $does(; $($operand),+)) };
+            ($to:ident = $method:ident($($operand:ident),+)) => { apply!($to = $method(; $($operand),+)) };
         }
         match *self {
-            Op::Add { to, a, b } => of!(to = add(a, b)),
-            Op::Sub { to, a, b } => of!(to = sub(a, b)),
-            Op::Mul { to, a, b } => of!(to = mul(a, b)),
-            Op::Div { to, a, b } => of!(to = div(a, b)),
-            Op::MulAdd { to, a, b, c } => of!(to = mul_add(a, b, c)),
-            Op::MulLess { to, a, b, c } => of!(to = mul_less(a, b, c)),
-            Op::LessMul { to, a, b, c } => of!(to = less_mul(a, b, c)),
-            Op::ProductOfThree { to, a, b, c } => of!(to = product_of_three(a, b, c)),
+            Op::Add { to, a, b } => apply!(to = add(a, b)),
+            Op::Sub { to, a, b } => apply!(to = sub(a, b)),
+            Op::Mul { to, a, b } => apply!(to = mul(a, b)),
+            Op::Div { to, a, b } => apply!(to = div(a, b)),
+            Op::MulAdd { to, a, b, c } => apply!(to = mul_add(a, b, c)),
+            Op::MulLess { to, a, b, c } => apply!(to = mul_less(a, b, c)),
+            Op::LessMul { to, a, b, c } => apply!(to = less_mul(a, b, c)),
+            Op::ProductOfThree { to, a, b, c } => apply!(to = product_of_three(a, b, c)),
             Op::SumOfProducts { to, a, b, c, d } => {
-                of!(to = |a, b, c, d| m.sum_of_products([a, b], [c, d]));
+                apply!(to = |a, b, c, d| m.sum_of_products([a, b], [c, d]));
             }
             Op::DifferenceOfProducts { to, a, b, c, d } => {
-                of!(to = |a, b, c, d| m.difference_of_products([a, b], [c, d]));
+                apply!(to = |a, b, c, d| m.difference_of_products([a, b], [c, d]));
             }
-            Op::SumOfProductsTimes { to, a, b, c, d, e } => of!(to = |a, b, c, d, e| {
-                let sum = m.sum_of_products([a, b], [c, d]);
-                m.mul(sum, e)
-            }),
-            Op::DifferenceOfProductsTimes { to, a, b, c, d, e } => of!(to = |a, b, c, d, e| {
-                let difference = m.difference_of_products([a, b], [c, d]);
-                m.mul(difference, e)
-            }),
+            Op::SumOfProductsTimes { to, a, b, c, d, e } => apply!(
+                to = |a, b, c, d, e| {
+                    let sum = m.sum_of_products([a, b], [c, d]);
+                    m.mul(sum, e)
+                }
+            ),
+            Op::DifferenceOfProductsTimes { to, a, b, c, d, e } => apply!(
+                to = |a, b, c, d, e| {
+                    let difference = m.difference_of_products([a, b], [c, d]);
+                    m.mul(difference, e)
+                }
+            ),
             Op::Turn { to_sin, to_cos, sin, cos, half, delta } => {
                 for part in 0..m.parts() {
                     m.go_to(part);
@@ -329,17 +332,17 @@ impl Op {
                     m.write(to_cos, cos);
                 }
             }
-            Op::Neg { to, a } => of!(to = neg(a)),
-            Op::Recip { to, a } => of!(to = recip(a)),
+            Op::Neg { to, a } => apply!(to = neg(a)),
+            Op::Recip { to, a } => apply!(to = recip(a)),
             Op::SinCos { sin, cos, a } => m.sin_cos_in([sin, cos], a),
-            Op::Unary { function, to, a } => of!(to = unary(function; a)),
-            Op::Binary { function, to, a, b } => of!(to = binary(function; a, b)),
-            Op::Compare { comparison, to, a, b } => of!(to = compare(comparison; a, b)),
-            Op::And { to, a, b } => of!(to = and(a, b)),
-            Op::Or { to, a, b } => of!(to = or(a, b)),
-            Op::Not { to, a } => of!(to = not(a)),
-            Op::Select { to, condition, a, b } => of!(to = select(condition, a, b)),
-            Op::Either { to, condition, a, b } => of!(to = either(condition, a, b)),
+            Op::Unary { function, to, a } => apply!(to = unary(function; a)),
+            Op::Binary { function, to, a, b } => apply!(to = binary(function; a, b)),
+            Op::Compare { comparison, to, a, b } => apply!(to = compare(comparison; a, b)),
+            Op::And { to, a, b } => apply!(to = and(a, b)),
+            Op::Or { to, a, b } => apply!(to = or(a, b)),
+            Op::Not { to, a } => apply!(to = not(a)),
+            Op::Select { to, condition, a, b } => apply!(to = select(condition, a, b)),
+            Op::Either { to, condition, a, b } => apply!(to = either(condition, a, b)),
             Op::Copy { to, a } => {
                 for part in 0..m.parts() {
                     m.go_to(part);
@@ -347,12 +350,12 @@ impl Op {
                     m.write(to, a);
                 }
             }
-            Op::Piece { to, table, a } => of!(to = piece(table; a)),
-            Op::Pick { to, table, column, piece } => of!(to = pick(table, column; piece)),
+            Op::Piece { to, table, a } => apply!(to = piece(table; a)),
+            Op::Pick { to, table, column, piece } => apply!(to = pick(table, column; piece)),
         }
     }
 
-    /// The same with other registers: `read` for those it reads, then `write` for those it writes.
+    /// Returns the operation with other registers: calls `read` for those it reads, then `write` for those it writes.
     #[must_use]
     pub fn renumbered(
         mut self,
@@ -410,23 +413,23 @@ impl Op {
         self
     }
 
-    /// The registers that it reads, tables' columns not counted.
+    /// Returns the registers that it reads, without table columns.
     #[must_use]
-    pub fn reads(self) -> Few<5> {
-        let mut reads = Few::default();
+    pub fn reads(self) -> RegisterList<5> {
+        let mut reads = RegisterList::default();
         let _ = self.renumbered(|register| reads.note(register), |register| register);
         reads
     }
 
-    /// The registers that it writes.
+    /// Returns the registers that it writes.
     #[must_use]
-    pub fn writes(self) -> Few<2> {
-        let mut writes = Few::default();
+    pub fn writes(self) -> RegisterList<2> {
+        let mut writes = RegisterList::default();
         let _ = self.renumbered(|register| register, |register| writes.note(register));
         writes
     }
 
-    /// Where it leaves its result if that goes in jumps.
+    /// Returns the register of a result that jumps.
     #[must_use]
     pub fn switched(self) -> Option<Register> {
         match self {
@@ -437,7 +440,7 @@ impl Op {
         }
     }
 
-    /// The column of a table that it looks into.
+    /// Returns the table and the column that it looks into.
     #[must_use]
     pub fn column(self) -> Option<(u32, Column)> {
         match self {
@@ -447,16 +450,16 @@ impl Op {
         }
     }
 
-    /// Its number, where operations are written as numbers: it is followed by what is written, what is read, and last by what it
-    /// is about, if that is not in the number.
+    /// Returns its opcode, and what the operation needs in addition to registers: its function, or its table column. In bytecode the opcode is
+    /// followed by the registers written, those read, and this number.
     #[must_use]
     pub fn code(self) -> (u32, Option<u32>) {
-        let about = match self {
+        let immediate = match self {
             Op::Unary { function, .. } => Some(function as u32),
             Op::Binary { function, .. } => Some(function as u32),
             _ => self.column().map(|(table, column)| table * Column::ALL.len() as u32 + column.number()),
         };
-        let number = match self {
+        let opcode = match self {
             Op::Add { .. } => codes::ADD,
             Op::Sub { .. } => codes::SUB,
             Op::Mul { .. } => codes::MUL,
@@ -487,25 +490,25 @@ impl Op {
             Op::Piece { .. } => codes::PIECE,
             Op::Pick { .. } => codes::PICK,
         };
-        (number, about)
+        (opcode, immediate)
     }
 }
 
-/// A few registers.
+/// Up to `N` registers.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub struct Few<const N: usize> {
+pub struct RegisterList<const N: usize> {
     registers: [Register; N],
     count: usize,
 }
 
-impl<const N: usize> Default for Few<N> {
-    fn default() -> Few<N> {
-        Few { registers: [0; N], count: 0 }
+impl<const N: usize> Default for RegisterList<N> {
+    fn default() -> RegisterList<N> {
+        RegisterList { registers: [0; N], count: 0 }
     }
 }
 
-impl<const N: usize> Few<N> {
-    /// Adds one, and gives it back.
+impl<const N: usize> RegisterList<N> {
+    /// Adds a register and returns it.
     pub fn note(&mut self, register: Register) -> Register {
         self.registers[self.count] = register;
         self.count += 1;
@@ -513,7 +516,7 @@ impl<const N: usize> Few<N> {
     }
 }
 
-impl<const N: usize> std::ops::Deref for Few<N> {
+impl<const N: usize> std::ops::Deref for RegisterList<N> {
     type Target = [Register];
 
     fn deref(&self) -> &[Register] {
@@ -521,7 +524,7 @@ impl<const N: usize> std::ops::Deref for Few<N> {
     }
 }
 
-impl<const N: usize> IntoIterator for Few<N> {
+impl<const N: usize> IntoIterator for RegisterList<N> {
     type Item = Register;
     type IntoIter = std::iter::Take<std::array::IntoIter<Register, N>>;
 

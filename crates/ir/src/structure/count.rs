@@ -1,11 +1,11 @@
-//! The count: coordinates minus equations, and the table of both.
+//! The count of coordinates and equations, as a table.
 
 use crate::{ConstraintSystem, Declaration, DeclarationKind, Owner};
 
-/// Longer lists are cut in the middle.
+/// Longer lists are shortened in the middle.
 const LONGEST: usize = 40;
 
-/// Coordinates and equations by body, joint, constraint and driver, and their difference.
+/// Returns a table of coordinates and equations by body, joint, constraint and driver, with their difference.
 #[must_use]
 pub fn table(system: &ConstraintSystem) -> String {
     let kind_of = |declaration: &Declaration| match declaration.kind {

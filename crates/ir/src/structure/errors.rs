@@ -1,18 +1,18 @@
-//! What is said of a mechanism that is not determined.
+//! Diagnostics for a mechanism that is not determined.
 
 use super::Subsystem;
 use super::count::table;
 use crate::{
-    AskingPart, ConstraintSystem, CoordinateKind, Declaration, DeclarationId, DeclarationKind, JointKind, Owner,
-    PointId,
+    ConstraintSystem, CoordinateKind, Declaration, DeclarationId, DeclarationKind, JointKind, Owner,
+    PartWithDerivatives, PointId,
 };
 use mechc_text::diag::{Code, Diagnostic};
 use rustc_hash::FxHashMap;
 
-/// Names that one message lists before it stops.
+/// Number of names that one message lists at most.
 const LISTED: usize = 8;
 
-/// Drivers that one message suggests at most.
+/// Number of drivers that one message suggests at most.
 const MOST_DRIVERS: usize = 3;
 
 pub fn count(system: &ConstraintSystem, too_many: &Subsystem, too_few: &Subsystem) -> Diagnostic {
@@ -32,13 +32,13 @@ pub fn count(system: &ConstraintSystem, too_many: &Subsystem, too_few: &Subsyste
         let free = free_quantities(system, &too_few.columns);
         diagnostic.help(drivers_to_add(system, &too_few.columns, &free, ndof)).drives(free)
     } else {
-        match said_twice(system) {
-            Some([first, again]) => {
-                let (first, again) = (&system.declarations()[first], &system.declarations()[again]);
-                diagnostic.also(first.span, "joins the same points").also(again.span, "said twice").help(format!(
+        match duplicate_joint(system) {
+            Some([first, second]) => {
+                let (first, second) = (&system.declarations()[first], &system.declarations()[second]);
+                diagnostic.also(first.span, "joins the same points").also(second.span, "said twice").help(format!(
                     "take the {} `{}` away",
-                    again.kind.noun(),
-                    again.name
+                    second.kind.noun(),
+                    second.name
                 ))
             }
             None => diagnostic.help(what_to_take_away(system)),
@@ -46,33 +46,33 @@ pub fn count(system: &ConstraintSystem, too_many: &Subsystem, too_few: &Subsyste
     }
 }
 
-/// Two joints of one kind at the same points.
-fn said_twice(system: &ConstraintSystem) -> Option<[DeclarationId; 2]> {
-    let mut known: FxHashMap<(DeclarationKind, Vec<PointId>), DeclarationId> = FxHashMap::default();
+/// Returns two joints of one kind that join the same points.
+fn duplicate_joint(system: &ConstraintSystem) -> Option<[DeclarationId; 2]> {
+    let mut joint_at: FxHashMap<(DeclarationKind, Vec<PointId>), DeclarationId> = FxHashMap::default();
     let joints = system.declarations().pairs().filter(|(_, one)| matches!(one.kind, DeclarationKind::Joint(_)));
     for (k, joint) in joints.filter(|(_, joint)| joint.points.len() == 2) {
         let mut points = joint.points.clone();
         points.sort_unstable();
-        if let Some(first) = known.insert((joint.kind, points), k) {
+        if let Some(first) = joint_at.insert((joint.kind, points), k) {
             return Some([first, k]);
         }
     }
     None
 }
 
-/// What joints leave to move and nothing fixes: `rotation(main)`.
+/// Returns quantities that joints leave free and no equation fixes, such as `rotation(main)`.
 fn free_quantities(system: &ConstraintSystem, free: &[u32]) -> Vec<String> {
     let mut quantities: Vec<String> = Vec::new();
     let mut first_row = 0;
     for declaration in system.declarations() {
         let rows = first_row..first_row + declaration.rows;
         first_row = rows.end;
-        let wanted = match declaration.kind {
+        let freedom = match declaration.kind {
             DeclarationKind::Joint(JointKind::Revolute) => CoordinateKind::Angle,
             DeclarationKind::Joint(JointKind::Translational) => CoordinateKind::Length,
             _ => continue,
         };
-        // a pin at a body's origin leaves its angle out of the equations, but it is what turns
+        // a pin at the origin of a body leaves the angle out of its equations, although the body turns
         let owners = rows
             .flat_map(|row| system.phi_q().row(row))
             .map(|(column, _)| system.coordinates()[*column as usize].owner);
@@ -80,10 +80,10 @@ fn free_quantities(system: &ConstraintSystem, free: &[u32]) -> Vec<String> {
         owners.dedup();
         let moves = free.iter().any(|&column| {
             let coordinate = &system.coordinates()[column as usize];
-            coordinate.kind == wanted && owners.contains(&coordinate.owner)
+            coordinate.kind == freedom && owners.contains(&coordinate.owner)
         });
         if moves {
-            let quantity = if wanted == CoordinateKind::Angle { "rotation" } else { "displacement" };
+            let quantity = if freedom == CoordinateKind::Angle { "rotation" } else { "displacement" };
             quantities.push(format!("{quantity}({})", declaration.name));
         }
     }
@@ -91,7 +91,7 @@ fn free_quantities(system: &ConstraintSystem, free: &[u32]) -> Vec<String> {
     quantities
 }
 
-/// How to take what is free, where some quantities would.
+/// Suggests drivers for the free quantities, or for bodies if there are none.
 fn drivers_to_add(system: &ConstraintSystem, free: &[u32], quantities: &[String], ndof: isize) -> String {
     let count = if ndof == 1 { "a driver".to_owned() } else { format!("{ndof} drivers or joints") };
     if quantities.is_empty() {
@@ -152,7 +152,7 @@ pub fn structure(system: &ConstraintSystem, too_many: &Subsystem, too_few: &Subs
     with_data(diagnostic, system, &competing, columns)
 }
 
-/// The declarations among whose equations there is one too many.
+/// Returns the declarations whose equations include one too many.
 fn competing<'s>(system: &'s ConstraintSystem, too_many: &Subsystem) -> Vec<&'s Declaration> {
     let mut declarations: Vec<DeclarationId> =
         too_many.rows.iter().map(|&row| system.rows()[row as usize].declaration).collect();
@@ -176,54 +176,54 @@ fn with_data(
         .datum("free", free)
 }
 
-/// A part whose text asks for derivatives by its own equations, which do not determine it.
-pub fn not_determined_alone(part: &AskingPart, rows: usize, columns: usize) -> Diagnostic {
+/// Reports a part that requests derivatives by its own equations, which do not determine it.
+pub fn not_determined_alone(part: &PartWithDerivatives, rows: usize, columns: usize) -> Diagnostic {
     let message =
         format!("there is no derivative by the own equations of part `{}`, which is not determined alone", part.name);
     let counts = format!("with its inputs held it has {columns} coordinates and {rows} equations of its own");
-    at_places(Diagnostic::new(Code::E0508, message), part)
+    at_requests(Diagnostic::new(Code::E0508, message), part)
         .note(counts)
         .help(format!("take the derivative where the part is used: `der({}.…, NAME)`", part.name))
         .datum("coordinates", columns)
         .datum("equations", rows)
 }
 
-/// The same of a part that moves together with what is around it, where equations were left out.
-pub fn coupled_without_equations(part: &AskingPart) -> Diagnostic {
+/// Reports a coupled part in a mechanism with left-out equations.
+pub fn coupled_without_equations(part: &PartWithDerivatives) -> Diagnostic {
     let message = format!(
         "there is no derivative by the own equations of part `{}`, which moves together with what is around it",
         part.name
     );
-    at_places(Diagnostic::new(Code::E0508, message), part)
+    at_requests(Diagnostic::new(Code::E0508, message), part)
         .note("equations were left out, and it cannot be told which of them the part would need alone")
         .help(format!("take the derivative where the part is used: `der({}.…, NAME)`", part.name))
 }
 
-/// The same where it is the derivative of a force: what is around the part shares in it, and of that its own equations know nothing.
-pub fn force_of_coupled(part: &AskingPart) -> Diagnostic {
+/// Reports the derivative of a force in a coupled part: its surroundings share the force, and its own equations do not contain them.
+pub fn force_of_coupled(part: &PartWithDerivatives) -> Diagnostic {
     let message = format!(
         "no force has a derivative by the own equations of part `{}`, which moves together with what is around it",
         part.name
     );
     let mut diagnostic = Diagnostic::new(Code::E0508, message);
-    if let Some(place) = part.of_force {
-        diagnostic = diagnostic.at(place, "of a force, by the equations of this mechanism alone");
+    if let Some(span) = part.of_force {
+        diagnostic = diagnostic.at(span, "of a force, by the equations of this mechanism alone");
     }
     let help =
         format!("take the derivative where the part is used, by all equations: `der(effort({}.…), NAME)`", part.name);
     used_at(diagnostic, part).note("forces follow from what is around the part too").help(help)
 }
 
-/// A message at the places where a part asks for derivatives, and where it is used.
-fn at_places(mut diagnostic: Diagnostic, part: &AskingPart) -> Diagnostic {
-    for (k, place) in part.places.iter().take(LISTED).enumerate() {
+/// Adds the spans where a part requests derivatives, and those where the part is used.
+fn at_requests(mut diagnostic: Diagnostic, part: &PartWithDerivatives) -> Diagnostic {
+    for (k, span) in part.places.iter().take(LISTED).enumerate() {
         let text = "by the equations of this mechanism alone";
-        diagnostic = if k == 0 { diagnostic.at(*place, text) } else { diagnostic.also(*place, "and here") };
+        diagnostic = if k == 0 { diagnostic.at(*span, text) } else { diagnostic.also(*span, "and here") };
     }
     used_at(diagnostic, part)
 }
 
-fn used_at(mut diagnostic: Diagnostic, part: &AskingPart) -> Diagnostic {
+fn used_at(mut diagnostic: Diagnostic, part: &PartWithDerivatives) -> Diagnostic {
     for (name, span) in &part.used_at {
         diagnostic = diagnostic.in_part(name, *span);
     }

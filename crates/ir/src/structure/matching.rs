@@ -1,23 +1,22 @@
 //! Maximum matching of equations to coordinates, and the blocks that follow from it.
 //!
-//! Rows and columns with a single free partner are matched first, as no other choice is better (R. Karp and M. Sipser,
-//! *Maximum matchings in sparse random graphs*, 1981): for an open chain of bodies that is all. What is left grows by
-//! augmenting paths, each found by a depth-first search with a look-ahead (I. S. Duff, *On algorithms for obtaining a
-//! maximum transversal*, 1981). The blocks are the strongly connected components of the
-//! matched graph (R. Tarjan, 1972), which come out in an order of solution. Neither recurses.
+//! Rows and columns with a single free partner are matched first, as no other choice is better (R. Karp and M. Sipser, *Maximum matchings in sparse
+//! random graphs*, 1981); for an open chain of bodies that matches everything. The rest grows by augmenting paths, each found by a depth-first search
+//! with a look-ahead (I. S. Duff, *On algorithms for obtaining a maximum transversal*, 1981). The blocks are the strongly connected components of the
+//! matched graph (R. Tarjan, 1972), which come out in an order of solution. Neither algorithm recurses.
 
 use super::{Block, Subsystem};
 use crate::SparseRows;
 
 const NONE: u32 = u32::MAX;
 
-/// Which row is matched to which column.
+/// A matching of rows and columns.
 pub(super) struct Matching {
     row_of_column: Vec<u32>,
     column_of_row: Vec<u32>,
 }
 
-/// The rows that use each column.
+/// The rows that contain each column.
 struct Users {
     starts: Vec<usize>,
     rows: Vec<u32>,
@@ -48,11 +47,11 @@ impl Users {
     }
 }
 
-/// Matches rows and columns that have a single free partner, and whatever follows from that.
+/// Matches rows and columns that have a single free partner, repeatedly.
 struct Singles<'p> {
     pattern: &'p SparseRows,
     users: Users,
-    /// Free columns of each row, free rows of each column.
+    /// Numbers of free columns of each row and of free rows of each column.
     row_choices: Vec<u32>,
     column_choices: Vec<u32>,
     single_rows: Vec<u32>,
@@ -113,10 +112,10 @@ impl<'p> Singles<'p> {
     }
 }
 
-/// A matching with as many rows as possible.
+/// Returns a matching with as many rows as possible.
 pub(super) fn maximum(pattern: &SparseRows, rows: usize, columns: usize) -> Matching {
     let mut matching = Singles::new(pattern, rows, columns).run();
-    // cheap assignments never need undoing: each row's look-ahead pointer only moves on
+    // the look-ahead pointer of a row only moves on, since a matched column stays matched
     let mut ahead = vec![0; rows];
     let mut visited = vec![NONE; rows];
     let mut path: Vec<(u32, usize)> = Vec::new();
@@ -160,7 +159,7 @@ impl Matching {
         self.row_of_column[column as usize] == NONE
     }
 
-    /// Gives the path's last row a free column, and each earlier row the column of the one after it.
+    /// Assigns a free column to the last row of a path, and to each earlier row the column of the next one.
     fn augment(&mut self, pattern: &SparseRows, path: &[(u32, usize)], free: u32) {
         let mut column = free;
         for &(row, next) in path.iter().rev() {
@@ -176,8 +175,7 @@ impl Matching {
         self.column_of_row.iter().all(|&column| column != NONE) && self.row_of_column.iter().all(|&row| row != NONE)
     }
 
-    /// The part that has too many rows and the one that has too few (A. Dulmage and N. Mendelsohn, *Coverings of bipartite
-    /// graphs*, 1958).
+    /// Returns the overdetermined and the underdetermined part (A. Dulmage and N. Mendelsohn, *Coverings of bipartite graphs*, 1958).
     pub fn unequal_parts(&self, pattern: &SparseRows) -> [Subsystem; 2] {
         let rows = self.overdetermined_rows(pattern);
         let mut columns: Vec<u32> =
@@ -191,12 +189,12 @@ impl Matching {
         [Subsystem { rows, columns }, Subsystem { rows: holding, columns: free }]
     }
 
-    /// Rows among which there is one too many: all that alternating paths reach from the unmatched ones.
+    /// Returns the overdetermined rows: those that alternating paths reach from the unmatched rows.
     fn overdetermined_rows(&self, pattern: &SparseRows) -> Vec<u32> {
         let mut open: Vec<u32> = unmatched(&self.column_of_row);
-        let mut seen = vec![false; self.column_of_row.len()];
+        let mut visited = vec![false; self.column_of_row.len()];
         while let Some(row) = open.pop() {
-            if std::mem::replace(&mut seen[row as usize], true) {
+            if std::mem::replace(&mut visited[row as usize], true) {
                 continue;
             }
             open.extend(
@@ -207,27 +205,27 @@ impl Matching {
                     .filter(|&owner| owner != NONE),
             );
         }
-        marked(&seen)
+        marked(&visited)
     }
 
-    /// Columns that nothing fixes: all that alternating paths reach from the unmatched ones.
+    /// Returns the columns that are not fixed: those that alternating paths reach from the unmatched columns.
     fn free_columns(&self, pattern: &SparseRows) -> Vec<u32> {
         let columns = self.row_of_column.len();
         let users = Users::new(pattern, self.column_of_row.len(), columns);
         let mut open: Vec<u32> = unmatched(&self.row_of_column);
-        let mut seen = vec![false; columns];
+        let mut visited = vec![false; columns];
         while let Some(column) = open.pop() {
-            if std::mem::replace(&mut seen[column as usize], true) {
+            if std::mem::replace(&mut visited[column as usize], true) {
                 continue;
             }
             open.extend(
                 users.of(column).iter().map(|&row| self.column_of_row[row as usize]).filter(|&matched| matched != NONE),
             );
         }
-        marked(&seen)
+        marked(&visited)
     }
 
-    /// The irreducible blocks, each after those that its equations need.
+    /// Returns the irreducible blocks, each after those that its equations depend on.
     pub fn blocks(&self, pattern: &SparseRows) -> Vec<Block> {
         let rows = self.column_of_row.len();
         let mut index = vec![NONE; rows];
@@ -286,6 +284,6 @@ fn unmatched(partners: &[u32]) -> Vec<u32> {
     (0..partners.len() as u32).filter(|&k| partners[k as usize] == NONE).collect()
 }
 
-fn marked(seen: &[bool]) -> Vec<u32> {
-    (0..seen.len() as u32).filter(|&k| seen[k as usize]).collect()
+fn marked(visited: &[bool]) -> Vec<u32> {
+    (0..visited.len() as u32).filter(|&k| visited[k as usize]).collect()
 }

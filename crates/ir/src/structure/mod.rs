@@ -1,10 +1,10 @@
-//! The proof that a mechanism is determined: by count, and by the structure of `Φ_q`.
+//! Proof that a mechanism is determined: by the count, and by the structure of `Φ_q`.
 //!
-//! Works on the pattern alone and assembles nothing. What comes out is a [`Determined`] system, whose equations are
-//! matched to coordinates and ordered in blocks: each block can be solved when those before it are.
+//! The proof uses the sparsity pattern alone and computes no values. Its result is a [`Determined`] system, whose equations are matched to
+//! coordinates and ordered in blocks; each block can be solved after those before it.
 
-mod alone;
 mod count;
+mod coupled_parts;
 mod errors;
 mod matching;
 mod order;
@@ -17,123 +17,123 @@ use mechc_expr::Symbol;
 use mechc_text::diag::Diagnostic;
 use std::sync::Arc;
 
-/// Equations and coordinates that are solved together, each row beside the coordinate it is matched to.
+/// Equations and coordinates that are solved together; each row stands at the index of its matched coordinate.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Block {
     /// Rows of `Φ`.
     pub rows: Vec<u32>,
-    /// Coordinates, as many.
+    /// Coordinates, as many as rows.
     pub columns: Vec<u32>,
-    /// Whether it is one equation that is linear in its coordinate, so that this follows without iteration.
+    /// True if the block is one equation that is linear in its coordinate, so that it is solved without iteration.
     pub explicit: bool,
 }
 
-/// A constraint system of which count and structure have been shown.
+/// A constraint system that is determined by count and structure.
 #[derive(Clone, Debug)]
 pub struct Determined {
     system: ConstraintSystem,
     blocks: Vec<Block>,
-    /// All equations, where some are left out.
-    whole: Option<Arc<Whole>>,
+    /// The full system, if rows have been left out.
+    full: Option<Arc<FullSystem>>,
 }
 
-/// More equations than are needed, which do not contradict each other.
+/// A redundant but consistent system.
 #[derive(Clone, Debug)]
-struct Whole {
+struct FullSystem {
     system: ConstraintSystem,
     /// The rows that are left out, ascending.
     left_out: Vec<usize>,
-    /// Coordinates [m, rad] at which all hold when the motion begins, where these are known.
+    /// Coordinates [m, rad] at which all equations hold when the motion begins, if known.
     start: Option<Vec<f64>>,
 }
 
 impl Determined {
-    /// A system without some of its rows, given ascending, which are checked instead.
+    /// Proves a system after some of its rows, given ascending, have been left out; these are checked instead.
     ///
     /// # Errors
-    /// Why the others do not determine it.
-    pub fn without(whole: ConstraintSystem, left_out: Vec<usize>) -> Result<Determined, Box<Refused>> {
-        let mut system = whole.clone();
+    /// The reason why the other rows do not determine it.
+    pub fn without(full: ConstraintSystem, left_out: Vec<usize>) -> Result<Determined, Box<Refused>> {
+        let mut system = full.clone();
         system.leave_out(&left_out);
         let determined = prove(system)?;
-        Ok(Determined { whole: Some(Arc::new(Whole { system: whole, left_out, start: None })), ..determined })
+        Ok(Determined { full: Some(Arc::new(FullSystem { system: full, left_out, start: None })), ..determined })
     }
 
-    /// The same mechanism with coordinates [m, rad] at which all equations hold when the motion begins.
+    /// Sets coordinates [m, rad] at which all equations hold when the motion begins. Without left-out rows it has no effect.
     #[must_use]
     pub fn with_start(self, start: Option<Vec<f64>>) -> Determined {
-        let whole = self.whole.map(|whole| Arc::new(Whole { start, ..Arc::unwrap_or_clone(whole) }));
-        Determined { whole, ..self }
+        let full = self.full.map(|full| Arc::new(FullSystem { start, ..Arc::unwrap_or_clone(full) }));
+        Determined { full, ..self }
     }
 
-    /// Coordinates [m, rad] at which all equations hold when the motion begins, where these are known beside the estimates.
+    /// Returns coordinates [m, rad] at which all equations hold when the motion begins, if known from elsewhere than the estimates.
     #[must_use]
     pub fn start(&self) -> Option<&[f64]> {
-        self.whole.as_ref()?.start.as_deref()
+        self.full.as_ref()?.start.as_deref()
     }
 
-    /// The same mechanism where other rows of the whole are left out; none where the others do not determine it.
+    /// Returns the same mechanism with other rows of the full system left out; `None` if the remaining rows do not determine it.
     #[must_use]
-    pub fn leaving_out(&self, left_out: &[usize]) -> Option<Determined> {
+    pub fn with_rows_dropped(&self, left_out: &[usize]) -> Option<Determined> {
         Determined::without(self.whole().clone(), left_out.to_vec()).ok()
     }
 
-    /// The same mechanism along a homotopy of all its equations; the same rows are left out.
+    /// Returns the mechanism along a homotopy of all its equations, with the same rows left out.
     ///
     /// # Errors
-    /// Why the others do not determine it.
+    /// The reason why the other rows do not determine it.
     pub fn along(&self, homotopy: &Homotopy) -> Result<Determined, Box<Refused>> {
         let along = self.whole().along(homotopy);
-        if self.whole.is_none() { prove(along) } else { Determined::without(along, self.left_out().to_vec()) }
+        if self.full.is_none() { prove(along) } else { Determined::without(along, self.left_out().to_vec()) }
     }
 
-    /// All equations, those that are left out among them.
+    /// Returns the full system, with all equations.
     #[must_use]
     pub fn whole(&self) -> &ConstraintSystem {
-        self.whole.as_ref().map_or(&self.system, |whole| &whole.system)
+        self.full.as_ref().map_or(&self.system, |full| &full.system)
     }
 
-    /// The rows of the whole that are left out, ascending.
+    /// Returns the left-out rows of the full system, ascending.
     #[must_use]
     pub fn left_out(&self) -> &[usize] {
-        self.whole.as_ref().map_or(&[], |whole| &whole.left_out)
+        self.full.as_ref().map_or(&[], |full| &full.left_out)
     }
 
-    /// The rows of the whole that are solved, in order.
+    /// Returns the rows of the full system that are solved, ascending.
     #[must_use]
     pub fn kept(&self) -> Vec<usize> {
         (0..self.whole().rows().len()).filter(|row| self.left_out().binary_search(row).is_err()).collect()
     }
 
-    /// The equations.
+    /// Returns the solved equations.
     #[must_use]
     pub fn system(&self) -> &ConstraintSystem {
         &self.system
     }
 
-    /// The same with the variations that results need; none where they need none.
+    /// Returns the same system with the variations that results need; `None` if results need no variations.
     #[must_use]
-    pub fn for_variations_of_results(&self) -> Option<Determined> {
-        let system = self.system.for_variations_of_results()?;
-        Some(Determined { system, blocks: self.blocks.clone(), whole: None })
+    pub fn with_result_variations(&self) -> Option<Determined> {
+        let system = self.system.with_result_variations()?;
+        Some(Determined { system, blocks: self.blocks.clone(), full: None })
     }
 
-    /// The same with other values of its parameters, of which neither count nor structure knows.
+    /// Returns the same system with other parameter values; count and structure do not depend on them.
     #[must_use]
     pub fn with_values(&self, values: &[f64]) -> Determined {
-        let whole = self.whole.as_deref().map(|Whole { system, left_out, .. }| {
-            Arc::new(Whole { system: system.with_values(values), left_out: left_out.clone(), start: None })
+        let full = self.full.as_deref().map(|FullSystem { system, left_out, .. }| {
+            Arc::new(FullSystem { system: system.with_values(values), left_out: left_out.clone(), start: None })
         });
-        Determined { system: self.system.with_values(values), blocks: self.blocks.clone(), whole }
+        Determined { system: self.system.with_values(values), blocks: self.blocks.clone(), full }
     }
 
-    /// The blocks, in an order of solution.
+    /// Returns the blocks, in an order of solution.
     #[must_use]
     pub fn blocks(&self) -> &[Block] {
         &self.blocks
     }
 
-    /// By coordinate: the number of its block.
+    /// Returns the number of the block of each coordinate.
     #[must_use]
     pub fn block_of_columns(&self) -> Vec<usize> {
         let mut block_of = vec![0; self.system.coordinates().len()];
@@ -143,7 +143,7 @@ impl Determined {
         block_of
     }
 
-    /// The blocks that one of them cannot be solved without, by their numbers, in that order: itself, and what its equations read.
+    /// Returns the numbers of the blocks that a block depends on, itself included, in order of solution.
     #[must_use]
     pub fn needed_by(&self, block: usize) -> Vec<usize> {
         let block_of = self.block_of_columns();
@@ -163,21 +163,21 @@ fn is_explicit(system: &ConstraintSystem, block: &Block) -> bool {
     let ([row], &[column]) = (block.rows.as_slice(), block.columns.as_slice()) else {
         return false;
     };
-    let own = Symbol::Coordinate { index: column, order: 0 };
+    let variable = Symbol::Coordinate { index: column, order: 0 };
     let slope = system.phi_q().row(*row as usize).iter().find(|&&(used, _)| used == column);
-    slope.is_some_and(|&(_, slope)| !system.graph().symbols(slope).contains(&own))
+    slope.is_some_and(|&(_, slope)| !system.graph().symbols(slope).contains(&variable))
 }
 
-/// Why a system is not determined.
+/// The reason why a system is not determined.
 #[derive(Clone, Debug)]
 pub struct Refused {
     /// The system.
     pub system: ConstraintSystem,
-    /// The count's or the structure's diagnostic.
+    /// Diagnostic of the count or of the structure.
     pub diagnostic: Diagnostic,
-    /// The part that has more equations than coordinates: these stand for themselves, and hold no other coordinates.
+    /// Overdetermined part: its equations contain no coordinates of other parts.
     pub too_many: Subsystem,
-    /// The part that has fewer equations than coordinates; these may hold coordinates of other parts too.
+    /// Underdetermined part: its equations may contain coordinates of other parts.
     pub too_few: Subsystem,
 }
 
@@ -190,10 +190,10 @@ pub struct Subsystem {
     pub columns: Vec<u32>,
 }
 
-/// Shows that a system is determined.
+/// Proves that a system is determined.
 ///
 /// # Errors
-/// Why it is not.
+/// The reason why it is not.
 pub fn prove(system: ConstraintSystem) -> Result<Determined, Box<Refused>> {
     let matching = matching::maximum(system.phi_q(), system.rows().len(), system.coordinates().len());
     if !matching.is_perfect() {
@@ -209,5 +209,5 @@ pub fn prove(system: ConstraintSystem) -> Result<Determined, Box<Refused>> {
     for block in &mut blocks {
         block.explicit = is_explicit(&system, block);
     }
-    Ok(Determined { system, blocks, whole: None })
+    Ok(Determined { system, blocks, full: None })
 }

@@ -1,25 +1,25 @@
-//! The order of solution in words: which bodies follow from which equations, and which are solved for together.
+//! The order of solution as text: which coordinates follow from which equations, and which are solved for together.
 
 use super::Determined;
 use crate::{ConstraintSystem, DeclarationId, Owner};
 use rustc_hash::FxHashMap;
 use std::collections::BTreeSet;
 
-/// Longer orders are cut.
+/// Number of steps that are shown at most.
 const LONGEST: usize = 40;
 
-/// What is solved for next: it needs no coordinates but its own and those of steps before it.
+/// One step of the solution: it needs no coordinates but its own and those of earlier steps.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Step {
     /// Rows of `Φ`, ascending.
     pub rows: Vec<u32>,
     /// Coordinates, ascending.
     pub columns: Vec<u32>,
-    /// Whether no part of it can be solved for alone.
+    /// True if no part of it can be solved for alone.
     pub together: bool,
 }
 
-/// The blocks in steps: the single coordinates of a body or joint are one step wherever an order allows that.
+/// Combines blocks to steps: the single-coordinate blocks of a body or joint form one step where an order of solution allows it.
 #[must_use]
 pub fn steps(determined: &Determined) -> Vec<Step> {
     let mut planner = Planner::new(determined);
@@ -39,21 +39,20 @@ pub fn steps(determined: &Determined) -> Vec<Step> {
     steps
 }
 
-/// Chooses what is solved for next among groups of blocks: the single coordinates of one body or joint make a group, and so does every
-/// block of several.
+/// Chooses the next step among groups of blocks: the single-coordinate blocks of one body or joint form a group, and so does every larger block.
 struct Planner {
-    /// By block: its group; the blocks before it whose coordinates its equations hold; whether it is done.
+    /// By block: its group, the blocks that it depends on, and whether it is done.
     group: Vec<usize>,
     needs: Vec<Vec<usize>>,
     is_done: Vec<bool>,
-    /// By block: those that need it.
+    /// By block: the blocks that depend on it.
     needed_by: Vec<Vec<usize>>,
-    /// By group: its blocks, in order, and how many needs of theirs are open that other groups have.
+    /// By group: its blocks in order, and the number of open dependencies on other groups.
     members: Vec<Vec<usize>>,
     open: Vec<usize>,
-    /// Groups that are not done whole: how many needs are open, the first block, the group.
+    /// Groups that are not done: number of open dependencies, first block, group.
     waiting: BTreeSet<(usize, usize, usize)>,
-    /// All blocks before this one are done.
+    /// All blocks before this index are done.
     first: usize,
 }
 
@@ -70,18 +69,18 @@ impl Planner {
         let mut group_of_owner = FxHashMap::<Owner, usize>::default();
         let (mut needs, mut needed_by) = (Vec::new(), vec![Vec::new(); blocks.len()]);
         for (number, block) in blocks.iter().enumerate() {
-            let chosen = match block.columns.as_slice() {
+            let group_of_block = match block.columns.as_slice() {
                 [column] => {
                     let owner = system.coordinates()[*column as usize].owner;
                     *group_of_owner.entry(owner).or_insert(members.len())
                 }
                 _ => members.len(),
             };
-            if chosen == members.len() {
+            if group_of_block == members.len() {
                 members.push(Vec::new());
             }
-            members[chosen].push(number);
-            group.push(chosen);
+            members[group_of_block].push(number);
+            group.push(group_of_block);
             let entries = block.rows.iter().flat_map(|&row| system.phi_q().row(row as usize));
             let mut needed: Vec<usize> = entries.map(|&(column, _)| block_of_column[column as usize]).collect();
             needed.sort_unstable();
@@ -101,16 +100,16 @@ impl Planner {
         Planner { group, needs, is_done, needed_by, members, open, waiting, first: 0 }
     }
 
-    /// The blocks of the next step, in order.
+    /// Returns the blocks of the next step, in order.
     fn next(&mut self) -> Option<Vec<usize>> {
-        let group = self.chosen()?;
+        let group = self.next_group()?;
         let mut blocks = Vec::new();
         for k in 0..self.members[group].len() {
             let block = self.members[group][k];
             if !self.is_done[block] && self.is_ready(block) {
                 self.is_done[block] = true;
                 blocks.push(block);
-                self.settle(block);
+                self.release_dependents(block);
             }
         }
         if self.members[group].iter().all(|&block| self.is_done[block]) {
@@ -119,8 +118,8 @@ impl Planner {
         Some(blocks)
     }
 
-    /// A group that can be done whole; where there is none, one whose beginning another group waits for that waits for little.
-    fn chosen(&mut self) -> Option<usize> {
+    /// Returns a group without open dependencies; else one that another group waits for and whose beginning is ready.
+    fn next_group(&mut self) -> Option<usize> {
         let &(open, _, group) = self.waiting.first()?;
         if open == 0 {
             return Some(group);
@@ -129,7 +128,7 @@ impl Planner {
         let mut awaited = left.flat_map(|&block| &self.needs[block]).filter(|&&block| !self.is_done[block]);
         let awaited =
             awaited.find(|&&block| self.group[block] != group && self.is_ready(block)).map(|&block| self.group[block]);
-        // the first block that is left needs none that is not done
+        // the first open block depends on no open block
         self.first += self.is_done[self.first..].iter().take_while(|is_done| **is_done).count();
         awaited.or_else(|| self.group.get(self.first).copied())
     }
@@ -138,12 +137,12 @@ impl Planner {
         self.needs[block].iter().all(|&needed| self.is_done[needed])
     }
 
-    /// Takes note that a block is done.
-    fn settle(&mut self, block: usize) {
-        let own = self.group[block];
+    /// Updates the groups that depend on a block that is done.
+    fn release_dependents(&mut self, block: usize) {
+        let group_of_block = self.group[block];
         for &user in &self.needed_by[block] {
             let group = self.group[user];
-            if group != own {
+            if group != group_of_block {
                 let first = self.members[group][0];
                 self.waiting.remove(&(self.open[group], first, group));
                 self.open[group] -= 1;
@@ -153,7 +152,7 @@ impl Planner {
     }
 }
 
-/// A line for each step: `crank  from main, motor`, `rod, slider.x  together, from big, small`.
+/// Returns one line per step: `crank  from main, motor` or `rod, slider.x  together, from big, small`.
 #[must_use]
 pub fn order_of_solution(determined: &Determined) -> String {
     let system = determined.system();
@@ -170,7 +169,7 @@ pub fn order_of_solution(determined: &Determined) -> String {
         equations.dedup();
         let equations: Vec<&str> = equations.into_iter().map(|k| system.declarations()[k].name.as_str()).collect();
         let how = if step.together && *count > 1 { "together, from" } else { "from" };
-        // a width that is formatted ends at 65,535
+        // formatting with a dynamic width fails beyond 65,535
         let gap = " ".repeat(width - head.chars().count());
         text += &format!("  {head}{gap}  {how} {}\n", equations.join(", "));
     }
@@ -180,7 +179,7 @@ pub fn order_of_solution(determined: &Determined) -> String {
     text
 }
 
-/// The bodies and joints that coordinates belong to, where these are all that they have; else the coordinates by their own names.
+/// Returns the names of bodies and joints whose coordinates are all present, and the names of single coordinates otherwise.
 fn solved_for<'d>(system: &'d ConstraintSystem, columns: &[u32]) -> Vec<&'d str> {
     let owner = |column: u32| system.coordinates()[column as usize].owner;
     let mut names = Vec::new();

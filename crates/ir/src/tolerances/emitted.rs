@@ -1,81 +1,81 @@
-//! Emitted code, where it goes its own way: what chooses its steps is smaller than `analysis`.
+//! Emitted code, where it differs from the engine: its step control is simpler than that of `analysis`.
 
-/// Other parameters than those of the file (`crates/emit/src/runtime/assemble.rs`).
+/// Parameters other than those of the file (`crates/emit/src/runtime/assemble.rs`).
 pub mod assemble {
-    /// Trials on the way to them before the file's poses are tried.
+    /// Number of trials along the path to them before the file's poses are tried.
     pub const FIRST_PARTS: usize = 4;
-    /// Trials on it at most where these have not helped either.
+    /// Maximum number of trials along the path if the poses have not helped either.
     pub const MOST_PARTS: usize = 200;
-    /// The smallest part of it.
+    /// Smallest trial, as a part of the path.
     pub const SMALLEST_PART: f64 = 1e-6;
 }
 
-/// Closing from far away (`crates/emit/src/runtime/pivoting.rs`).
+/// Closure from far away (`crates/emit/src/runtime/pivoting.rs`).
 pub mod close {
-    /// Corrections at most.
+    /// Maximum number of corrections.
     pub const MOST_TRIALS: usize = 30;
-    /// How often one is made half as long before it is taken as it is.
+    /// Maximum number of halvings of a correction before it is accepted.
     pub const MOST_SHORTER: usize = 6;
-    /// A correction that is so small, scaled, is the last one.
+    /// A correction of at most this size, scaled, is the last one.
     pub const NEAR: f64 = 0.02;
 }
 
 /// Steps (`crates/emit/src/runtime/step.rs`).
 pub mod step {
-    /// Steps that `step` takes at most: some analyses of the file.
+    /// Maximum number of steps in one call of `step`: several analyses of the file.
     pub const MOST_STEPS: usize = 10_000;
-    /// The step before tells of one that is so many times as long at most.
+    /// Largest ratio of a step to the previous one for which the latter predicts it.
     pub const FARTHEST_BEND: f64 = 4.0;
-    /// How far velocities may lead elsewhere than positions, scaled: more is another branch.
+    /// Largest deviation of velocities from the change of positions, scaled: beyond it the step is on another branch.
     pub const LARGEST_GAP: f64 = 1e-3;
 }
 
 /// Branches of the motion and of formulas (`crates/emit/src/runtime/reach.rs`).
 pub mod reach {
-    /// One over a pivot, scaled: beyond this the position is looked at more closely.
+    /// Largest inverse of a pivot, scaled, without a closer examination of the position.
     pub const STEEP: f64 = 1e3;
-    /// Beyond this it is too near to a singular one.
+    /// Largest inverse of a pivot, scaled: beyond it the position is too close to a singular one.
     pub const STEEPEST: f64 = 1e6;
-    /// How often the branches of formulas are chosen anew at one time.
+    /// Maximum number of times that the branches of formulas are chosen at one time.
     pub const MOST_BRANCHES: usize = 8;
 }
 
-/// Why a motion cannot go on (`crates/emit/src/runtime/explain.rs`).
+/// Explanations of a motion that ends (`crates/emit/src/runtime/explain.rs`).
 pub mod explain {
-    /// Where steps become too small, this is steep enough for a singular position to be the reason.
+    /// Inverse of a pivot above which vanishing steps are explained by a singular position.
     pub const SINGULAR: f64 = 1e2;
 }
 
-/// Ends of formulas of time (`crates/emit/src/runtime/rims.rs`).
+/// Domain boundaries of formulas of time (`crates/emit/src/runtime/rims.rs`).
 pub mod rims {
-    /// How often both sides are looked at, each time at a quarter of the distance.
+    /// Maximum number of examinations of both sides, each at a quarter of the previous distance.
     pub const MOST_LOOKS: usize = 6;
-    /// How often at least.
+    /// Minimum number of these examinations.
     pub const FEWEST_LOOKS: usize = 3;
-    /// Beside the fastest motion a velocity that changes by more than this jumps.
+    /// A velocity jumps if it changes by more than this part of the fastest motion.
     pub const SPEED_JUMP: f64 = 1e-6;
-    /// A speed below this part of one per span is rest.
+    /// A speed below this, per span, is rest.
     pub const SLOW: f64 = 1e-3;
-    /// A rim within this part of the span is one that was looked at.
+    /// Boundaries within this part of the span have been examined.
     pub const PASSED: f64 = 1e-9;
 }
 
-/// The way of inputs (`crates/emit/src/runtime/follow.rs`).
+/// Paths of inputs (`crates/emit/src/runtime/follow.rs`).
 pub mod follow {
-    /// Steps that `follow` takes at most: as many as a change by half a turn asks for, and few enough for a control loop.
+    /// Maximum number of steps in one call of `follow`: enough for half a turn, and few enough for a control loop.
     pub const MOST_STEPS_TO_FOLLOW: usize = 64;
-    /// The largest change of an angle in a call (rad): beyond half a turn nobody can say which way it went.
+    /// Largest change of an angle in a call (rad): beyond half a turn the direction is ambiguous.
     pub const LARGEST_TURN_OF_INPUT: f64 = std::f64::consts::PI;
-    /// The largest change of a length, beside the largest scale of a coordinate.
+    /// Largest change of a length in a call, relative to the largest scale of a coordinate.
     pub const LARGEST_SHIFT_OF_INPUT: f64 = 2.0;
-    /// A dead point that is so near by a signal's change, while a longer step is refused, is not passed.
+    /// A dead point at this change of a signal is not passed while longer steps are rejected.
     pub const NEAREST_TURN: f64 = 1e-6;
-    /// Where a step is refused, this is steep enough for a dead point to be looked for.
+    /// Inverse of a pivot above which a rejected step starts a search for a dead point.
     pub const NEAR_TURN: f64 = 10.0;
-    /// A position jumps that is so many times farther away than slopes lead.
+    /// A position jumps if it moves this many times as far as the slopes predict.
     pub const JUMP: f64 = 100.0;
-    /// The shortest step, as a part of the way; of a long one, as a change of a signal.
+    /// Shortest step, as a part of the path; for long paths, as a change of a signal.
     pub const SHORTEST_STEP: f64 = 1e-12;
-    /// Signals go straight on if the square of what leads aside is no larger part of that of the whole.
+    /// Signals continue straight if the square of the sideways part is at most this part of the square of the whole.
     pub const LARGEST_TURN: f64 = 0.01;
 }

@@ -1,9 +1,9 @@
-//! Every limit of the mathematics: what it means, in what unit, how large it is. Emitted code has the same ones.
+//! Limits of the mathematics, each with its meaning, unit and value. Emitted code uses the same limits.
 //!
-//! `docs/limits.md` is generated from these files. "Scaled" means: lengths in sizes of their body, angles in radians, rows of `Φ` divided by their norm. A "span" is the
-//! time from the first to the last output time.
+//! `docs/limits.md` is generated from these files. "Scaled" means lengths in sizes of their body, angles in radians, rows of `Φ` divided by
+//! their norm. A "span" is the time from the first to the last output time.
 //!
-//! A file for each part of the mathematics; in it a module for each file that has limits of its own.
+//! There is one file for each part of the mathematics, and in it a module for each source file with limits of its own.
 
 pub mod assembly;
 pub mod determinacy;
@@ -14,60 +14,60 @@ pub mod singular;
 pub mod solving;
 pub mod steps;
 
-/// Bounds each row of Φ unless told otherwise, scaled.
+/// Default bound of each row of Φ, scaled.
 pub const TOLERANCE: f64 = 1e-12;
 
-/// For how long a mechanism is looked at where nobody says it (s); and what steps and speeds are measured by where all happens in no time.
-pub const UNTOLD_SPAN: f64 = 1.0;
+/// Default span (s): examined if no analysis is given, and the unit of steps and speeds if the span is 0.
+pub const DEFAULT_SPAN: f64 = 1.0;
 
-/// What jumps, where both sides of a time differ.
+/// Jumps: differences between both sides of a time.
 pub mod jumps {
-    /// A position that changes by more than this, scaled, jumps.
+    /// A position jumps if it changes by more than this, scaled.
     pub const POSITION_JUMP: f64 = 1e-9;
-    /// A velocity that changes by more than this part of the fastest, scaled, jumps.
+    /// A velocity jumps if it changes by more than this part of the fastest, scaled.
     pub const VELOCITY_JUMP: f64 = 1e-7;
-    /// An acceleration likewise.
+    /// An acceleration jumps if it changes by more than this part of the largest, scaled.
     pub const ACCELERATION_JUMP: f64 = 1e-6;
-    /// A speed below this part of one per span, scaled, is rest.
+    /// A speed below this, per span and scaled, is rest.
     pub const REST: f64 = 1e-3;
-    /// What a load's condition is off by no more than it changes in this part of the span, it is not off by: it jumps here.
+    /// The condition of a load is zero if its change over this part of the span exceeds its value: the load jumps here.
     pub const LATER_AT_ONCE: f64 = 1e-12;
-    /// Likewise where it comes to rest there, by what its rate changes by in this part of the span.
+    /// The condition of a load is zero where it comes to rest if the change of its rate over this part of the span exceeds the rate.
     pub const LATER_AT_REST: f64 = 1e-8;
-    /// What is below this part of what coordinates and their rates would make of it, if each were as fast as everything, is rounding.
+    /// A value is rounding if it is below this part of what it would be with all coordinates and rates at their largest.
     pub const LATER_ROUNDING: f64 = 1e-12;
 }
 
-/// Contacts, and what they press with.
+/// Contacts and their forces.
 pub mod contacts {
-    /// A profile is closed where the square of the way between its ends is no more than this part of twice its area.
+    /// A profile is closed if the squared distance of its ends is at most this part of twice its area.
     pub const CLOSED: f64 = 1e-12;
-    /// Places on a profile that tell which way round it goes.
+    /// Samples of a profile that determine its orientation.
     pub const PLACES: u32 = 90;
-    /// A contact pulls where it does so with more than this part of the largest force of the row: less is rounding.
+    /// A contact pulls if its force exceeds this part of the largest force of the row; less is rounding.
     pub const PULLS: f64 = 1e-9;
-    /// Between rows a step is looked at in parts no wider than this one of it,
+    /// Widest part of a step that is examined for contact forces, as a part of the step.
     pub const WIDEST_BETWEEN: f64 = 0.125;
-    /// and in smaller ones where a load may leave the values at both ends of a part by more than this part of the largest that was met,
+    /// Parts are halved where a load may exceed its values at both ends by more than this part of the largest value so far.
     pub const STRIKES: f64 = 0.05;
-    /// but none smaller than this,
+    /// Smallest part, as a part of the step.
     pub const FINEST_BETWEEN: f64 = 1.0 / 256.0;
-    /// and in so many at most.
+    /// Maximum number of parts of a step.
     pub const MOST_BETWEEN: usize = 128;
-    /// Corrections of a place on the curve of a step.
+    /// Corrections of a position on the curve of a step.
     pub const CORRECTIONS: usize = 2;
 }
 
 /// Loads.
 pub mod loads {
-    /// A distance between two bodies that is no longer than this part of the larger of them has no direction: rounding would choose it.
+    /// A distance between two bodies up to this part of the larger body has no direction: rounding would determine it.
     pub const AIMLESS: f64 = 1e-6;
 }
 
-/// Equations that were left out, as they follow from the others.
+/// Redundant equations that are left out.
 pub mod checks {
-    /// One may be open by so many times its scale: lengths are written with so many digits.
+    /// Largest residual, in scales of the equation: lengths are written with so many digits.
     pub const LARGEST_OPENING: f64 = 1e-9;
-    /// One may miss by this beside how much everything changes with an input or a parameter, scaled: rounding.
+    /// Largest change of the residual, as a part of all changes with an input or a parameter, scaled: rounding.
     pub const MISSES: f64 = 1e-8;
 }

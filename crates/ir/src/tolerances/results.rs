@@ -1,256 +1,252 @@
 //! Results of the whole motion.
 
-/// Ranges of formulas (`crates/ir/src/program/ranges.rs`).
-pub mod ranges {
-    /// The argument of a function that is resolved changes by no more than this: its series goes on with the first few terms (rad, or
-    /// none).
+/// Ranges of formulas (`crates/ir/src/program/range_bounds.rs`).
+pub mod range_bounds {
+    /// Largest change of the argument of a resolved function (rad or a pure number): its series converges with the first few terms.
     pub const WIDEST: f64 = 1.0;
-    /// A bounded function that is resolved changes by no more than this.
+    /// Largest change of a resolved bounded function.
     pub const WIDEST_VALUE: f64 = 0.5;
-    /// What is divided by, or has a root taken of it, changes by no more than this factor.
+    /// Largest factor of change of a divisor or radicand.
     pub const WIDEST_RATIO: f64 = 2.0;
-    /// A power that is resolved changes by no more than this factor.
+    /// Largest factor of change of a resolved power.
     pub const WIDEST_POWER: f64 = 256.0;
-    /// An exponential or a high power no larger than this is resolved, whatever its argument does.
+    /// An exponential or a high power that is at most this is resolved, whatever its argument does.
     pub const VANISHES: f64 = 1e-40;
-    /// From this one on, a power is high.
+    /// Lowest high power.
     pub const HIGH_POWER: u32 = 8;
 }
 
-/// Formulas in intervals (`crates/ir/src/program/enclose.rs`).
-pub mod enclose {
-    /// Over more pieces of a table than this nothing is said of its columns.
+/// Interval evaluation of formulas (`crates/ir/src/program/interval_eval.rs`).
+pub mod interval_eval {
+    /// Maximum number of table pieces that a range covers; beyond it nothing is known of the columns.
     pub const MOST_PIECES: f64 = 64.0;
 }
 
-/// States within a stretch (`crates/engine/src/analysis/results/places.rs`).
+/// States within a step (`crates/engine/src/analysis/results/places.rs`).
 pub mod places {
-    /// Corrections of a position at most, where the solver does not serve.
+    /// Maximum number of corrections of a position, where the solver cannot be used.
     pub const ITERATIONS: usize = 10;
-    /// Whether the motion in a step is what its ends tell is seen at this part of it, at which nothing is that comes back in the middle; where what
-    /// moves is farther off than `LITTLE` of itself, and than a parabola could be, it is not.
+    /// Fraction of a step at which its dense output is verified; no symmetry of the motion maps it to the middle. The output is rejected if
+    /// a moving quantity deviates by more than `LITTLE` of itself, and by more than a parabola could.
     pub const WITHIN: f64 = 0.381_966;
-    /// A state differs from what its step's ends tell beyond this part of its size.
+    /// Largest deviation of a state from the dense output of its step, as a part of its size.
     pub const LITTLE: f64 = 1e-9;
-    /// Parts of a step shorter than this part of it are not cut again.
+    /// Parts of a step shorter than this part of it are not divided.
     pub const SHORTEST: f64 = 1e-2;
-    /// A position nearer than this to a singular one is taken from the way over it.
+    /// A position closer to a singular one than this is taken from the bridge across it.
     pub const SOLVABLE: f64 = 4e-3;
 }
 
 /// Cells (`crates/engine/src/analysis/results/probe.rs`).
 pub mod probe {
-    /// Looking at one formula, so many cells are cut at most: what needs more is not meant. One whose middle has to be solved for counts as
-    /// so many.
+    /// Maximum number of cells that are divided for one formula; a cell whose middle has to be solved for counts as several.
     pub const MOST_CELLS: usize = 400_000;
-    /// And so many more for each step of the motion.
+    /// Additional cells for each step of the motion.
     pub const MOST_OF_A_STEP: usize = 4_000;
-    /// A cell whose middle has to be solved for counts as so many cells.
+    /// Number of cells that a cell counts as if its middle has to be solved for.
     pub const SOLVED: usize = 20;
-    /// No cell is shorter than this part of the span.
+    /// Shortest cell, as a part of the span.
     pub const SHORTEST: f64 = 4.0 * f64::EPSILON;
-    /// A cell is short that is no longer than this part of the span.
+    /// Longest short cell, as a part of the span.
     pub const SHORT: f64 = 1e-3;
-    /// A guard that rounding decides makes a difference where values on both sides of it differ by more than this part of the range.
+    /// A guard within rounding matters if the values on both sides of it differ by more than this part of the range.
     pub const DIFFERENT: f64 = 1e-6;
-    /// A stretch in which nothing can be solved for, or in which rounding hides the values of a formula, may be so long, as a part of the span.
+    /// Longest interval without solution, or with values hidden by rounding, as a part of the span.
     pub const OPAQUE: f64 = 1e-6;
-    /// Whether a formula grows towards a time is seen at places that are so many times as far away as the one before, from where its values are off by
-    /// no more than that part of themselves or of the range.
+    /// Ratio of successive distances from a time at which the growth of a formula is examined; the first distance is where the values are
+    /// accurate to `RELIABLE` of themselves or of the range.
     pub const FACTOR: f64 = 16.0;
     /// A value is reliable if rounding changes it by at most this part of itself or of the range.
     pub const RELIABLE: f64 = 1e-3;
-    /// The first of these is no farther away than this part of the span.
+    /// Largest of these distances, as a part of the span.
     pub const FARTHEST: f64 = 1e-5;
-    /// Values that differ by no more than this part of the range are the same.
+    /// Values that differ by at most this part of the range are equal.
     pub const ALIKE: f64 = 1e-9;
-    /// What rounding makes of a value.
+    /// Rounding of a value, as a part of it.
     pub const ROUNDING: f64 = 32.0 * f64::EPSILON;
-    /// What is as little as this is nothing: rounding makes as much of the root of the least square.
+    /// Smaller values are zero: rounding of the root of the smallest square is as large.
     pub const NOTHING: f64 = 1e-150;
 }
 
 /// Guards (`crates/engine/src/analysis/results/guards.rs`).
 pub mod guards {
-    /// So many times as far from its threshold as rounding of what moves tells, an argument may be on either side.
+    /// An argument may be on either side of its threshold within this many times its rounding.
     pub const NOISE: f64 = 8.0;
-    /// An argument goes through its threshold, rather than jump over it, where it is no farther from there than this part of what it usually is.
+    /// An argument crosses its threshold continuously, rather than jumps, if it comes closer to it than this part of its usual size.
     pub const NEAR: f64 = 1e-6;
 }
 
 /// Extrema (`crates/engine/src/analysis/results/extremum.rs`).
 pub mod extremum {
-    /// A cell that can gain no more than this part of the range is not cut.
+    /// A cell that can improve the extremum by at most this part of the range is not divided.
     pub const GAP: f64 = 1e-11;
-    /// The same, where the formula has no derivative.
+    /// Bound like `GAP` for formulas without derivative.
     pub const GAP_OF_VALUES: f64 = 1e-9;
-    /// A time is certain to this part of the span.
+    /// Accuracy of a time, as a part of the span.
     pub const CERTAIN: f64 = 1e-13;
-    /// The top of a parabola is that of the formula, where it lies no farther from the middle of its three points than so many times what
-    /// these are apart.
+    /// The vertex of a parabola through three points is accepted up to this many point distances from the middle point.
     pub const FARTHEST: f64 = 2.0;
-    /// Its three points come closer by this factor, until they are this part of the span apart.
+    /// Factor by which the three points approach each other in each step.
     pub const CLOSER: f64 = 0.1;
-    /// The three points of a parabola come no closer together than this part of the span.
+    /// Smallest distance of the three points, as a part of the span.
     pub const FINEST: f64 = 1e-4;
-    /// Corrections of a time at most.
+    /// Maximum number of corrections of a time.
     pub const ITERATIONS: usize = 100;
-    /// How far off the time of an extremum may be, as a part of the span: of a formula whose slope is known, and of any other one.
+    /// Largest error of the time of an extremum, as a part of the span, for a formula with a known slope.
     pub const TIMES: f64 = 1e-11;
-    /// The same bound for a formula whose slope is unknown.
+    /// Bound like `TIMES` for a formula whose slope is unknown.
     pub const TIMES_OF_VALUES: f64 = 1e-6;
-    /// A value at a threshold is that of one side where it differs from that of this side by no more than this part of the range.
+    /// A value at a threshold differs from the limit of one side if the difference exceeds this part of the range.
     pub const APART: f64 = 1e-6;
-    /// A formula grows without bound where what it gains from one place to the next, which come nearer by equal factors, does not become less than by
-    /// this factor; and it goes to a value where it comes nearer to that by this factor.
+    /// A formula is unbounded if its gain between successive positions, whose distances shrink by equal factors, does not shrink by this
+    /// factor; it converges if its distance from the limit does.
     pub const CONVERGES: f64 = 0.97;
-    /// An edge so little behind an extremum, as a part of the span, is the extremum, where the value is the same.
+    /// An edge this close behind an extremum with the same value, as a part of the span, is the extremum.
     pub const BESIDE: f64 = 1e-7;
 }
 
-/// Turns that are settled (`crates/engine/src/analysis/results/turn.rs`).
+/// Refinement of extrema (`crates/engine/src/analysis/results/turn.rs`).
 pub mod turns {
-    /// The width of a cell of times, as a part of the span or of the power of two below it.
+    /// Width of a cell of the time grid, as a part of the span, rounded down to a power of two.
     pub const CELL: f64 = 1.0 / 16_777_216.0;
-    /// Times that are farther from 0 than so many cells have no grid.
+    /// Times farther from 0 than this many cells have no grid.
     pub const MOST_CELLS: f64 = 1_125_899_906_842_624.0;
-    /// A correction that is no farther from half a cell than this, in cells, leads to the border of two: rounding makes less of corrections.
+    /// A correction within this distance of half a cell, in cells, leads to a border of two cells: the rounding of corrections is smaller.
     pub const BORDER: f64 = 1.0 / 4_096.0;
-    /// Corrections at most, two of which may be at a border.
+    /// Maximum number of corrections, two of which may be at a border.
     pub const ITERATIONS: u32 = 8;
-    /// How many cells from where it begins a turn may settle.
+    /// Largest distance of the refined extremum from the start, in cells.
     pub const FARTHEST: f64 = 4_096.0;
-    /// How many cells to both sides slopes tell the second derivative of a formula of which it is not known.
+    /// Distance on both sides at which slopes are taken for an unknown second derivative, in cells.
     pub const APART: f64 = 64.0;
 }
 
-/// What is looked at as a coordinate is (`crates/engine/src/analysis/results/smooth.rs`).
+/// Products that are treated like coordinates (`crates/engine/src/analysis/results/smooth.rs`).
 pub mod smooth {
-    /// Of no more factors than this.
+    /// Maximum number of factors.
     pub const MOST_FACTORS: u32 = 6;
-    /// A cell in which a body turns farther than this (rad) says nothing of the sine of the turn.
+    /// Largest rotation of a body in a cell (rad) for which the sine of the angle is bounded.
     pub const WIDEST_TURN: f64 = 0.25;
-    /// A cell in which any body turns farther than this (rad) says nothing of where places are within.
+    /// Largest rotation of any body in a cell (rad) for which positions within are bounded.
     pub const WIDEST_OF_ALL: f64 = 0.5;
 }
 
-/// Stretches (`crates/engine/src/analysis/results`).
+/// Processing of the motion in chunks of steps (`crates/engine/src/analysis/results`).
 pub mod stretches {
-    /// So many stretches are looked at together.
+    /// Number of steps in a chunk.
     pub const CHUNK: usize = 4096;
-    /// But no more of them than have so many coordinates.
+    /// Maximum number of coordinates of all steps in a chunk.
     pub const NUMBERS: usize = 4_000_000;
-    /// Fewer certain digits than this are told of; more than the other there are not.
+    /// Number of certain digits below which the accuracy is reported.
     pub const FEW: u32 = 6;
-    /// A value of which nothing is certain is 0, where it may be off by no more than this part of the largest that was seen.
+    /// A value without certain digits is 0 if its error is at most this part of the largest value so far.
     pub const SMALL: f64 = 1e-6;
-    /// A double has no more significant digits than this.
+    /// Number of significant digits of a double.
     pub const MOST_DIGITS: u32 = 17;
-    /// What is larger goes on to where there are no numbers.
+    /// Larger values overflow.
     pub const LARGEST: f64 = 1e300;
 }
 
 /// Integrals (`crates/engine/src/analysis/results/quadrature.rs`).
 pub mod quadrature {
-    /// An integral may be off by this part of range times time.
+    /// Largest error of an integral, as a part of range times time.
     pub const ACCURACY: f64 = 1e-11;
-    /// The integral over a cell may be so many times farther off than what its halves make better.
+    /// Safety factor of the error of a cell, relative to the improvement by halving it.
     pub const SAFETY: f64 = 8.0;
-    /// The finer one of two rules is better than the other by the root of so many times what these differ, as a part of how far values in a cell differ.
+    /// The error of the finer of two rules is smaller than that of the coarser by the square root of this many times their difference,
+    /// relative to the variation in the cell.
     pub const SURER: f64 = 1e4;
-    /// How far off all cells are together is looked at whenever one of so many has been cut.
+    /// The total error is computed each time this many cells have been divided.
     pub const LOOKS: usize = 16;
-    /// An integral of which shortest cells hold such a part has no end, if the formula grows fast enough into these.
+    /// An integral diverges if the shortest cells hold this part of it, and the formula grows fast enough towards them.
     pub const DIVERGES: f64 = 1e-9;
-    /// How a formula grows towards a shortest cell is looked at so many of its lengths away.
+    /// Distances from a shortest cell at which the growth of a formula is examined, in lengths of the cell.
     pub const FARTHER: [f64; 2] = [64.0, 256.0];
-    /// An integral has no end where the formula goes with a power of the distance from a pole that is no lower than this.
+    /// An integral diverges if the formula grows like a power of the distance from a pole with at least this exponent.
     pub const STEEPEST: f64 = 0.95;
-    /// So near to a pole, as a part of the span, a formula goes with one power of the distance: halving that changes the factor by no more than
-    /// `ALIKE`, which is no less than `LEAST_GROWTH`. Nearer by, rounding of times shows.
-    pub const BESIDE_POLE: f64 = 1e-8;
-    /// Two factors of growth differ by at most this if one power of the distance makes both.
+    /// Largest distance from a pole, as a part of the span, at which a formula is a single power of the distance: halving the distance
+    /// changes the growth factor, which is at least `LEAST_GROWTH`, by at most `ALIKE`. At smaller distances the rounding of times shows.
+    pub const POLE_DISTANCE: f64 = 1e-8;
+    /// Two growth factors that differ by at most this belong to one power.
     pub const ALIKE: f64 = 1e-5;
-    /// The factor by which a formula grows at a pole when the distance is halved, at least.
+    /// Smallest growth factor at a pole when the distance is halved.
     pub const LEAST_GROWTH: f64 = 1.03;
-    /// What is unknown of an integral beside a pole, as a part of what the shortest cell may hold.
+    /// Uncertainty of an integral near a pole, as a part of what the shortest cell may hold.
     pub const PART_OF_POLE: f64 = 0.02;
-    /// As little as that is nothing.
+    /// Smaller values are zero.
     pub const NOTHING: f64 = 1e-290;
-    /// What rounding makes of a value.
+    /// Rounding of a value, as a part of it.
     pub const ROUNDING: f64 = 4.0 * f64::EPSILON;
 }
 
-/// Integrals of what is smooth all over the analysis (`crates/engine/src/analysis/results/spectral.rs`).
+/// Integrals of formulas that are smooth over the whole analysis (`crates/engine/src/analysis/results/spectral.rs`).
 pub mod spectral {
-    /// With how many intervals between the times, as a power of two, the rule begins and ends.
+    /// Smallest number of intervals of the rule, as a power of two.
     pub const FIRST: usize = 6;
-    /// The largest power of two of intervals between the times.
+    /// Largest number of intervals of the rule, as a power of two.
     pub const LAST: usize = 12;
-    /// The rule converges where twice as many times change it by no more than this part of the change before.
+    /// The rule converges if doubling the intervals changes it by at most this part of the previous change.
     pub const LESS: f64 = 0.1;
-    /// What the steps of the motion tell of an integral differs from it by no more than this part: else something narrow has been missed.
+    /// Largest difference from the integral of the dense output, as a part of it: beyond it something narrow has been missed.
     pub const ALIKE: f64 = 1e-2;
 }
 
 /// Loads between two states (`crates/engine/src/analysis/results/loads.rs`).
 pub mod loads {
-    /// A load that is smooth between two states may go beyond what is told of it by this part of the largest that was seen of it.
+    /// A smooth load may exceed its predicted range between two states by this part of the largest value so far.
     pub const SEEN: f64 = 0.25;
-    /// The same of one of which nothing is known but what it can be.
+    /// Margin for a load of which only its bounds are known, as a part of the largest value so far.
     pub const LITTLE: f64 = 1e-12;
-    /// What rounding may make of a load, beside what it makes of it at states.
+    /// Rounding of a load between states, in multiples of its rounding at states.
     pub const ROUNDINGS: f64 = 4.0;
-    /// A formula may be as large as this times what a load may do beyond what is told of it.
-    pub const UNTOLD: f64 = 1e200;
+    /// Largest amplification of the uncertainty of a load by a formula.
+    pub const MAX_AMPLIFICATION: f64 = 1e200;
 }
 
-/// Bends, and how large a value's rounding is (`crates/engine/src/analysis/results/curve.rs`).
+/// Second derivatives between states, and rounding of values (`crates/engine/src/analysis/results/curve.rs`).
 pub mod curve {
-    /// How many times farther from a straight line a second or third derivative may go between two states than the first or second one at both
-    /// of them tells that it does on average: a parabola goes 1.5 times as far.
+    /// Factor by which a second or third derivative may deviate from a straight line between two states, relative to the deviation that
+    /// follows from the lower derivative at both; a parabola has 1.5.
     pub const SAFETY: f64 = 2.0;
-    /// In a part of a cell they go no farther than in the whole, times this and the square of how long the part is against the whole.
+    /// Factor of the deviation in a part of a cell, which falls with the square of the part.
     pub const LESS: f64 = 2.0;
-    /// What moves is moved by this part of itself to see how much a formula makes of its rounding.
+    /// Relative perturbation of moving quantities that shows how a formula amplifies their rounding.
     pub const MOVED: f64 = 1.0 / 1_048_576.0;
-    /// What rounding makes of loads is looked at whenever a formula has been computed so often.
+    /// The rounding of loads is computed once per this many evaluations of a formula.
     pub const EVERY: usize = 16;
-    /// A value between two points beside each other is known where what it may be is no wider than this part of it, or than nothing.
+    /// A value between two adjacent points is resolved if its interval is at most this part of it, or at most `NOTHING`.
     pub const KNOWN: f64 = 1e-12;
-    /// A number smaller than this counts as zero.
+    /// Smaller numbers count as zero.
     pub const NOTHING: f64 = 1e-290;
-    /// What rounding may make of what moves, as a part of the largest that was seen of it.
+    /// Rounding of a moving quantity, as a part of the largest value so far.
     pub const ROUNDING: f64 = 8.0 * f64::EPSILON;
-    /// Velocities and accelerations on the way over a singular position may be so far off, likewise.
+    /// Error of velocities and accelerations on a bridge across a singular position, as a part of the largest values so far.
     pub const ON_BRIDGE: f64 = 1e-8;
 }
 
 /// Derivatives of results (`crates/lang/src/lower/slopes.rs`).
 pub mod slopes {
-    /// A formula has the value of an extremum at its time, if it is away from it by no more than this part of its range; or by this part
-    /// of its size, where it rests.
+    /// A formula has the value of an extremum at its time if it differs by at most this part of its range.
     pub const SAME: f64 = 1e-6;
-    /// The same bound, as a part of the size of a formula that rests.
+    /// Bound like `SAME` for a formula at rest, as a part of its size.
     pub const DIGITS: f64 = 1e-9;
-    /// An extremum is flat, if its rate would change it over the analysis by no more than this part of its range.
+    /// An extremum is flat if its rate would change it over the analysis by at most this part of its range.
     pub const FLAT: f64 = 1e-3;
-    /// What has no rate is looked at so far beside its extremum, as a part of the analysis.
+    /// Distance from its extremum at which a formula without rate is examined, as a part of the analysis.
     pub const BESIDE: f64 = 3e-4;
-    /// An extremum is alone, if it goes with what moves the formula by the first part of its range as much to one side as to the other, but for
-    /// the second part of that; or for the last digits of its value.
+    /// An extremum is isolated if a move by this part of its range changes it alike on both sides.
     pub const MOVED: f64 = 1e-6;
-    /// An extremum is alone if both sides of it change alike, up to this part of the change.
+    /// Largest difference between both sides of an isolated extremum, as a part of the change.
     pub const ALONE: f64 = 0.01;
-    /// A formula has a range of no more than so many standard deviations.
+    /// Range of a formula, in standard deviations.
     pub const DEVIATIONS: f64 = 4.0;
-    /// Half a step leaves no more than this part of what a whole one ends off the straight line, where a formula of results is smooth: a quarter,
-    /// and at a kink half.
+    /// A formula of results is smooth if halving the step reduces its deviation from a straight line to at most this part: a quarter for a
+    /// smooth one, half at a kink.
     pub const LEFT_OF_HALF: f64 = 0.35;
-    /// It is moved by what this part of a parameter's size makes of the formula at least, which may have no range.
+    /// Smallest change of a parameter, as the change of the formula that this part of the parameter's size causes.
     pub const LEAST_STEP: f64 = 1e-9;
-    /// Changes below this part of a value are its last digits, which decide nothing.
+    /// Changes below this part of a value are rounding.
     pub const LAST_DIGITS: f64 = 1e-13;
-    /// A parameter that as much again would change a formula by no more than this part of its range does not change it.
+    /// A parameter does not affect a formula if doubling it would change the formula by at most this part of its range.
     pub const NOTHING: f64 = 1e-12;
 }

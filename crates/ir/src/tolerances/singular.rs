@@ -1,119 +1,118 @@
-//! Singular positions on the way.
+//! Singular positions along the motion.
 
-/// Why steps vanish (`crates/engine/src/analysis/explain/singular.rs`).
+/// Explanations of vanishing steps (`crates/engine/src/analysis/explain/singular.rs`).
 pub mod reasons {
-    /// Below this the position is called singular, or as near to one as the steps could come.
+    /// A position closer to a singular one than this is called singular, or as close as steps could get.
     pub const NEAR: f64 = 1e-2;
-    /// A relative curvature below this is taken for none, beside a position that is singular.
+    /// A relative curvature below this is called zero near a singular position.
     pub const FLAT: f64 = 1e-3;
-    /// A curve has a cusp where its radius of curvature is below this part of its body's size, and its tangent vanishes.
+    /// A curve has a cusp if its radius of curvature is below this part of its body's size, and its tangent vanishes.
     pub const CUSP: f64 = 1e-2;
-    /// A fold is no further off than this part of the span.
+    /// Largest distance of a fold, as a part of the span.
     pub const NEAR_FOLD: f64 = 1e-5;
-    /// A formula has come to the end of what its function takes, or to a pole, if no more than this part of its terms is left.
-    pub const AT_HAND: f64 = 1e-6;
-    /// A part of the largest motion that is worth telling.
+    /// A formula has reached the end of a function's domain, or a pole, if at most this part of its terms is left.
+    pub const VANISHED: f64 = 1e-6;
+    /// Smallest motion that is reported, as a part of the largest.
     pub const SEEN: f64 = 1e-3;
-    /// A formula that ends explains most where it does so no more of the last steps ahead than these.
+    /// A formula that ends is the explanation if it does so within this many of the last steps.
     pub const STEPS_AHEAD: f64 = 1000.0;
-    /// A gauge goes down like a parabola where it is four times as large twice as far from zero, but for this.
+    /// Largest deviation from a parabola, which is four times as large at twice the distance from zero, for an event function.
     pub const PARABOLA: f64 = 0.25;
-    /// An equation is told of a dependency, or a coordinate of a free motion, whose share is above this part of the largest.
+    /// Smallest share that is reported of an equation in a dependency or a coordinate in a free motion, as a part of the largest.
     pub const TOLD: f64 = 0.1;
-    /// Shares are told apart by so many parts of the largest: rounding does not order what weighs the same.
+    /// Resolution of shares, in parts of the largest: rounding must not order equal shares.
     pub const WEIGHTS: f64 = 1e6;
-    /// A driver takes part in a dependency if its share is above this part of the largest.
+    /// A driver takes part in a dependency if its share exceeds this part of the largest.
     pub const TAKES_PART: f64 = 1e-3;
 }
 
-/// The way over a singular position (`crates/engine/src/analysis/follow/crossing`).
+/// Bridges across singular positions (`crates/engine/src/analysis/follow/crossing`).
 pub mod bridge {
-    /// A state nearer than this to a singular position is not clear of it.
+    /// A state closer than this to a singular position is not clear of it.
     ///
     /// Rounding in Φ is multiplied by 1/σ in q, and by 1/σ again in each derivative: 8e-3 leaves nine digits.
     pub const CLEAR: f64 = 8e-3;
-    /// The first state beyond is clear enough if it is no nearer to a singular position than this part of the limit.
+    /// The first state beyond is accepted if it is no closer to a singular position than this part of the limit.
     pub const NEARLY_CLEAR: f64 = 0.3;
-    /// A state nearer than this to a singular position cannot be solved for: rounding by 1/σ² is more than the accuracy promised.
+    /// A state closer than this to a singular position cannot be solved for: rounding by 1/σ² exceeds the promised accuracy.
     pub const SOLVABLE: f64 = 1e-3;
-    /// Solving beside a singular position leaves more than eight digits of accelerations down to here.
+    /// Closest distance to a singular position at which solving leaves more than eight digits of accelerations.
     pub const EXACT: f64 = 4e-3;
-    /// A curve's velocities and accelerations leave no more open of their equations, scaled, beside 1 or a part of the motion's
-    /// fastest.
+    /// Largest residuals of velocities and accelerations on the curve, scaled, relative to 1 or a part of the fastest motion.
     pub const OPEN: [f64; 2] = [1e-8, 1e-6];
-    /// Steps back from a start beside a singular position at most.
+    /// Maximum number of steps back from a start near a singular position.
     pub const STEPS_BACK: usize = 64;
-    /// How far each of them goes, scaled.
+    /// Length of a step back, scaled.
     pub const STEP_BACK: f64 = 2e-3;
-    /// How far beyond the singular position the first state is looked for, as parts of the way up to it.
+    /// Distances beyond the singular position at which the first state is searched for, as parts of the path up to it.
     pub const BEYOND: [f64; 4] = [0.7, 1.0, 2.0, 4.0];
-    /// The correction of the prediction beyond, as a part of the way, is at most this: other branches are further off.
+    /// Largest correction of the prediction beyond, as a part of the path: other branches are farther away.
     pub const LARGEST_CORRECTION: f64 = 0.05;
-    /// The curve over the bridge leaves corrections of at most this part of the way at some places between. One that joins two
-    /// branches leaves more, be it that both touch each other.
+    /// Largest correction of the curve over the bridge at positions between, as a part of the path. A curve that joins two branches has
+    /// larger ones, even if the branches touch.
     pub const LARGEST_BETWEEN: f64 = 1e-4;
-    /// The time of a singular position is certain to this part of the bridge.
+    /// Accuracy of the time of a singular position, as a part of the bridge.
     pub const CERTAIN: f64 = 1e-6;
-    /// Where on the way the curve over the bridge is held against the equations, as parts of it.
+    /// Positions at which the curve over the bridge is verified, as parts of the path.
     pub const PLACES: [f64; 3] = [0.25, 0.5, 0.75];
-    /// Places at which a bridge is looked at for a singular position that is come to twice.
+    /// Number of samples of a bridge to find a singular position that is reached twice.
     pub const PLACES_BETWEEN: usize = 24;
-    /// A determinant below this part of what it is at the ends has another sign, and does not just touch zero.
+    /// A determinant changes its sign, rather than touches zero, if it is below this part of its values at the ends.
     pub const BEYOND_ZERO: f64 = -1e-6;
-    /// Below this a curve that is more exact decides.
+    /// A more accurate curve decides where the determinant is below this part.
     pub const NEARLY_ZERO: f64 = 1e-2;
-    /// Times at which the minimum of an even contact is looked for.
+    /// Number of samples of an even contact to find its minimum.
     pub const LOOKS: usize = 80;
-    /// Newton steps to the minimum's place.
+    /// Number of Newton steps to the minimum.
     pub const NEWTON_STEPS: usize = 8;
-    /// The distance of the places that its slope is taken from, as a part of the bridge.
+    /// Distance of the two points of a difference quotient, as a part of the bridge.
     pub const SPREAD: f64 = 0.08;
 }
 
-/// The finer curve of a bridge (`crates/engine/src/analysis/follow/crossing/finer.rs`).
+/// Refined curve of a bridge (`crates/engine/src/analysis/follow/crossing/finer.rs`).
 pub mod finer {
-    /// The outer states are so far from the ends of the bridge, as a part of its length.
+    /// Distance of the outer states from the ends of the bridge, as a part of its length.
     pub const OUTWARD: f64 = 0.7;
-    /// Steps to an outer state.
+    /// Number of steps to an outer state.
     pub const STEPS: usize = 8;
-    /// The curve's accelerations are this exact where they can be solved for, beside their size or 1, scaled; and its velocities.
+    /// Accuracy of the velocities and accelerations of the curve where they can be solved for, relative to their size or 1, scaled.
     pub const EXACT: f64 = 2e-9;
 }
 
-/// Whether there are positions all the way (`crates/engine/src/analysis/follow/crossing/reach.rs`).
+/// Existence of positions all along a bridge (`crates/engine/src/analysis/follow/crossing/reach.rs`).
 pub mod reach {
-    /// Corrections of a position beside the curve at most.
+    /// Maximum number of corrections of a position near the curve.
     pub const CORRECTIONS: usize = 60;
-    /// Each must come down to this part of the one before.
+    /// Largest ratio of a correction to the previous one.
     pub const CONTRACTS: f64 = 0.7;
-    /// A correction below this, scaled, leaves nothing in λ.
+    /// A smaller correction, scaled, does not affect λ.
     pub const SETTLED: f64 = 1e-13;
-    /// Where corrections no longer come down, one below so many times that is rounding.
+    /// A correction that no longer shrinks is rounding if it is below this many times the rounding.
     pub const ROUNDING: f64 = 1e3;
-    /// Times within the bridge at which the free motion's way is taken.
+    /// Number of times within the bridge at which the direction of the free motion is evaluated.
     pub const SAMPLES: usize = 9;
-    /// An extremum in time, where it is near to the singular position's, is looked for by so many parabolas.
+    /// Number of parabolas that search for an extremum in time near the singular position.
     pub const PARABOLAS_IN_TIME: usize = 2;
-    /// One on the free motion's way by so many.
+    /// Number of parabolas that search for an extremum along the free motion.
     pub const PARABOLAS: usize = 3;
-    /// Each goes over this part of the way of the one before.
+    /// Width of each parabola, as a part of the previous one.
     pub const NARROWER: f64 = 0.05;
-    /// Rows take part in a dependency from this part of the largest on.
+    /// Rows take part in a dependency from this part of the largest share on.
     pub const TAKES_PART: f64 = 0.1;
-    /// So many times what may be left of the equations is not told from nothing.
+    /// Values within this many times the residual tolerance are not distinguished from zero.
     pub const MARGIN: f64 = 4.0;
 }
 
 /// Change points that are just missed (`crates/engine/src/analysis/follow/misses.rs`).
 pub mod misses {
-    /// A motion that comes as near to a change point as this part of the lengths is told of: drawings are rounded so.
+    /// Distance from a change point, as a part of the lengths, within which it is reported: drawings are rounded so.
     pub const WITHIN: f64 = 5e-4;
-    /// The part that lengths are off by, of the square of the driver's way in which the motion turns away.
+    /// Error of the lengths, as a part of the square of the driver's motion in which the mechanism turns away.
     pub const OF_LENGTHS: f64 = 1.0 / 3.0;
-    /// What is farther from a singular position than this is far from it.
+    /// A position farther from a singular one than this is far away.
     pub const FAR: f64 = 0.1;
-    /// The least singular value is at most this part of the largest before it: some mechanisms are never far.
+    /// Largest least singular value, as a part of the largest one before: some mechanisms are never far away.
     pub const FALLS: f64 = 0.4;
-    /// Meanwhile the speed of drivers changes by no more than this part.
+    /// Largest relative change of the speed of drivers meanwhile.
     pub const EVEN: f64 = 0.3;
 }

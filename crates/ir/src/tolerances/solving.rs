@@ -1,173 +1,172 @@
-//! Solving for a row.
+//! Solution for one row of results.
 
 /// Orders of elimination (`crates/engine/src/solver/order.rs`).
 pub mod order {
-    /// A pivot is at least this part of the largest entry in its column, where it is chosen.
+    /// Smallest pivot when it is chosen, as a part of the largest entry in its column.
     pub const THRESHOLD: f64 = 0.25;
-    /// What stands for a pivot that vanishes.
+    /// Replacement for a pivot that vanishes.
     pub const LEAST_PIVOT: f64 = 1e-18;
-    /// Rows among which a pivot is looked for.
+    /// Number of rows among which a pivot is chosen.
     pub const CANDIDATES: usize = 4;
 }
 
-/// Coordinates that Newton solves for (`crates/engine/src/solver/tear.rs`).
+/// Coordinates that Newton's method solves for (`crates/engine/src/solver/tear.rs`).
 pub mod tear {
-    /// Rows in which a tear is looked for.
+    /// Number of rows among which a tear is chosen.
     pub const CANDIDATES: usize = 64;
 }
 
-/// The grid of tears (`crates/engine/src/solver/build.rs`).
+/// Grid of tears (`crates/engine/src/solver/build.rs`).
 pub mod build {
-    /// The cell of a grid is this part of what a coordinate is judged against. The half of its square is below rounding.
+    /// Cell of the grid, as a part of the scale of a coordinate. Half of its square is below rounding.
     pub const CELL: f64 = 1.0 / 134_217_728.0;
-    /// Within a cell that is no wider the sine is a parabola, to rounding.
+    /// Widest cell within which the sine is a parabola up to rounding.
     pub const WIDEST_CELL: f64 = 8.0 * CELL;
 }
 
-/// Multipliers, and how large a solver may be (`solver`).
+/// Multipliers, and the size of a solver (`solver`).
 pub mod solver {
-    /// A scaled multiplier of an elimination beyond this loses digits.
+    /// Largest scaled multiplier of an elimination; larger ones lose digits.
     pub const LARGEST_MULTIPLIER: f64 = 16.0;
-    /// A system whose elimination takes more operations than this is not laid out.
+    /// Maximum number of operations of an elimination that is compiled.
     pub const MOST_OPERATIONS: usize = 30_000_000;
 }
 
-/// Newton in lanes (`crates/engine/src/solver/lanes.rs`).
+/// Newton's method in lanes (`crates/engine/src/solver/lanes.rs`).
 pub mod lanes {
-    /// Iterations of a block at most, two of which may be at a border of two cells.
+    /// Maximum number of iterations of a block, two of which may be at a border of two cells.
     pub const ITERATIONS: usize = 8;
-    /// Largest first correction, scaled: the curve of a step is nearer than this.
+    /// Largest first correction, scaled: the dense output of a step is closer than this.
     pub const LARGEST_CORRECTION: f64 = 0.05;
-    /// A correction that is no farther from half a cell than this, in cells, leads to the border of two. What rounding makes of corrections
-    /// is less.
+    /// A correction within this distance of half a cell, in cells, leads to a border of two cells. The rounding of corrections is smaller.
     pub const BORDER: f64 = 1.0 / 4_096.0;
-    /// Rows of so many numbers at the most are turned from columns: more would not stay in the processor's memory until then.
+    /// Largest number of values per row that is transposed from columns: more would not stay in the cache.
     pub const MOST_TURNED: usize = 2_048;
 }
 
-/// Variants side by side (`crates/engine/src/solver/variants.rs`, `sweep`).
+/// Batches of variants (`crates/engine/src/solver/variants.rs`, `sweep`).
 pub mod variants {
-    /// A multiplier up to this part of the largest is small enough, wherever Newton begins.
+    /// A multiplier up to this part of the largest one is accepted for any start of Newton's method.
     pub const CERTAIN_MULTIPLIER: f64 = 0.99;
-    /// What may be left of an equation, beside what may be left of it where a variant goes alone: rounding leaves less by orders of magnitude.
+    /// Largest residual, relative to that of a variant on its own: rounding leaves orders of magnitude less.
     pub const CERTAIN_RESIDUAL: f64 = 1e-3;
-    /// Between output times Newton ends with corrections of so many cells: what is left then is the square of that, far less than guesses are
-    /// off.
+    /// Largest last correction between output times, in cells: the remaining error is its square, far below the error of guesses.
     pub const NEARLY: f64 = 8_192.0;
-    /// What may be left of an equation then, beside what may be left of it where a variant goes alone.
+    /// Largest residual between output times, relative to that of a variant on its own.
     pub const RESIDUAL_OF_STEP: f64 = 1e4;
-    /// A variant nearer to a singular position than this goes alone: so far off no row is in doubt, and no step is looked into.
+    /// A variant closer to a singular position than this leaves the batch: at this distance no row is in doubt, and no step is examined inside.
     pub const NEAREST: f64 = 0.04;
-    /// A first correction is at most this part of the distance to a singular position: other branches are farther away.
+    /// Largest first correction, as a part of the distance to a singular position: other branches are farther away.
     pub const PART_OF_DISTANCE: f64 = 0.25;
-    /// Largest motion of a step, scaled.
+    /// Largest motion in a step, scaled.
     pub const LARGEST_MOTION: f64 = 0.5;
-    /// How far velocities and accelerations at both ends of a step may lead elsewhere than positions, scaled.
+    /// Largest deviation of velocities and accelerations at both ends of a step from the change of positions, scaled.
     pub const LARGEST_GAP: f64 = 1e-3;
-    /// A determinant grows or falls within a step by no more than this factor.
+    /// Largest factor by which a determinant changes in a step.
     pub const LARGEST_CHANGE: f64 = 2.0;
-    /// Steps over the whole span at least.
+    /// Minimum number of steps over the span.
     pub const FEWEST_STEPS: f64 = 16.0;
-    /// Rows are dense, by whose velocities alone steps are led on and judged, that are no farther apart than this part of the span.
+    /// Largest distance of dense rows, as a part of the span; their velocities alone extrapolate and judge steps.
     pub const DENSE_PART_OF_SPAN: f64 = 1.0 / 64.0;
-    /// Between them nothing moves by more than this at the start, scaled.
+    /// Largest motion between dense rows at the start, scaled.
     pub const DENSE_MOTION: f64 = 0.04;
-    /// Steps are of one length that differ by no more than this part.
+    /// Relative difference up to which steps have the same length.
     pub const ALIKE: f64 = 1e-9;
-    /// How far parameters are changed, as a part of themselves, to learn how the mechanism moves with them.
+    /// Relative change of parameters for difference quotients of the mechanism's position.
     pub const BESIDE: f64 = 1e-6;
-    /// How often one variant may ask all that go with it for shorter steps.
+    /// Maximum number of times that one variant may shorten the steps of its batch.
     pub const PATIENCE: u32 = 16;
-    /// Behind a step that was refused so many are taken before longer ones are tried.
+    /// Number of steps after a rejected one before longer ones are tried.
     pub const CALM_STEPS: u32 = 6;
-    /// The way to a variant's parameters is tried in so many parts.
+    /// Numbers of continuation steps to a variant's parameters, tried in turn.
     pub const PARTS_OF_WAY: [u32; 6] = [1, 2, 4, 8, 16, 32];
 }
 
-/// The course of a formula of a variant (`crates/engine/src/analysis/results/course.rs`, `crates/engine/src/sweep/steps.rs`, `crates/engine/src/sweep/survey.rs`).
+/// Extrema and integrals of a formula for a variant (`crates/engine/src/analysis/results/course.rs`, `crates/engine/src/sweep/batch/step_history.rs`,
+/// `crates/engine/src/sweep/batch/result_finder.rs`).
 pub mod course {
-    /// How much farther than the quintic in the middle of a cell a second derivative may be from the straight line between its ends: so much as
-    /// results of a variant alone allow of a half of a cell.
+    /// Factor by which a second derivative may deviate from the straight line between its ends, relative to the quintic in the middle of a
+    /// cell: as much as results of a single variant allow for half a cell.
     pub const SAFETY: f64 = 6.0;
-    /// An extremum is beyond doubt the largest one, if all others are below it by this part of the range.
+    /// The largest extremum is unambiguous if all others are below it by this part of the range.
     pub const MARGIN: f64 = 1e-5;
-    /// An end is an extremum, if the slope there would change the formula over the analysis by this part of its range.
+    /// An end is an extremum if the slope there would change the formula over the analysis by this part of its range.
     pub const STEEP: f64 = 1e-3;
-    /// A turn is no nearer to an end than this part of the span.
+    /// Smallest distance of an extremum from an end, as a part of the span.
     pub const AWAY: f64 = 1e-4;
-    /// The size of the numbers that a value is a sum of is no more than so many times the range, or what the second derivative makes of the span:
-    /// else rounding moves the time of an extremum.
+    /// Largest terms of a sum, in multiples of its range or of what the second derivative causes over the span: beyond it rounding shifts
+    /// the time of an extremum.
     pub const CERTAIN: f64 = 250.0;
-    /// A formula rests, if all along its course it is no farther from where it begins than this part of the size of these numbers: a quarter of what
-    /// is the same alone (`results::probe::ROUNDING`).
+    /// A formula is at rest if it deviates from its start by at most this part of the size of its terms: a quarter of the bound for a
+    /// single variant (`results::probe::ROUNDING`).
     pub const RESTS: f64 = 0.25 * crate::tolerances::results::probe::ROUNDING;
-    /// Corrections of a time on the curve between two steps.
+    /// Number of corrections of a time on the curve between two steps.
     pub const ITERATIONS: usize = 3;
-    /// A length is smooth along steps of which so many at least are between it and zero, as fast as what it is the length of goes.
+    /// A length is smooth along steps if at least this many of them, at its greatest speed, separate it from zero.
     pub const STEPS_TO_KINK: f64 = 2.0;
-    /// Steps over the whole span at least, where lengths are asked for.
+    /// Minimum number of steps over the span if formulas contain lengths.
     pub const FEWEST_STEPS_OF_LENGTHS: f64 = 64.0;
-    /// How the size of these numbers is looked at: in so many ways.
+    /// Number of ways in which the size of terms is estimated.
     pub const WAYS: usize = 3;
-    /// At every one of so many steps.
+    /// The size of terms is estimated at every this many steps.
     pub const EVERY: usize = 4;
-    /// What the steps tell of an integral differs from it by no more than this part, far less than is allowed alone
-    /// (`results::spectral::ALIKE`): a variant that is settled so is settled alone too.
+    /// Largest difference of an integral from its estimate by the steps, as a part of it; far less than a single variant allows
+    /// (`results::spectral::ALIKE`), so that a variant accepted here is accepted there.
     pub const ALIKE: f64 = 1e-4;
-    /// Steps at the most.
+    /// Maximum number of steps.
     pub const MOST_STEPS: usize = 4_096;
 }
 
-/// Blocks that are pivoted (`crates/engine/src/solver/pivoting.rs`).
+/// Blocks with pivoting (`crates/engine/src/solver/pivoting.rs`).
 pub mod pivoting {
-    /// Larger blocks are not solved this way.
+    /// Largest block that is solved with pivoting.
     pub const LARGEST_BLOCK: usize = 100;
 }
 
-/// Output times, solved for together (`crates/engine/src/analysis/follow/rows/leap.rs`).
+/// Output times that are solved together (`crates/engine/src/analysis/follow/rows/leap.rs`).
 pub mod rows {
-    /// Times that are solved at once.
+    /// Number of times in a batch.
     pub const LANES: usize = 16;
-    /// A solver of fewer operations is not worth a thread of its own.
+    /// Smallest number of operations of a solver that is worth a thread.
     #[cfg(feature = "threads")]
     pub const WORTH_A_THREAD: usize = 20_000;
-    /// Threads at most.
+    /// Maximum number of threads.
     #[cfg(feature = "threads")]
     pub const MOST_THREADS: usize = 8;
     /// A step below this part of the span is short.
     pub const SHORT: f64 = 1e-4;
-    /// Two times are the same that differ by no more than this part of the step.
+    /// Times that differ by at most this part of the step are equal.
     pub const SAME_TIME: f64 = 1e-9;
-    /// So many rows within a step show what its curve is worth.
+    /// Number of rows within a step that show the accuracy of its dense output.
     pub const ENOUGH: u64 = 4;
-    /// A row that is solved for once more may change by so much, beside its size or 1.
+    /// Largest change of a row that is solved again, relative to its size or 1.
     pub const REFINED: f64 = 1e-8;
-    /// Steps that are tried behind a row that cannot be printed, to tell why.
+    /// Number of steps behind a row that cannot be printed, to explain why.
     pub const STEPS_AHEAD: usize = 1_000;
 }
 
-/// Rows that are in doubt (`crates/engine/src/analysis/state/trust.rs`).
+/// Rows that may be inaccurate (`crates/engine/src/analysis/state/trust.rs`).
 pub mod trust {
-    /// Where a row is printed, what rounding makes of it must stay below the accuracy promised.
+    /// Largest rounding of a printed row: the promised accuracy.
     pub const ACCURACY: f64 = 1e-9;
-    /// A velocity is in doubt if it may be off by more than this, beside its size or 1.
+    /// A velocity is in doubt if its error may exceed this, relative to its size or 1.
     pub const VELOCITY: f64 = 1e-8;
-    /// An acceleration likewise.
+    /// An acceleration is in doubt if its error may exceed this, relative to its size or 1.
     pub const ACCELERATION: f64 = 4e-7;
-    /// What is slow counts for no less than this part of the motion's fastest: rounding grows with that.
+    /// Slow motions count as at least this part of the fastest one, with which rounding grows.
     pub const SLOW: f64 = 1.0 / 64.0;
-    /// Farther from a singular position than this rounding does not come so far.
+    /// Distance from a singular position beyond which rounding stays small.
     pub const FAR: f64 = 1.5e-3;
 }
 
-/// Rows solved for again, for they are in doubt (`crates/engine/src/analysis/follow/march/doubt.rs`).
+/// Ill-conditioned rows that are solved again (`crates/engine/src/analysis/follow/march/doubt.rs`).
 pub mod doubt {
-    /// A row is right if it differs from one that is exact by no more, beside its size or 1: in place, velocity and acceleration.
+    /// Largest deviation of a row from an exact one, relative to its size or 1: in position, velocity and acceleration.
     pub const RIGHT: [f64; 3] = [1e-9, 1e-8, 1e-6];
-    /// A row is solved for again from so many places.
+    /// Number of starts from which a row is solved again.
     pub const PLACES: usize = 16;
-    /// How far they are from each other, scaled.
+    /// Distance between these starts, scaled.
     pub const CELL: f64 = super::build::CELL;
-    /// A correction of a place on the way over a singular position is at most this part of the distance from that, scaled.
+    /// Largest correction of a position on a bridge, as a part of its distance from the singular position, scaled.
     pub const NEAREST_BRANCH: f64 = 0.05;
 }

@@ -1,44 +1,44 @@
-//! What is said of the params and inputs of a part where it is used.
+//! Bindings of the params and inputs of a part.
 
 use super::entity::Entity;
 use super::formula::{Context, Dim, Value};
-use super::rates;
-use super::sites::{Drawn, Site};
-use super::{Checker, errors, kinds};
+use super::formula_scope::{FormulaSite, InitialPoint};
+use super::suggest::lost_rate;
+use super::{Checker, errors, point_kinds};
 use crate::model::Dimension;
 use mechc_expr::ExprId;
 use mechc_syntax::ast::{Binding, Name};
 use mechc_text::diag::nearest;
 use mechc_text::source::Span;
 
-/// What is said of a param where its mechanism is used.
+/// The bound value of a param.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Bound {
-    /// It is a number; whether its dimension was worked out.
+pub(super) enum BoundValue {
+    /// A number, and whether its dimension is checked.
     Number(Value, bool),
-    /// It is a point.
-    Point(Drawn),
-    /// So is one of its coordinates.
+    /// A point.
+    Point(InitialPoint),
+    /// A coordinate of a point, and whether its dimension is checked.
     Coordinate(usize, Value, bool),
 }
 
-/// A param with what is said of it, and where.
+/// The binding of a param, with its location.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct BoundParam<'a> {
     pub name: &'a str,
-    pub bound: Bound,
+    pub bound: BoundValue,
     pub span: Option<Span>,
 }
 
-/// What is said of the params and inputs of a text where it is used.
+/// The bindings of a text's params and inputs by the mechanism that uses it.
 #[derive(Default)]
-pub(super) struct BoundOutside<'a> {
+pub(super) struct ExternalBindings<'a> {
     pub params: Vec<BoundParam<'a>>,
     pub inputs: Vec<&'a str>,
 }
 
 impl<'a> Checker<'a> {
-    /// Params, functions, tables and inputs of a part, with what is said of its params.
+    /// Evaluates the definitions of a part with its bindings.
     pub(super) fn definitions_of_part(&mut self, part: usize) {
         let bound = self.params_bound(part);
         let samples = self.samples.clone();
@@ -50,8 +50,8 @@ impl<'a> Checker<'a> {
         self.import_params_of(part);
     }
 
-    /// The same of a part whose params go in a circle, which has been said: what they are in its text.
-    pub(super) fn definitions_of_part_alone(&mut self, part: usize) {
+    /// Evaluates the definitions of a part without bindings, as these form a cycle, which is reported.
+    pub(super) fn definitions_of_unbound_part(&mut self, part: usize) {
         let samples = self.samples.clone();
         self.in_part(part, |child| {
             child.samples = samples;
@@ -59,24 +59,24 @@ impl<'a> Checker<'a> {
         });
     }
 
-    /// The bindings of a part that must be known before it is, those of params; others wait until all parts are.
+    /// Returns whether a binding is one of a param, which must be evaluated before the part. Others follow after all parts.
     pub(super) fn binds_definition(&self, part: usize, binding: &Binding) -> bool {
         let bound = self.parts.get(part).and_then(|child| child.space.get(&binding.name.text));
         !matches!(bound, Some(Entity::Input(_)))
     }
 
-    /// What is said of the params of a part.
+    /// Evaluates the bindings of a part's params.
     fn params_bound(&mut self, part: usize) -> Vec<BoundParam<'a>> {
         let of_part = self.bindings[part];
         let mut bound: Vec<BoundParam<'a>> = Vec::new();
         for binding in &of_part.bindings {
-            let known = self.parts[part].space.get(&binding.name.text);
+            let entity = self.parts[part].space.get(&binding.name.text);
             let before = of_part.bindings.iter().take_while(|other| other.span != binding.span);
             if let Some(first) = before.into_iter().find(|other| is_twice(other, binding)) {
                 self.report(errors::bound_twice(binding, first.span));
                 continue;
             }
-            match known {
+            match entity {
                 Some(Entity::Param(_)) => {
                     let is_point = self.parts[part].point_params.contains(binding.name.text.as_str());
                     if let Some(value) = self.param_bound(binding, is_point) {
@@ -85,63 +85,65 @@ impl<'a> Checker<'a> {
                 }
                 Some(Entity::Input(_)) if binding.coordinate.is_none() => {}
                 Some(Entity::Broken) => {}
-                other => self.nothing_to_bind(part, binding, other),
+                other => self.no_name_to_bind(part, binding, other),
             }
         }
         bound
     }
 
-    fn nothing_to_bind(&mut self, part: usize, binding: &Binding, found: Option<Entity>) {
+    fn no_name_to_bind(&mut self, part: usize, binding: &Binding, found: Option<Entity>) {
         let child = &self.parts[part];
-        let known: Vec<&str> = child.space.names(|e| matches!(e, Entity::Param(_) | Entity::Input(_))).collect();
-        let meant = nearest(&binding.name.text, known.iter().copied());
+        let candidates: Vec<&str> = child.space.names(|e| matches!(e, Entity::Param(_) | Entity::Input(_))).collect();
+        let suggestion = nearest(&binding.name.text, candidates.iter().copied());
         let mechanism = &child.tree.name.text;
-        let diagnostic = errors::nothing_to_bind(mechanism, binding, found.map(Entity::noun), &known, meant);
+        let diagnostic = errors::no_name_to_bind(mechanism, binding, found.map(Entity::noun), &candidates, suggestion);
         self.report(diagnostic);
     }
 
-    fn param_bound(&mut self, binding: &'a Binding, is_point: bool) -> Option<Bound> {
+    fn param_bound(&mut self, binding: &'a Binding, is_point: bool) -> Option<BoundValue> {
         let value = &binding.value;
         let context = Context::constant("a binding of a param");
         if let Some(coordinate) = &binding.coordinate {
-            let Some(k) = kinds::coordinate(coordinate).filter(|_| is_point) else {
+            let Some(k) = point_kinds::coordinate(coordinate).filter(|_| is_point) else {
                 self.report(errors::no_coordinate_to_bind(binding, coordinate, is_point));
                 return None;
             };
             let judged = self.is_dimensional(value);
             let number = self.formula(value, &Context { judged, ..context })?;
-            return Some(Bound::Coordinate(k, number, judged));
+            return Some(BoundValue::Coordinate(k, number, judged));
         }
         if is_point {
             if !self.is_point(value) {
                 self.report(errors::number_for_point(binding));
                 return None;
             }
-            return self.at_site(Site::Mechanism, None, |c| c.point_formula(value, &context)).map(Bound::Point);
+            return self
+                .at_site(FormulaSite::Mechanism, None, |c| c.point_formula(value, &context))
+                .map(BoundValue::Point);
         }
         let judged = self.is_dimensional(value);
         let number = self.formula(value, &Context { judged, ..context })?;
         self.constant_value(number.id);
-        Some(Bound::Number(if self.is_zero(value) { Value { dim: Dim::Any, ..number } } else { number }, judged))
+        Some(BoundValue::Number(if self.is_zero(value) { Value { dim: Dim::Any, ..number } } else { number }, judged))
     }
 
-    /// A constant that is known as a number.
-    pub(super) fn number_bound(&mut self, value: f64) -> Bound {
-        Bound::Number(Value { id: self.model.graph.constant(value), dim: Dim::Any }, false)
+    /// Returns a known number as a bound value.
+    pub(super) fn number_bound(&mut self, value: f64) -> BoundValue {
+        BoundValue::Number(Value { id: self.model.graph.constant(value), dim: Dim::Any }, false)
     }
 
-    /// A param with what is said of it where its mechanism is used.
+    /// Returns the value of a param with its binding. The outer `None` stands for no binding, the inner one for a broken one.
     #[allow(clippy::option_option)] // not bound, or broken
-    pub(super) fn as_bound(&mut self, name: &Name, in_file: Value) -> Option<Option<Value>> {
-        let BoundParam { bound: Bound::Number(value, judged), span, .. } = *self.bound_param(name)? else {
+    pub(super) fn value_with_binding(&mut self, name: &Name, in_file: Value) -> Option<Option<Value>> {
+        let BoundParam { bound: BoundValue::Number(value, judged), span, .. } = *self.bound_param(name)? else {
             return None;
         };
-        // a number without a unit is a pure number, as one that is set from outside
-        let unlike = in_file.dim.other_than(value.dim).filter(|[wanted, _]| judged || !wanted.is(Dimension::PURE));
-        if let (Some([wanted, found]), Some(span)) = (unlike, span) {
+        // A number without a unit is a pure number, as in an override.
+        let unlike = in_file.dim.other_than(value.dim).filter(|[expected, _]| judged || !expected.is(Dimension::PURE));
+        if let (Some([expected, found]), Some(span)) = (unlike, span) {
             let place = format!("the parameter `{}`", name.text);
-            let part = rates::Part { span, dimension: found };
-            self.report(errors::wrong_dimension(&place, wanted, part, self.sources.text(span)));
+            let part = lost_rate::Part { span, dimension: found };
+            self.report(errors::wrong_dimension(&place, expected, part, self.sources.text(span)));
             return Some(None);
         }
         let dim = if in_file.dim == Dim::Any { value.dim } else { in_file.dim };
@@ -154,23 +156,23 @@ impl<'a> Checker<'a> {
         Some(Some(self.with_shift(&declared, Value { id: value.id, dim })))
     }
 
-    /// What is said of a param where its mechanism is used.
+    /// Returns the binding of a param.
     pub(super) fn bound_param(&self, name: &Name) -> Option<&BoundParam<'a>> {
         self.bound.params.iter().find(|bound| bound.name == name.text)
     }
 
-    /// A point with what is said of it, or of its coordinates, where its mechanism is used.
-    pub(super) fn point_as_bound(&mut self, name: &Name, mut point: Drawn) -> Option<Drawn> {
+    /// Returns a point with the bindings of it or of its coordinates.
+    pub(super) fn point_with_binding(&mut self, name: &Name, mut point: InitialPoint) -> Option<InitialPoint> {
         for k in 0..self.bound.params.len() {
             let BoundParam { name: bound_name, bound, span } = self.bound.params[k];
             if bound_name != name.text {
                 continue;
             }
             match bound {
-                Bound::Point(bound) => {
+                BoundValue::Point(bound) => {
                     let is_zero = bound.at.iter().all(|&id| self.constant_value(id) == Some(0.0));
                     if let Some(span) = span.filter(|_| point.dimensional && !bound.dimensional && !is_zero) {
-                        let plain = rates::Part { span, dimension: Dimension::PURE };
+                        let plain = lost_rate::Part { span, dimension: Dimension::PURE };
                         let place = format!("the point `{}`", name.text);
                         let text = self.sources.text(span);
                         self.report(errors::wrong_dimension(&place, Dimension::LENGTH, plain, text));
@@ -178,45 +180,45 @@ impl<'a> Checker<'a> {
                     }
                     point = bound;
                 }
-                Bound::Coordinate(axis, value, judged) => {
+                BoundValue::Coordinate(axis, value, judged) => {
                     let place = format!("the coordinate `{}.{}`", name.text, ["x", "y"][axis]);
                     let judged = judged || point.dimensional;
                     let context = Context { judged, ..Context::constant("a binding of a param") };
                     let span = span.unwrap_or(name.span);
-                    self.demand(&place, Dimension::LENGTH, span, value.dim, &context)?;
+                    self.require_dimension(&place, Dimension::LENGTH, span, value.dim, &context)?;
                     point.at[axis] = value.id;
                     point.dimensional |= judged;
                 }
-                Bound::Number(..) => {}
+                BoundValue::Number(..) => {}
             }
         }
         Some(point)
     }
 
-    /// What is bound of its params, as far as it could be read.
+    /// Returns the bound params with the expressions of their numbers.
     pub(super) fn bound_numbers(&self) -> Vec<(String, ExprId)> {
         let numbers = |bound: &BoundParam<'_>| match bound.bound {
-            Bound::Number(value, _) => vec![(bound.name.to_owned(), value.id)],
-            Bound::Point(Drawn { at: [x, y], .. }) => {
+            BoundValue::Number(value, _) => vec![(bound.name.to_owned(), value.id)],
+            BoundValue::Point(InitialPoint { at: [x, y], .. }) => {
                 vec![(format!("{}.x", bound.name), x), (format!("{}.y", bound.name), y)]
             }
-            Bound::Coordinate(axis, value, _) => vec![(format!("{}.{}", bound.name, ["x", "y"][axis]), value.id)],
+            BoundValue::Coordinate(axis, value, _) => vec![(format!("{}.{}", bound.name, ["x", "y"][axis]), value.id)],
         };
         self.bound.params.iter().flat_map(numbers).collect()
     }
 
-    /// Params that are known as numbers (SI), as if they were bound: those of a part that stands alone.
+    /// Binds params to known numbers (SI), for a part that is checked on its own.
     pub(super) fn bind_numbers(&mut self, numbers: &'a [(String, f64)]) {
         for (name, value) in numbers {
             let bound = self.number_bound(*value);
             let coordinate = name.rsplit_once('.').zip(match bound {
-                Bound::Number(value, _) => Some(value),
+                BoundValue::Number(value, _) => Some(value),
                 _ => None,
             });
             let param = match coordinate {
                 Some(((owner, axis), value)) => BoundParam {
                     name: owner,
-                    bound: Bound::Coordinate(usize::from(axis == "y"), value, false),
+                    bound: BoundValue::Coordinate(usize::from(axis == "y"), value, false),
                     span: None,
                 },
                 None => BoundParam { name, bound, span: None },

@@ -1,14 +1,14 @@
-//! Branches: `if`, and the conditions under which what is read counts.
+//! Branches of `if`, and the conditions under which formulas in them count.
 
 use super::formula::{Context, Value};
 use super::{Checker, errors};
 use mechc_expr::{Comparison, ExprId};
 use mechc_syntax::ast::{ComparisonSign, Expr, ExprKind};
 
-/// The branch that is being read.
+/// The branch of the current formula.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub(super) struct Branch {
-    /// It is never taken: nothing is said of values.
+    /// True if it is never taken, so that values give no diagnostics.
     pub is_untaken: bool,
     /// The condition under which it counts.
     pub guard: Option<ExprId>,
@@ -17,14 +17,14 @@ pub(super) struct Branch {
 impl Checker<'_> {
     pub(super) fn choice(&mut self, arms: &[(Expr, Expr)], otherwise: &Expr, context: &Context<'_>) -> Option<Value> {
         let values = arms.iter().map(|(_, value)| value).chain(std::iter::once(otherwise));
-        self.warn_of_numbers_beside(values, context);
+        self.warn_of_numbers_as_radians(values, context);
         let outer = self.branch;
         let mut decided = false;
         let mut parts = Vec::new();
         for (condition, value) in arms {
             let condition = self.condition(condition, context);
-            if condition.is_none() && self.waits() {
-                // which branches count is not known yet
+            if condition.is_none() && self.is_deferred() {
+                // The branch that counts is not determined yet.
                 self.branch = outer;
                 return None;
             }
@@ -44,14 +44,14 @@ impl Checker<'_> {
         let mut span = otherwise.span;
         for (condition, value_span, value) in parts.into_iter().rev() {
             let (condition, value) = (condition?, value?);
-            let dim = self.alike("the branches of this `if` are", (value_span, value), (span, choice), context)?;
+            let dim = self.unify("the branches of this `if` are", (value_span, value), (span, choice), context)?;
             choice = Value { id: self.model.graph.select(condition, value.id, choice.id), dim };
             span = value_span;
         }
         Some(Value { dim: choice.dim.of_term(), ..choice })
     }
 
-    /// What is read next counts only where a condition holds too.
+    /// Adds a condition to those of the outer branches.
     fn guard_with(&mut self, outer: Option<ExprId>, condition: Option<ExprId>) {
         self.branch.guard = match (outer, condition) {
             (Some(outer), Some(condition)) => Some(self.model.graph.and(outer, condition)),
@@ -83,11 +83,11 @@ impl Checker<'_> {
                 Some(all)
             }
             ExprKind::Compare(a, comparison, b) => {
-                self.warn_of_numbers_beside([&**a, &**b].into_iter(), context);
+                self.warn_of_numbers_as_radians([&**a, &**b].into_iter(), context);
                 let (left, right) = (self.number(a, context), self.number(b, context));
                 let (left, right) = (left?, right?);
-                self.alike("this compares", (a.span, left), (b.span, right), context)?;
-                self.remember_compared_lengths([(a, left), (b, right)], context);
+                self.unify("this compares", (a.span, left), (b.span, right), context)?;
+                self.record_compared_lengths([(a, left), (b, right)], context);
                 let (x, y, graph) = (left.id, right.id, &mut self.model.graph);
                 Some(match comparison {
                     ComparisonSign::Less => graph.compare(Comparison::Less, x, y),

@@ -1,4 +1,4 @@
-//! Calls of the language's own functions.
+//! Calls of the language's functions.
 
 use super::formula::{Context, Dim, Value};
 use super::{Checker, errors};
@@ -8,11 +8,11 @@ use mechc_syntax::ast::{Expr, Name};
 use mechc_text::source::Span;
 use mechc_text::vocabulary::{Function, Group};
 
-/// An argument with its place.
+/// An argument with its location.
 type Argument = (Span, Value);
 
 impl Checker<'_> {
-    /// A call of a function or kinematic quantity of the language.
+    /// Evaluates a call of a function or kinematic quantity of the language.
     pub(super) fn builtin(
         &mut self,
         e: &Expr,
@@ -27,7 +27,7 @@ impl Checker<'_> {
             self.report_count_of(e, name, function, arguments);
             return None;
         }
-        // a function's formula is looked over on its own
+        // A function's formula is checked on its own.
         if let ("sin" | "cos" | "tan", [argument], true) = (name.text.as_str(), arguments, self.calls.caller.is_none())
         {
             self.warn_of_degrees(argument);
@@ -42,10 +42,10 @@ impl Checker<'_> {
             return self.number_of_points(e, name, arguments, context);
         }
         match function.group {
-            Group::Alike => self.warn_of_numbers_beside(arguments.iter(), context),
+            Group::Alike => self.warn_of_numbers_as_radians(arguments.iter(), context),
             Group::Motion => {
-                self.warn_of_numbers_beside([0, 1, 3].into_iter().filter_map(|k| arguments.get(k)), context);
-                self.warn_of_numbers_beside([2, 4].into_iter().filter_map(|k| arguments.get(k)), context);
+                self.warn_of_numbers_as_radians([0, 1, 3].into_iter().filter_map(|k| arguments.get(k)), context);
+                self.warn_of_numbers_as_radians([2, 4].into_iter().filter_map(|k| arguments.get(k)), context);
             }
             _ => {}
         }
@@ -59,11 +59,11 @@ impl Checker<'_> {
     }
 
     fn report_count_of(&mut self, e: &Expr, name: &Name, function: &Function, arguments: &[Expr]) {
-        let (wanted, found) = (function.takes(), arguments.len());
-        let diagnostic = errors::argument_count(&name.text, Some(&function.word), e.span, &wanted, found);
+        let (expected, found) = (function.takes(), arguments.len());
+        let diagnostic = errors::argument_count(&name.text, Some(&function.word), e.span, &expected, found);
         let reduces = self.reduction_word(name, found).is_some();
         let diagnostic = if reduces { diagnostic.help(errors::REDUCES) } else { diagnostic };
-        self.report_count(name, diagnostic, arguments, function.most);
+        self.report_argument_count(name, diagnostic, arguments, function.most);
     }
 
     fn apply(&mut self, function: &Function, arguments: &[Argument], context: &Context<'_>) -> Option<Value> {
@@ -71,23 +71,29 @@ impl Checker<'_> {
         match function.group {
             Group::Pure => {
                 let (span, value) = arguments[0];
-                self.demand(&format!("the argument of `{name}`"), Dimension::PURE, span, value.dim, context)?;
+                self.require_dimension(
+                    &format!("the argument of `{name}`"),
+                    Dimension::PURE,
+                    span,
+                    value.dim,
+                    context,
+                )?;
                 let id = self.model.graph.unary(Unary::named(name)?, value.id);
-                if ["asin", "acos"].contains(&name) && self.is_no_sine(span, name, value) {
+                if ["asin", "acos"].contains(&name) && self.report_no_such_angle(span, name, value) {
                     return None;
                 }
-                let dim = if value.dim.is_pure() { self.made_of(arguments) } else { Dim::UNFIT };
+                let dim = if value.dim.is_pure() { self.pure_number_dim(arguments) } else { Dim::UNFIT };
                 Some(Value { id, dim })
             }
             Group::Motion => self.motion(name, MotionLaw::named(name)?, arguments, context),
             Group::Polynomial => self.polynomial(arguments, context),
-            // a derivative is taken of a formula, not of its value; points are no numbers
+            // A derivative is taken of a formula, not of its value; points are not numbers.
             Group::Alike | Group::Derivative | Group::Points => self.apply_to_alike(name, arguments, context),
         }
     }
 
-    /// Says that an angle has no such sine or cosine, where that is a constant.
-    fn is_no_sine(&mut self, span: Span, function: &str, argument: Value) -> bool {
+    /// Reports a constant argument of `asin` or `acos` whose magnitude exceeds 1.
+    fn report_no_such_angle(&mut self, span: Span, function: &str, argument: Value) -> bool {
         let number = self.number_of(argument.id).filter(|number| number.is_finite() && number.abs() > 1.0);
         let Some(number) = number.filter(|_| !self.branch.is_untaken) else { return false };
         self.report(errors::no_such_angle(span, function, number));
@@ -97,7 +103,7 @@ impl Checker<'_> {
     fn apply_to_alike(&mut self, function: &str, arguments: &[Argument], context: &Context<'_>) -> Option<Value> {
         let dim = self.all_alike(function, arguments, context)?;
         let ids: Vec<ExprId> = arguments.iter().map(|(_, value)| value.id).collect();
-        let made = self.made_of(arguments);
+        let made = self.pure_number_dim(arguments);
         let graph = &mut self.model.graph;
         let (id, dim) = match function {
             "sqrt" => (graph.unary(Unary::Sqrt, ids[0]), dim.map(|dimension| dimension.to_the(0.5))),
@@ -122,8 +128,8 @@ impl Checker<'_> {
     fn terms_alike(&mut self, what: &str, arguments: &[Argument], context: &Context<'_>) -> Option<Dim> {
         let (mut span, mut all) = arguments[0];
         for &(next, value) in &arguments[1..] {
-            let dim = self.alike(what, (span, all), (next, value), context)?;
-            // what is said of the next one is said beside the one that has the dimension
+            let dim = self.unify(what, (span, all), (next, value), context)?;
+            // The next mismatch is reported relative to the argument that has the dimension.
             if !matches!(all.dim, Dim::Of(_)) {
                 (span, all) = (next, value);
             }
@@ -151,7 +157,7 @@ impl Checker<'_> {
                 return None;
             }
             (Some(_), Some(_)) => {}
-            // it can only be known on the way
+            // The number is only known along the motion.
             _ => {
                 let length = self.model.graph.sub(u1.1.id, u0.1.id);
                 let one = self.model.graph.constant(1.0);
@@ -164,7 +170,7 @@ impl Checker<'_> {
         Some(Value { id, dim: dim.of_term() })
     }
 
-    /// `poly(u, u0, c0, c1, …)`: cₖ has the dimension of the result over that of uᵏ.
+    /// Evaluates `poly(u, u0, c0, c1, …)`: cₖ has the dimension of the result over that of uᵏ.
     fn polynomial(&mut self, arguments: &[Argument], context: &Context<'_>) -> Option<Value> {
         let (u, u0, coefficients) = (arguments[0], arguments[1], &arguments[2..]);
         let step = self.all_alike("poly", &[u, u0], context)?.settled();
@@ -172,13 +178,13 @@ impl Checker<'_> {
             .iter()
             .enumerate()
             .map(|(power, &(span, c))| {
-                let whole = |own: Dimension| own.times(step.to_the(power as f64));
+                let whole = |dimension: Dimension| dimension.times(step.to_the(power as f64));
                 (span, if c.dim == Dim::Any { c } else { Value { dim: c.dim.map(whole), ..c } })
             })
             .collect();
         let dim = self.terms_alike("the terms of `poly` are", &terms, context)?;
-        let way = self.model.graph.sub(u.1.id, u0.1.id);
+        let offset = self.model.graph.sub(u.1.id, u0.1.id);
         let ids: Vec<ExprId> = coefficients.iter().map(|(_, c)| c.id).collect();
-        Some(Value { id: self.model.graph.polynomial_of(way, &ids), dim: dim.of_term() })
+        Some(Value { id: self.model.graph.polynomial_of(offset, &ids), dim: dim.of_term() })
     }
 }

@@ -1,8 +1,8 @@
-//! Calls: functions and measures expanded where they stand, each expansion made once.
+//! Calls of functions and measures, expanded in place. Each expansion is made once.
 //!
-//! An expansion recurses into the formula that is called, and a chain of functions can be longer than any stack is deep. So a call that is met
-//! too far down is put off: the formulas around it are given up, the call is expanded on its own, from the ground, and
-//! then the formulas are read once more, in which it is known by now. No platform's stack decides what is read.
+//! An expansion recurses into the called formula, and a chain of functions can be deeper than any stack. A call at too great a depth is
+//! therefore deferred: the formulas around it are abandoned, the call is expanded on its own from the lowest level, and the formulas are
+//! read again with its expansion in the cache. Thus the result does not depend on the size of the stack.
 
 use super::branches::Branch;
 use super::entity::Entity;
@@ -14,64 +14,64 @@ use mechc_syntax::ast::{Expr, Name, Window};
 use mechc_text::source::Span;
 use rustc_hash::{FxHashMap, FxHashSet};
 
-/// Parts that one formula may have, written out.
+/// The largest size of one formula with its expansions, in nodes.
 const LARGEST: usize = 1_000_000;
 
-/// A call that stands deeper than so many levels, its callers' formulas included, is put off.
+/// The depth of formulas, including those of callers, from which calls are deferred.
 const DEEPEST_CALL: usize = 64;
 
-/// What may be read again and again for calls that are put off, as a multiple of what one formula may hold.
+/// The limit of repeated reading because of deferred calls, as a multiple of the largest size.
 const MOST_READ: usize = 16;
 
-/// One expansion of a function or measure: which, of what argument, and how it is read.
+/// The key of an expansion: the function or measure, its argument, and how it is read.
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub(super) struct Call {
     entity: Entity,
     argument: Option<(ExprId, DimKey)>,
     judged: bool,
-    /// In what the argument is printed, where that is told.
+    /// The unit in which the argument is printed, if there is one.
     printed: Option<Span>,
-    /// Less is said in a branch that is never taken, and what must be positive must be so only where its branch counts.
+    /// A branch that is never taken gives fewer diagnostics, and conditions only apply in their branch.
     branch: Branch,
 }
 
-/// A call that was met too far down, with all that its expansion needs.
-struct PutOff<'a> {
+/// A call at too great a depth, with all that its expansion needs.
+struct DeferredCall<'a> {
     call: Call,
     formula: &'a Expr,
     context: Context<'a>,
     caller: Option<Span>,
 }
 
-/// The calls that are known, and those of the formula that is being read.
+/// The cached expansions, and the state of the current formula.
 #[derive(Default)]
 pub(super) struct Calls<'a> {
-    /// Expansions already made.
-    pub known: FxHashMap<Call, Option<Value>>,
-    /// What those ask to be positive, where they do.
+    /// The expansions.
+    pub expansions: FxHashMap<Call, Option<Value>>,
+    /// The conditions of expansions that have any.
     pub conditions: FxHashMap<Call, Vec<Condition>>,
-    /// Where the outermost of the formulas being expanded was called.
+    /// The call of the outermost formula that is being expanded.
     pub caller: Option<Span>,
-    /// Parts of the formula visited.
+    /// The number of visited parts of the formula.
     pub visited: usize,
-    /// How many levels of formulas are open.
+    /// The number of open levels of formulas.
     levels: usize,
-    /// Calls that wait for their turn, the last one first.
-    waiting: Vec<PutOff<'a>>,
-    /// Expansions that were given up in this reading, since they hold a call that waits.
-    given_up: FxHashSet<Call>,
-    /// Whether the formula that is being read holds such a call.
-    is_given_up: bool,
-    /// Parts of the expansions that are complete.
+    /// The deferred calls; the next one is last.
+    deferred: Vec<DeferredCall<'a>>,
+    /// The expansions abandoned in this reading, as they hold a deferred call.
+    abandoned: FxHashSet<Call>,
+    /// True if the current formula holds a deferred call.
+    is_abandoned: bool,
+    /// The number of parts of completed expansions.
     complete: usize,
-    /// Parts read so far, those read again included.
+    /// The number of parts read, including repeated reading.
     read: usize,
-    /// The formula is refused for its size.
+    /// True if the formula is rejected for its size.
     is_too_large: bool,
 }
 
 impl<'a> Checker<'a> {
-    /// A call of a function of the language or of the file.
+    /// Evaluates a call of a function of the language or of the file.
     pub(super) fn call(
         &mut self,
         e: &Expr,
@@ -82,9 +82,9 @@ impl<'a> Checker<'a> {
         if let Ok(reduced) = self.call_of_reduction(e, (name, window), arguments, context) {
             return reduced;
         }
-        self.refuse_window(name, window)?;
+        self.reject_window(name, window)?;
         if self.is_of_language(&name.text) {
-            if self.is_declared_though_taken(name) {
+            if self.is_reserved_but_declared(name) {
                 return None;
             }
             return self.builtin(e, name, arguments, context);
@@ -92,7 +92,7 @@ impl<'a> Checker<'a> {
         if matches!(self.space.get(&name.text), Some(Entity::Broken)) {
             return None;
         }
-        // elsewhere a parameter of that name was rather meant than a quantity that may not stand there
+        // A parameter of that name is intended if quantities are not allowed.
         let is_quantity = context.rates || self.space.get(&name.text).is_none();
         if is_quantity && self.quantity_word(name).is_some() {
             return self.quantity(e, name, arguments, context);
@@ -117,24 +117,24 @@ impl<'a> Checker<'a> {
                 None
             }
             None => {
-                if let Some(fix) = self.rate_of_joint(e, name, arguments, context) {
+                if let Some(fix) = self.suggest_joint_rate(e, name, arguments, context) {
                     self.report(errors::unknown_function(name, &[], &[]).instead(fix));
                     return None;
                 }
-                if let Some(fix) = self.effort_for(e, name, arguments) {
+                if let Some(fix) = self.suggest_effort(e, name, arguments) {
                     self.report(errors::unknown_function(name, &[], &[]).instead(fix));
                     return None;
                 }
-                let own = self.suggestions(|entity| matches!(entity, Entity::Function(_) | Entity::Table(_)));
+                let candidates = self.suggestions(|entity| matches!(entity, Entity::Function(_) | Entity::Table(_)));
                 let texts: Vec<&str> = arguments.iter().map(|e| self.sources.text(e.span)).collect();
-                let diagnostic = errors::unknown_function(name, &own, &texts);
+                let diagnostic = errors::unknown_function(name, &candidates, &texts);
                 self.report(diagnostic);
                 None
             }
         }
     }
 
-    /// A function's formula where it is called, as if it stood there.
+    /// Expands a function's formula in the place of its call.
     fn function_value(&mut self, at: usize, argument: Value, span: Span, context: &Context<'_>) -> Option<Value> {
         let function = &self.functions[at];
         if !function.sound {
@@ -163,7 +163,7 @@ impl<'a> Checker<'a> {
         self.expand(call, formula, Some((&name.text, argument)), span, &inner)
     }
 
-    /// Another measure's formula, as if it stood there.
+    /// Expands the formula of another measure in its place.
     pub(super) fn measure_value(&mut self, at: usize, span: Span, context: &Context<'_>) -> Option<Value> {
         if let Some(&(part, Entity::Measure(inside))) = self.imported.get(&Entity::Measure(at)) {
             let (branch, caller) = (self.branch, self.calls.caller.or(Some(span)));
@@ -191,23 +191,23 @@ impl<'a> Checker<'a> {
         span: Span,
         context: &Context<'_>,
     ) -> Option<Value> {
-        if let Some(&known) = self.calls.known.get(&call) {
-            // who calls it asks for what it asks for
+        if let Some(&cached) = self.calls.expansions.get(&call) {
+            // The conditions of a formula apply where it is called.
             if let Some(conditions) = self.calls.conditions.get(&call) {
                 self.model.conditions.extend_from_slice(conditions);
             }
-            return known;
+            return cached;
         }
         let caller = self.calls.caller.or(Some(span));
-        if self.calls.given_up.contains(&call) {
-            self.calls.is_given_up = true;
+        if self.calls.abandoned.contains(&call) {
+            self.calls.is_abandoned = true;
             return None;
         }
         if self.calls.levels > DEEPEST_CALL {
             let context = context.at("", argument);
-            self.calls.waiting.push(PutOff { call, formula, context, caller });
-            self.calls.given_up.insert(call);
-            self.calls.is_given_up = true;
+            self.calls.deferred.push(DeferredCall { call, formula, context, caller });
+            self.calls.abandoned.insert(call);
+            self.calls.is_abandoned = true;
             return None;
         }
         let outer = std::mem::replace(&mut self.calls.caller, caller);
@@ -216,38 +216,38 @@ impl<'a> Checker<'a> {
         value
     }
 
-    /// Expands a call, and remembers it unless it had to be given up.
+    /// Expands a call and caches the value, unless it is abandoned.
     fn expansion(&mut self, call: Call, formula: &Expr, context: &Context<'_>) -> Option<Value> {
-        let outer = std::mem::replace(&mut self.calls.is_given_up, false);
-        // what is called knows nothing of the body in which it is called
+        let outer = std::mem::replace(&mut self.calls.is_abandoned, false);
+        // The called formula does not belong to the body in which it is called.
         let scope = std::mem::take(&mut self.scope);
         let (complete, visited) = (self.calls.complete, self.calls.visited);
         let first = self.model.conditions.len();
         let value = self.number(formula, context);
         self.scope = scope;
-        if self.calls.is_given_up {
-            self.calls.given_up.insert(call);
+        if self.calls.is_abandoned {
+            self.calls.abandoned.insert(call);
         } else {
             self.calls.complete = complete + (self.calls.visited - visited);
-            self.keep_conditions(call, first);
-            self.calls.known.insert(call, value);
+            self.cache_conditions(call, first);
+            self.calls.expansions.insert(call, value);
         }
-        self.calls.is_given_up |= outer;
+        self.calls.is_abandoned |= outer;
         value
     }
 
-    /// Remembers what an expansion asks to be positive, from a condition on, each thing once.
-    fn keep_conditions(&mut self, call: Call, first: usize) {
+    /// Caches the conditions of an expansion from `first` on, without duplicates.
+    fn cache_conditions(&mut self, call: Call, first: usize) {
         let mut conditions = self.model.conditions.split_off(first);
-        let mut seen = FxHashSet::default();
-        conditions.retain(|condition| seen.insert(condition.positive));
+        let mut unique = FxHashSet::default();
+        conditions.retain(|condition| unique.insert(condition.positive));
         self.model.conditions.extend_from_slice(&conditions);
         if !conditions.is_empty() {
             self.calls.conditions.insert(call, conditions);
         }
     }
 
-    /// One level of a formula; what was put off in it is made up for on the ground.
+    /// Reads one level of a formula. At the lowest level, deferred calls are expanded and the formula is read again.
     pub(super) fn level<T>(
         &mut self,
         context: &Context<'_>,
@@ -262,18 +262,18 @@ impl<'a> Checker<'a> {
         let (before, conditions) = (self.calls.visited, self.model.conditions.len());
         (self.calls.complete, self.calls.read, self.calls.is_too_large) = (0, 0, false);
         let mut value = self.reading(before, &mut read);
-        while self.calls.is_given_up && !self.calls.is_too_large {
-            self.make_up(before, context.place);
+        while self.calls.is_abandoned && !self.calls.is_too_large {
+            self.expand_deferred(before, context.place);
             value = self.reading(before, &mut read);
         }
-        if !self.calls.is_given_up {
-            self.forget_repeated_conditions(conditions);
+        if !self.calls.is_abandoned {
+            self.remove_repeated_conditions(conditions);
         }
-        self.calls.waiting.clear();
+        self.calls.deferred.clear();
         value
     }
 
-    /// Counts a part of a formula, and refuses the formula where it has too many.
+    /// Counts a part of a formula, and rejects the formula if it has too many.
     pub(super) fn count_part(&mut self, span: Span) -> Option<()> {
         self.calls.visited += 1;
         if self.calls.is_too_large || self.calls.visited <= LARGEST && self.calls.read <= MOST_READ * LARGEST {
@@ -284,16 +284,16 @@ impl<'a> Checker<'a> {
         None
     }
 
-    /// Whether a call that was put off keeps what is being read from being known.
-    pub(super) fn waits(&self) -> bool {
-        self.calls.is_given_up
+    /// Returns whether a deferred call makes the value of the current formula unavailable.
+    pub(super) fn is_deferred(&self) -> bool {
+        self.calls.is_abandoned
     }
 
-    /// Reads something from the ground.
+    /// Reads a formula from the lowest level.
     fn reading<T>(&mut self, before: usize, read: impl FnOnce(&mut Self) -> Option<T>) -> Option<T> {
         self.calls.visited = before + self.calls.complete;
-        self.calls.given_up.clear();
-        self.calls.is_given_up = false;
+        self.calls.abandoned.clear();
+        self.calls.is_abandoned = false;
         self.calls.levels = 1;
         let value = read(self);
         self.calls.levels = 0;
@@ -301,34 +301,34 @@ impl<'a> Checker<'a> {
         value
     }
 
-    /// Expands all calls that wait, and those that these wait for.
-    fn make_up(&mut self, before: usize, place: &str) {
+    /// Expands all deferred calls, including those that they defer.
+    fn expand_deferred(&mut self, before: usize, place: &str) {
         let outer = (self.branch, self.calls.caller);
-        while let Some(PutOff { call, formula, context, caller }) = self.calls.waiting.pop() {
-            if self.calls.known.contains_key(&call) {
+        while let Some(DeferredCall { call, formula, context, caller }) = self.calls.deferred.pop() {
+            if self.calls.expansions.contains_key(&call) {
                 continue;
             }
             if self.calls.is_too_large {
                 break;
             }
             (self.branch, self.calls.caller) = (call.branch, caller);
-            let at = self.calls.waiting.len();
+            let at = self.calls.deferred.len();
             self.reading(before, |checker| checker.expansion(call, formula, &context.at(place, context.argument)));
-            if self.calls.is_given_up {
-                self.calls.waiting.insert(at, PutOff { call, formula, context, caller });
+            if self.calls.is_abandoned {
+                self.calls.deferred.insert(at, DeferredCall { call, formula, context, caller });
             }
         }
         (self.branch, self.calls.caller) = outer;
     }
 
-    /// What was read again, or is called twice, has asked for the same again.
-    fn forget_repeated_conditions(&mut self, from: usize) {
+    /// Removes duplicate conditions, which repeated readings and calls add.
+    fn remove_repeated_conditions(&mut self, from: usize) {
         if self.model.conditions.len() <= from + 1 {
             return;
         }
-        let mut known = FxHashSet::default();
-        let asked = self.model.conditions.split_off(from);
-        let new = asked.into_iter().filter(|condition| known.insert((condition.positive, condition.span)));
+        let mut unique = FxHashSet::default();
+        let conditions = self.model.conditions.split_off(from);
+        let new = conditions.into_iter().filter(|condition| unique.insert((condition.positive, condition.span)));
         self.model.conditions.extend(new);
     }
 }

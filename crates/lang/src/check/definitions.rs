@@ -1,23 +1,22 @@
-//! Params, functions, tables, inputs, measures and results in the order in which they need each other.
+//! Params, functions, tables, inputs, measures and results, in their order of dependence.
 
 use super::Checker;
 use super::elements::MeasureState;
 use super::entity::Entity;
+use super::free_names::visit_free_names;
 use super::functions::Function;
 use super::inputs::InputState;
-use super::mentions::mentioned;
-use super::names::Ordered;
+use super::names::DefinitionOrder;
+use super::overrides::override_matches;
 use super::params::ParamState;
 use super::results::ResultState;
 use super::tables::TableState;
-use super::told::is_told_by;
 use mechc_syntax::ast::{Expr, Item, ItemKind, Name, TableRows};
 use mechc_text::source::Span;
 use rustc_hash::FxHashMap;
 
 impl<'a> Checker<'a> {
-    /// Params, functions, tables and measures in the order in which they need each other: params and tables are evaluated
-    /// and functions looked over; the order of the measures, and that of the results, is kept.
+    /// Evaluates params and tables and checks functions in order of dependence, and records the order of measures and of results.
     pub(super) fn definitions(&mut self) {
         let (mut definitions, mut docs, mut entities) = (Vec::new(), Vec::new(), Vec::new());
         for item in self.items() {
@@ -29,8 +28,8 @@ impl<'a> Checker<'a> {
         }
         self.import_params();
         let uses = self.uses(&definitions, &entities);
-        let Ordered { order, on_circles } = self.ordered(&uses);
-        self.define_parts_on_circles(on_circles.iter().map(|&at| entities[at]));
+        let DefinitionOrder { order, on_cycles } = self.ordered(&uses);
+        self.define_parts_on_cycles(on_cycles.iter().map(|&at| entities[at]));
         let (mut measures, mut results) = (Vec::new(), Vec::new());
         for at in order {
             let (name, formulas) = &definitions[at];
@@ -54,7 +53,7 @@ impl<'a> Checker<'a> {
         (self.measure_order, self.result_order) = (measures, results);
     }
 
-    /// What a declaration defines, behind others, with its name and the formulas that it is made of; it gets its place, and no value yet.
+    /// Returns the entity that a declaration defines, with its name and formulas. It is added without a value.
     fn definition(&mut self, item: &'a Item, before: &[Entity]) -> Option<(Entity, &'a Name, Vec<&'a Expr>)> {
         Some(match &item.kind {
             ItemKind::Param { name, value } => {
@@ -66,19 +65,20 @@ impl<'a> Checker<'a> {
                 (Entity::Function(self.functions.len() - 1), name, vec![value])
             }
             ItemKind::Input { name, value } => {
-                let given = self.around.given.formulas.iter();
-                let own = format!("{}{}", self.address.path, name.text);
-                let told = given.filter(|(told, _)| is_told_by(&own, told)).map(|(_, told)| told);
-                let formulas = std::iter::once(value).chain(told).collect();
+                let given = self.options.given.formulas.iter();
+                let path = format!("{}{}", self.address.path, name.text);
+                let override_formula =
+                    given.filter(|(full, _)| override_matches(&path, full)).map(|(_, formula)| formula);
+                let formulas = std::iter::once(value).chain(override_formula).collect();
                 self.inputs.push(InputState { name, formula: value, value: None });
                 (Entity::Input(self.inputs.len() - 1), name, formulas)
             }
             ItemKind::Measure { name, value, unit } => {
-                self.measures.push(MeasureState::of(name, value, unit.as_ref()));
+                self.measures.push(MeasureState::new(name, value, unit.as_ref()));
                 (Entity::Measure(self.measures.len() - 1), name, vec![value])
             }
             ItemKind::Result { name, value, unit } => {
-                self.results.push(ResultState::of(value, unit.as_ref()));
+                self.results.push(ResultState::new(value, unit.as_ref()));
                 (Entity::Result(self.results.len() - 1), name, vec![value])
             }
             ItemKind::Table { name, periodic, rows } => {
@@ -99,13 +99,13 @@ impl<'a> Checker<'a> {
         })
     }
 
-    /// Parts whose definitions go in a circle are what they are alone, so that all that they have is there.
-    fn define_parts_on_circles(&mut self, on_circles: impl Iterator<Item = Entity>) {
-        for entity in on_circles {
+    /// Evaluates parts on a cycle of definitions without bindings, so that all that they declare exists.
+    fn define_parts_on_cycles(&mut self, on_cycles: impl Iterator<Item = Entity>) {
+        for entity in on_cycles {
             if let Entity::Part(k) = entity
                 && k < self.parts.len()
             {
-                self.definitions_of_part_alone(k);
+                self.definitions_of_unbound_part(k);
             }
         }
     }
@@ -130,28 +130,29 @@ impl<'a> Checker<'a> {
             .map(|(k, (name, formulas))| {
                 let mut uses = Vec::new();
                 for formula in formulas {
-                    mentioned(
+                    visit_free_names(
                         formula,
                         |name| self.hidden.contains(name),
                         |used, is_called| {
-                            // `speed(P)` is a quantity, whatever else is called `speed`
+                            // `speed(P)` is a quantity, whatever else is called `speed`.
                             let is_of_motion =
                                 self.quantity_word(used).is_some() || self.reduction_word(used, 1).is_some();
                             if is_called && is_of_motion {
                                 return;
                             }
                             let hidden = arguments.get(&k) == Some(&used.text.as_str());
-                            let is_own = !hidden && !self.is_declared_though_taken(used);
-                            let entity = self.entity(used).filter(|_| is_own);
-                            // what is in a part is known when the part is, but for what nothing here asks the number of
+                            let is_user_name = !hidden && !self.is_reserved_but_declared(used);
+                            let entity = self.entity(used).filter(|_| is_user_name);
+                            // A name in a part depends on the part, unless no number of it is used here.
                             let part = used.text.split_once('.').and_then(|(part, _)| self.space.get(part));
                             let entity = match entity {
                                 Some(Entity::Body(_) | Entity::Joint(_) | Entity::Equation(_) | Entity::Ground) => None,
                                 entity => part.or(entity),
                             };
-                            // no input may stand in what an option says of one, which is told there
-                            let is_told = self.sources.get(used.span.file).is_option;
-                            let entity = entity.filter(|entity| !(is_told && matches!(entity, Entity::Input(_))));
+                            // An input in an option's formula is reported with that option.
+                            let is_from_option = self.sources.get(used.span.file).is_option;
+                            let entity =
+                                entity.filter(|entity| !(is_from_option && matches!(entity, Entity::Input(_))));
                             if let Some(&at) = entity.and_then(|e| position.get(&e)) {
                                 uses.push((at, used.span));
                             }

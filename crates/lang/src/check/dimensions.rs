@@ -1,9 +1,9 @@
-//! Which formulas are judged by their dimensions, and whether these fit.
+//! Decides which formulas are judged by their dimensions, and compares these.
 
 use super::entity::Entity;
 use super::formula::{Context, Dim, Value};
-use super::kinds::{self, Wanted, coordinate};
-use super::rates::Part;
+use super::point_kinds::{self, Expected, coordinate};
+use super::suggest::lost_rate::Part;
 use super::{Checker, errors};
 use crate::model::Dimension;
 use mechc_expr::{Dependence, ExprId};
@@ -12,31 +12,31 @@ use mechc_text::source::Span;
 use mechc_text::vocabulary::Unit;
 
 impl Checker<'_> {
-    /// Whether a formula holds a unit of length, time or rate, or something that does.
+    /// Returns whether a formula holds a unit of length, time or rate, directly or through names.
     pub(super) fn is_dimensional(&self, formula: &Expr) -> bool {
-        self.is_dimensional_over(None, formula)
+        self.is_dimensional_with(None, formula)
     }
 
-    /// The same of the formula of a function or curve, over its argument.
-    pub(super) fn is_dimensional_over(&self, argument: Option<&str>, formula: &Expr) -> bool {
-        self.holds_dimension(argument, formula, Wanted::Number)
+    /// Returns whether the formula of a function or curve holds such a unit.
+    pub(super) fn is_dimensional_with(&self, argument: Option<&str>, formula: &Expr) -> bool {
+        self.holds_dimension(argument, formula, Expected::Number)
     }
 
-    /// The same of a formula of numbers or of points.
-    pub(super) fn holds_dimension(&self, argument: Option<&str>, formula: &Expr, wanted: Wanted) -> bool {
-        let mut open = vec![(formula, wanted, wanted != Wanted::Number)];
-        while let Some((e, wanted, with_points)) = open.pop() {
+    /// Returns whether a formula of numbers or of points holds such a unit.
+    pub(super) fn holds_dimension(&self, argument: Option<&str>, formula: &Expr, expected: Expected) -> bool {
+        let mut open = vec![(formula, expected, expected != Expected::Number)];
+        while let Some((e, expected, with_points)) = open.pop() {
             let holds = match &e.kind {
                 ExprKind::Literal { unit: Some((name, _)), .. } => {
                     Unit::named(&name.text).is_some_and(|unit| !unit.dimension.is(Dimension::PURE))
                 }
                 ExprKind::Name(name) if argument == Some(name.text.as_str()) => false,
-                ExprKind::Name(name) if self.own_point(name, wanted).is_some() => {
-                    self.is_dimensional_point(name, wanted)
+                ExprKind::Name(name) if self.body_point(name, expected).is_some() => {
+                    self.is_dimensional_point(name, expected)
                 }
                 ExprKind::Name(name) => self.is_dimensional_name(name),
                 ExprKind::Member { owner, feature } if coordinate(feature).is_some() => {
-                    self.is_dimensional_point(owner, Wanted::Point)
+                    self.is_dimensional_point(owner, Expected::Point)
                 }
                 ExprKind::Call { name, arguments, .. } if self.reduction_word(name, arguments.len()).is_some() => false,
                 ExprKind::Call { name, .. }
@@ -44,14 +44,14 @@ impl Checker<'_> {
                 {
                     self.is_dimensional_name(name)
                 }
-                // a literal point says nothing about the formula of a number around it
+                // A literal point is independent of the formula of a number around it.
                 ExprKind::Tuple(_) if !with_points => continue,
                 _ => false,
             };
             if holds {
                 return true;
             }
-            // but all about the length between it and another one
+            // The dimension of points matters for `length`, and not for `direction`.
             let with_points = match &e.kind {
                 ExprKind::Call { name, .. } if self.is_of_language(&name.text) => match name.text.as_str() {
                     "length" => true,
@@ -60,8 +60,8 @@ impl Checker<'_> {
                 },
                 _ => with_points,
             };
-            let inside = kinds::inside(e, wanted, |name| self.hidden.contains(name));
-            open.extend(inside.into_iter().map(|(e, wanted)| (e, wanted, with_points)));
+            let inside = point_kinds::inside(e, expected, |name| self.hidden.contains(name));
+            open.extend(inside.into_iter().map(|(e, expected)| (e, expected, with_points)));
         }
         false
     }
@@ -77,19 +77,19 @@ impl Checker<'_> {
             }
             Some(Entity::Function(k)) => self.functions[k].dimensional,
             Some(Entity::Table(k)) => self.tables[k].dimensional,
-            Some(Entity::Input(k)) => self.input_known(k).is_some_and(Value::has_a_dimension),
-            Some(Entity::Measure(k)) => self.measure_known(k).is_some_and(|measure| measure.dimensional),
-            Some(Entity::Result(k)) => self.result_known(k).is_some_and(|result| result.dimensional),
+            Some(Entity::Input(k)) => self.value_of_input(k).is_some_and(Value::has_a_dimension),
+            Some(Entity::Measure(k)) => self.measure_state(k).is_some_and(|measure| measure.dimensional),
+            Some(Entity::Result(k)) => self.result_state(k).is_some_and(|result| result.dimensional),
             _ => false,
         }
     }
 
-    /// The unit of a name that stands alone, and not behind a number.
+    /// Returns the unit of a name without a number before it.
     fn unit_alone(&self, name: &Name) -> Option<&'static Unit> {
         Unit::named(&name.text).filter(|_| self.space.get(&name.text).is_none())
     }
 
-    /// A literal zero, alone but for its sign, also through a param that is nothing else.
+    /// Returns whether a formula is a literal zero with an optional sign, also through params.
     pub(super) fn is_zero(&self, formula: &Expr) -> bool {
         match &formula.bare().kind {
             ExprKind::Literal { value, unit: None } => *value == 0.0,
@@ -104,20 +104,22 @@ impl Checker<'_> {
         }
     }
 
-    /// The dimension of two terms, which must be alike where dimensions count.
-    pub(super) fn alike(
+    /// Returns the common dimension of two terms, and reports a mismatch where dimensions count.
+    pub(super) fn unify(
         &mut self,
         what: &str,
         a: (Span, Value),
         b: (Span, Value),
         context: &Context<'_>,
     ) -> Option<Dim> {
-        let dims = [a, b].map(|(_, value)| value.dim.where_judged(context.judged));
+        let dims = [a, b].map(|(_, value)| value.dim.when_judged(context.judged));
         let (x, y) = match dims {
             [Dim::Any, other] | [other, Dim::Any] => return Some(other),
             [Dim::Of(x), Dim::Of(y)] => (x, y),
-            // a number has the dimension of what it stands beside
-            [Dim::Of(own), Dim::Plain { .. }] | [Dim::Plain { .. }, Dim::Of(own)] => return Some(Dim::Of(own)),
+            // A number has the dimension of the other term.
+            [Dim::Of(dimension), Dim::Plain { .. }] | [Dim::Plain { .. }, Dim::Of(dimension)] => {
+                return Some(Dim::Of(dimension));
+            }
             [one @ Dim::Plain { read, .. }, other @ Dim::Plain { .. }] => {
                 let fits = one.fits() && other.fits() && read.is(other.settled());
                 return Some(Dim::Plain { read, fits });
@@ -136,20 +138,20 @@ impl Checker<'_> {
         None
     }
 
-    /// Whether a value's dimension counts: in a plain formula that of a quantity that no number scales. (A function is judged where it is
-    /// called.)
+    /// Returns whether a value's dimension counts. In a plain formula it does for quantities without a number as factor. (A function is
+    /// judged where it is called.)
     pub(super) fn counts(&self, value: Value, context: &Context<'_>) -> bool {
         context.judged || context.expands && matches!(value.dim, Dim::Of(_)) && self.is_of_quantities(value.id)
     }
 
-    /// Whether a formula's value depends on kinematic quantities, or on what comes of them.
+    /// Returns whether a formula depends on kinematic quantities or on other named symbols.
     pub(super) fn is_of_quantities(&self, id: ExprId) -> bool {
         self.model.graph.dependence(id).on(Dependence::NAMED)
     }
 
-    /// The dimension of a pure number that a function makes of others. Of a number it is one again, and of what is no pure number it shows
-    /// that numbers are missing.
-    pub(super) fn made_of(&self, arguments: &[(Span, Value)]) -> Dim {
+    /// Returns the dimension of a function whose value is a pure number: unfit if an argument is, plain if an argument depends on no
+    /// quantities, else pure.
+    pub(super) fn pure_number_dim(&self, arguments: &[(Span, Value)]) -> Dim {
         let is_plain = |value: &Value| !self.is_of_quantities(value.id);
         if arguments.iter().any(|(_, value)| !value.dim.fits()) {
             Dim::UNFIT
@@ -160,19 +162,19 @@ impl Checker<'_> {
         }
     }
 
-    /// Demands a dimension where dimensions count.
-    pub(super) fn demand(
+    /// Requires a dimension where dimensions count.
+    pub(super) fn require_dimension(
         &mut self,
         place: &str,
-        wanted: Dimension,
+        expected: Dimension,
         span: Span,
         found: Dim,
         context: &Context<'_>,
     ) -> Option<()> {
-        match found.where_judged(context.judged) {
-            Dim::Of(dimension) if context.judged && !dimension.is(wanted) => {
+        match found.when_judged(context.judged) {
+            Dim::Of(dimension) if context.judged && !dimension.is(expected) => {
                 let text = self.sources.text(span);
-                self.report(errors::wrong_dimension(place, wanted, Part { span, dimension }, text));
+                self.report(errors::wrong_dimension(place, expected, Part { span, dimension }, text));
                 None
             }
             _ => Some(()),

@@ -1,10 +1,10 @@
 //! Measures, constraints, drivers and the analysis.
 
+use super::display_units::determined_dimension;
 use super::formula::{Context, Dim, Value};
-use super::printed::known_dimension;
 use super::{Checker, errors};
 use crate::model::{
-    Analysis, Condition, ConditionKind, DecidedBy, Declared, Dimension, Equation, EquationForm, Measure, Named,
+    Analysis, Condition, ConditionKind, Declared, Dimension, Equation, EquationForm, GuardKind, Measure, Named,
     PointId, Quantity, Trace, Units,
 };
 use mechc_expr::{Dependence, ExprId, Symbol};
@@ -12,28 +12,28 @@ use mechc_syntax::ast::{Expr, ExprKind, ItemKind, Name, WrittenUnit};
 use mechc_text::source::Span;
 use mechc_text::vocabulary::QuantityWord;
 
-/// What is known of a measure before its turn.
+/// The state of a measure.
 pub(super) struct MeasureState<'a> {
     name: &'a Name,
     pub value: &'a Expr,
-    /// In what it is printed, if that is said.
+    /// The unit in which it is printed, if there is one.
     pub unit: Option<&'a WrittenUnit>,
     pub dimensional: bool,
     pub sound: bool,
-    /// How often an angle is a factor of it.
+    /// The exponent of angles in it.
     pub angle: i32,
-    /// Its value, from its turn until it is listed, with what that asks at every time.
+    /// The value with its conditions, from its evaluation until it is listed.
     made: Option<(Value, Vec<Condition>)>,
 }
 
 impl<'a> MeasureState<'a> {
-    pub fn of(name: &'a Name, value: &'a Expr, unit: Option<&'a WrittenUnit>) -> MeasureState<'a> {
+    pub fn new(name: &'a Name, value: &'a Expr, unit: Option<&'a WrittenUnit>) -> MeasureState<'a> {
         MeasureState { name, value, unit, dimensional: false, sound: false, angle: 0, made: None }
     }
 }
 
 impl Checker<'_> {
-    /// The values of measures, those of parts first, then in the order in which they need each other.
+    /// Evaluates measures: those of parts first, then in order of dependence.
     pub(super) fn measure_values(&mut self) {
         self.in_parts(Checker::measure_values);
         for k in std::mem::take(&mut self.measure_order) {
@@ -41,14 +41,14 @@ impl Checker<'_> {
             let formula = self.measures[k].value;
             let value = self.formula(formula, &measure_context(self.measures[k].dimensional));
             let owner = self.declared(self.measures[k].name).name;
-            let conditions = self.asked_at_times(conditions, &owner);
+            let conditions = self.conditions_in_time(conditions, &owner);
             self.measures[k].made = value.map(|value| (value, conditions));
             self.measures[k].sound = value.is_some();
             self.measures[k].angle = self.angle_power(formula);
         }
     }
 
-    /// Lists the measures, and the traces among them, in the order of the text, those of parts where these are declared.
+    /// Lists the measures and traces in the order of the text, those of a part where it is declared.
     pub(super) fn list_measures(&mut self) {
         let mut measures = 0..self.measures.len();
         let mut parts = 0..self.parts.len();
@@ -76,13 +76,13 @@ impl Checker<'_> {
     fn units_of_measure(&mut self, k: usize, value: Value) -> Option<Units> {
         let (formula, unit) = (self.measures[k].value, self.measures[k].unit);
         let dimension = match unit {
-            Some(_) => known_dimension(value),
+            Some(_) => determined_dimension(value),
             None => Some(value.dim.settled()),
         };
         self.units(formula, dimension, self.measures[k].angle, unit)
     }
 
-    /// The path of a point, as two measures.
+    /// Evaluates the path of a point as two measures.
     fn trace(&mut self, name: &Name, point: &Expr, unit: Option<&WrittenUnit>) {
         let conditions = self.model.conditions.len();
         let mut fixed = None;
@@ -101,20 +101,20 @@ impl Checker<'_> {
             }
             !is_of_forces
         });
-        let asked = self.asked_at_times(conditions, &name.text);
+        let conditions_of_both = self.conditions_in_time(conditions, &name.text);
         let units = self.units(point, Some(Dimension::LENGTH), 0, unit);
         if let (Some(coordinates), Some(units)) = (coordinates, units) {
             let (declared, measure) = (self.declared(name), self.model.measures.len());
             self.model.traces.push(Trace { declared, part: self.address.part, point: fixed, measure });
             for (part, value) in ["x", "y"].into_iter().zip(coordinates) {
                 let declared = Declared { name: format!("{}{}.{part}", self.address.path, name.text), span: name.span };
-                let (conditions, units) = (asked.clone(), units.clone());
+                let (conditions, units) = (conditions_of_both.clone(), units.clone());
                 self.model.measures.push(Measure { declared, value, conditions, units });
             }
         }
     }
 
-    /// `(pole_x(b), pole_y(b))`: two formulas of a measure.
+    /// Evaluates `(pole_x(b), pole_y(b))`, two formulas as in measures.
     fn coordinates_of_trace(&mut self, point: &Expr, parts: &[Expr]) -> Option<[ExprId; 2]> {
         let [x, y] = parts else {
             self.wrong_kind(point.span, "a point `(x, y)`", &format!("a list of {}", parts.len()));
@@ -125,32 +125,32 @@ impl Checker<'_> {
         let coordinates = [x, y].map(|part| {
             let value = self.formula(part, &context)?;
             let context = Context { judged: self.counts(value, &context), ..context };
-            self.demand("a coordinate of a trace", Dimension::LENGTH, part.span, value.dim, &context)?;
+            self.require_dimension("a coordinate of a trace", Dimension::LENGTH, part.span, value.dim, &context)?;
             Some(value.id)
         });
         Some([coordinates[0]?, coordinates[1]?])
     }
 
-    /// What has been asked to be positive from a condition on, by a measure or trace: what parameters alone decide holds at no time or at
-    /// all times, the rest is given back.
-    pub(super) fn asked_at_times(&mut self, from: usize, owner: &str) -> Vec<Condition> {
-        let mut own = self.model.conditions.split_off(from);
-        for condition in &mut own {
+    /// Returns the conditions from index `from` on, which belong to a measure or trace. Those of parameters alone hold always or never, and
+    /// are checked at once.
+    pub(super) fn conditions_in_time(&mut self, from: usize, owner: &str) -> Vec<Condition> {
+        let mut conditions = self.model.conditions.split_off(from);
+        for condition in &mut conditions {
             owner.clone_into(&mut condition.owner);
         }
         let graph = &self.model.graph;
-        let (always, at_times) = own.into_iter().partition(|c| graph.dependence(c.positive).is_constant());
+        let (always, at_times) = conditions.into_iter().partition(|c| graph.dependence(c.positive).is_constant());
         self.model.conditions.append(&mut { always });
         at_times
     }
 
     pub(super) fn equations(&mut self) {
-        let (mut parts, mut own) = (0..self.parts.len(), 0..);
+        let (mut parts, mut numbers) = (0..self.parts.len(), 0..);
         self.equations.resize(self.count.equations, None);
         for item in self.items() {
             match &item.kind {
                 ItemKind::Equation { driver, name, left, right } => {
-                    let k = own.next().unwrap_or_default();
+                    let k = numbers.next().unwrap_or_default();
                     if let Some((form, dim)) = self.equation(*driver, name, [left, right]) {
                         let (declared, written) = (self.declared(name), left.span.to(right.span));
                         let driver = *driver && self.drives(form);
@@ -173,7 +173,7 @@ impl Checker<'_> {
         self.import_equations();
     }
 
-    /// Whether what is a driver in the text is one in the whole: where a part's input follows bodies, it is a constraint.
+    /// Returns whether a driver of the text drives the whole mechanism. If a part's input follows bodies, it is a constraint.
     fn drives(&self, form: EquationForm) -> bool {
         let sides = match form {
             EquationForm::Equality(left, right) => [left, right],
@@ -184,11 +184,11 @@ impl Checker<'_> {
         !has_bound_inputs || sides.into_iter().any(on_time) || self.quantities_in(sides).len() <= 1
     }
 
-    /// What an equation says, and the dimension of its sides.
+    /// Evaluates an equation. Returns its form and the dimension of its sides.
     fn equation(&mut self, driver: bool, name: &Name, sides: [&Expr; 2]) -> Option<(EquationForm, Dim)> {
         let [left, right] = sides;
         if !sides.iter().any(|side| self.holds_quantity(side)) {
-            // a name that is wrong explains more than the want of a quantity
+            // A wrong name explains more than a missing quantity.
             let context = self.equation_context(driver, sides);
             let (a, b) = (self.formula(left, &context), self.formula(right, &context));
             if a.is_some() && b.is_some() {
@@ -200,7 +200,7 @@ impl Checker<'_> {
             if is_an_angle(other) || is_an_angle(side) {
                 self.warn_of_degrees_in(side);
             }
-            if is_a_length(other) && self.refuses_angle("what equals a length", side) {
+            if is_a_length(other) && self.reject_angle("what equals a length", side) {
                 return None;
             }
         }
@@ -212,43 +212,43 @@ impl Checker<'_> {
         }
         let (a, b) = match (a, b) {
             (Some(a), Some(b)) => (a, b),
-            // of something broken it is known all the same what kind of quantity it is
-            (Some(known), None) => {
-                self.unlike_a_quantity((left.span, known.dim), right, &context);
+            // The dimension of a broken side is that of the other side.
+            (Some(side), None) => {
+                self.unlike_a_quantity((left.span, side.dim), right, &context);
                 return None;
             }
-            (None, Some(known)) => {
-                self.unlike_a_quantity((right.span, known.dim), left, &context);
+            (None, Some(side)) => {
+                self.unlike_a_quantity((right.span, side.dim), left, &context);
                 return None;
             }
             (None, None) => return None,
         };
         let what = format!("the two sides of {} `{}` are", if driver { "driver" } else { "constraint" }, name.text);
-        let alike = if !context.judged && is_a_curve([a, b]) {
+        let unify = if !context.judged && is_a_curve([a, b]) {
             a.dim
         } else {
-            self.alike(&what, (left.span, a), (right.span, b), &context)?
+            self.unify(&what, (left.span, a), (right.span, b), &context)?
         };
         for (side, value, other) in [(left, a, right), (right, b, left)] {
             if is_a_length(other) {
-                self.remember_any_length(side, value.id, context.judged);
+                self.record_length_term(side, value.id, context.judged);
             }
         }
-        if !self.a_body_moves([a.id, b.id]) {
-            self.report(errors::nobody_moves(driver, name, left.span.to(right.span)));
+        if !self.has_moving_body([a.id, b.id]) {
+            self.report(errors::no_moving_body(driver, name, left.span.to(right.span)));
             return None;
         }
-        // `distance` alone on the left, and no quantity on the right
+        // `distance` alone on the left, and no quantity on the right.
         if let Some(ends) = self.as_distance(left, a.id)
             && !self.holds_quantity(right)
         {
             return self.distance_equation(name, ends, right, b.id);
         }
-        let dim = if context.judged { alike } else { self.plain_dimension([(left, a), (right, b)]) };
+        let dim = if context.judged { unify } else { self.plain_dimension([(left, a), (right, b)]) };
         Some((EquationForm::Equality(a.id, b.id), dim))
     }
 
-    /// Two points at a distance, which must be above zero.
+    /// Evaluates the equation of a distance, which must be positive.
     fn distance_equation(
         &mut self,
         name: &Name,
@@ -256,7 +256,7 @@ impl Checker<'_> {
         right: &Expr,
         distance: ExprId,
     ) -> Option<(EquationForm, Dim)> {
-        match self.decided(distance, DecidedBy::Sign) {
+        match self.decided(distance, GuardKind::Sign) {
             Some(value) if value <= 0.0 => {
                 self.report(errors::not_positive_length("a distance", right.span, value));
                 return None;
@@ -272,25 +272,24 @@ impl Checker<'_> {
         Some((EquationForm::Distance(p, q, distance), Dim::LENGTH))
     }
 
-    /// What a plain equation is about: a side with quantities tells it, be it of lengths or angles; one of numbers and time stands for
-    /// whatever is wanted.
+    /// Returns the dimension of a plain equation: that of a side with quantities. A side of numbers and time fits any dimension.
     fn plain_dimension(&self, sides: [(&Expr, Value); 2]) -> Dim {
         let telling = sides.into_iter().filter(|(side, _)| self.holds_quantity(side)).map(|(_, value)| value);
         let telling: Vec<Value> = telling.collect();
-        let known = telling.iter().find_map(|&value| known_dimension(value));
-        // where numbers hide it in both, what is read as more than a number
+        let determined = telling.iter().find_map(|&value| determined_dimension(value));
+        // If numbers hide it on both sides, the first dimension that is not a pure number.
         let read = || telling.iter().map(|value| value.dim).find(|dim| !dim.settled().is(Dimension::PURE));
-        known.map(Dim::Of).or_else(read).unwrap_or(Dim::PURE)
+        determined.map(Dim::Of).or_else(read).unwrap_or(Dim::PURE)
     }
 
-    /// Says where a side of an equation cannot be like the other one, a quantity and nothing else, whatever that is of.
-    fn unlike_a_quantity(&mut self, known: (Span, Dim), other: &Expr, context: &Context<'_>) {
+    /// Reports a side of an equation that cannot agree with the other one, as it is a single quantity of another dimension.
+    fn unlike_a_quantity(&mut self, side: (Span, Dim), other: &Expr, context: &Context<'_>) {
         if let ExprKind::Call { name, .. } = &other.bare().kind
             && let Some(quantity) = QuantityWord::named(&name.text).filter(|quantity| !quantity.gives_way)
         {
             let dimension = if is_an_angle(other) { Dimension::PURE } else { Dimension::LENGTH };
             let place = format!("what equals this `{}`", quantity.word.name);
-            let _ = self.demand(&place, dimension, known.0, known.1, context);
+            let _ = self.require_dimension(&place, dimension, side.0, side.1, context);
         }
     }
 
@@ -325,7 +324,7 @@ impl Checker<'_> {
             .collect()
     }
 
-    pub(super) fn a_body_moves(&self, ids: [ExprId; 2]) -> bool {
+    pub(super) fn has_moving_body(&self, ids: [ExprId; 2]) -> bool {
         self.quantities_in(ids)
             .into_iter()
             .any(|quantity| self.frames_of(quantity).iter().any(|&frame| self.moves(frame)))
@@ -371,13 +370,14 @@ impl Checker<'_> {
     }
 }
 
-/// How the formula of a measure is read.
+/// Returns the context in which the formula of a measure is read.
 pub(super) fn measure_context(judged: bool) -> Context<'static> {
     let context = Context::constant("a measure");
     Context { judged, time: true, inputs: true, quantities: true, rates: true, measures: true, ..context }
 }
 
-/// Whether an equation's sides are powers of lengths: a curve in coordinates, `y(P) = x(P)^2`, which are numbers of metres.
+/// Returns whether the sides of an equation are powers of lengths: a curve such as `y(P) = x(P)^2`, whose coordinates are numbers of
+/// metres.
 fn is_a_curve(sides: [Value; 2]) -> bool {
     sides.into_iter().all(|side| match side.dim {
         Dim::Of(Dimension { length, time, mass }) => {
@@ -387,7 +387,7 @@ fn is_a_curve(sides: [Value; 2]) -> bool {
     })
 }
 
-/// Whether a side of an equation is a length and nothing else.
+/// Returns whether a side of an equation is a length.
 fn is_a_length(side: &Expr) -> bool {
     match &side.bare().kind {
         ExprKind::Call { name, .. } => matches!(name.text.as_str(), "x" | "y" | "distance" | "displacement"),
@@ -395,7 +395,7 @@ fn is_a_length(side: &Expr) -> bool {
     }
 }
 
-/// Whether a side of an equation is an angle, or a sum of angles.
+/// Returns whether a side of an equation is an angle or a sum of angles.
 fn is_an_angle(side: &Expr) -> bool {
     match &side.bare().kind {
         ExprKind::Call { name, .. } => matches!(name.text.as_str(), "angle" | "rotation"),

@@ -1,8 +1,8 @@
-//! What a name stands for.
+//! Entities: what the names of a mechanism stand for.
 
-use mechc_text::vocabulary::KindOfName;
+use mechc_text::vocabulary::SubstituteKind;
 
-/// What a name of the mechanism's space stands for, with its position among its kind in the text.
+/// The entity of a name, with its position among those of its kind in the text.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub(super) enum Entity {
     Param(usize),
@@ -16,15 +16,15 @@ pub(super) enum Entity {
     Measure(usize),
     Trace,
     Part(usize),
-    /// The ground of a part, inside it.
+    /// The ground of a part, in that part.
     Ground,
     Result(usize),
-    /// Its declaration does not follow the grammar, which has been said.
+    /// A declaration that does not follow the grammar, which has been reported.
     Broken,
 }
 
 impl Entity {
-    /// As a noun.
+    /// Returns the noun of the entity's kind.
     pub fn noun(self) -> &'static str {
         match self {
             Entity::Param(_) => "a parameter",
@@ -44,19 +44,19 @@ impl Entity {
         }
     }
 
-    /// For proposing another name.
-    pub fn kind_of_name(self) -> KindOfName {
+    /// Returns the kind for which another name is suggested.
+    pub fn kind_of_name(self) -> SubstituteKind {
         match self {
             Entity::Param(_)
             | Entity::Input(_)
             | Entity::Measure(_)
             | Entity::Trace
             | Entity::Result(_)
-            | Entity::Broken => KindOfName::Value,
-            Entity::Function(_) | Entity::Table(_) => KindOfName::Function,
-            Entity::Body(_) | Entity::Part(_) | Entity::Ground => KindOfName::Body,
-            Entity::Joint(_) => KindOfName::Joint,
-            Entity::Equation(_) | Entity::Load => KindOfName::Equation,
+            | Entity::Broken => SubstituteKind::Value,
+            Entity::Function(_) | Entity::Table(_) => SubstituteKind::Function,
+            Entity::Body(_) | Entity::Part(_) | Entity::Ground => SubstituteKind::Body,
+            Entity::Joint(_) => SubstituteKind::Joint,
+            Entity::Equation(_) | Entity::Load => SubstituteKind::Equation,
         }
     }
 }

@@ -1,7 +1,7 @@
-//! What is said of a mechanism that does not pass.
+//! Diagnostics of mechanisms.
 
 mod dimensions;
-mod drawn;
+mod drawing;
 mod forces;
 pub mod library;
 mod misplaced;
@@ -14,7 +14,7 @@ mod tables;
 mod variables;
 
 pub use dimensions::*;
-pub use drawn::*;
+pub use drawing::*;
 pub use forces::*;
 pub use misplaced::*;
 pub use names::*;
@@ -33,19 +33,19 @@ use mechc_text::diag::{Code, Diagnostic, Fix, nearest};
 use mechc_text::source::Span;
 use mechc_text::vocabulary::Word;
 
-fn meant(wanted: &Name, names: &[&str]) -> Option<Fix> {
-    nearest(&wanted.text, names.iter().copied()).map(|name| Fix::meant(wanted.span, name))
+fn nearest_name(expected: &Name, names: &[&str]) -> Option<Fix> {
+    nearest(&expected.text, names.iter().copied()).map(|name| Fix::meant(expected.span, name))
 }
 
-/// The word is there if it is one of the language.
-pub fn argument_count(what: &str, word: Option<&Word>, span: Span, wanted: &str, found: usize) -> Diagnostic {
-    Diagnostic::new(Code::E0301, format!("`{what}` takes {wanted}, found {found}"))
+/// `word` is given for words of the language.
+pub fn argument_count(what: &str, word: Option<&Word>, span: Span, expected: &str, found: usize) -> Diagnostic {
+    Diagnostic::new(Code::E0301, format!("`{what}` takes {expected}, found {found}"))
         .at(span, format!("found {found}"))
         .help_if(word.map(|word| format!("it is written {}", word.written())))
 }
 
-pub fn wrong_kind(span: Span, wanted: &str, found: &str) -> Diagnostic {
-    Diagnostic::new(Code::E0302, format!("expected {wanted}, found {found}")).at(span, format!("this is {found}"))
+pub fn wrong_kind(span: Span, expected: &str, found: &str) -> Diagnostic {
+    Diagnostic::new(Code::E0302, format!("expected {expected}, found {found}")).at(span, format!("this is {found}"))
 }
 
 pub fn empty(name: &Name) -> Diagnostic {
@@ -54,7 +54,7 @@ pub fn empty(name: &Name) -> Diagnostic {
         .help("declare a body: `body crank at (0, 0, 0) { … }`")
 }
 
-/// As many names as a message has room for.
+/// Lists as many names as a message has room for.
 fn some_of(names: &[&str]) -> String {
     const MOST: usize = 24;
     match names.get(..MOST) {
@@ -63,7 +63,7 @@ fn some_of(names: &[&str]) -> String {
     }
 }
 
-/// `a`, `b` and `c`.
+/// Lists names as `a`, `b` and `c`.
 pub fn list(names: &[&str]) -> String {
     let quoted: Vec<String> = names.iter().map(|name| format!("`{name}`")).collect();
     match quoted.split_last() {

@@ -1,31 +1,31 @@
-//! Bodies, the ground, and their features; circles and curves have `profiles`.
+//! Bodies, the ground, and their features. Circles and curves are in `profiles`.
 
 use super::entity::Entity;
 use super::formula::{Context, Value};
-use super::kinds::{self, Wanted, coordinate};
+use super::formula_scope::{FormulaSite, InitialPoint};
 use super::names::Space;
-use super::sites::{Drawn, Site};
+use super::point_kinds::{self, Expected, coordinate};
 use super::{Checker, errors};
-use crate::model::{Axis, AxisId, Body, CircleId, CurveId, DecidedBy, Dimension, Frame, Point, PointId};
+use crate::model::{Axis, AxisId, Body, CircleId, CurveId, Dimension, Frame, GuardKind, Point, PointId};
 use mechc_expr::ExprId;
 use mechc_syntax::ast::{self, DrawnPose, Expr, ExprKind, FeatureKind, Item, ItemKind, Name};
 use mechc_text::source::Span;
 use mechc_text::vocabulary::Keyword;
 use rustc_hash::FxHashMap;
 
-/// What a name of a body's space stands for; `None` where it is broken, which has been said.
+/// A feature that a name of a body stands for; `None` if it is broken, which has been reported.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Feature {
     Point(Option<PointId>),
     Axis(Option<AxisId>),
     Circle(Option<CircleId>),
     Curve(Option<CurveId>),
-    /// Its declaration does not follow the grammar, which has been said.
+    /// Its declaration does not follow the grammar, which has been reported.
     Broken,
 }
 
 impl Feature {
-    /// Whether it can stand where a thing of that name is wanted; a circle where a curve is.
+    /// Returns whether it can stand where a feature of that kind is expected. A circle can stand for a curve.
     pub fn is(self, what: &str) -> bool {
         match self {
             Feature::Point(_) => what == "point",
@@ -36,7 +36,7 @@ impl Feature {
         }
     }
 
-    /// As a noun, of the keyword that declares it.
+    /// Returns the noun of the keyword that declares it.
     pub fn with_article(keyword: &str) -> &'static str {
         match keyword {
             "point" => "a point",
@@ -58,7 +58,7 @@ impl Feature {
 }
 
 impl<'a> Checker<'a> {
-    /// Bodies, their features, and where all of it is drawn.
+    /// Evaluates bodies, features and poses.
     pub(super) fn features(&mut self) {
         self.add_frames();
         self.collect_all_features();
@@ -67,7 +67,7 @@ impl<'a> Checker<'a> {
         self.poses();
     }
 
-    /// Bodies, and the grounds of parts, in the order of the text.
+    /// Declares bodies and the grounds of parts, in the order of the text.
     pub(super) fn add_frames(&mut self) {
         self.common.features.insert(self.address.ground, Space::new());
         let mut parts = 0..;
@@ -92,7 +92,7 @@ impl<'a> Checker<'a> {
         self.in_parts(Checker::collect_all_features);
     }
 
-    /// Points first, then what needs them: each may be used before it is declared.
+    /// Evaluates points first, then the features that use them, so that points may be used before their declaration.
     pub(super) fn read_features(&mut self) {
         let frames = self.frames.clone();
         for &(frame, features) in &frames {
@@ -143,7 +143,7 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Each after those that its formula needs.
+    /// Evaluates points, each after those that its formula uses.
     fn points_of(&mut self, frame: Frame, features: &'a [ast::Feature]) {
         let mut points = Vec::new();
         for feature in features {
@@ -154,11 +154,11 @@ impl<'a> Checker<'a> {
         let uses = self.uses_of_points(frame, &points);
         for k in self.ordered(&uses).order {
             let (name, at) = points[k];
-            let drawn = self.at_site(Site::Inside(frame), Some(&name.text), |checker| match at {
+            let drawn = self.at_site(FormulaSite::Inside(frame), Some(&name.text), |checker| match at {
                 Some(at) => checker.place_of(at, "point", "a point", None),
                 None => checker.point_of_the_mechanism(name),
             });
-            let point = drawn.map(|Drawn { at, dimensional }| {
+            let point = drawn.map(|InitialPoint { at, dimensional }| {
                 let point = Point { frame, name: Some(name.text.clone()), span: name.span, at };
                 let id = self.model.add_point(point);
                 self.common.dimensional_points.extend(dimensional.then_some(id));
@@ -168,25 +168,25 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Which points of a body the formula of each one names.
+    /// Returns the points of a body that the formula of each one uses.
     fn uses_of_points<'n>(
         &mut self,
         frame: Frame,
         points: &[(&'n Name, Option<&'a Expr>)],
     ) -> Vec<(&'n Name, Vec<(usize, Span)>)> {
-        // a name that is taken twice keeps its first meaning
+        // A duplicate name keeps its first meaning.
         let mut positions = FxHashMap::default();
         for (k, (name, _)) in points.iter().enumerate() {
             positions.entry(name.text.as_str()).or_insert(k);
         }
-        let outer = std::mem::replace(&mut self.scope.site, Site::Inside(frame));
+        let outer = std::mem::replace(&mut self.scope.site, FormulaSite::Inside(frame));
         let uses = points.iter().map(|&(name, formula)| {
             let mut uses = Vec::new();
             if let Some(formula) = formula {
                 let hidden = |name: &str| self.hidden.contains(name);
-                kinds::names_in(formula, Wanted::Point, hidden, |used, wanted| {
-                    let is_own = used.text != name.text && self.own_point(used, wanted).is_some();
-                    uses.extend(positions.get(used.text.as_str()).filter(|_| is_own).map(|&k| (k, used.span)));
+                point_kinds::names_in(formula, Expected::Point, hidden, |used, expected| {
+                    let is_local = used.text != name.text && self.body_point(used, expected).is_some();
+                    uses.extend(positions.get(used.text.as_str()).filter(|_| is_local).map(|&k| (k, used.span)));
                 });
             }
             (name, uses)
@@ -199,12 +199,14 @@ impl<'a> Checker<'a> {
     fn axes_of(&mut self, frame: Frame, features: &'a [ast::Feature]) {
         for feature in features {
             let ends = match &feature.kind {
-                FeatureKind::AxisAlong { origin, direction } => self.at_site(Site::Inside(frame), None, |checker| {
-                    let origin = checker.place(frame, origin);
-                    let direction = checker.direction_of(direction);
-                    origin.zip(direction)
-                }),
-                FeatureKind::AxisTo { origin, target } => self.at_site(Site::Inside(frame), None, |checker| {
+                FeatureKind::AxisAlong { origin, direction } => {
+                    self.at_site(FormulaSite::Inside(frame), None, |checker| {
+                        let origin = checker.place(frame, origin);
+                        let direction = checker.direction_of(direction);
+                        origin.zip(direction)
+                    })
+                }
+                FeatureKind::AxisTo { origin, target } => self.at_site(FormulaSite::Inside(frame), None, |checker| {
                     let (from, to) = (checker.place(frame, origin), checker.place(frame, target));
                     let (from, to) = (from?, to?);
                     let (p, q) = (checker.model[from].at, checker.model[to].at);
@@ -222,7 +224,7 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Fills in what a feature's name stands for, unless the name was taken.
+    /// Sets the feature of a name, unless the name is a duplicate.
     pub(super) fn settle(&mut self, frame: Frame, name: &Name, feature: Feature) {
         if let Some(space) = self.common.features.get_mut(&frame)
             && space.span(&name.text) == Some(name.span)
@@ -249,11 +251,11 @@ impl<'a> Checker<'a> {
         let context = self.pair_context([dx, dy], "a direction", None);
         let (x, y) = (self.formula(dx, &context), self.formula(dy, &context));
         let (x, y) = (x?, y?);
-        self.alike("the two parts of the direction are", (dx.span, x), (dy.span, y), &context)?;
+        self.unify("the two parts of the direction are", (dx.span, x), (dy.span, y), &context)?;
         self.not_zero([x.id, y.id], e.span)
     }
 
-    /// The text of the angle of a place that is given by a distance and an angle.
+    /// Returns the text of the angle of a position given by distance and angle.
     fn angle_of_place(&self, e: &Expr) -> Option<&'a str> {
         match &e.bare().kind {
             ExprKind::Call { name, arguments, .. } if name.text == "polar" => {
@@ -264,7 +266,7 @@ impl<'a> Checker<'a> {
     }
 
     fn not_zero(&mut self, direction: [ExprId; 2], span: Span) -> Option<[ExprId; 2]> {
-        let [x, y] = direction.map(|id| self.decided(id, DecidedBy::Sign));
+        let [x, y] = direction.map(|id| self.decided(id, GuardKind::Sign));
         if x? == 0.0 && y? == 0.0 {
             self.report(errors::zero_direction(span));
             return None;
@@ -278,7 +280,7 @@ impl<'a> Checker<'a> {
         place: &'static str,
         argument: Option<&str>,
     ) -> Context<'static> {
-        let judged = parts.iter().any(|part| self.is_dimensional_over(argument, part));
+        let judged = parts.iter().any(|part| self.is_dimensional_with(argument, part));
         Context { judged, ..Context::constant(place) }
     }
 
@@ -287,7 +289,7 @@ impl<'a> Checker<'a> {
         self.two_lengths(parts, values, context)
     }
 
-    /// The two coordinates of a point, judged together.
+    /// Evaluates the two coordinates of a point, whose dimensions are judged together.
     pub(super) fn two_lengths(
         &mut self,
         parts: [&Expr; 2],
@@ -295,45 +297,45 @@ impl<'a> Checker<'a> {
         context: &Context<'_>,
     ) -> Option<[ExprId; 2]> {
         let (x, y) = (x?, y?);
-        self.alike("the coordinates of a point are", (parts[0].span, x), (parts[1].span, y), context)?;
+        self.unify("the coordinates of a point are", (parts[0].span, x), (parts[1].span, y), context)?;
         for part in parts {
-            if !context.judged && self.refuses_angle("a coordinate", part) {
+            if !context.judged && self.reject_angle("a coordinate", part) {
                 return None;
             }
         }
         for (part, value) in parts.into_iter().zip([x, y]) {
-            self.demand("a coordinate", Dimension::LENGTH, part.span, value.dim, context)?;
-            self.remember_any_length(part, value.id, context.judged);
+            self.require_dimension("a coordinate", Dimension::LENGTH, part.span, value.dim, context)?;
+            self.record_length_term(part, value.id, context.judged);
         }
         Some([x.id, y.id])
     }
 
-    /// A constant angle, with a warning where degrees were probably meant.
+    /// Evaluates a constant angle, with a warning if it was probably intended in degrees.
     pub(super) fn angle(&mut self, e: &Expr, place: &str) -> Option<ExprId> {
         self.warn_of_degrees_in(e);
-        let (id, _) = self.constant_by(e, place, Dimension::PURE, DecidedBy::Finite)?;
+        let (id, _) = self.constant_by(e, place, Dimension::PURE, GuardKind::Finite)?;
         Some(id)
     }
 
-    /// A point where an axis begins or ends: one of the frame by name, or a formula of points.
+    /// Returns the point where an axis starts or ends: a named point of the frame, or a formula of points.
     pub(super) fn place(&mut self, frame: Frame, e: &Expr) -> Option<PointId> {
         match &e.kind {
             ExprKind::Name(name)
-                if self.own_point(name, Wanted::Point).is_some() || self.point_param(name).is_none() =>
+                if self.body_point(name, Expected::Point).is_some() || self.point_param(name).is_none() =>
             {
-                self.scope_takes_own(name);
+                self.record_body_point(name);
                 self.point_named(frame, name)
             }
-            ExprKind::Member { owner, feature } if self.is_own_feature(frame, owner, feature) => {
-                self.report(errors::own_point_with_owner(e.span, &owner.text, &feature.text));
+            ExprKind::Member { owner, feature } if self.is_feature_of_frame(frame, owner, feature) => {
+                self.report(errors::redundant_owner(e.span, &owner.text, &feature.text));
                 None
             }
             _ => self.unnamed_point(frame, e),
         }
     }
 
-    /// `arm.tip` in the braces of `arm`
-    fn is_own_feature(&self, frame: Frame, owner: &Name, feature: &Name) -> bool {
+    /// Returns whether `arm.tip` stands within the braces of `arm`.
+    fn is_feature_of_frame(&self, frame: Frame, owner: &Name, feature: &Name) -> bool {
         let is_there = || self.common.features.get(&frame).is_some_and(|space| space.get(&feature.text).is_some());
         self.frame_name(frame) == owner.text && is_there()
     }
@@ -343,7 +345,7 @@ impl<'a> Checker<'a> {
         Some(self.model.add_point(Point { frame, name: None, span: e.span, at }))
     }
 
-    /// A point of a body or of the ground, or a global one as a formula of points.
+    /// Returns a point of a body or of the ground, or one of the ground by a formula of points.
     pub(super) fn point(&mut self, e: &Expr) -> Option<PointId> {
         match &e.kind {
             ExprKind::Tuple(_) => self.unnamed_point(self.address.ground, e),
@@ -379,7 +381,7 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// An axis of a body or of the ground.
+    /// Returns an axis of a body or of the ground.
     pub(super) fn axis(&mut self, e: &Expr) -> Option<AxisId> {
         match &e.kind {
             ExprKind::Member { owner, feature } => {
@@ -388,7 +390,7 @@ impl<'a> Checker<'a> {
                     Feature::Axis(axis) => axis,
                     Feature::Point(_) => {
                         let diagnostic = errors::wrong_kind(feature.span, "an axis", "a point");
-                        self.report(diagnostic.fix_if(self.axis_for(frame, feature)));
+                        self.report(diagnostic.fix_if(self.suggest_axis(frame, feature)));
                         None
                     }
                     other => {
@@ -408,18 +410,18 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// A name alone where `body.feature` is wanted.
+    /// Reports a name alone where `body.feature` is expected.
     pub(super) fn bare_name(&mut self, name: &Name, what: &str) {
         let Ok(entity) = self.resolve(name) else { return };
         if entity == Some(Entity::Trace) && what == "point" {
             self.trace_in_a_formula(name.span, "a point", name);
             return;
         }
-        let wanted = if what == "axis" { "an axis".to_owned() } else { format!("a {what}") };
-        let beside = self.owners_beside(name.span);
+        let expected = if what == "axis" { "an axis".to_owned() } else { format!("a {what}") };
+        let other_owners = self.owners_in_arguments(name.span);
         let owners: Vec<String> = std::iter::once(self.address.ground)
             .chain(self.bodies.iter().copied())
-            .filter(|&frame| !beside.contains(&self.frame_name(frame)))
+            .filter(|&frame| !other_owners.contains(&self.frame_name(frame)))
             .filter(|frame| self.common.features.get(frame).is_some_and(|space| space.get(&name.text).is_some()))
             .map(|frame| format!("`{}.{}`", self.frame_name(frame), name.text))
             .collect();
@@ -429,13 +431,13 @@ impl<'a> Checker<'a> {
                 [] => format!("name one of its features: `{}.…`", name.text),
                 names => format!("name one of its features: {}", names.join(", ")),
             },
-            _ => format!("outside a body {wanted} is written `body.{}`", name.text),
+            _ => format!("outside a body {expected} is written `body.{}`", name.text),
         };
         let found = match self.describe_name(name) {
             "a name" => format!("the name `{}`", name.text),
             noun => noun.to_owned(),
         };
-        self.report(errors::wrong_kind(name.span, &wanted, &found).help(help));
+        self.report(errors::wrong_kind(name.span, &expected, &found).help(help));
     }
 
     pub(super) fn feature(
@@ -443,22 +445,22 @@ impl<'a> Checker<'a> {
         frame: Frame,
         name: &Name,
         what: &str,
-        wanted: impl Fn(Feature) -> bool,
+        expected: impl Fn(Feature) -> bool,
     ) -> Option<Feature> {
         let space = self.common.features.get(&frame)?;
         match space.get(&name.text) {
             Some(Feature::Broken) => return None,
             None if space.is_incomplete() => return None,
             None => {}
-            known => return known,
+            feature => return feature,
         }
-        let known = self.suggestions_in(space, wanted);
-        let diagnostic = errors::unknown_feature(what, self.frame_name(frame), name, &known);
+        let candidates = self.suggestions_in(space, expected);
+        let diagnostic = errors::unknown_feature(what, self.frame_name(frame), name, &candidates);
         self.report(diagnostic);
         None
     }
 
-    /// What `owner.feature` is, for a message.
+    /// Describes `owner.feature` for a message.
     pub(super) fn describe_member(&self, owner: &Name, feature: &Name) -> String {
         let space = self.frame_of(owner).and_then(|frame| self.common.features.get(&frame));
         let found = space.and_then(|space| space.get(&feature.text));

@@ -1,14 +1,14 @@
-//! Masses, gravity, loads; and what comes out of them: efforts and reactions.
+//! Masses, gravity and loads, and the efforts and reactions that outputs use.
 
 use super::Checker;
 use super::entity::Entity;
-use super::errors::{self, NoLoad};
+use super::errors::{self, LoadTargetError};
 use super::features::Feature;
 use super::formula::{Context, Dim, Value};
-use super::rates::Part;
-use super::sites::Site;
+use super::formula_scope::FormulaSite;
+use super::suggest::lost_rate::Part;
 use crate::model::{
-    BodyId, DecidedBy, Declared, Dimension, EquationId, Force, Frame, JointId, Load, Mass, Named, Point, PointId,
+    BodyId, Declared, Dimension, EquationId, Force, Frame, GuardKind, JointId, Load, Mass, Named, Point, PointId,
     Quantity,
 };
 use mechc_expr::{ExprId, Symbol};
@@ -19,7 +19,7 @@ use mechc_text::vocabulary::QuantityWord;
 // ---- masses and gravity
 
 impl<'a> Checker<'a> {
-    /// The masses of a body.
+    /// Adds the masses of a body.
     pub(super) fn masses_of(&mut self, frame: Frame, features: &'a [ast::Feature]) {
         for feature in features {
             let FeatureKind::Mass { mass, at, inertia } = &feature.kind else { continue };
@@ -37,7 +37,7 @@ impl<'a> Checker<'a> {
         let frame = Frame::Body(body);
         let mass = self.not_negative(frame, mass, "mass", Dimension::MASS);
         let at = match at {
-            Some(at) => self.at_site(Site::Inside(frame), None, |checker| checker.place(frame, at)),
+            Some(at) => self.at_site(FormulaSite::Inside(frame), None, |checker| checker.place(frame, at)),
             None => Some(self.origin_of(frame, feature.span)),
         };
         let inertia = self.not_negative(frame, inertia, "inertia", Dimension::INERTIA);
@@ -49,28 +49,29 @@ impl<'a> Checker<'a> {
         self.model.add_point(Point { frame, name: None, span, at: [zero; 2] })
     }
 
-    /// A constant behind a keyword that is not below zero; zero where nothing is said.
-    fn not_negative(&mut self, frame: Frame, e: Option<&Expr>, keyword: &str, wanted: Dimension) -> Option<ExprId> {
+    /// Returns a constant after a keyword, which must not be negative; zero without a formula.
+    fn not_negative(&mut self, frame: Frame, e: Option<&Expr>, keyword: &str, expected: Dimension) -> Option<ExprId> {
         let Some(e) = e else { return Some(self.model.graph.constant(0.0)) };
         let place = format!("what stands behind `{keyword}`");
-        let (id, value) =
-            self.at_site(Site::Inside(frame), None, |checker| checker.constant_by(e, &place, wanted, DecidedBy::Sign))?;
+        let (id, value) = self.at_site(FormulaSite::Inside(frame), None, |checker| {
+            checker.constant_by(e, &place, expected, GuardKind::Sign)
+        })?;
         if value < 0.0 {
-            self.report(errors::negative_mass(e.span, value, wanted));
+            self.report(errors::negative_mass(e.span, value, expected));
             return None;
         }
         Some(id)
     }
 
-    /// The acceleration of free fall: that of the outermost mechanism counts, those of parts are looked over.
+    /// Sets the acceleration of gravity from the outermost mechanism. Those of parts are only checked.
     pub(super) fn gravity(&mut self) {
         self.model.gravity = self.acceleration_of_gravity();
-        if self.own_gravity().is_none() {
+        if self.declared_gravity().is_none() {
             self.warn_of_gravity_in_parts();
         }
     }
 
-    fn own_gravity(&self) -> Option<&'a Expr> {
+    fn declared_gravity(&self) -> Option<&'a Expr> {
         self.items().iter().find_map(|item| match &item.kind {
             ItemKind::Gravity { acceleration } => Some(acceleration),
             _ => None,
@@ -79,10 +80,10 @@ impl<'a> Checker<'a> {
 
     fn acceleration_of_gravity(&mut self) -> Option<[ExprId; 2]> {
         self.in_parts(|part| {
-            // it counts when they run alone
+            // The gravity of a part counts when the part runs alone.
             let _ = part.acceleration_of_gravity();
         });
-        let acceleration = self.own_gravity()?;
+        let acceleration = self.declared_gravity()?;
         let ExprKind::Tuple(parts) = &acceleration.kind else {
             self.report(errors::gravity_of_one_number(acceleration.span, Self::describe(acceleration)));
             return None;
@@ -97,35 +98,35 @@ impl<'a> Checker<'a> {
         let mut ids = Vec::new();
         for (part, value) in values {
             let value = value?;
-            self.demand("`gravity`", Dimension::ACCELERATION, part.span, value.dim, &context)?;
+            self.require_dimension("`gravity`", Dimension::ACCELERATION, part.span, value.dim, &context)?;
             ids.push(value.id);
         }
         ids.try_into().ok()
     }
 
-    /// Says that the gravity of a part does not count, of each mechanism once.
+    /// Warns that the gravity of a part does not count, once for each mechanism.
     fn warn_of_gravity_in_parts(&mut self) {
-        let mut told = Vec::new();
+        let mut reported = Vec::new();
         for (part, written) in self.parts.iter().zip(&self.bindings) {
-            if let Some((mechanism, gravity)) = part.gravity_inside().filter(|(_, span)| !told.contains(span)) {
-                told.push(gravity);
+            if let Some((mechanism, gravity)) = part.gravity_inside().filter(|(_, span)| !reported.contains(span)) {
+                reported.push(gravity);
                 let warning = errors::gravity_of_a_part(&written.name, mechanism, gravity);
                 self.diagnostics.push(warning);
             }
         }
     }
 
-    /// The mechanism that says something of gravity, this one or one of its parts, and where.
+    /// Returns the mechanism that declares gravity, this one or one of its parts, and where.
     fn gravity_inside(&self) -> Option<(&'a str, Span)> {
-        let own = self.own_gravity().map(|own| (self.tree.name.text.as_str(), own.span));
-        own.or_else(|| self.parts.iter().find_map(Checker::gravity_inside))
+        let declared = self.declared_gravity().map(|gravity| (self.tree.name.text.as_str(), gravity.span));
+        declared.or_else(|| self.parts.iter().find_map(Checker::gravity_inside))
     }
 }
 
 // ---- loads
 
 impl Checker<'_> {
-    /// The loads in the order of the text, those of parts where these are declared.
+    /// Adds the loads in the order of the text, those of a part where it is declared.
     pub(super) fn loads(&mut self) {
         let mut parts = 0..self.parts.len();
         for item in self.items() {
@@ -154,40 +155,40 @@ impl Checker<'_> {
         let conditions = self.model.conditions.len();
         let value = self.formula(force, &context);
         let declared = self.declared(name);
-        let conditions = self.asked_at_times(conditions, &declared.name);
+        let conditions = self.conditions_in_time(conditions, &declared.name);
         let quantity = self.quantity_of_load(name, on);
         let (value, quantity) = (value?, quantity?);
         let dimension = Dimension::ENERGY.over(quantity.dimension());
-        self.is_a_force_on(name, [force, on], value, quantity, judged)?;
+        self.check_load_dimension(name, [force, on], value, quantity, judged)?;
         let written = force.span.to(on.span);
         Some(Load { declared, part: self.address.part, force: value.id, conditions, on: quantity, dimension, written })
     }
 
-    /// What a load works on: one quantity of positions.
+    /// Returns the quantity on which a load works, a function of positions.
     fn quantity_of_load(&mut self, name: &Name, on: &Expr) -> Option<Quantity> {
         let bare = on.bare();
         let ExprKind::Call { name: called, arguments, window } = &bare.kind else {
             let fault = match &bare.kind {
-                ExprKind::Sum(..) => NoLoad::Sum,
-                kind => self.quantities_of(kind).map_or(NoLoad::Other, NoLoad::Meant),
+                ExprKind::Sum(..) => LoadTargetError::Sum,
+                kind => self.quantities_of(kind).map_or(LoadTargetError::Other, LoadTargetError::Suggested),
             };
             self.report(errors::load_on_no_quantity(name, on.span, &fault));
             return None;
         };
         let Some(word) = self.quantity_word(called) else {
-            let fault = if called.text == "der" { NoLoad::Rate } else { NoLoad::Other };
+            let fault = if called.text == "der" { LoadTargetError::Rate } else { LoadTargetError::Other };
             self.report(errors::load_on_no_quantity(name, on.span, &fault));
             return None;
         };
         let is_angle_of_points = called.text == "angle" && arguments.len() == 3;
         if word.gives_way || is_angle_of_points {
-            let fault = NoLoad::OfMeasures(&called.text);
+            let fault = LoadTargetError::OfMeasures(&called.text);
             self.report(errors::load_on_no_quantity(name, on.span, &fault));
             return None;
         }
-        self.refuse_window(called, window.as_deref())?;
+        self.reject_window(called, window.as_deref())?;
         let value = self.quantity(bare, called, arguments, &driven("a load", true))?;
-        if !self.a_body_moves([value.id; 2]) {
+        if !self.has_moving_body([value.id; 2]) {
             self.report(errors::load_on_no_body(name, on.span));
             return None;
         }
@@ -200,7 +201,7 @@ impl Checker<'_> {
         })
     }
 
-    /// The quantities that are meant by what moves: a joint, a body, a point.
+    /// Returns the quantities that suit a joint, body or point.
     fn quantities_of(&self, moved: &ExprKind) -> Option<Vec<String>> {
         match moved {
             ExprKind::Name(name) => match self.entity(name)? {
@@ -223,9 +224,8 @@ impl Checker<'_> {
         }
     }
 
-    /// Demands that the product of a load and what it works on is an energy. A plain one is a torque on an angle; on a length it has to
-    /// say what it is.
-    fn is_a_force_on(
+    /// Requires that a load times its quantity is an energy. A plain load is a torque on an angle; on a length it needs a unit.
+    fn check_load_dimension(
         &mut self,
         name: &Name,
         [force, on]: [&Expr; 2],
@@ -233,17 +233,17 @@ impl Checker<'_> {
         quantity: Quantity,
         judged: bool,
     ) -> Option<()> {
-        let (works_on, wanted) = (quantity.dimension(), Dimension::ENERGY.over(quantity.dimension()));
+        let (works_on, expected) = (quantity.dimension(), Dimension::ENERGY.over(quantity.dimension()));
         let text = self.sources.text(force.span);
         match value.dim {
-            Dim::Of(dimension) if self.counts(value, &driven("a load", judged)) && !dimension.is(wanted) => {
+            Dim::Of(dimension) if self.counts(value, &driven("a load", judged)) && !dimension.is(expected) => {
                 let parts = [Part { span: force.span, dimension }, Part { span: on.span, dimension: works_on }];
-                self.report(errors::load_of_no_energy(name, parts, wanted, text));
+                self.report(errors::load_of_no_energy(name, parts, expected, text));
                 None
             }
             Dim::Of(_) | Dim::Plain { .. } if !judged && !works_on.is(Dimension::PURE) && !self.is_zero(force) => {
                 let on = Part { span: on.span, dimension: works_on };
-                self.report(errors::plain_load(name, force.span, text, on, wanted));
+                self.report(errors::plain_load(name, force.span, text, on, expected));
                 None
             }
             _ => Some(()),
@@ -251,15 +251,15 @@ impl Checker<'_> {
     }
 }
 
-/// How a formula is read that may hold what a driver may.
+/// Returns a context that allows the same as a driver's.
 fn driven(place: &str, judged: bool) -> Context<'_> {
     Context { judged, time: true, inputs: true, quantities: true, ..Context::constant(place) }
 }
 
-// ---- what comes out
+// ---- computed forces
 
 impl Checker<'_> {
-    /// `effort(D)`, `force_x(J)`, `force_y(J)`, `torque(J)`
+    /// Evaluates `effort(D)`, `force_x(J)`, `force_y(J)` or `torque(J)`.
     pub(super) fn force(&mut self, e: &Expr, name: &Name, arguments: &[Expr], context: &Context<'_>) -> Option<Value> {
         if !context.measures {
             self.report(errors::force_in(context.place, &format!("`{}`", name.text), e.span));
@@ -277,14 +277,14 @@ impl Checker<'_> {
             _ => Force::ReactionTorque(self.joint_with_torque(argument)?),
         };
         let dimension = self.model.dimension_of_force(force);
-        // it holds accelerations
+        // A force holds accelerations.
         let id = self.name_symbol(Named::Force(self.address.part, force), 2);
         let is_plain = matches!(force, Force::Effort(equation) if self.common.plain_equations.contains(&equation));
         let dim = if is_plain { Dim::Plain { read: dimension, fits: true } } else { Dim::Of(dimension) };
         Some(Value { id, dim })
     }
 
-    /// A constraint or driver; nothing where it is broken, which has been said.
+    /// Returns a constraint or driver; `None` if it is broken, which has been reported.
     fn equation_named(&mut self, e: &Expr) -> Option<EquationId> {
         let ExprKind::Name(name) = &e.bare().kind else {
             self.wrong_kind(e.span, "a driver or constraint", Self::describe(e));
@@ -299,28 +299,28 @@ impl Checker<'_> {
                 None
             }
             None => {
-                let known = self.suggestions(|entity| matches!(entity, Entity::Equation(_)));
-                let diagnostic = errors::unknown("driver or constraint", name, &known);
+                let candidates = self.suggestions(|entity| matches!(entity, Entity::Equation(_)));
+                let diagnostic = errors::unknown("driver or constraint", name, &candidates);
                 self.report(diagnostic);
                 None
             }
         }
     }
 
-    /// A joint of a kind that exerts moments.
+    /// Returns a joint of a kind that exerts moments.
     fn joint_with_torque(&mut self, e: &Expr) -> Option<JointId> {
         let (joint, name) = self.joint_named("torque", e)?;
         let kind = self.model[joint].kind.plain();
         if kind.has_torque() {
             return Some(joint);
         }
-        let Declared { name: own, span } = self.model[joint].declared.clone();
+        let Declared { name: joint_name, span } = self.model[joint].declared.clone();
         let driver = self.driver_of(&name.text);
-        self.report(errors::no_torque(&own, kind.word(), name.span, span, driver.as_deref()));
+        self.report(errors::no_torque(&joint_name, kind.word(), name.span, span, driver.as_deref()));
         None
     }
 
-    /// The driver that speaks of a joint.
+    /// Returns the driver that refers to a joint.
     pub(super) fn driver_of(&self, joint: &str) -> Option<String> {
         let is_it = |e: &Expr| matches!(&e.kind, ExprKind::Name(name) if name.text == joint);
         let speaks_of_it = |e: &Expr| e.parts().any(is_it);
@@ -332,19 +332,19 @@ impl Checker<'_> {
         })
     }
 
-    /// Whether a formula holds a force, also within others.
+    /// Returns whether a formula holds a force, also within derivatives.
     pub(super) fn holds_force(&self, id: ExprId) -> bool {
         self.holds_named(id, |named| matches!(named, Named::Force(..)))
     }
 
-    /// Whether a formula holds a named symbol of some kind, also within derivatives and what parts hold.
-    pub(super) fn holds_named(&self, id: ExprId, is_wanted: impl Fn(&Named) -> bool) -> bool {
+    /// Returns whether a formula holds a named symbol of some kind, also within derivatives and held inputs.
+    pub(super) fn holds_named(&self, id: ExprId, accepts: impl Fn(&Named) -> bool) -> bool {
         let mut open = vec![id];
         while let Some(id) = open.pop() {
             for symbol in self.model.graph.symbols(id) {
                 let Symbol::Named(k) = symbol else { continue };
                 match self.model.named.get(k as usize) {
-                    Some(named) if is_wanted(named) => return true,
+                    Some(named) if accepts(named) => return true,
                     Some(Named::Derivative(inner) | Named::By(inner, ..) | Named::Held(_, inner)) => open.push(*inner),
                     _ => {}
                 }
@@ -353,20 +353,20 @@ impl Checker<'_> {
         false
     }
 
-    /// Whether a measure or result, of this text or of a part's, asks for an effort.
-    pub(super) fn asks_for_efforts(&self) -> bool {
+    /// Returns whether a measure or result of this text or of a part uses an effort.
+    pub(super) fn uses_efforts(&self) -> bool {
         let is_effort = |e: &Expr| matches!(&e.kind, ExprKind::Call { name, .. } if name.text == "effort");
         let asks = |e: &Expr| e.parts().any(is_effort);
-        let own = self.items().iter().any(|item| match &item.kind {
+        let in_text = self.items().iter().any(|item| match &item.kind {
             ItemKind::Measure { value, .. } | ItemKind::Result { value, .. } | ItemKind::Trace { point: value, .. } => {
                 asks(value)
             }
             _ => false,
         });
-        own || self.parts.iter().any(Checker::asks_for_efforts)
+        in_text || self.parts.iter().any(Checker::uses_efforts)
     }
 
-    /// Whether a formula is a torque, as far as its words tell: joules are no unit of it.
+    /// Returns whether a formula is a torque, as far as it shows; joules are not a unit of torque.
     pub(super) fn is_torque(&self, e: &Expr) -> bool {
         match &e.kind {
             ExprKind::Paren(inner) | ExprKind::Negate(inner) => self.is_torque(inner),
@@ -395,7 +395,7 @@ impl Checker<'_> {
         }
     }
 
-    /// Whether a driver or constraint works on an angle.
+    /// Returns whether a driver or constraint works on an angle.
     fn turns(&self, e: &Expr) -> bool {
         let ExprKind::Name(name) = &e.bare().kind else { return false };
         let Some(Entity::Equation(k)) = self.entity(name) else { return false };

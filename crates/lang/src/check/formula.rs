@@ -1,36 +1,36 @@
 //! Formulas: from the tree to the graph, with their dimensions.
 //!
-//! A formula that holds a unit is *judged*: its dimensions are worked out and compared. Any other is *plain*, and is
-//! taken in the SI unit of what is expected (`language.md`, "Units"): its numbers have whatever dimension they need. But
-//! its quantities keep theirs, so that terms of it that no number scales have to be alike too.
+//! A formula that holds a unit is *judged*: its dimensions are computed and compared. Any other formula is *plain*, and is in the SI unit
+//! of the expected dimension (`language.md`, "Units"): its numbers have whatever dimension they need. But its quantities keep their
+//! dimensions, so that terms without a number as factor must agree too.
 
 use super::Checker;
+use super::bare_names::{BareName, resolve_bare_name};
 use super::entity::Entity;
 use super::errors;
-use super::kinds::Wanted;
-use super::meaning::{Alone, alone};
-use super::rates::Part;
-use crate::model::{DecidedBy, Dimension, Named};
+use super::point_kinds::Expected;
+use super::suggest::lost_rate::Part;
+use crate::model::{Dimension, GuardKind, Named};
 use mechc_expr::{Dependence, ExprId, Symbol};
 use mechc_syntax::ast::{Expr, ExprKind, Factor, ItemKind, Name, PathSegment, Sign};
 use mechc_text::source::Span;
-use mechc_text::vocabulary::{Constant, QuantityWord, StandsFor, Unit, is_called};
+use mechc_text::vocabulary::{Constant, NamedConstant, QuantityWord, Unit, is_called};
 
-/// Tells dimensions apart.
+/// The identity of a dimension in a cache.
 pub(super) type DimKey = (bool, bool, [u64; 3]);
 
 /// The dimension of a formula.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(super) enum Dim {
-    /// A literal zero fits anything.
+    /// A literal zero, which fits any dimension.
     Any,
-    /// This one.
+    /// A known dimension.
     Of(Dimension),
-    /// Any: a number without a unit is a factor of it, in a plain formula. A judged formula has none of these.
+    /// An open dimension: a number without a unit is a factor in a plain formula. Judged formulas do not have it.
     Plain {
-        /// With that number as a pure one.
+        /// The dimension if numbers are pure.
         read: Dimension,
-        /// Whether its parts fit together with all numbers as pure ones.
+        /// True if its terms agree if numbers are pure.
         fits: bool,
     },
 }
@@ -38,12 +38,12 @@ pub(super) enum Dim {
 impl Dim {
     pub const PURE: Dim = Dim::Of(Dimension::PURE);
     pub const LENGTH: Dim = Dim::Of(Dimension::LENGTH);
-    /// A number without a unit.
+    /// The dimension of a number without a unit.
     pub const PLAIN: Dim = Dim::Plain { read: Dimension::PURE, fits: true };
-    /// A formula in which numbers have to have dimensions.
+    /// The dimension of a formula whose numbers must have dimensions for its terms to agree.
     pub const UNFIT: Dim = Dim::Plain { read: Dimension::PURE, fits: false };
 
-    /// The dimension with all numbers without a unit as pure ones.
+    /// Returns the dimension if numbers without units are pure.
     pub fn settled(self) -> Dimension {
         match self {
             Dim::Any => Dimension::PURE,
@@ -51,20 +51,20 @@ impl Dim {
         }
     }
 
-    /// What a literal zero is once something has been done with it: only a zero as it stands fits anything.
+    /// Returns the dimension of a term. A zero fits any dimension only as a whole formula.
     pub fn of_term(self) -> Dim {
         if self == Dim::Any { Dim::PLAIN } else { self }
     }
 
-    /// In a formula whose dimensions are compared, where numbers are pure.
-    pub fn where_judged(self, judged: bool) -> Dim {
+    /// Returns the dimension in a judged formula, where numbers are pure.
+    pub fn when_judged(self, judged: bool) -> Dim {
         match self {
             Dim::Plain { read, .. } if judged => Dim::Of(read),
             _ => self,
         }
     }
 
-    /// Of a root, a derivative, and the like.
+    /// Returns the dimension of a function of one value, such as a root or derivative.
     pub fn map(self, f: impl FnOnce(Dimension) -> Dimension) -> Dim {
         match self.of_term() {
             Dim::Plain { read, fits } => Dim::Plain { read: f(read), fits },
@@ -72,7 +72,7 @@ impl Dim {
         }
     }
 
-    /// Of a product or quotient.
+    /// Returns the dimension of a product or quotient.
     pub fn with(self, other: Dim, f: impl Fn(Dimension, Dimension) -> Dimension) -> Dim {
         let read = f(self.settled(), other.settled());
         match (self, other) {
@@ -81,36 +81,36 @@ impl Dim {
         }
     }
 
-    /// Whether its parts fit together with all numbers as pure ones.
+    /// Returns whether its terms agree if numbers are pure.
     pub fn fits(self) -> bool {
         !matches!(self, Dim::Plain { fits: false, .. })
     }
 
-    /// Tells it from others.
+    /// Returns its identity in a cache.
     pub fn key(self) -> DimKey {
         let read = self.settled();
         let powers = [read.length, read.time, read.mass].map(|power| (power + 0.0).to_bits());
         (matches!(self, Dim::Of(_)), self.fits() && self != Dim::Any, powers)
     }
 
-    /// A dimension that is wanted and one that is found, where these differ; a zero fits anything.
+    /// Returns the expected and the found dimension if they differ. A zero fits any dimension.
     pub fn other_than(self, found: Dim) -> Option<[Dimension; 2]> {
         let both = [self.settled(), found.settled()];
         (self != Dim::Any && found != Dim::Any && !both[0].is(both[1])).then_some(both)
     }
 
-    /// Whether it is a pure number, and nothing else.
+    /// Returns whether it is known to be a pure number.
     pub fn is_a_pure_number(self) -> bool {
         matches!(self, Dim::Of(dimension) if dimension.is(Dimension::PURE))
     }
 
-    /// Whether it fits where a pure number is wanted, with all numbers as pure ones.
+    /// Returns whether it fits a pure number, if numbers without units are pure.
     pub fn is_pure(self) -> bool {
         self.fits() && self.settled().is(Dimension::PURE)
     }
 }
 
-/// A formula in the graph, with its dimension.
+/// A formula in the graph with its dimension.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(super) struct Value {
     pub id: ExprId,
@@ -123,38 +123,38 @@ impl Value {
     }
 }
 
-/// What may stand in a formula, and how it is read.
+/// The permissions of a formula, and the way in which it is read.
 #[derive(Clone, Copy)]
 #[allow(clippy::struct_excessive_bools)] // permissions that depend on nothing but the place
 pub(super) struct Context<'c> {
-    /// For messages: `a constraint`.
+    /// The place in messages, such as `a constraint`.
     pub place: &'c str,
-    /// Whether dimensions are compared.
+    /// True if dimensions are compared.
     pub judged: bool,
-    /// Whether `t` may stand.
+    /// True if `t` is allowed.
     pub time: bool,
-    /// Whether inputs may stand.
+    /// True if inputs are allowed.
     pub inputs: bool,
-    /// Whether kinematic quantities may stand.
+    /// True if kinematic quantities are allowed.
     pub quantities: bool,
-    /// Whether `der`, and the quantities that speak of rates, may stand.
+    /// True if `der` and quantities with rates are allowed.
     pub rates: bool,
-    /// Whether other measures, and what comes out of forces, may stand.
+    /// True if measures and computed forces are allowed.
     pub measures: bool,
-    /// Whether reductions and other results may stand.
+    /// True if reductions and results are allowed.
     pub results: bool,
-    /// Whether names of the file may stand.
+    /// True if names of the file are allowed.
     pub names: bool,
-    /// Whether functions are written out; where one is only looked over, those it calls have been looked over too.
+    /// True if functions are expanded. A function that is checked on its own is not, as those that it calls are checked themselves.
     pub expands: bool,
     /// The argument of the function that is being expanded.
     pub argument: Option<(&'c str, Value)>,
-    /// In what that is printed, where it is an angle that is not printed in radians.
+    /// The unit in which the argument is printed, if it is a unit of angle other than the radian.
     pub printed: Option<Span>,
 }
 
 impl<'c> Context<'c> {
-    /// A constant over params and functions.
+    /// Returns the context of a constant over params and functions.
     pub fn constant(place: &'c str) -> Context<'c> {
         Context {
             place,
@@ -172,7 +172,7 @@ impl<'c> Context<'c> {
         }
     }
 
-    /// The same for another place and argument.
+    /// Returns this context for another place and argument.
     pub fn at<'p>(&self, place: &'p str, argument: Option<(&'p str, Value)>) -> Context<'p> {
         let &Context { judged, time, inputs, quantities, rates, measures, results, names, expands, printed, .. } = self;
         Context { place, judged, time, inputs, quantities, rates, measures, results, names, expands, argument, printed }
@@ -180,13 +180,13 @@ impl<'c> Context<'c> {
 }
 
 impl Checker<'_> {
-    /// A formula of its own: counts its parts anew.
+    /// Evaluates a whole formula, whose parts are counted from zero.
     pub(super) fn formula(&mut self, e: &Expr, context: &Context<'_>) -> Option<Value> {
         self.calls.visited = 0;
         self.number(e, context)
     }
 
-    /// A formula in the graph; `None` if it is broken, which has then been said.
+    /// Evaluates a formula within another one; `None` if it is broken, which has been reported.
     pub(super) fn number(&mut self, e: &Expr, context: &Context<'_>) -> Option<Value> {
         self.level(context, |checker| checker.number_here(e, context))
     }
@@ -226,13 +226,13 @@ impl Checker<'_> {
                 None
             }
         }?;
-        let value = Value { dim: value.dim.where_judged(context.judged), ..value };
+        let value = Value { dim: value.dim.when_judged(context.judged), ..value };
         self.finite(e.span, value)
     }
 
-    /// Refuses a constant that is not finite, where it arises.
+    /// Reports a constant that is not finite, where it arises.
     pub(super) fn finite(&mut self, span: Span, value: Value) -> Option<Value> {
-        match self.decided(value.id, DecidedBy::Finite) {
+        match self.decided(value.id, GuardKind::Finite) {
             Some(number) if !number.is_finite() && !self.branch.is_untaken => {
                 self.report(errors::not_finite(span, number));
                 None
@@ -252,7 +252,7 @@ impl Checker<'_> {
         };
         let Some(unit) = Unit::named(&name.text) else {
             let is_argument = context.argument.is_some_and(|(argument, _)| argument == name.text);
-            // where time has no place, `1 t` is no time
+            // `1 t` is not a time if time is not allowed.
             let is_time = name.text == "t" && !context.time;
             let is_number = matches!(
                 self.entity(name),
@@ -275,33 +275,33 @@ impl Checker<'_> {
 
     fn name(&mut self, name: &Name, context: &Context<'_>) -> Option<Value> {
         let argument = context.argument.map(|(argument, _)| argument);
-        match alone(&name.text, argument, self.space.get(&name.text)) {
-            Alone::Argument => return context.argument.map(|(_, value)| value),
-            Alone::Constant(constant) => match constant.stands_for {
-                StandsFor::Time => return self.time_named(name, context),
-                StandsFor::Number(number) => return Some(self.pure(number)),
-                StandsFor::Ground => {}
+        match resolve_bare_name(&name.text, argument, self.space.get(&name.text)) {
+            BareName::Argument => return context.argument.map(|(_, value)| value),
+            BareName::Constant(constant) => match constant.stands_for {
+                NamedConstant::Time => return self.time_named(name, context),
+                NamedConstant::Number(number) => return Some(self.pure(number)),
+                NamedConstant::Ground => {}
             },
-            // `10 mm/s` beside `param s`
-            Alone::Declared(_) if self.is_declared_though_taken(name) => return None,
-            Alone::Unit(unit) => {
+            // `10 mm/s` in a text with `param s`.
+            BareName::Declared(_) if self.is_reserved_but_declared(name) => return None,
+            BareName::Unit(unit) => {
                 let id = self.model.graph.constant(unit.to_si(1.0, 1));
                 return Some(Value { id, dim: Dim::Of(unit.dimension) });
             }
-            Alone::Declared(_) | Alone::Unknown => {}
+            BareName::Declared(_) | BareName::Unknown => {}
         }
         self.declared_number(name, context)
     }
 
-    /// `t`
+    /// Evaluates `t`.
     fn time_named(&mut self, name: &Name, context: &Context<'_>) -> Option<Value> {
         if context.time {
             let id = self.time();
-            // without a unit around it, it is a number of seconds
+            // In a plain formula it is a number of seconds.
             return Some(Value { id, dim: Dim::Plain { read: Dimension::TIME, fits: true } });
         }
-        // a parameter was meant
-        if !self.is_declared_though_taken(name) {
+        // Otherwise a parameter was intended.
+        if !self.is_reserved_but_declared(name) {
             self.report(if context.results {
                 errors::outside_reduction("time `t`", name.span, "t")
             } else {
@@ -311,7 +311,7 @@ impl Checker<'_> {
         None
     }
 
-    /// What a declaration gives the name to, where that is a number.
+    /// Returns the value of a declared name, if it is a number.
     fn declared_number(&mut self, name: &Name, context: &Context<'_>) -> Option<Value> {
         match self.resolve(name).ok()?.filter(|_| context.names) {
             Some(Entity::Param(_)) if self.point_param(name).is_some() => {
@@ -319,7 +319,7 @@ impl Checker<'_> {
                 None
             }
             Some(Entity::Param(k)) => self.params[k].value,
-            Some(Entity::Input(k)) if context.inputs => self.input_known(k),
+            Some(Entity::Input(k)) if context.inputs => self.value_of_input(k),
             Some(Entity::Input(_)) if context.results => {
                 self.report(errors::outside_reduction(&format!("the input `{}`", name.text), name.span, &name.text));
                 None
@@ -333,7 +333,7 @@ impl Checker<'_> {
                 self.report(errors::outside_reduction(&format!("the measure `{}`", name.text), name.span, &name.text));
                 None
             }
-            Some(Entity::Result(k)) if context.results => self.result_known(k)?.value,
+            Some(Entity::Result(k)) if context.results => self.result_state(k)?.value,
             Some(Entity::Result(_)) => {
                 self.report(errors::result_in(context.place, name));
                 None
@@ -356,7 +356,7 @@ impl Checker<'_> {
             }
             Some(entity) => {
                 let diagnostic = errors::wrong_kind(name.span, "a number", entity.noun());
-                self.report(self.with_number_of(name, diagnostic));
+                self.report(self.suggest_quantity(name, diagnostic));
                 None
             }
             None => {
@@ -366,9 +366,9 @@ impl Checker<'_> {
         }
     }
 
-    // what is said of a fault stands in functions of its own: their locals would make every level of a formula larger
+    // Diagnostics are made in functions of their own, so that their locals do not enlarge the stack frame of every level.
 
-    /// Says that a feature, or what else a name and another behind a dot may mean, is no number.
+    /// Reports a feature, or another meaning of `owner.feature`, where a number is expected.
     fn member_as_number(&mut self, span: Span, owner: &Name, feature: &Name) {
         if let Some(Entity::Trace) = self.entity(owner) {
             self.trace_in_a_formula(span, "a number", owner);
@@ -376,13 +376,13 @@ impl Checker<'_> {
         }
         let what = self.describe_member(owner, feature);
         let diagnostic = errors::wrong_kind(span, "a number", &what);
-        self.report(diagnostic.fix_if(self.number_for(span, owner, feature)));
+        self.report(diagnostic.fix_if(self.suggest_number(span, owner, feature)));
     }
 
-    /// Says of a longer path that it is no number.
+    /// Reports a longer path where a number is expected.
     fn path_as_number(&mut self, span: Span, segments: &[PathSegment]) {
         let text: String = self.sources.text(span).chars().filter(|c| !c.is_whitespace()).collect();
-        // those of the text have been written out; this one comes from outside
+        // Paths of the text have been expanded; this one comes from outside.
         let owner = text.split_once("].").map_or(text.clone(), |(owner, _)| format!("{owner}]"));
         let unknown = segments.first().filter(|first| matches!(self.resolve(&first.name), Ok(None)));
         let unknown = unknown.filter(|first| first.name.text != "ground" && segments.len() > 2);
@@ -390,24 +390,26 @@ impl Checker<'_> {
             (Some(entity), _) => errors::path_from_outside(span, &owner, entity.noun(), owner == text),
             (None, Some(first)) => errors::unknown_owner(&first.name, self.tree),
             (None, None) => {
-                let is_known = segments.first().is_some_and(|first| self.entity(&first.name).is_some());
-                errors::path_of_nothing(span, segments, is_known)
+                let is_declared = segments.first().is_some_and(|first| self.entity(&first.name).is_some());
+                errors::invalid_path(span, segments, is_declared)
             }
         });
     }
 
-    /// Says that a trace is no number and no point.
-    pub(super) fn trace_in_a_formula(&mut self, span: Span, wanted: &str, name: &Name) {
+    /// Reports a trace where a number or point is expected.
+    pub(super) fn trace_in_a_formula(&mut self, span: Span, expected: &str, name: &Name) {
         let point = self.items().iter().find_map(|item| match &item.kind {
-            ItemKind::Trace { name: own, point, .. } if own.text == name.text => Some(self.sources.text(point.span)),
+            ItemKind::Trace { name: trace, point, .. } if trace.text == name.text => {
+                Some(self.sources.text(point.span))
+            }
             _ => None,
         });
-        let diagnostic = errors::trace_in_a_formula(span, wanted, name, point);
+        let diagnostic = errors::trace_in_a_formula(span, expected, name, point);
         self.report(diagnostic);
     }
 
     fn unknown_number(&mut self, name: &Name, context: &Context<'_>) {
-        if self.own_point(name, Wanted::Point).is_some() {
+        if self.body_point(name, Expected::Point).is_some() {
             self.report(errors::point_as_number(name));
             return;
         }
@@ -425,19 +427,19 @@ impl Checker<'_> {
             self.report(errors::wrong_kind(name.span, "a number", "a function").help(help));
             return;
         }
-        let mut known = self.suggestions(|entity| match entity {
+        let mut candidates = self.suggestions(|entity| match entity {
             Entity::Param(_) => true,
             Entity::Input(_) => context.inputs,
             Entity::Measure(_) => context.measures,
             Entity::Result(_) => context.results,
             _ => false,
         });
-        known.extend(context.argument.map(|(argument, _)| argument));
+        candidates.extend(context.argument.map(|(argument, _)| argument));
         for constant in Constant::in_formulas() {
-            known.push(constant);
+            candidates.push(constant);
         }
         let what = if context.measures { "parameter or measure" } else { "parameter" };
-        let diagnostic = errors::unknown_number(what, name, &known);
+        let diagnostic = errors::unknown_number(what, name, &candidates);
         let is_bound = matches!(name.text.as_str(), "from" | "to") && context.results && diagnostic.help.is_empty();
         let diagnostic = diagnostic.help_if(is_bound.then(|| errors::signed_bound(&name.text)));
         let argument = context.argument.filter(|_| diagnostic.help.is_empty());
@@ -449,7 +451,7 @@ impl Checker<'_> {
     }
 
     fn sum(&mut self, first: &Expr, rest: &[(Sign, Expr)], context: &Context<'_>) -> Option<Value> {
-        self.warn_of_numbers_beside(std::iter::once(first).chain(rest.iter().map(|(_, term)| term)), context);
+        self.warn_of_numbers_as_radians(std::iter::once(first).chain(rest.iter().map(|(_, term)| term)), context);
         let mut sum = self.number(first, context);
         let mut span = first.span;
         for (sign, term) in rest {
@@ -458,7 +460,7 @@ impl Checker<'_> {
                 continue;
             };
             let what = if *sign == Sign::Plus { "this adds" } else { "this subtracts" };
-            sum = self.alike(what, (span, left), (term.span, right), context).map(|dim| {
+            sum = self.unify(what, (span, left), (term.span, right), context).map(|dim| {
                 let id = match sign {
                     Sign::Plus => self.model.graph.add(left.id, right.id),
                     Sign::Minus => self.model.graph.sub(left.id, right.id),
@@ -497,7 +499,7 @@ impl Checker<'_> {
     fn power(&mut self, base: &Expr, exponent: &Expr, context: &Context<'_>) -> Option<Value> {
         let (a, b) = (self.number(base, context), self.number(exponent, context));
         let (a, b) = (a?, b?);
-        self.demand("an exponent", Dimension::PURE, exponent.span, b.dim, context)?;
+        self.require_dimension("an exponent", Dimension::PURE, exponent.span, b.dim, context)?;
         let id = self.model.graph.pow(a.id, b.id);
         let dimension = a.dim.settled();
         let dim = if dimension.is(Dimension::PURE) {
@@ -516,7 +518,7 @@ impl Checker<'_> {
         Some(Value { id, dim })
     }
 
-    /// How many time derivatives a formula holds.
+    /// Returns the highest order of time derivatives in a formula.
     pub(super) fn derivative_order(&self, id: ExprId) -> u8 {
         if !self.model.graph.dependence(id).on(Dependence::NAMED) {
             return 0;
@@ -533,7 +535,7 @@ impl Checker<'_> {
             .unwrap_or(0)
     }
 
-    /// `der(e)`
+    /// Evaluates `der(e)`.
     pub(super) fn derivative(&mut self, e: &Expr, argument: &Expr, context: &Context<'_>) -> Option<Value> {
         if context.results && !context.measures {
             self.report(errors::derivative_of_result(e.span));
@@ -562,60 +564,61 @@ impl Checker<'_> {
             return None;
         }
         let id = self.name_symbol(Named::Derivative(inner.id), order);
-        if !self.note_rate(inner.id, id) {
+        if !self.register_rate(inner.id, id) {
             self.report(errors::derivative_of_jerk(e.span));
             return None;
         }
         Some(Value { id, dim })
     }
 
-    /// Whether a formula as written holds a kinematic quantity.
+    /// Returns whether a formula of the tree holds a kinematic quantity.
     pub(super) fn holds_quantity(&self, formula: &Expr) -> bool {
         let is_quantity =
             |e: &Expr| matches!(&e.kind, ExprKind::Call { name, .. } if self.quantity_word(name).is_some());
         formula.parts().any(is_quantity)
     }
 
-    /// The value of a formula of constants, of whatever dimension.
+    /// Returns the value of a constant formula of any dimension.
     pub(super) fn any_constant(&mut self, e: &Expr) -> Option<f64> {
         let judged = self.is_dimensional(e);
         let value = self.formula(e, &Context { judged, ..Context::constant("a binding of a param") })?;
         self.constant_value(value.id)
     }
 
-    /// A constant of a given dimension, judged on its own: its place in the graph and its value.
-    pub(super) fn constant(&mut self, e: &Expr, place: &str, wanted: Dimension) -> Option<(ExprId, f64)> {
-        self.constant_by(e, place, wanted, DecidedBy::Value)
+    /// Evaluates a constant of a given dimension. Returns its expression and value.
+    pub(super) fn constant(&mut self, e: &Expr, place: &str, expected: Dimension) -> Option<(ExprId, f64)> {
+        self.constant_by(e, place, expected, GuardKind::Value)
     }
 
-    /// The same of one of whose value not all decides.
+    /// Evaluates a constant of which one property decides.
     pub(super) fn constant_by(
         &mut self,
         e: &Expr,
         place: &str,
-        wanted: Dimension,
-        by: DecidedBy,
+        expected: Dimension,
+        by: GuardKind,
     ) -> Option<(ExprId, f64)> {
         let judged = self.is_dimensional(e);
-        self.judged_constant(e, place, wanted, (by, judged))
+        self.judged_constant(e, place, expected, by, judged)
     }
 
-    /// The same of one that may have to have a unit.
+    /// Evaluates a constant that may require a unit.
     pub(super) fn judged_constant(
         &mut self,
         e: &Expr,
         place: &str,
-        wanted: Dimension,
-        (by, judged): (DecidedBy, bool),
+        expected: Dimension,
+        by: GuardKind,
+        judged: bool,
     ) -> Option<(ExprId, f64)> {
         let context = Context { judged, ..Context::constant(place) };
         let value = self.formula(e, &context)?;
-        if !judged && wanted.is(Dimension::LENGTH) && self.refuses_angle(place, e) {
+        if !judged && expected.is(Dimension::LENGTH) && self.reject_angle(place, e) {
             return None;
         }
-        self.demand(place, wanted, e.span, value.dim, &context)?;
-        if wanted.is(Dimension::LENGTH) {
-            self.remember_any_length(e, value.id, judged);
+        self.require_dimension(place, expected, e.span, value.dim, &context)?;
+        if expected.is(Dimension::LENGTH) {
+            self.record_length_term(e, value.id, judged);
         }
         let number = self.decided(value.id, by)?;
         Some((value.id, number))

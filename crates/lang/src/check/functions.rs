@@ -3,28 +3,28 @@
 use super::Checker;
 use super::entity::Entity;
 use super::formula::{Context, Dim, Value};
-use super::mentions::mentioned;
+use super::free_names::visit_free_names;
 use crate::model::Named;
 use mechc_syntax::ast::{Expr, Name};
 use mechc_text::source::Span;
 
-/// What is known of a user's function.
+/// The state of a user's function.
 pub(super) struct Function<'a> {
     pub argument: &'a Name,
     pub value: &'a Expr,
-    /// Holds a unit, or something that does.
+    /// True if it holds a unit, directly or through names.
     pub dimensional: bool,
-    /// Where time comes in, if it does.
+    /// The location at which it uses time, if it does.
     pub time: Option<Span>,
-    /// Whether its formula can be read at all.
+    /// True if its formula can be read.
     pub sound: bool,
 }
 
 impl Checker<'_> {
-    /// Reads a function's formula once on its own, so that its mistakes are found even if nobody calls it.
+    /// Checks a function's formula on its own, so that its errors are found even without calls.
     pub(super) fn function(&mut self, at: usize) {
         let (argument, value) = (self.functions[at].argument, self.functions[at].value);
-        self.functions[at].dimensional = self.is_dimensional_over(Some(&argument.text), value);
+        self.functions[at].dimensional = self.is_dimensional_with(Some(&argument.text), value);
         self.functions[at].time = self.time_in(value, argument);
         self.functions[at].sound = true;
         let named = self.name_symbol(Named::Argument, 0);
@@ -35,17 +35,17 @@ impl Checker<'_> {
             argument: Some((&argument.text, Value { id: named, dim: Dim::UNFIT })),
             ..Context::constant("a function")
         };
-        let known = self.model.conditions.len();
+        let before = self.model.conditions.len();
         let sound = self.formula(value, &context).is_some();
-        // what must be positive is asked where the function is called
-        self.model.conditions.truncate(known);
+        // Conditions apply where the function is called.
+        self.model.conditions.truncate(before);
         self.functions[at].sound = sound;
     }
 
-    /// Where a formula brings time in, if it does.
+    /// Returns the location at which a formula uses time.
     fn time_in(&self, formula: &Expr, argument: &Name) -> Option<Span> {
         let mut time = None;
-        mentioned(
+        visit_free_names(
             formula,
             |name| self.hidden.contains(name),
             |name, _| {

@@ -1,4 +1,4 @@
-//! Names of parts in the mechanism around them: what its formulas name by paths is brought over when it is known.
+//! Names of parts in the mechanism that uses them: entities that its formulas name by paths are imported when they are available.
 
 use super::Checker;
 use super::elements::MeasureState;
@@ -9,31 +9,31 @@ use super::results::ResultState;
 use crate::model::{Declared, Frame};
 use mechc_syntax::ast::Name;
 
-/// A name of a part that is known in the mechanism around it, by its path.
+/// An entity of a part that the enclosing mechanism names by a path.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Import {
-    /// What it is here.
+    /// The entity in the enclosing mechanism.
     entity: Entity,
-    /// What it is in the part.
+    /// The entity in the part.
     inside: Entity,
 }
 
 impl<'a> Checker<'a> {
-    /// Its name as the whole mechanism has it.
+    /// Returns a name with the prefix of its part.
     pub(super) fn declared(&self, name: &Name) -> Declared {
         Declared { name: format!("{}{}", self.address.path, name.text), span: name.span }
     }
 
-    /// A frame's name as this text has it.
+    /// Returns a frame's name as this text uses it.
     pub(super) fn frame_name(&self, frame: Frame) -> &str {
         let name = self.model.frame_name(frame);
         name.strip_prefix(self.address.path.as_str()).unwrap_or(name)
     }
 
-    /// What a path stands for, `leg[0].foot`; makes its name known here.
+    /// Returns the entity of a path such as `leg[0].foot`, and declares its name here.
     pub(super) fn entity_inside(&mut self, path: &str) -> Option<Entity> {
-        if let Some(known) = self.space.get(path) {
-            return Some(known);
+        if let Some(entity) = self.space.get(path) {
+            return Some(entity);
         }
         let (part, rest) = path.split_once('.')?;
         let Some(Entity::Part(k)) = self.space.get(part) else { return None };
@@ -61,7 +61,7 @@ impl<'a> Checker<'a> {
         Some(entity)
     }
 
-    /// Brings over what is known by now of the params of parts that have a name here.
+    /// Imports the values of the params of parts that are named here.
     pub(super) fn import_params(&mut self) {
         for part in 0..self.parts.len() {
             self.import_params_of(part);
@@ -76,7 +76,7 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// The same of their bodies, once its own are there.
+    /// Imports the bodies of parts, after those of this text.
     pub(super) fn import_frames(&mut self) {
         for (imports, child) in self.imports.iter().zip(&self.parts) {
             for import in imports {
@@ -90,7 +90,7 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// The same of their joints.
+    /// Imports the joints of parts.
     pub(super) fn import_joints(&mut self) {
         for (imports, child) in self.imports.iter().zip(&self.parts) {
             for import in imports {
@@ -100,7 +100,7 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// The same of their constraints and drivers.
+    /// Imports the constraints and drivers of parts.
     pub(super) fn import_equations(&mut self) {
         for (imports, child) in self.imports.iter().zip(&self.parts) {
             for import in imports {
@@ -110,12 +110,12 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Whether a name is that of a param that is a point.
+    /// Returns whether a name is that of a param that is a point.
     pub(super) fn is_point_name(&self, name: &str) -> bool {
         self.point_params.contains(name) || self.point_paths.contains(name)
     }
 
-    /// The checker of the part in which something is declared, with what it is there; this one for its own.
+    /// Returns the checker that declares an entity, with the entity there.
     pub(super) fn home_of(&self, entity: Entity) -> (&Checker<'a>, Entity) {
         match self.imported.get(&entity) {
             Some(&(part, inside)) => self.parts[part].home_of(inside),
@@ -123,24 +123,24 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// What is known of a measure, be it of a part or not.
-    pub(super) fn measure_known(&self, k: usize) -> Option<&MeasureState<'a>> {
+    /// Returns the state of a measure of this text or of a part.
+    pub(super) fn measure_state(&self, k: usize) -> Option<&MeasureState<'a>> {
         match self.home_of(Entity::Measure(k)) {
             (home, Entity::Measure(k)) => home.measures.get(k),
             _ => None,
         }
     }
 
-    /// What is known of a result, be it of a part or not.
-    pub(super) fn result_known(&self, k: usize) -> Option<&ResultState<'a>> {
+    /// Returns the state of a result of this text or of a part.
+    pub(super) fn result_state(&self, k: usize) -> Option<&ResultState<'a>> {
         match self.home_of(Entity::Result(k)) {
             (home, Entity::Result(k)) => home.results.get(k),
             _ => None,
         }
     }
 
-    /// What an input is, be it of a part or not.
-    pub(super) fn input_known(&self, k: usize) -> Option<Value> {
+    /// Returns the value of an input of this text or of a part.
+    pub(super) fn value_of_input(&self, k: usize) -> Option<Value> {
         match self.home_of(Entity::Input(k)) {
             (home, Entity::Input(k)) => home.inputs.get(k)?.value,
             _ => None,
@@ -153,7 +153,7 @@ fn next(count: &mut usize) -> usize {
     *count - 1
 }
 
-/// Sets an element of a list, which is made long enough.
+/// Sets an element of a list, extending the list if necessary.
 fn set<T: Clone>(list: &mut Vec<T>, k: usize, value: Option<T>, otherwise: T) {
     if list.len() <= k {
         list.resize(k + 1, otherwise);

@@ -1,10 +1,10 @@
-//! Inputs: what they are by the text, and what they are told to be from outside.
+//! Inputs: their formulas in the text, and their overrides.
 
+use super::continuation::ConditionMarks;
 use super::formula::{Context, Dim, Value};
-use super::lead::Needs;
-use super::rates::Part;
-use super::samples::{self, Column, Head, Samples};
-use super::told::is_told_by;
+use super::overrides::override_matches;
+use super::samples::{self, Column, ColumnHeader, Samples};
+use super::suggest::lost_rate::Part;
 use super::{Checker, errors};
 use crate::model::{Condition, ConditionKind, Input};
 use mechc_expr::{ExprId, Symbol};
@@ -12,66 +12,68 @@ use mechc_syntax::ast::{Expr, ItemKind, Name};
 use mechc_text::diag::{Diagnostic, nearest};
 use mechc_text::source::{FileId, Span};
 
-/// What inputs are told to be.
+/// The overrides of inputs.
 #[derive(Clone, Debug, Default)]
-pub struct Given {
-    /// By formulas: the name of the input, and the formula, over params, functions, tables and time.
+pub struct InputOverrides {
+    /// The names of inputs with their formulas, over params, functions, tables and time.
     pub formulas: Vec<(String, Expr)>,
-    /// By the samples of a file.
+    /// A file of samples.
     pub samples: Option<FileId>,
 }
 
-impl Given {
-    /// Whether they are told nothing.
+impl InputOverrides {
+    /// Returns whether there are no overrides.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.formulas.is_empty() && self.samples.is_none()
     }
 }
 
-/// What is known of an input.
+/// The state of an input.
 pub(super) struct InputState<'a> {
     pub name: &'a Name,
     pub formula: &'a Expr,
-    /// `None` before its turn, and where it is broken.
+    /// `None` before evaluation, and if it is broken.
     pub value: Option<Value>,
 }
 
 impl Checker<'_> {
-    /// Says which of the values set from outside are of no parameter, or of one that a part's user has bound.
-    pub(super) fn look_over_settings(&mut self) {
-        if self.around.settings.is_empty() {
+    /// Reports overrides of unknown parameters, and of parameters that are bound.
+    pub(super) fn check_param_overrides(&mut self) {
+        if self.options.settings.is_empty() {
             return;
         }
         let params = self.settable_names(|item| match item {
             ItemKind::Param { name, .. } => Some(name),
             _ => None,
         });
-        for setting in &self.around.settings {
+        for setting in &self.options.settings {
             let (path, span) = (&setting.path, setting.value.span);
             let owner = path.rsplit_once('.').filter(|(_, axis)| ["x", "y"].contains(&axis.trim()));
-            let is_it = |full: &str| is_told_by(full, path) || owner.is_some_and(|(owner, _)| is_told_by(full, owner));
-            self.look_over_name(Settable::Param, path, span, &params, is_it);
+            let is_it = |full: &str| {
+                override_matches(full, path) || owner.is_some_and(|(owner, _)| override_matches(full, owner))
+            };
+            self.check_override_name(Settable::Param, path, span, &params, is_it);
         }
     }
 
-    /// Says which of the formulas given are of no input, or of one that another one is of too.
-    pub(super) fn look_over_given(&mut self) {
-        let given = &self.around.given;
+    /// Reports overrides of unknown inputs, and of inputs that are overridden twice.
+    pub(super) fn check_input_overrides(&mut self) {
+        let given = &self.options.given;
         if given.formulas.is_empty() {
             return;
         }
         let inputs = self.all_inputs();
-        for (told, formula) in &given.formulas {
-            self.look_over_name(Settable::Input, told, formula.span, &inputs, |full| is_told_by(full, told));
+        for (path, formula) in &given.formulas {
+            self.check_override_name(Settable::Input, path, formula.span, &inputs, |full| override_matches(full, path));
         }
         let twice = inputs.iter().find_map(|(input, _)| {
-            let mut formulas = given.formulas.iter().filter(|(told, _)| is_told_by(input, told));
+            let mut formulas = given.formulas.iter().filter(|(path, _)| override_matches(input, path));
             let (first, second) = (formulas.next()?, formulas.next()?);
             Some((input, [second.1.span, first.1.span]))
         });
         if let Some((input, places)) = twice {
-            self.report(errors::input_told_twice(input, places));
+            self.report(errors::duplicate_override(input, places));
         }
     }
 
@@ -82,21 +84,21 @@ impl Checker<'_> {
         })
     }
 
-    /// Whether something told from outside is of anything that can be told.
-    fn look_over_name(
+    /// Reports an override that names nothing which can be overridden.
+    fn check_override_name(
         &mut self,
         what: Settable,
-        told: &str,
+        path: &str,
         span: Span,
-        known: &[(String, Option<Span>)],
+        settable: &[(String, Option<Span>)],
         is_it: impl Fn(&str) -> bool,
     ) -> bool {
-        let mut found = known.iter().filter(|(full, _)| is_it(full)).peekable();
+        let mut found = settable.iter().filter(|(full, _)| is_it(full)).peekable();
         if found.peek().is_none() {
-            let names: Vec<&str> = known.iter().map(|(full, _)| full.as_str()).collect();
-            let meant = nearest(told, names.iter().copied());
-            let diagnostic = errors::no_such_name(what.noun(), &self.tree.name.text, told, &names, meant);
-            self.report(diagnostic.at(span, format!("for `{told}`")));
+            let names: Vec<&str> = settable.iter().map(|(full, _)| full.as_str()).collect();
+            let suggestion = nearest(path, names.iter().copied());
+            let diagnostic = errors::no_such_name(what.noun(), &self.tree.name.text, path, &names, suggestion);
+            self.report(diagnostic.at(span, format!("for `{path}`")));
             return false;
         }
         let bound = found.find_map(|(full, binding)| Some((full, (*binding)?)));
@@ -106,70 +108,70 @@ impl Checker<'_> {
         bound.is_none()
     }
 
-    /// The samples given, if they can be used.
-    pub(super) fn samples_given(&mut self) -> Option<Samples> {
-        let file = self.around.given.samples?;
+    /// Returns the samples, if they are valid.
+    pub(super) fn read_samples(&mut self) -> Option<Samples> {
+        let file = self.options.given.samples?;
         let sources = self.sources;
-        let headed = self.or_reported(samples::header(sources.get(file), file))?;
+        let headed = self.report_faults(samples::header(sources.get(file), file))?;
         let inputs = self.all_inputs();
         let faulty = headed.columns().filter(|head| !self.has_an_input(head, &inputs)).count();
         match headed.rows() {
-            // a column of something else may well hold no numbers
+            // A column of an unknown input may well hold no numbers.
             Err(_) if faulty > 0 => None,
-            rows => self.or_reported(rows),
+            rows => self.report_faults(rows),
         }
     }
 
-    /// What there is, or its faults reported.
-    fn or_reported<T>(&mut self, found: Result<T, Vec<Diagnostic>>) -> Option<T> {
+    /// Returns a value, or reports the faults.
+    fn report_faults<T>(&mut self, found: Result<T, Vec<Diagnostic>>) -> Option<T> {
         found.map_err(|faults| faults.into_iter().for_each(|fault| self.report(fault))).ok()
     }
 
-    /// Whether a column is of an input that can be told so.
-    fn has_an_input(&mut self, head: &Head<'_>, inputs: &[(String, Option<Span>)]) -> bool {
+    /// Returns whether a column names an input that can be overridden.
+    fn has_an_input(&mut self, head: &ColumnHeader<'_>, inputs: &[(String, Option<Span>)]) -> bool {
         let path = head.path();
-        if let Some(meant) = head.meant().filter(|_| !inputs.iter().any(|(full, _)| *full == path)) {
+        if let Some(suggestion) = head.suggestion().filter(|_| !inputs.iter().any(|(full, _)| *full == path)) {
             let written = self.sources.text(head.span).trim_matches('"');
-            self.report(errors::column_of_no_input(&self.tree.name.text, written, head.span, &meant));
+            self.report(errors::column_of_no_input(&self.tree.name.text, written, head.span, &suggestion));
             return false;
         }
-        if !self.look_over_name(Settable::Column, &path, head.span, inputs, |full| full == path) {
+        if !self.check_override_name(Settable::Column, &path, head.span, inputs, |full| full == path) {
             return false;
         }
-        let twice = self.around.given.formulas.iter().find(|(told, _)| is_told_by(&path, told));
+        let twice = self.options.given.formulas.iter().find(|(full, _)| override_matches(&path, full));
         if let Some((_, formula)) = twice {
-            self.report(errors::input_told_twice(&path, [head.span, formula.span]));
+            self.report(errors::duplicate_override(&path, [head.span, formula.span]));
         }
         twice.is_none()
     }
 
-    /// What an input is; of a part whose user says what it is, its own formula gives its dimension.
+    /// Evaluates an input. If a part's input is bound, its own formula only gives its dimension.
     pub(super) fn input(&mut self, k: usize) {
         let (name, formula) = (self.inputs[k].name, self.inputs[k].formula);
         let before = self.model.conditions.len();
         let Some(in_file) = self.input_value(name, formula) else { return };
-        let needs = Needs { before, behind_own: self.model.conditions.len() };
+        let needs = ConditionMarks { before, after_nominal: self.model.conditions.len() };
         if self.bound.inputs.contains(&name.text.as_str()) {
             self.inputs[k].value = Some(in_file);
-            // its own formula says nothing of the motion
+            // Its own formula does not affect the motion.
             self.model.conditions.truncate(before);
             return;
         }
         let full = format!("{}{}", self.address.path, name.text);
         let samples = self.samples.clone();
         let column = samples.as_ref().and_then(|samples| samples.columns.iter().find(|column| column.name == full));
-        let formulas = &self.around.given.formulas;
-        let told = formulas.iter().rev().find(|(told, _)| is_told_by(&full, told)).map(|(_, formula)| formula);
-        let value = match (&samples, column, told) {
+        let formulas = &self.options.given.formulas;
+        let given = formulas.iter().rev().find(|(path, _)| override_matches(&full, path)).map(|(_, formula)| formula);
+        let value = match (&samples, column, given) {
             (Some(samples), Some(column), _) => self.sampled(&samples.times, column, in_file.dim),
-            (_, _, Some(formula)) => self.told(name, formula, in_file.dim),
+            (_, _, Some(formula)) => self.override_value(name, formula, in_file.dim),
             _ => Some(in_file),
         };
-        let value = self.led_input(name, in_file, value, &needs);
+        let value = self.continued_input(name, in_file, value, &needs);
         let value = value.and_then(|value| self.set_input(name, value, before));
         let declared = self.declared(name);
         let has_signals = self.model.has_signals;
-        // what varies is the signal then, whatever its formula
+        // The variable is the signal then, whatever its formula is.
         let value = value.map(|value| if has_signals { value } else { self.with_shift(&declared, value) });
         self.inputs[k].value = value;
         if let Some(value) = value {
@@ -177,7 +179,7 @@ impl Checker<'_> {
             let dimension = value.dim.settled();
             self.model.inputs.push(Input { declared: declared.clone(), number, value: value.id, dimension });
             if has_signals {
-                // what the formula asks for is no concern of those that take what they are given
+                // The conditions of the formula do not apply to given signals.
                 self.model.conditions.truncate(before);
                 let id = self.model.graph.symbol(Symbol::Signal { index: number as u32, order: 0 });
                 self.inputs[k].value = Some(self.with_shift(&declared, Value { id, ..value }));
@@ -194,31 +196,31 @@ impl Checker<'_> {
         for condition in &mut self.model.conditions[conditions..] {
             condition.owner.clone_from(&owner);
         }
-        // a plain formula of time is a number
+        // A plain formula of time is a number.
         let is_plain = !judged && !value.dim.of_term().is_a_pure_number();
         let dim = if is_plain { Dim::PLAIN } else { value.dim.of_term() };
         Some(Value { dim, ..value })
     }
 
-    /// What a formula from outside says: a plain one is taken in the unit of what is expected.
-    fn told(&mut self, name: &Name, formula: &Expr, wanted: Dim) -> Option<Value> {
+    /// Returns the value of an override's formula. A plain one is in the unit of the expected dimension.
+    fn override_value(&mut self, name: &Name, formula: &Expr, expected: Dim) -> Option<Value> {
         let given = self.input_value(name, formula)?;
-        if let Some([wanted, found]) = wanted.other_than(given.dim).filter(|_| self.is_dimensional(formula)) {
+        if let Some([expected, found]) = expected.other_than(given.dim).filter(|_| self.is_dimensional(formula)) {
             let part = Part { span: formula.span, dimension: found };
             let place = format!("the input `{}{}`", self.address.path, name.text);
-            self.report(errors::wrong_dimension(&place, wanted, part, self.sources.text(formula.span)));
+            self.report(errors::wrong_dimension(&place, expected, part, self.sources.text(formula.span)));
             return None;
         }
-        Some(Value { dim: wanted, ..given })
+        Some(Value { dim: expected, ..given })
     }
 
-    /// The natural cubic spline through samples, at time `t`.
-    fn sampled(&mut self, times: &[f64], column: &Column, wanted: Dim) -> Option<Value> {
-        let unlike = column.dimension.and_then(|found| wanted.other_than(Dim::Of(found)));
-        if let Some([wanted, found]) = unlike {
+    /// Returns the natural cubic spline through samples, at time `t`.
+    fn sampled(&mut self, times: &[f64], column: &Column, expected: Dim) -> Option<Value> {
+        let unlike = column.dimension.and_then(|found| expected.other_than(Dim::Of(found)));
+        if let Some([expected, found]) = unlike {
             let part = Part { span: column.span, dimension: found };
             let place = format!("the input `{}`", column.name);
-            self.report(errors::wrong_dimension(&place, wanted, part, self.sources.text(column.span)));
+            self.report(errors::wrong_dimension(&place, expected, part, self.sources.text(column.span)));
             return None;
         }
         let graph = &mut self.model.graph;
@@ -229,25 +231,25 @@ impl Checker<'_> {
         let graph = &mut self.model.graph;
         let id = graph.table(table, 0, t);
         let (first, last) = (graph.constant(times[0]), graph.constant(times[times.len() - 1]));
-        // both ends are within, whatever rounding says
+        // Both ends are inside in spite of rounding.
         let slack = graph.constant(1e-12 * (times[times.len() - 1] - times[0]));
-        for way in [graph.sub(t, first), graph.sub(last, t)] {
-            let positive = self.model.graph.add(way, slack);
+        for distance in [graph.sub(t, first), graph.sub(last, t)] {
+            let positive = self.model.graph.add(distance, slack);
             let owner = column.name.clone();
             let kind = ConditionKind::Samples(table);
             self.model.conditions.push(Condition { positive, kind, span: column.span, owner });
         }
-        Some(Value { id, dim: wanted })
+        Some(Value { id, dim: expected })
     }
 
-    /// Says that an input may not stand somewhere.
+    /// Reports an input where inputs are not allowed.
     pub(super) fn input_in(&mut self, name: &Name, context: &Context<'_>) {
         let diagnostic = errors::input_in(context.place, name, context.time);
         self.report(diagnostic);
     }
 }
 
-/// What can be told from outside.
+/// The things that can be overridden.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Settable {
     Param,

@@ -1,35 +1,35 @@
-//! A mechanism as it is checked, with its parts.
+//! Instances: mechanisms as they are checked, with their parts.
 
-use super::mentions::name_of;
+use super::free_names::name_of;
 use mechc_syntax::ast::{ItemKind, Mechanism};
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::rc::Rc;
 
-/// The numbers of the copies of what is repeated.
+/// The indices of the copies of a repeated declaration.
 pub(super) type Copies = Rc<FxHashSet<Vec<i64>>>;
 
 /// A mechanism as it is checked.
 pub(super) struct Instance<'t> {
-    /// Its text.
+    /// The mechanism in the text.
     pub mechanism: &'t Mechanism,
-    /// With repeated declarations written out, and paths into parts as names; nothing where it has neither.
+    /// The mechanism with expanded repetitions, and paths into parts as names; `None` if it has neither.
     pub written: Option<Mechanism>,
-    /// In the order in which its tree has them.
+    /// The parts, in the order of the tree.
     pub parts: Vec<Rc<Instance<'t>>>,
-    /// Their numbers, by their names.
+    /// The numbers of the parts by their names.
     pub part_named: FxHashMap<String, usize>,
-    /// What its formulas name in its parts.
+    /// The paths into parts that formulas use.
     pub paths: Vec<String>,
-    /// The params that decide what is repeated.
+    /// The params that determine repetitions.
     pub deciding: Rc<FxHashSet<String>>,
-    /// Of what is repeated: the numbers of its copies.
+    /// The indices of the copies of repeated declarations.
     pub copies: FxHashMap<&'t str, Copies>,
-    /// Its declarations, and those of its parts.
+    /// The number of declarations, including those of parts.
     pub count: usize,
 }
 
 impl<'t> Instance<'t> {
-    /// One without anything repeated, and without parts.
+    /// Returns an instance without repetitions and parts.
     pub fn plain(mechanism: &'t Mechanism) -> Instance<'t> {
         Instance {
             mechanism,
@@ -43,37 +43,37 @@ impl<'t> Instance<'t> {
         }
     }
 
-    /// What is checked.
+    /// Returns the tree to check.
     pub fn tree(&self) -> &Mechanism {
         self.written.as_ref().unwrap_or(self.mechanism)
     }
 
-    /// Whether it differs from its text.
-    pub fn is_written_out(&self) -> bool {
+    /// Returns whether it differs from the text.
+    pub fn is_expanded(&self) -> bool {
         self.written.is_some()
     }
 
-    /// One of its parts.
+    /// Returns a part.
     pub fn part(&self, name: &str) -> Option<&Rc<Instance<'t>>> {
         self.part_named.get(name).map(|&k| &self.parts[k])
     }
 
-    /// Whether its text declares a name, be it repeated or not.
+    /// Returns whether the text declares a name, repeated or not.
     pub fn declares(&self, name: &str) -> bool {
-        name == "ground" || self.names().any(|known| known == name)
+        name == "ground" || self.names().any(|declared| declared == name)
     }
 
-    /// Whether its text declares a part of a name.
+    /// Returns whether the text declares a part of a name.
     pub fn is_a_part(&self, name: &str) -> bool {
         self.mechanism.items.iter().any(|item| matches!(&item.kind, ItemKind::Part(part) if part.name.text == name))
     }
 
-    /// The names that its text declares.
+    /// Returns the names that the text declares.
     pub fn names(&self) -> impl Iterator<Item = &'t str> {
         self.mechanism.items.iter().filter_map(name_of).map(|name| name.text.as_str())
     }
 
-    /// The name of its mechanism.
+    /// Returns the name of the mechanism.
     pub fn mechanism_name(&self) -> &'t str {
         &self.mechanism.name.text
     }

@@ -1,7 +1,7 @@
-//! Joints: what each is called with, and whether the drawing says what it must.
+//! Joints: their arguments, and what the drawn poses must determine.
 
 use super::{Checker, errors};
-use crate::model::{BodyId, CircleId, DecidedBy, Dimension, Frame, Joint, JointId, JointKind, PointId, Side};
+use crate::model::{BodyId, CircleId, Dimension, Frame, GuardKind, Joint, JointId, JointKind, PointId, Side};
 use mechc_expr::ExprId;
 use mechc_syntax::ast::{Expr, ExprKind, ItemKind, Name};
 use mechc_text::source::Span;
@@ -9,14 +9,14 @@ use mechc_text::vocabulary::JointWord;
 
 impl Checker<'_> {
     pub(super) fn joints(&mut self) {
-        let (mut parts, mut own) = (0..self.parts.len(), 0..);
+        let (mut parts, mut numbers) = (0..self.parts.len(), 0..);
         for item in self.items() {
             match &item.kind {
                 ItemKind::Joint { name, kind, arguments, call_span } => {
                     let joint = self.joint(name, kind, arguments, *call_span);
                     let (declared, part) = (self.declared(name), self.address.part);
                     let id = joint.map(|kind| self.model.add_joint(Joint { part, declared, kind }));
-                    self.set_joint(own.next().unwrap_or_default(), id);
+                    self.set_joint(numbers.next().unwrap_or_default(), id);
                 }
                 ItemKind::Part(_) => {
                     if let Some(part) = parts.next() {
@@ -110,7 +110,7 @@ impl Checker<'_> {
             ("revolute_translational", [p, a, offset]) => {
                 let (p, a) = (self.point(p), self.axis(a));
                 let place = "the offset from the axis";
-                let offset = self.constant_by(offset, place, Dimension::LENGTH, DecidedBy::Finite);
+                let offset = self.constant_by(offset, place, Dimension::LENGTH, GuardKind::Finite);
                 JointKind::RevoluteTranslational(p?, a?, offset?.0)
             }
             _ => return self.wrong_count(kind, span, arguments.len()),
@@ -158,7 +158,7 @@ impl Checker<'_> {
     }
 
     fn positive_length(&mut self, e: &Expr, what: &str) -> Option<ExprId> {
-        let (id, value) = self.constant_by(e, what, Dimension::LENGTH, DecidedBy::Sign)?;
+        let (id, value) = self.constant_by(e, what, Dimension::LENGTH, GuardKind::Sign)?;
         if value <= 0.0 {
             self.report(errors::not_positive_length(what, e.span, value));
             return None;
@@ -170,7 +170,7 @@ impl Checker<'_> {
         self.positive_length(e, "the radius of a circle")
     }
 
-    /// `κ`, a length.
+    /// Evaluates the phase `κ`, a length.
     fn phase(&mut self, e: &Expr) -> Option<ExprId> {
         if let ExprKind::Name(name) = &e.bare().kind
             && side_named(&name.text).is_some()
@@ -179,7 +179,7 @@ impl Checker<'_> {
             self.report(errors::side_without_phase(&name.text, e.span));
             return None;
         }
-        self.constant_by(e, "the phase", Dimension::LENGTH, DecidedBy::Finite).map(|(id, _)| id)
+        self.constant_by(e, "the phase", Dimension::LENGTH, GuardKind::Finite).map(|(id, _)| id)
     }
 
     fn side(&mut self, e: &Expr) -> Option<Side> {
@@ -193,9 +193,9 @@ impl Checker<'_> {
         side
     }
 
-    /// Whether the poses as written say on which side, or in which direction, one of two wheels lies from the other.
+    /// Returns whether the drawn poses determine the side or direction of one wheel relative to the other.
     fn is_drawn_apart(&mut self, joint: JointKind, arguments: &[Expr]) -> bool {
-        // a pose that is broken says nothing
+        // A broken pose has been reported.
         if joint.frames(&self.model).iter().any(|frame| self.is_place_broken(*frame)) {
             return true;
         }
@@ -205,7 +205,7 @@ impl Checker<'_> {
                 let apart = c.zip(d).is_none_or(|(c, d)| (c[0] - d[0]).abs() + (c[1] - d[1]).abs() > 0.0);
                 if !apart {
                     self.report(errors::centers_coincide([arguments[0].span, arguments[1].span]));
-                    // one pose that is missing is the fault of all its gears
+                    // A body without a pose is marked, so that it is reported once and not for each of its gears.
                     let frames = circles.map(|circle| self.model[self.model[circle].center].frame);
                     let without: Vec<Frame> = frames.into_iter().filter(|frame| self.has_no_pose(*frame)).collect();
                     self.common.broken_poses.extend(without);
@@ -241,14 +241,14 @@ impl Checker<'_> {
         self.drawn(frame, at, true)
     }
 
-    /// A point or direction of a frame in the global one, in the poses as written.
+    /// Returns a point or direction of a frame in the ground's frame, in the drawn poses.
     fn drawn(&mut self, frame: Frame, local: [ExprId; 2], is_point: bool) -> Option<[f64; 2]> {
         let [x, y] = local.map(|id| self.constant_value(id));
         let (x, y) = (x?, y?);
         if frame == self.address.ground {
             return Some([x, y]);
         }
-        let Some(body) = self.own_body(frame) else { return self.drawn_through_parts(frame, local, is_point) };
+        let Some(body) = self.local_body(frame) else { return self.drawn_through_parts(frame, local, is_point) };
         let pose = self.model[body].pose.map(|id| self.constant_value(id));
         let (sin, cos) = mechc_expr::math::sin_cos(pose[2]?);
         let origin = if is_point { [pose[0]?, pose[1]?] } else { [0.0, 0.0] };
@@ -257,15 +257,15 @@ impl Checker<'_> {
 }
 
 impl Checker<'_> {
-    /// The body of a frame, if it is one of this text.
-    pub(super) fn own_body(&self, frame: Frame) -> Option<BodyId> {
+    /// Returns the body of a frame, if it belongs to this text.
+    pub(super) fn local_body(&self, frame: Frame) -> Option<BodyId> {
         match frame {
             Frame::Body(body) if self.model[body].part == self.address.part => Some(body),
             _ => None,
         }
     }
 
-    /// The same of a frame of a part.
+    /// Returns a point or direction of a part's frame in the ground's frame, in the drawn poses.
     fn drawn_through_parts(&mut self, frame: Frame, local: [ExprId; 2], is_point: bool) -> Option<[f64; 2]> {
         let placement = self.drawn_frame(frame);
         let graph = &mut self.model.graph;
@@ -283,7 +283,7 @@ fn side_named(word: &str) -> Option<Side> {
     }
 }
 
-/// What an argument that may be left out is; `None` where it is broken.
+/// Returns the value of an optional argument: the inner `None` if it is left out, the outer `None` if it is broken.
 #[allow(clippy::option_option)] // left out, or broken
 fn settled<T>(argument: Option<Option<T>>) -> Option<Option<T>> {
     match argument {

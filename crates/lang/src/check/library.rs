@@ -1,6 +1,6 @@
-//! Which mechanisms a text may name: its own, and those of the files that it uses.
+//! The mechanisms that a text may name: its own, and those of the files that it uses.
 //!
-//! Plain data about what was read. Who reads the files, and what is said of one that cannot be read, is for `stages`.
+//! Plain data of files that have been read. `pipeline` reads the files, and reports those that cannot be read.
 
 use super::errors::library as errors;
 use mechc_syntax::ast::{Mechanism, Name, UsedFile};
@@ -11,126 +11,126 @@ use rustc_hash::FxHashMap;
 use std::path::{Component, Path, PathBuf};
 use std::sync::Arc;
 
-/// A text with all files that it uses, directly or by way of others; each is there once.
+/// A text with all files that it uses directly or indirectly, each once.
 #[derive(Clone, Debug, Default)]
 pub struct Library {
-    files: Arc<[KnownFile]>,
+    files: Arc<[LibraryFile]>,
 }
 
 /// A file of a [`Library`].
 #[derive(Clone, Debug)]
-pub struct KnownFile {
-    /// Its text.
+pub struct LibraryFile {
+    /// The id of its text.
     pub id: FileId,
-    /// Beside which the files are that it names; empty for standard input.
+    /// Its path, to which the paths that it names are relative; empty for standard input.
     pub path: PathBuf,
-    /// What was read of it.
+    /// Its parsed text.
     pub read: Arc<syntax::ParsedText>,
-    /// For each of its `use`s the number of that file in the library; nothing where it cannot be read, which has been said.
+    /// The file of each `use`, by its number in the library; `None` if it could not be read, which is reported.
     pub uses: Vec<Option<usize>>,
 }
 
 /// A mechanism of a [`Library`].
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
-pub struct KnownMechanism {
+pub struct LibraryMechanism {
     /// The number of its file.
     pub file: usize,
     /// Its number in that file.
     pub number: usize,
 }
 
-/// Why a name stands for no mechanism.
+/// The reason why a name stands for no mechanism.
 #[derive(Clone, Debug)]
-pub enum NotKnown {
-    /// This is to be said of it.
+pub enum LookupError {
+    /// The diagnostic of the name.
     Told(Box<Diagnostic>),
-    /// It may be one of what could not be read, of which all has been said.
+    /// The name may be one of a file that could not be read, which has been reported.
     Said,
 }
 
 impl Library {
-    /// Of files, the first of which is the text's own. All numbers in their `uses` are of files that are there, and each has as many as
-    /// its text.
+    /// Returns a library of files, the first of which is the text. Numbers in `uses` must be valid, one for each `use` of the file's text.
     #[must_use]
-    pub fn new(files: Vec<KnownFile>) -> Library {
+    pub fn new(files: Vec<LibraryFile>) -> Library {
         Library { files: files.into() }
     }
 
-    /// All files; the text's own is the first.
+    /// Returns all files; the first is the text itself.
     #[must_use]
-    pub fn files(&self) -> &[KnownFile] {
+    pub fn files(&self) -> &[LibraryFile] {
         &self.files
     }
 
-    /// The tree of a mechanism.
+    /// Returns the tree of a mechanism.
     #[must_use]
-    pub fn tree(&self, mechanism: KnownMechanism) -> &Mechanism {
+    pub fn tree(&self, mechanism: LibraryMechanism) -> &Mechanism {
         &self.files[mechanism.file].read.tree.mechanisms[mechanism.number]
     }
 
-    /// The mechanism whose name stands at a place.
+    /// Returns the mechanism whose name is at a location.
     #[must_use]
     pub fn mechanism_at(&self, name: Span) -> Option<&Mechanism> {
         let file = &self.files[self.number_of(name.file)?];
         file.read.tree.mechanisms.iter().find(|mechanism| mechanism.name.span == name)
     }
 
-    /// Beside which the files are that a text names; for a text that is not here, the current folder.
+    /// Returns the path to which the paths in a text are relative; for an unknown text, that of the current folder.
     #[must_use]
     pub fn path_of(&self, file: FileId) -> &Path {
         self.number_of(file).map_or(Path::new(""), |number| &self.files[number].path)
     }
 
-    /// The mechanism that a name stands for in the file in which it is written, with the prefix before it, if there is one.
+    /// Returns the mechanism that a name with an optional prefix stands for in the file in which it is written.
     ///
     /// # Errors
-    /// What is to be said of a name that stands for none, with the nearest one, or the file to use.
-    pub fn find(&self, prefix: Option<&Name>, name: &Name, sources: &Sources) -> Result<KnownMechanism, NotKnown> {
-        let Some(at) = self.number_of(name.span.file) else { return Err(NotKnown::Said) };
+    /// The diagnostic of an unknown name, with a suggestion.
+    pub fn find(&self, prefix: Option<&Name>, name: &Name, sources: &Sources) -> Result<LibraryMechanism, LookupError> {
+        let Some(at) = self.number_of(name.span.file) else { return Err(LookupError::Said) };
         let file = &self.files[at];
-        let own = if prefix.is_none() { mechanism_of(file, &name.text) } else { None };
-        if let Some(number) = own {
-            return Ok(KnownMechanism { file: at, number });
+        let local = if prefix.is_none() { mechanism_of(file, &name.text) } else { None };
+        if let Some(number) = local {
+            return Ok(LibraryMechanism { file: at, number });
         }
-        let wanted = |used: &UsedFile| used.prefix.as_ref().map(|own| &own.text) == prefix.map(|wanted| &wanted.text);
-        let uses = || file.read.tree.uses.iter().zip(&file.uses).filter(|(used, _)| wanted(used));
+        let expected =
+            |used: &UsedFile| used.prefix.as_ref().map(|prefix| &prefix.text) == prefix.map(|expected| &expected.text);
+        let uses = || file.read.tree.uses.iter().zip(&file.uses).filter(|(used, _)| expected(used));
         for &number in uses().filter_map(|(_, number)| number.as_ref()) {
             if let Some(found) = mechanism_of(&self.files[number], &name.text) {
-                return Ok(KnownMechanism { file: number, number: found });
+                return Ok(LibraryMechanism { file: number, number: found });
             }
         }
-        let is_whole = |file: &KnownFile| file.read.faults.is_empty();
+        let is_whole = |file: &LibraryFile| file.read.faults.is_empty();
         let all_are_read = uses().all(|(_, number)| number.is_some_and(|number| is_whole(&self.files[number])));
         if !is_whole(file) || !all_are_read {
-            return Err(NotKnown::Said);
+            return Err(LookupError::Said);
         }
-        let told = match prefix.filter(|_| uses().next().is_none()) {
+        let diagnostic = match prefix.filter(|_| uses().next().is_none()) {
             Some(prefix) => errors::no_prefix(prefix, &prefixes(file)),
             None => self.no_mechanism(at, prefix, name, sources),
         };
-        Err(NotKnown::Told(Box::new(told)))
+        Err(LookupError::Told(Box::new(diagnostic)))
     }
 
-    /// The first file that holds a mechanism of a name.
+    /// Returns the first file with a mechanism of a name.
     #[must_use]
     pub fn file_of(&self, name: &str) -> Option<FileId> {
         self.files.iter().find(|file| mechanism_of(file, name).is_some()).map(|file| file.id)
     }
 
-    /// What is wrong with how files use each other: names that are there twice, and circles.
+    /// Returns the diagnostics of files that use each other: duplicate names and cycles.
     #[must_use]
     pub fn faults(&self, sources: &Sources) -> Diagnostics {
         let mut faults = Diagnostics::default();
         for file in self.files.iter() {
             faults.extend(prefixes_that_stand_twice(file));
-            faults.extend(self.names_that_stand_twice(file, sources));
+            faults.extend(self.duplicate_names(file, sources));
         }
-        faults.extend(self.circles(sources));
+        faults.extend(self.cycles(sources));
         faults
     }
 
     fn number_of(&self, file: FileId) -> Option<usize> {
-        self.files.iter().position(|known| known.id == file)
+        self.files.iter().position(|other| other.id == file)
     }
 
     fn shown<'s>(&self, number: usize, sources: &'s Sources) -> &'s str {
@@ -138,44 +138,44 @@ impl Library {
     }
 
     fn no_mechanism(&self, at: usize, prefix: Option<&Name>, name: &Name, sources: &Sources) -> Diagnostic {
-        let (mut known, mut elsewhere) = (Vec::new(), Vec::new());
+        let (mut candidates, mut elsewhere) = (Vec::new(), Vec::new());
         if prefix.is_none() {
-            known.extend(names(&self.files[at]));
+            candidates.extend(names(&self.files[at]));
         }
         for (used, number) in self.uses_of(at) {
-            if used.prefix.as_ref().map(|own| &own.text) == prefix.map(|prefix| &prefix.text) {
-                known.extend(names(&self.files[number]));
+            if used.prefix.as_ref().map(|prefix| &prefix.text) == prefix.map(|prefix| &prefix.text) {
+                candidates.extend(names(&self.files[number]));
             } else if mechanism_of(&self.files[number], &name.text).is_some() {
                 let prefix = used.prefix.as_ref().map(|prefix| format!("{}.", prefix.text)).unwrap_or_default();
                 elsewhere.push(format!("{prefix}{}", name.text));
             }
         }
-        let meant = nearest(&name.text, known.iter().copied());
+        let suggestion = nearest(&name.text, candidates.iter().copied());
         let further = (0..self.files.len())
             .find(|&other| other != at && mechanism_of(&self.files[other], &name.text).is_some())
             .map(|other| (self.shown(other, sources), relative(&self.files[at].path, &self.files[other].path)));
-        errors::no_mechanism(prefix, name, &known, meant, elsewhere.first().map(String::as_str), further)
+        errors::no_mechanism(prefix, name, &candidates, suggestion, elsewhere.first().map(String::as_str), further)
     }
 
-    /// What a file uses, as far as it could be read.
+    /// Returns the files that a file uses, as far as they could be read.
     fn uses_of(&self, at: usize) -> impl Iterator<Item = (&UsedFile, usize)> {
         let file = &self.files[at];
         file.read.tree.uses.iter().zip(&file.uses).filter_map(|(used, number)| Some((used, (*number)?)))
     }
 
-    /// Mechanisms of two files that have one name, and no prefix in front of either.
-    fn names_that_stand_twice(&self, file: &KnownFile, sources: &Sources) -> Vec<Diagnostic> {
-        let own = self.number_of(file.id).unwrap_or_default();
+    /// Reports mechanisms of two files with one name and no prefix.
+    fn duplicate_names(&self, file: &LibraryFile, sources: &Sources) -> Vec<Diagnostic> {
+        let user = self.number_of(file.id).unwrap_or_default();
         let mut first: FxHashMap<&str, (usize, Span)> = FxHashMap::default();
         for mechanism in file.read.tree.mechanisms.iter().filter(|mechanism| !mechanism.name.text.is_empty()) {
-            first.entry(&mechanism.name.text).or_insert((own, mechanism.name.span));
+            first.entry(&mechanism.name.text).or_insert((user, mechanism.name.span));
         }
         let mut faults = Vec::new();
-        for (used, number) in self.uses_of(own).filter(|(used, _)| used.prefix.is_none() && !used.is_broken) {
+        for (used, number) in self.uses_of(user).filter(|(used, _)| used.prefix.is_none() && !used.is_broken) {
             let mut twice: Vec<(&str, usize, Span)> = Vec::new();
             for name in names(&self.files[number]) {
                 let &mut (from, span) = first.entry(name).or_insert((number, used.span));
-                if from != number && !twice.iter().any(|(told, ..)| *told == name) {
+                if from != number && !twice.iter().any(|(other, ..)| *other == name) {
                     twice.push((name, from, span));
                 }
             }
@@ -189,56 +189,56 @@ impl Library {
         faults
     }
 
-    /// Files that use each other in a circle, each circle by one of its links.
-    fn circles(&self, sources: &Sources) -> Vec<Diagnostic> {
+    /// Reports cycles of files, each by one of its links.
+    fn cycles(&self, sources: &Sources) -> Vec<Diagnostic> {
         let (mut is_done, mut faults) = (vec![false; self.files.len()], Vec::new());
-        // a way from the text itself, to which all others lead; with how many uses of each file on it were followed
-        let mut way: Vec<(usize, usize)> = if self.files.is_empty() { Vec::new() } else { vec![(0, 0)] };
-        while let Some((at, next)) = way.last_mut() {
+        // A path from the text, which reaches all files, with the number of uses of each file on it that have been followed.
+        let mut path: Vec<(usize, usize)> = if self.files.is_empty() { Vec::new() } else { vec![(0, 0)] };
+        while let Some((at, next)) = path.last_mut() {
             let at = *at;
             let link = self.uses_of(at).nth(*next);
             *next += 1;
             let Some((_, other)) = link else {
                 is_done[at] = true;
-                way.pop();
+                path.pop();
                 continue;
             };
-            if let Some(begin) = way.iter().position(|(file, _)| *file == other) {
-                let links = way[begin..].iter().filter_map(|&(file, next)| {
+            if let Some(begin) = path.iter().position(|(file, _)| *file == other) {
+                let links = path[begin..].iter().filter_map(|&(file, next)| {
                     let (used, _) = self.uses_of(file).nth(next - 1)?;
                     Some((self.shown(file, sources), used.span))
                 });
-                faults.push(errors::circle_of_files(&links.collect::<Vec<_>>()));
+                faults.push(errors::cycle_of_files(&links.collect::<Vec<_>>()));
             } else if !is_done[other] {
-                way.push((other, 0));
+                path.push((other, 0));
             }
         }
         faults
     }
 }
 
-fn names(file: &KnownFile) -> impl Iterator<Item = &str> {
+fn names(file: &LibraryFile) -> impl Iterator<Item = &str> {
     let names = file.read.tree.mechanisms.iter().map(|mechanism| mechanism.name.text.as_str());
     names.filter(|name| !name.is_empty())
 }
 
-fn mechanism_of(file: &KnownFile, name: &str) -> Option<usize> {
+fn mechanism_of(file: &LibraryFile, name: &str) -> Option<usize> {
     file.read.tree.mechanisms.iter().position(|mechanism| mechanism.name.text == name && !name.is_empty())
 }
 
-fn prefixes(file: &KnownFile) -> Vec<&Name> {
+fn prefixes(file: &LibraryFile) -> Vec<&Name> {
     file.read.tree.uses.iter().filter_map(|used| used.prefix.as_ref()).collect()
 }
 
-fn prefixes_that_stand_twice(file: &KnownFile) -> Vec<Diagnostic> {
+fn prefixes_that_stand_twice(file: &LibraryFile) -> Vec<Diagnostic> {
     let mut first: FxHashMap<&str, Span> = FxHashMap::default();
-    let again = |prefix: &Name, first: Span| (first != prefix.span).then(|| errors::second_prefix(prefix, first));
+    let duplicate = |prefix: &Name, first: Span| (first != prefix.span).then(|| errors::second_prefix(prefix, first));
     let all = prefixes(file);
-    all.into_iter().filter_map(|prefix| again(prefix, *first.entry(&prefix.text).or_insert(prefix.span))).collect()
+    all.into_iter().filter_map(|prefix| duplicate(prefix, *first.entry(&prefix.text).or_insert(prefix.span))).collect()
 }
 
-/// A prefix for the mechanisms of a file, after its name, that is none yet.
-fn free_prefix(path: &Path, user: &KnownFile) -> String {
+/// Returns a free prefix for the mechanisms of a file, made of its name.
+fn free_prefix(path: &Path, user: &LibraryFile) -> String {
     let stem = path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
     let mut name: String = stem.chars().map(|c| if c.is_alphanumeric() { c } else { '_' }).collect();
     let taken = prefixes(user);
@@ -248,7 +248,7 @@ fn free_prefix(path: &Path, user: &KnownFile) -> String {
     name
 }
 
-/// The path to a file from beside another one.
+/// Returns the path to a file relative to another one.
 fn relative(from: &Path, to: &Path) -> String {
     let parts = |path| Path::components(path).filter(|part| *part != Component::CurDir).collect::<Vec<_>>();
     let (folder, to) = (from.parent().map(parts).unwrap_or_default(), parts(to));

@@ -1,105 +1,99 @@
-//! From the tree to the model: names, units, values, elements.
+//! From the tree to the model: names, units, values and elements.
 //!
-//! Goes on after a mistake wherever it can, so that several mistakes are several messages; what depends on something
-//! broken stays silent. A formula is expanded into the one graph where it stands, the user's functions included, and
-//! each expansion is remembered, so that functions that share sub-formulas cost linear time.
+//! The check continues after an error where it can, so that several errors give several messages. What depends on something broken gives
+//! none. Formulas, including those of functions, are expanded into one graph at each use. Expansions are cached, so that functions with
+//! common subformulas take linear time.
 
-mod alone;
-mod arguments;
+mod bare_names;
 mod bindings;
-mod bound_inputs;
 mod branches;
 mod builtins;
 mod calls;
-mod columns_by;
+mod cli_formulas;
+mod column_variables;
+mod constants;
+mod continuation;
+mod declaration_info;
 mod definitions;
-mod degrees;
 mod dimensions;
+mod display_units;
 mod elements;
 mod entity;
 mod errors;
 mod features;
 mod forces;
 mod formula;
+mod formula_scope;
+mod free_names;
 mod functions;
 mod imports;
+mod input_bindings;
 mod inputs;
 mod instance;
-mod instances;
-mod instead;
+mod instantiation;
 mod joints;
-mod kinds;
-mod known;
-mod lead;
-mod lengths;
 mod library;
-mod meaning;
-mod meant;
-mod mends;
-mod mentions;
-mod mounts;
-mod named_points;
 mod names;
-mod numbers;
+mod options;
+mod overrides;
 mod params;
+mod part_placement;
 mod parts;
+mod point_kinds;
+mod point_names;
 mod points;
 mod poses;
-mod printed;
 mod profiles;
 mod quantities;
-mod rates;
 mod repetition;
 mod results;
 mod samples;
-mod set_inputs;
-mod sites;
-mod surroundings;
+mod settable_inputs;
+mod suggest;
 mod symbols;
 mod table_file;
 mod tables;
-mod told;
 mod variables;
 
-pub use alone::{FormulaOfTime, amount, constant, formula_of_time};
-pub use inputs::Given;
-pub use known::{Amount, Count, Index, Known, Value as KnownValue, known, slopes};
-pub use lead::Lead;
-pub use lengths::usual_unit_of_length;
-pub use library::{KnownFile, KnownMechanism, Library, NotKnown};
-pub use mentions::name_of;
+pub use cli_formulas::{FormulaOfTime, amount, constant, formula_of_time};
+pub use continuation::ContinuationPath;
+pub use declaration_info::{Amount, DeclarationCount, DeclarationInfo, Index, Value as ConstantValue, known, slopes};
+pub use free_names::name_of;
+pub use inputs::InputOverrides;
+pub use library::{Library, LibraryFile, LibraryMechanism, LookupError};
+pub use options::{CheckOptions, ParamOverride};
 pub use results::UNTIL;
 pub use samples::{Column, variants};
-pub use set_inputs::SetInputs;
-pub use surroundings::{Setting, Surroundings};
+pub use settable_inputs::SettableInputs;
+pub use suggest::missing_unit::usual_unit_of_length;
 pub use symbols::{DeclaredName, Meaning, NameId, NameKind, Symbols, Use};
 pub use tables::TableFiles;
 
 use crate::model::{Declared, EquationId, Frame, JointId, Mechanism};
-use bindings::BoundOutside;
+use bindings::ExternalBindings;
 use branches::Branch;
 use calls::Calls;
 use elements::MeasureState;
 use entity::Entity;
+use formula_scope::FormulaScope;
 use functions::Function;
 use imports::Import;
 use inputs::InputState;
-use lengths::Lengths;
 use mechc_syntax::ast::{self, Item, ItemKind};
 use mechc_text::diag::{Diagnostic, Diagnostics};
 use mechc_text::source::Sources;
 use names::Space;
 use params::ParamState;
-use parts::{Address, Common};
+use parts::{Address, SharedState};
 use results::ResultState;
 use rustc_hash::{FxHashMap, FxHashSet};
 use samples::Samples;
-use sites::Scope;
 use std::rc::Rc;
+use suggest::missing_unit::RecordedLengths;
 use tables::TableState;
 use variables::Variables;
 
-/// How many mistakes of one file are worth a suggestion.
+/// The number of errors of a file up to which names are suggested.
 const MOST_SUGGESTIONS: usize = 100;
 
 /// Checks that the mechanisms of a file have different names.
@@ -116,42 +110,38 @@ pub fn check_file(file: &ast::File) -> Diagnostics {
     diagnostics
 }
 
-/// The model of one mechanism, if it is sound, and all that is to be said of it.
+/// Checks a mechanism. Returns its model if it has no errors, and all diagnostics.
 #[must_use]
-pub fn check(
-    tree: &ast::Mechanism,
-    surroundings: &Surroundings,
-    sources: &Sources,
-) -> (Option<Mechanism>, Diagnostics) {
-    let (instance, told) = instances::instance_of(tree, surroundings, sources);
-    let mut checker = Checker::of_instance(&instance, surroundings, sources, "", &[]);
-    checker.bind_numbers(&surroundings.bound);
-    checker.common.variables = Variables::told(&surroundings.by);
-    checker.ask_for_derivatives();
+pub fn check(tree: &ast::Mechanism, options: &CheckOptions, sources: &Sources) -> (Option<Mechanism>, Diagnostics) {
+    let (instance, reported) = instantiation::instance_of(tree, options, sources);
+    let mut checker = Checker::from_instance(&instance, options, sources, "", &[]);
+    checker.bind_numbers(&options.bound);
+    checker.common.variables = Variables::new(&options.by);
+    checker.collect_variables();
     checker.run();
     let Checker { mut diagnostics, mut model, .. } = checker;
-    diagnostics.extend(told);
-    model.slopes = surroundings.slopes.map(|go| {
+    diagnostics.extend(reported);
+    model.slopes = options.slopes.map(|go| {
         let of_text = |end: usize| model.analysis.map(|analysis| analysis.formulas[end]).filter(|_| go[end]);
         [of_text(0), of_text(1)]
     });
-    if instance.is_written_out() {
-        diagnostics.tell_once();
+    if instance.is_expanded() {
+        diagnostics.dedup_by_span();
     }
-    diagnostics.sort_by_place();
-    let diagnostics = meant::told_once(diagnostics);
+    diagnostics.sort_by_span();
+    let diagnostics = suggest::names::merge_unknown_names(diagnostics);
     let sound = !diagnostics.has_errors() && !has_broken(instance.tree());
     (sound.then_some(model), diagnostics)
 }
 
 impl Checker<'_> {
-    /// Whether something of the mechanism, or of its parts, could not be read.
+    /// Returns whether the mechanism or one of its parts has a declaration that could not be parsed.
     fn holds_broken(&self) -> bool {
         has_broken(self.tree) || self.parts.iter().any(Checker::holds_broken)
     }
 }
 
-/// Whether a declaration of a mechanism, or of its bodies, does not follow the grammar.
+/// Returns whether a declaration or feature of a mechanism does not follow the grammar.
 fn has_broken(tree: &ast::Mechanism) -> bool {
     tree.items.iter().any(|item| match &item.kind {
         ItemKind::Broken { .. } => true,
@@ -162,31 +152,31 @@ fn has_broken(tree: &ast::Mechanism) -> bool {
     })
 }
 
-/// Checks a text: a mechanism, or a part of one.
+/// Checks one mechanism, or one part of it.
 struct Checker<'a> {
     tree: &'a ast::Mechanism,
-    around: &'a Surroundings,
+    options: &'a CheckOptions,
     sources: &'a Sources,
     diagnostics: Diagnostics,
     model: Mechanism,
-    common: Common,
+    common: SharedState,
     space: Space<Entity>,
-    /// How many of each kind of thing have a name.
+    /// The number of named declarations of each kind.
     count: names::Count,
     address: Address,
-    bound: BoundOutside<'a>,
-    /// Its own parts, each with how it is written, and its names that are known here.
+    bound: ExternalBindings<'a>,
+    /// The parts, the declaration of each, and the entities of each that are used here.
     parts: Vec<Checker<'a>>,
     bindings: Vec<&'a ast::Part>,
     imports: Vec<Vec<Import>>,
     imported: FxHashMap<Entity, (usize, Entity)>,
-    /// Of those the params that are points.
+    /// The paths of params of parts that are points.
     point_paths: FxHashSet<String>,
-    /// The params that decide what is repeated.
+    /// The params that determine repetitions.
     deciding: Rc<FxHashSet<String>>,
-    /// The names of params that are points.
+    /// The params that are points.
     point_params: FxHashSet<&'a str>,
-    /// The names of functions and tables that hide a function of the language.
+    /// The functions and tables that hide functions of the language.
     hidden: FxHashSet<&'a str>,
     params: Vec<ParamState<'a>>,
     functions: Vec<Function<'a>>,
@@ -194,52 +184,52 @@ struct Checker<'a> {
     inputs: Vec<InputState<'a>>,
     measures: Vec<MeasureState<'a>>,
     results: Vec<ResultState<'a>>,
-    /// The orders in which measures and results need each other.
+    /// The orders of dependence of measures and of results.
     measure_order: Vec<usize>,
     result_order: Vec<usize>,
-    /// The samples that are given.
+    /// The samples of inputs.
     samples: Option<Rc<Samples>>,
-    /// Of bodies, and of the grounds of parts that are named.
+    /// The frames of bodies, then those of the grounds of parts that are named.
     bodies: Vec<Frame>,
     /// The bodies and the ground of this text.
     frames: Vec<(Frame, &'a [ast::Feature])>,
     joints: Vec<Option<JointId>>,
-    /// Constraints and drivers; `None` where one is broken.
+    /// Constraints and drivers; `None` for broken ones.
     equations: Vec<Option<EquationId>>,
-    /// The constant lengths come upon.
-    lengths: Lengths<'a>,
-    /// Where the formula that is being read stands, what is called in it, and in which branch that is.
-    scope: Scope<'a>,
+    /// The constant lengths met so far.
+    lengths: RecordedLengths<'a>,
+    /// The site, the calls and the branch of the current formula.
+    scope: FormulaScope<'a>,
     calls: Calls<'a>,
     branch: Branch,
 }
 
 impl<'a> Checker<'a> {
-    fn new(tree: &'a ast::Mechanism, surroundings: &'a Surroundings, sources: &'a Sources) -> Checker<'a> {
+    fn new(tree: &'a ast::Mechanism, options: &'a CheckOptions, sources: &'a Sources) -> Checker<'a> {
         Checker {
             tree,
-            around: surroundings,
+            options,
             sources,
             diagnostics: Diagnostics::default(),
             model: Mechanism {
-                has_signals: surroundings.has_signals,
-                reactions: surroundings.reactions,
-                pictures_forces: surroundings.pictures_forces,
+                has_signals: options.has_signals,
+                reactions: options.reactions,
+                pictures_forces: options.pictures_forces,
                 ..Mechanism::new(Declared { name: tree.name.text.clone(), span: tree.name.span }, tree.docs.clone())
             },
-            common: Common::default(),
+            common: SharedState::default(),
             space: Space::new(),
             count: names::Count::default(),
             address: Address::default(),
-            bound: BoundOutside::default(),
+            bound: ExternalBindings::default(),
             parts: Vec::new(),
             bindings: Vec::new(),
             imports: Vec::new(),
             imported: FxHashMap::default(),
             point_paths: FxHashSet::default(),
             deciding: Rc::default(),
-            point_params: kinds::point_params(tree),
-            hidden: kinds::own_functions(tree),
+            point_params: point_kinds::point_params(tree),
+            hidden: point_kinds::hiding_functions(tree),
             params: Vec::new(),
             functions: Vec::new(),
             tables: Vec::new(),
@@ -253,63 +243,63 @@ impl<'a> Checker<'a> {
             frames: Vec::new(),
             joints: Vec::new(),
             equations: Vec::new(),
-            lengths: Lengths::default(),
-            scope: Scope::default(),
+            lengths: RecordedLengths::default(),
+            scope: FormulaScope::default(),
             calls: Calls::default(),
             branch: Branch::default(),
         }
     }
 
     fn run(&mut self) {
-        self.look_over_settings();
-        self.look_over_given();
-        self.samples = self.samples_given().map(Rc::new);
+        self.check_param_overrides();
+        self.check_input_overrides();
+        self.samples = self.read_samples().map(Rc::new);
         self.definitions();
-        self.look_over_by();
+        self.resolve_column_variables();
         self.features();
         self.joints();
         self.bind_inputs();
-        // an effort is that of an equation which is there; else measures come first, as the order of symbols, and with it the bits of
-        // rows, has always been
-        let asks_for_efforts = self.asks_for_efforts();
-        if asks_for_efforts {
+        // Efforts refer to equations, which must then come first. Otherwise measures come first, as the order of symbols affects the last
+        // bits of rows.
+        let uses_efforts = self.uses_efforts();
+        if uses_efforts {
             self.equations();
         }
         self.measure_values();
         self.list_measures();
-        if !asks_for_efforts {
+        if !uses_efforts {
             self.equations();
         }
         self.gravity();
         self.loads();
         self.analysis();
         self.results();
-        self.refuse_derivatives_of_forces();
-        self.leave_what_leads();
+        self.reject_derivatives_of_forces();
+        self.strip_outputs();
         self.warn_of_plain_lengths();
         if self.model.bodies.is_empty() && !self.holds_broken() {
             self.report(errors::empty(&self.tree.name));
         }
     }
 
-    /// Says something, with the place of the call through which it came up.
+    /// Adds a diagnostic, with the locations of the call and of the parts through which it arises.
     fn report(&mut self, diagnostic: Diagnostic) {
         let diagnostic = match self.calls.caller {
-            // a formula is judged where it is called
-            Some(caller) => diagnostic.raised_by(caller, "brought in here"),
+            // A formula is judged where it is called.
+            Some(caller) => diagnostic.caused_by(caller, "brought in here"),
             None => diagnostic,
         };
         let parts = self.address.used_at.iter();
-        self.diagnostics.push(parts.fold(diagnostic, |said, (part, span)| said.in_part(part, *span)));
+        self.diagnostics.push(parts.fold(diagnostic, |diagnostic, (part, span)| diagnostic.in_part(part, *span)));
     }
 
-    /// Names to look for the nearest one among; none once so much is wrong that the search would take long.
-    fn suggestions(&self, wanted: impl Fn(Entity) -> bool) -> Vec<&str> {
-        self.suggestions_in(&self.space, wanted)
+    /// Returns the names to suggest from; none after many errors, when the search would take long.
+    fn suggestions(&self, expected: impl Fn(Entity) -> bool) -> Vec<&str> {
+        self.suggestions_in(&self.space, expected)
     }
 
-    fn suggestions_in<'s, T: Copy>(&self, space: &'s Space<T>, wanted: impl Fn(T) -> bool) -> Vec<&'s str> {
-        if self.diagnostics.len() > MOST_SUGGESTIONS { Vec::new() } else { space.names(wanted).collect() }
+    fn suggestions_in<'s, T: Copy>(&self, space: &'s Space<T>, expected: impl Fn(T) -> bool) -> Vec<&'s str> {
+        if self.diagnostics.len() > MOST_SUGGESTIONS { Vec::new() } else { space.names(expected).collect() }
     }
 
     fn items(&self) -> &'a [Item] {

@@ -1,14 +1,14 @@
-//! The names of a mechanism: who is declared, what is taken, and which definitions go in a circle.
+//! The names of a mechanism: declarations, duplicates, and cycles of definitions.
 
 use super::entity::Entity;
-use super::mentions::{uses_in, uses_of_argument};
+use super::free_names::{uses_in, uses_of_argument};
 use super::{Checker, MOST_SUGGESTIONS, errors};
 use mechc_syntax::ast::{Expr, ExprKind, FeatureKind, ItemKind, Mechanism, Name};
 use mechc_text::source::Span;
-use mechc_text::vocabulary::{Dimension, KindOfName, Unit, another_name, gives_way, is_called, is_taken};
+use mechc_text::vocabulary::{Dimension, SubstituteKind, Unit, gives_way, is_called, is_taken, substitute_name};
 use rustc_hash::{FxHashMap, FxHashSet};
 
-/// How many things of each kind have a name.
+/// The number of named declarations of each kind.
 #[derive(Clone, Copy, Default, Debug)]
 pub(super) struct Count {
     pub params: usize,
@@ -23,25 +23,25 @@ pub(super) struct Count {
     pub parts: usize,
 }
 
-/// The name may be that of a declaration that cannot be read, which has been said.
+/// The name may be that of a broken declaration, which has been reported.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Unread;
+pub(super) struct BrokenName;
 
-/// One space of names.
+/// A name space.
 #[derive(Clone, Debug)]
 pub(super) struct Space<T> {
     entries: FxHashMap<String, (T, Span)>,
     order: Vec<String>,
-    /// Whether something is declared in it whose name cannot be told.
+    /// True if it holds a declaration whose name could not be parsed.
     is_incomplete: bool,
 }
 
 /// Definitions by their positions.
-pub(super) struct Ordered {
-    /// Each after those that it uses.
+pub(super) struct DefinitionOrder {
+    /// All definitions, each after those that it uses.
     pub order: Vec<usize>,
-    /// Those that use themselves, by way of others too.
-    pub on_circles: Vec<usize>,
+    /// Definitions that depend on themselves, also indirectly.
+    pub on_cycles: Vec<usize>,
 }
 
 impl<T: Copy> Space<T> {
@@ -49,7 +49,7 @@ impl<T: Copy> Space<T> {
         Space { entries: FxHashMap::default(), order: Vec::new(), is_incomplete: false }
     }
 
-    /// Declares a name, or gives the place where it already is.
+    /// Declares a name; `Err` with the location of the first declaration of a duplicate.
     pub fn declare(&mut self, name: &Name, entity: T) -> Result<(), Span> {
         if let Some(&(_, first)) = self.entries.get(&name.text) {
             return Err(first);
@@ -59,24 +59,24 @@ impl<T: Copy> Space<T> {
         Ok(())
     }
 
-    /// Takes in that something is declared whose name cannot be told.
+    /// Records a declaration whose name could not be parsed.
     pub fn declare_nameless(&mut self) {
         self.is_incomplete = true;
     }
 
-    /// Whether a name that is not declared may be the one that cannot be told.
+    /// Returns whether an undeclared name may be one that could not be parsed.
     pub fn is_incomplete(&self) -> bool {
         self.is_incomplete
     }
 
-    /// Gives a declared name another meaning.
+    /// Replaces the entity of a declared name.
     pub fn replace(&mut self, name: &str, entity: T) {
         if let Some(entry) = self.entries.get_mut(name) {
             entry.0 = entity;
         }
     }
 
-    /// What a name stands for, if it is declared.
+    /// Returns the entity of a name, if it is declared.
     pub fn get(&self, name: &str) -> Option<T> {
         self.entries.get(name).map(|&(entity, _)| entity)
     }
@@ -85,14 +85,14 @@ impl<T: Copy> Space<T> {
         self.entries.get(name).map(|&(_, span)| span)
     }
 
-    /// Names of the entities that `wanted` accepts, in order of declaration.
-    pub fn names(&self, wanted: impl Fn(T) -> bool) -> impl Iterator<Item = &str> {
-        self.order.iter().filter(move |name| self.get(name).is_some_and(&wanted)).map(String::as_str)
+    /// Returns the names of the entities that `expected` accepts, in order of declaration.
+    pub fn names(&self, expected: impl Fn(T) -> bool) -> impl Iterator<Item = &str> {
+        self.order.iter().filter(move |name| self.get(name).is_some_and(&expected)).map(String::as_str)
     }
 }
 
 impl Checker<'_> {
-    /// Fills the mechanism's space; a name that is taken twice keeps its first meaning.
+    /// Declares the names of a mechanism. A duplicate keeps its first meaning.
     pub(super) fn collect(&mut self, mechanism: &Mechanism) {
         let mut count = Count::default();
         let next = |count: &mut usize| {
@@ -124,12 +124,14 @@ impl Checker<'_> {
             if is_reserved {
                 let uses = uses_in(mechanism, name, callable);
                 let kind = match &item.kind {
-                    ItemKind::Param { value, .. } => KindOfName::of_value(value.parts().find_map(dimension_written)),
+                    ItemKind::Param { value, .. } => {
+                        SubstituteKind::of_value(value.parts().find_map(dimension_written))
+                    }
                     _ => entity.kind_of_name(),
                 };
                 self.report_reserved(name, kind, &uses);
             }
-            // declared all the same, so that its uses are not reported too
+            // The name is declared all the same, so that its uses are not reported too.
             if let Err(first) = self.space.declare(name, entity)
                 && !is_reserved
             {
@@ -153,61 +155,61 @@ impl Checker<'_> {
         self.only_once(mechanism);
     }
 
-    /// Says that a name is one of the language's, and which one would be free.
-    fn report_reserved(&mut self, name: &Name, kind: KindOfName, uses: &[Span]) {
+    /// Reports a name of the language, with a suggestion of a free name.
+    fn report_reserved(&mut self, name: &Name, kind: SubstituteKind, uses: &[Span]) {
         let is_worth_it = self.diagnostics.len() <= MOST_SUGGESTIONS;
         let words = is_worth_it.then(|| words_of(self.sources.text(self.tree.span)));
-        let instead = words.and_then(|words| another_name(&name.text, kind, |name| !words.contains(name)));
+        let instead = words.and_then(|words| substitute_name(&name.text, kind, |name| !words.contains(name)));
         self.report(errors::reserved(name, instead, uses));
     }
 
-    /// Whether a name that the language has taken is declared all the same, which has been said: it may mean either.
-    pub(super) fn is_declared_though_taken(&self, name: &Name) -> bool {
+    /// Returns whether a name of the language is declared, which has been reported. It may mean either.
+    pub(super) fn is_reserved_but_declared(&self, name: &Name) -> bool {
         let is_callable = |entity| matches!(entity, Entity::Function(_) | Entity::Table(_));
         let is_function = is_called(&name.text) && !gives_way(&name.text);
         self.space.get(&name.text).is_some_and(|entity| is_taken(&name.text) || is_function && is_callable(entity))
     }
 
-    /// Whether a call of a name is one of the language's own functions or quantities.
+    /// Returns whether a call is one of the language's own functions or quantities.
     pub(super) fn is_of_language(&self, name: &str) -> bool {
         is_called(name) && !self.hidden.contains(name)
     }
 
-    /// What cannot be read has its names all the same, so that nobody asks where they are.
+    /// Declares the names of a broken declaration, so that their uses are not reported.
     fn collect_broken(&mut self, names: &[Name]) {
         if names.is_empty() {
             self.space.declare_nameless();
         }
         for name in names {
-            // a name that is taken twice keeps its first meaning
+            // A duplicate keeps its first meaning.
             let _ = self.space.declare(name, Entity::Broken);
         }
     }
 
-    /// What a name of the mechanism's space stands for; `None` where nothing of that name is declared.
+    /// Returns the entity of a name; `None` if it is not declared. `Err` if its declaration is broken, which has been reported.
     ///
-    /// Every name of a formula or reference that is told of goes through here.
-    pub(super) fn resolve(&self, name: &Name) -> Result<Option<Entity>, Unread> {
+    /// Every name of a formula or reference that can be reported is resolved here.
+    pub(super) fn resolve(&self, name: &Name) -> Result<Option<Entity>, BrokenName> {
         match self.space.get(&name.text) {
-            Some(Entity::Broken) => Err(Unread),
-            None if self.space.is_incomplete() => Err(Unread),
-            known => Ok(known),
+            Some(Entity::Broken) => Err(BrokenName),
+            None if self.space.is_incomplete() => Err(BrokenName),
+            entity => Ok(entity),
         }
     }
 
-    /// As [`Checker::resolve`], where nothing is said of a name that is not declared.
+    /// Returns the entity of a name, where undeclared names are not reported.
     pub(super) fn entity(&self, name: &Name) -> Option<Entity> {
         self.resolve(name).ok().flatten()
     }
 
-    /// The argument of a function or curve may not be a name of the mechanism's space.
+    /// Reports an argument of a function or curve that has the name of a declaration.
     fn argument_name(&mut self, argument: &Name, formula: &Expr) {
         let uses = || uses_of_argument(argument, formula);
         if is_taken(&argument.text) {
-            self.report_reserved(argument, KindOfName::Argument, &uses());
+            self.report_reserved(argument, SubstituteKind::Argument, &uses());
         } else if let Some(declared) = self.space.span(&argument.text) {
-            let is_free = |name: &&str| !is_taken(name) && self.space.get(name).is_none();
-            let free = ["u", "v", "w", "x", "y", "z"].into_iter().find(is_free);
+            let is_unique_index = |name: &&str| !is_taken(name) && self.space.get(name).is_none();
+            let free = ["u", "v", "w", "x", "y", "z"].into_iter().find(is_unique_index);
             self.report(errors::hidden_name(argument, declared, free, &uses()));
         }
     }
@@ -228,10 +230,10 @@ impl Checker<'_> {
         }
     }
 
-    /// The definitions in an order in which each comes after those it uses; those on a circle are reported.
+    /// Returns definitions in order of dependence, and reports cycles.
     ///
-    /// `uses` lists, for each definition, the positions of those it needs with the place where it names them.
-    pub(super) fn ordered(&mut self, definitions: &[(&Name, Vec<(usize, Span)>)]) -> Ordered {
+    /// `uses` lists for each definition the positions of those that it uses, with the locations of their names.
+    pub(super) fn ordered(&mut self, definitions: &[(&Name, Vec<(usize, Span)>)]) -> DefinitionOrder {
         #[derive(Clone, Copy, PartialEq)]
         enum Mark {
             New,
@@ -245,7 +247,7 @@ impl Checker<'_> {
             if marks[start] != Mark::New {
                 continue;
             }
-            // a stack of its own: a chain of definitions may be long
+            // An explicit stack: a chain of definitions may be long.
             let mut path = vec![(start, 0)];
             marks[start] = Mark::Open;
             while let Some((at, next)) = path.last_mut() {
@@ -267,7 +269,7 @@ impl Checker<'_> {
                     Mark::Open => {
                         let from = path.iter().position(|&(k, _)| k == used).unwrap_or(0);
                         let mut circle: Vec<usize> = path[from..].iter().map(|&(k, _)| k).collect();
-                        // told from the definition that comes first in the text
+                        // The cycle is reported at the definition that comes first in the text.
                         let first = (0..circle.len()).min_by_key(|&k| definitions[circle[k]].0.span).unwrap_or(0);
                         circle.rotate_left(first);
                         let names: Vec<&Name> = circle.iter().map(|&k| definitions[k].0).collect();
@@ -280,16 +282,16 @@ impl Checker<'_> {
                 }
             }
         }
-        let on_circles = (0..definitions.len()).filter(|&k| marks[k] == Mark::Broken).collect();
-        Ordered { order, on_circles }
+        let on_cycles = (0..definitions.len()).filter(|&k| marks[k] == Mark::Broken).collect();
+        DefinitionOrder { order, on_cycles }
     }
 }
 
-/// Every word of a text.
+/// Returns every word of a text.
 fn words_of(text: &str) -> FxHashSet<&str> {
     text.split(|c: char| !(c.is_alphanumeric() || c == '_')).collect()
 }
-/// The dimension of a number with its unit.
+/// Returns the dimension of a number with its unit.
 fn dimension_written(e: &Expr) -> Option<Dimension> {
     match &e.kind {
         ExprKind::Literal { unit: Some((unit, power)), .. } => {

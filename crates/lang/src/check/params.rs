@@ -1,31 +1,32 @@
-//! Params: the numbers and points of a text, with what is set of them from outside.
+//! Params: the numbers and points of a text, with their overrides.
 
 use super::formula::{Context, Dim, Value};
-use super::sites::Drawn;
-use super::told::is_told_by;
-use super::{Checker, Setting, errors, rates};
-use crate::model::{DecidedBy, Declared, Dimension, Param};
+use super::formula_scope::InitialPoint;
+use super::overrides::override_matches;
+use super::{Checker, ParamOverride, errors};
+use crate::check::suggest::lost_rate;
+use crate::model::{Declared, Dimension, GuardKind, Param};
 use mechc_expr::Symbol;
 use mechc_syntax::ast::{Expr, Name};
 
-/// What is known of a parameter.
+/// The state of a parameter.
 #[derive(Clone, Copy, Default)]
 pub(super) struct ParamState<'a> {
-    /// As its text has it; nothing of one of a part that has not had its turn.
+    /// The name and formula in the text; `None` for one of a part that has not been evaluated.
     pub written: Option<(&'a Name, &'a Expr)>,
-    /// `None` before its turn, where it is broken, and where it is a point.
+    /// `None` before evaluation, if it is broken, and if it is a point.
     pub value: Option<Value>,
-    /// What it is as a point.
-    pub drawn: Option<Drawn>,
-    /// How often an angle is a factor of it.
+    /// The value of a point.
+    pub drawn: Option<InitialPoint>,
+    /// The exponent of angles in it.
     pub angle: i32,
-    /// Whether it is given in a unit of angle.
+    /// True if it is given in a unit of angle.
     pub is_in_angles: bool,
 }
 
 impl<'a> Checker<'a> {
     pub(super) fn define_param(&mut self, k: usize, name: &Name, docs: &[String], value: &Expr) {
-        self.remember_angle(name, value);
+        self.record_angle(name, value);
         if self.point_param(name) == Some(k) {
             self.params[k].drawn = self.point_of_param(name, docs, value);
         } else {
@@ -34,11 +35,11 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// A parameter: one that depends on no other becomes a symbol, another one its formula.
+    /// Evaluates a parameter. An independent one becomes a symbol, another one its formula.
     fn param(&mut self, name: &Name, docs: &[String], formula: &Expr) -> Option<Value> {
         let context = Context::constant("a parameter");
         let in_file = self.param_value(formula, context)?;
-        if let Some(bound) = self.as_bound(name, in_file) {
+        if let Some(bound) = self.value_with_binding(name, in_file) {
             return bound;
         }
         let setting = self.settings_of(name).pop();
@@ -50,14 +51,14 @@ impl<'a> Checker<'a> {
             }
             Some((None, setting)) => {
                 let given = self.param_value(&setting.value, Context { names: false, ..context })?;
-                if let Some([wanted, found]) = in_file.dim.other_than(given.dim) {
+                if let Some([expected, found]) = in_file.dim.other_than(given.dim) {
                     let place = format!("the parameter `{}{}`", self.address.path, name.text);
-                    let part = rates::Part { span: setting.value.span, dimension: found };
+                    let part = lost_rate::Part { span: setting.value.span, dimension: found };
                     let text = self.sources.text(setting.value.span);
-                    self.report(errors::wrong_dimension(&place, wanted, part, text));
+                    self.report(errors::wrong_dimension(&place, expected, part, text));
                     return None;
                 }
-                // a zero takes the dimension that it is given; a number without a unit fits anything as the zero does
+                // A zero takes the dimension of the override. A number without a unit fits any dimension, as zero does.
                 let is_open = in_file.dim == Dim::Any && matches!(given.dim, Dim::Of(_));
                 Value { dim: if is_open { given.dim } else { in_file.dim }, ..given }
             }
@@ -65,74 +66,75 @@ impl<'a> Checker<'a> {
         self.settable(self.declared(name), &name.text, docs, value)
     }
 
-    /// A number that is a parameter of the model, unless it follows from others.
+    /// Returns the value of a numeric parameter, which becomes a parameter of the model if it is independent.
     fn settable(&mut self, declared: Declared, name: &str, docs: &[String], value: Value) -> Option<Value> {
         let is_open = self.is_open(&declared, name);
         if self.follows(value.id) && !is_open {
             return Some(self.with_shift(&declared, value));
         }
         let number = self.number_of(value.id)?;
-        // what decides how many declarations there are is not to be changed afterwards
+        // A param that determines the number of declarations cannot change afterwards.
         if self.deciding.contains(name) {
             self.constant_value(value.id);
             return Some(Value { id: self.model.graph.constant(number), dim: value.dim });
         }
         let index = self.model.params.len() as u32;
-        self.note_param(&declared, Symbol::Param(index), value.dim);
+        self.register_param(&declared, Symbol::Param(index), value.dim);
         let dimension = value.dim.settled();
         if is_open {
-            self.open_param(&declared, number, dimension);
+            self.record_open_param(&declared, number, dimension);
         }
         self.model.params.push(Param { declared, docs: docs.to_vec(), value: number, dimension });
         Some(Value { id: self.model.graph.symbol(Symbol::Param(index)), dim: value.dim })
     }
 
-    /// A parameter that is a point: each of its coordinates is a parameter of the model, unless it follows from others.
-    fn point_of_param(&mut self, name: &Name, docs: &[String], formula: &Expr) -> Option<Drawn> {
-        let Drawn { mut at, mut dimensional } = self.point_formula(formula, &Context::constant("a parameter"))?;
+    /// Evaluates a parameter that is a point. Each independent coordinate becomes a parameter of the model.
+    fn point_of_param(&mut self, name: &Name, docs: &[String], formula: &Expr) -> Option<InitialPoint> {
+        let InitialPoint { mut at, mut dimensional } =
+            self.point_formula(formula, &Context::constant("a parameter"))?;
         if self.bound_param(name).is_some() {
-            Drawn { at, dimensional } = self.point_as_bound(name, Drawn { at, dimensional })?;
+            InitialPoint { at, dimensional } = self.point_with_binding(name, InitialPoint { at, dimensional })?;
         }
         for (coordinate, setting) in self.settings_of(name) {
-            let given = self.point_given(name, coordinate, setting, Drawn { at, dimensional })?;
+            let given = self.point_given(name, coordinate, setting, InitialPoint { at, dimensional })?;
             (at, dimensional) = (given.at, given.dimensional);
         }
         let mut coordinate = |k: usize, axis: &str| {
             let declared = Declared { name: format!("{}{}.{axis}", self.address.path, name.text), span: name.span };
-            // a zero has no sign here: in a direction it would count
-            let is_zero = self.decided(at[k], DecidedBy::Sign) == Some(0.0);
+            // A zero loses its sign, which would count in a direction.
+            let is_zero = self.decided(at[k], GuardKind::Sign) == Some(0.0);
             let id = if is_zero && !self.follows(at[k]) { self.model.graph.constant(0.0) } else { at[k] };
             self.settable(declared, &name.text, docs, Value { id, dim: Dim::LENGTH })
         };
         let (x, y) = (coordinate(0, "x")?, coordinate(1, "y")?);
-        Some(Drawn { at: [x.id, y.id], dimensional })
+        Some(InitialPoint { at: [x.id, y.id], dimensional })
     }
 
-    /// What is set of a param from outside, or of which of its coordinates, in the order given.
-    pub(super) fn settings_of(&self, name: &Name) -> Vec<(Option<usize>, &'a Setting)> {
-        if self.around.settings.is_empty() {
+    /// Returns the overrides of a param, or of one of its coordinates, in their order.
+    pub(super) fn settings_of(&self, name: &Name) -> Vec<(Option<usize>, &'a ParamOverride)> {
+        if self.options.settings.is_empty() {
             return Vec::new();
         }
         let full = format!("{}{}", self.address.path, name.text);
         let is_point = self.is_point_name(&name.text);
-        let of = |setting: &'a Setting| {
-            if is_told_by(&full, &setting.path) {
+        let of = |setting: &'a ParamOverride| {
+            if override_matches(&full, &setting.path) {
                 return Some((None, setting));
             }
-            let axis = ["x", "y"].iter().position(|axis| is_told_by(&format!("{full}.{axis}"), &setting.path));
+            let axis = ["x", "y"].iter().position(|axis| override_matches(&format!("{full}.{axis}"), &setting.path));
             axis.filter(|_| is_point || setting.path.contains('.')).map(|axis| (Some(axis), setting))
         };
-        self.around.settings.iter().filter_map(of).collect()
+        self.options.settings.iter().filter_map(of).collect()
     }
 
-    /// The point with what is set from outside: `--set A=(12mm,0)`, `--set A.x=12mm`.
+    /// Returns a point with its overrides: `--set A=(12mm,0)`, `--set A.x=12mm`.
     fn point_given(
         &mut self,
         name: &Name,
         coordinate: Option<usize>,
-        setting: &Setting,
-        before: Drawn,
-    ) -> Option<Drawn> {
+        setting: &ParamOverride,
+        before: InitialPoint,
+    ) -> Option<InitialPoint> {
         let judged = before.dimensional;
         let context = Context { names: false, judged, ..Context::constant("a parameter") };
         let Some(k) = coordinate else {
@@ -145,10 +147,16 @@ impl<'a> Checker<'a> {
         let judged = judged || self.is_dimensional(&setting.value);
         let value = self.formula(&setting.value, &Context { judged, ..context })?;
         let place = format!("the coordinate `{}.{}`", name.text, ["x", "y"][k]);
-        self.demand(&place, Dimension::LENGTH, setting.value.span, value.dim, &Context { judged, ..context })?;
+        self.require_dimension(
+            &place,
+            Dimension::LENGTH,
+            setting.value.span,
+            value.dim,
+            &Context { judged, ..context },
+        )?;
         let mut at = before.at;
         at[k] = value.id;
-        Some(Drawn { at, dimensional: judged })
+        Some(InitialPoint { at, dimensional: judged })
     }
 
     fn param_value(&mut self, formula: &Expr, context: Context<'_>) -> Option<Value> {
@@ -156,7 +164,7 @@ impl<'a> Checker<'a> {
         let value = self.formula(formula, &Context { judged, ..context })?;
         let dim = match value.dim {
             _ if self.is_zero(formula) => Dim::Any,
-            Dim::Any => Dim::PLAIN.where_judged(judged),
+            Dim::Any => Dim::PLAIN.when_judged(judged),
             dim => dim,
         };
         Some(Value { dim, ..value })

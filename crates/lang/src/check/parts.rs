@@ -1,67 +1,66 @@
-//! Parts: each is checked as the mechanism that it is, by a checker of its own that shares the model with those around it.
+//! Parts: each is checked as a mechanism, by its own checker, which shares the model with those that enclose it.
 
 use super::features::Feature;
 use super::instance::Instance;
 use super::names::Space;
 use super::variables::Variables;
-use super::{Checker, Surroundings};
+use super::{CheckOptions, Checker};
 use crate::model::{EquationId, Frame, Named, NamedId, Part, PartId, PointId};
 use mechc_syntax::ast::{self, ItemKind};
 use mechc_text::source::{Sources, Span};
 use rustc_hash::{FxHashMap, FxHashSet};
 
-/// What a mechanism and all its parts have in common, beside the model and what is said.
+/// The state that a mechanism shares with its parts, besides the model and the diagnostics.
 #[derive(Default)]
-pub(super) struct Common {
-    /// By what they are on: curves, points and so on, by their names.
+pub(super) struct SharedState {
+    /// The features of each frame by their names.
     pub features: FxHashMap<Frame, Space<Feature>>,
     /// The points whose formulas hold a unit.
     pub dimensional_points: FxHashSet<PointId>,
-    /// Bodies whose place in the drawing is not known.
+    /// Frames whose drawn pose is broken.
     pub broken_poses: FxHashSet<Frame>,
-    /// The graph's named symbols, and how many time derivatives each holds.
+    /// The graph's named symbols, and the order of time derivatives in each.
     pub named: FxHashMap<Named, NamedId>,
     pub derivative_orders: Vec<u8>,
-    /// Values of the graph's nodes, NaN where they are not constant.
+    /// The values of the graph's nodes; NaN for those that are not constant.
     pub values: Vec<f64>,
-    /// Those equations whose dimension is not known: a number without a unit scales both sides.
+    /// Equations of unknown dimension: a number without a unit scales both sides.
     pub plain_equations: FxHashSet<EquationId>,
-    /// The bare numbers beside angles in degrees that have been told.
-    pub beside_degrees: FxHashSet<Span>,
-    /// What derivatives are taken by.
+    /// The bare numbers next to angles in degrees that have been reported.
+    pub reported_radians: FxHashSet<Span>,
+    /// The variables of derivatives.
     pub variables: Variables,
 }
 
-/// Where a text stands in the whole mechanism.
+/// The position of a text in the whole mechanism.
 pub(super) struct Address {
-    /// What its names begin with there: `leg[2].`, or nothing.
+    /// The prefix of its names, such as `leg[2].`, or an empty string.
     pub path: String,
-    /// Of a part: what it is in the model.
+    /// The part in the model; `None` for the outermost mechanism.
     pub part: Option<PartId>,
-    /// What its ground is there.
+    /// The frame of its ground.
     pub ground: Frame,
-    /// Of a part: its name and those of the parts around it, and where they stand.
+    /// The names of the part and of those that enclose it, with their locations.
     pub used_at: Vec<(String, Span)>,
 }
 
 impl Default for Address {
-    /// That of the whole.
+    /// Returns the address of the outermost mechanism.
     fn default() -> Address {
         Address { path: String::new(), part: None, ground: Frame::Ground, used_at: Vec::new() }
     }
 }
 
 impl<'a> Checker<'a> {
-    /// A checker of a mechanism with its parts, which are all there before anything of them is read; each knows its path, and where it is
-    /// used.
-    pub(super) fn of_instance(
+    /// Returns the checker of a mechanism with those of all its parts, each with its path and locations.
+    pub(super) fn from_instance(
         instance: &'a Instance<'a>,
-        surroundings: &'a Surroundings,
+        options: &'a CheckOptions,
         sources: &'a Sources,
         path: &str,
         used_at: &[(String, Span)],
     ) -> Checker<'a> {
-        let mut checker = Checker::new(instance.tree(), surroundings, sources);
+        let mut checker = Checker::new(instance.tree(), options, sources);
         checker.deciding = instance.deciding.clone();
         path.clone_into(&mut checker.address.path);
         checker.address.used_at = used_at.to_vec();
@@ -73,9 +72,9 @@ impl<'a> Checker<'a> {
             let name = format!("{path}{}", part.name.text);
             let mut used_at = used_at.to_vec();
             used_at.insert(0, (name.clone(), part.name.span));
-            let mut child = Checker::of_instance(inner, surroundings, sources, &format!("{name}."), &used_at);
+            let mut child = Checker::from_instance(inner, options, sources, &format!("{name}."), &used_at);
             child.bound.inputs = part.bindings.iter().map(|binding| binding.name.text.as_str()).collect();
-            // what is shared from now on is not the child's own
+            // The shared state is that of the outermost checker from here on.
             checker.diagnostics.extend(std::mem::take(&mut child.diagnostics));
             checker.parts.push(child);
             checker.imports.push(Vec::new());
@@ -87,7 +86,7 @@ impl<'a> Checker<'a> {
         checker
     }
 
-    /// Work in a part, on the model that is shared.
+    /// Runs `work` in the checker of a part, with the shared state.
     pub(super) fn in_part<T>(&mut self, part: usize, work: impl FnOnce(&mut Checker<'a>) -> T) -> T {
         let mut parts = std::mem::take(&mut self.parts);
         self.share_with(&mut parts[part]);
@@ -97,34 +96,34 @@ impl<'a> Checker<'a> {
         result
     }
 
-    /// Gives what is shared to another checker, and takes what it has.
+    /// Swaps the shared state with another checker.
     fn share_with(&mut self, other: &mut Checker<'a>) {
         std::mem::swap(&mut self.diagnostics, &mut other.diagnostics);
         std::mem::swap(&mut self.model, &mut other.model);
         std::mem::swap(&mut self.common, &mut other.common);
     }
 
-    /// Takes in by what the formulas of all texts are differentiated.
-    pub(super) fn ask_for_derivatives(&mut self) {
+    /// Collects the variables of derivatives in the formulas of all texts.
+    pub(super) fn collect_variables(&mut self) {
         self.common.variables.add(self.tree, &self.address.path);
-        self.in_parts(Checker::ask_for_derivatives);
+        self.in_parts(Checker::collect_variables);
     }
 
-    /// The same work in every part.
+    /// Runs `work` in every part.
     pub(super) fn in_parts(&mut self, work: impl Fn(&mut Checker<'a>)) {
         for part in 0..self.parts.len() {
             self.in_part(part, &work);
         }
     }
 
-    /// The ground of a part, and what stands in it.
+    /// Adds a part to the model, with its ground.
     pub(super) fn add_part(&mut self, part: usize, written: &ast::Part) {
         if part >= self.parts.len() {
             return;
         }
         let zero = self.model.graph.constant(0.0);
         let declared = self.declared(&written.name);
-        let is_turned_over = written.mirrored.is_some();
+        let is_mirrored_in_parent = written.mirrored.is_some();
         let text = self.parts[part].tree.name.span;
         let id = self.model.add_part(Part {
             text,
@@ -135,8 +134,8 @@ impl<'a> Checker<'a> {
             within: self.address.part,
             mount: self.address.ground,
             pose: [zero; 3],
-            is_turned_over,
-            is_mirrored: self.model.is_mirrored(self.address.part) != is_turned_over,
+            is_mirrored_in_parent,
+            is_mirrored: self.model.is_mirrored(self.address.part) != is_mirrored_in_parent,
         });
         self.in_part(part, |child| {
             child.address.part = Some(id);

@@ -1,47 +1,48 @@
-//! Formulas of points: sums, multiples, `polar` and `mid`; and the numbers that two points give.
+//! Formulas of points: sums, multiples, `polar` and `mid`; and numbers that depend on two points.
 //!
-//! A point is two lengths. Inside a body its own points come before those of the mechanism, and behind `at` points of other bodies may
-//! stand, which are taken where those are drawn.
+//! A point is two lengths. In a body its own points take precedence over those of the mechanism. After `at` points of other bodies are
+//! allowed, at their drawn positions.
 
 use super::formula::{Context, Dim, Value};
-use super::kinds::{Wanted, coordinate};
-use super::named_points::Found;
-use super::sites::{Drawn, Place, Site};
-use super::{Checker, errors, mends};
-use crate::model::{DecidedBy, Dimension, Frame};
+use super::formula_scope::{FormulaSite, InitialPoint, Position};
+use super::point_kinds::{Expected, coordinate};
+use super::point_names::PointLookup;
+use super::{Checker, errors};
+use crate::check::suggest::edits;
+use crate::model::{Dimension, Frame, GuardKind};
 use mechc_expr::{Binary, Comparison, ExprId, Graph, Node, Unary};
 use mechc_syntax::ast::{Expr, ExprKind, Factor, Name, Sign, Window};
 use mechc_text::source::Span;
 use mechc_text::vocabulary::{Function, Keyword};
 use rustc_hash::FxHashSet;
 
-/// What is asked for a coordinate is no point.
+/// The formula is not a coordinate of a point.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct NoPoint;
+pub(super) struct NotAPoint;
 
-/// A factor, or a product up to some factor.
+/// A product up to some factor.
 enum Scaled {
     Number(Value),
-    /// With the dimension of the numbers beside it.
-    Point(Place, Dim),
+    /// With the dimension of its numeric factors.
+    Point(Position, Dim),
 }
 
 impl Checker<'_> {
-    /// A point's formula, judged on its own.
-    pub(super) fn point_formula(&mut self, e: &Expr, context: &Context<'_>) -> Option<Drawn> {
+    /// Evaluates a whole formula of points, judged on its own.
+    pub(super) fn point_formula(&mut self, e: &Expr, context: &Context<'_>) -> Option<InitialPoint> {
         let argument = context.argument.map(|(name, _)| name);
-        let dimensional = context.judged || self.holds_dimension(argument, e, Wanted::Point);
+        let dimensional = context.judged || self.holds_dimension(argument, e, Expected::Point);
         self.calls.visited = 0;
         let at = self.point_at(e, &Context { judged: dimensional, ..*context })?;
-        Some(Drawn { at, dimensional })
+        Some(InitialPoint { at, dimensional })
     }
 
-    /// A formula of points in the graph; `None` if it is broken, which has then been said.
-    fn point_at(&mut self, e: &Expr, context: &Context<'_>) -> Option<Place> {
+    /// Evaluates a formula of points within another one; `None` if it is broken, which has been reported.
+    fn point_at(&mut self, e: &Expr, context: &Context<'_>) -> Option<Position> {
         self.level(context, |checker| checker.point_here(e, context))
     }
 
-    fn point_here(&mut self, e: &Expr, context: &Context<'_>) -> Option<Place> {
+    fn point_here(&mut self, e: &Expr, context: &Context<'_>) -> Option<Position> {
         self.count_part(e.span)?;
         match &e.kind {
             ExprKind::Paren(inner) => self.point_at(inner, context),
@@ -64,7 +65,7 @@ impl Checker<'_> {
         }
     }
 
-    /// Says that a formula is no point.
+    /// Reports a formula that is not a point.
     fn no_point(&mut self, e: &Expr) {
         let found = match &e.kind {
             ExprKind::If { .. } => "an `if`",
@@ -79,34 +80,34 @@ impl Checker<'_> {
         });
     }
 
-    fn literal_point(&mut self, e: &Expr, parts: &[Expr], context: &Context<'_>) -> Option<Place> {
+    fn literal_point(&mut self, e: &Expr, parts: &[Expr], context: &Context<'_>) -> Option<Position> {
         let [x, y] = parts else {
             let word = Keyword::named("point").map(|keyword| &keyword.word);
             let diagnostic = errors::argument_count("point", word, e.span, "two lengths", parts.len());
-            self.report(mends::fixed_first(diagnostic, self.decimal_comma(parts, 2)));
+            self.report(edits::with_preferred_fix(diagnostic, self.suggest_decimal_point(parts, 2)));
             return None;
         };
         let values = [x, y].map(|part| self.number(part, context));
         self.two_lengths([x, y], values, context)
     }
 
-    fn named_point(&mut self, name: &Name, context: &Context<'_>) -> Option<Place> {
+    fn named_point(&mut self, name: &Name, context: &Context<'_>) -> Option<Position> {
         if !context.names {
             self.report(errors::names_in_option(name));
             return None;
         }
-        match self.found(name, Wanted::Point) {
-            Found::Point(drawn) => Some(drawn.at),
-            Found::Broken => None,
-            Found::Nothing => {
+        match self.lookup_point(name, Expected::Point) {
+            PointLookup::Point(drawn) => Some(drawn.at),
+            PointLookup::Broken => None,
+            PointLookup::NotAPoint => {
                 self.no_point_named(name);
                 None
             }
         }
     }
 
-    /// `crank.pin`: where it is drawn.
-    fn feature_point(&mut self, e: &Expr, owner: &Name, feature: &Name) -> Option<Place> {
+    /// Evaluates `crank.pin` at its drawn position.
+    fn feature_point(&mut self, e: &Expr, owner: &Name, feature: &Name) -> Option<Position> {
         if self.is_named_point(owner) || self.is_body(owner) && !self.scope.site.takes_drawn_points() {
             let diagnostic = self.no_place(e.span, owner, feature);
             self.report(diagnostic);
@@ -116,20 +117,20 @@ impl Checker<'_> {
         let point = self.point_named(frame, feature)?;
         let at = self.model[point].at;
         match self.scope.site {
-            Site::Mount(mount) => self.drawn_from(mount, frame, at),
+            FormulaSite::Mount(mount) => self.drawn_from(mount, frame, at),
             _ => self.drawn_place(frame, at),
         }
     }
 
-    /// Where a point of a frame is drawn, in the frame of this text; nothing where that is broken.
-    pub(super) fn drawn_place(&mut self, frame: Frame, [x, y]: Place) -> Option<Place> {
+    /// Returns the drawn position of a frame's point in this text's frame; `None` if a pose is broken.
+    pub(super) fn drawn_place(&mut self, frame: Frame, [x, y]: Position) -> Option<Position> {
         if frame == self.address.ground {
             return Some([x, y]);
         }
         if self.is_place_broken(frame) {
             return None;
         }
-        let Some(body) = self.own_body(frame) else {
+        let Some(body) = self.local_body(frame) else {
             let placement = self.drawn_frame(frame);
             return Some(placement.placed(&mut self.model.graph, [x, y]));
         };
@@ -142,7 +143,7 @@ impl Checker<'_> {
         Some([graph.add(origin_x, dx), graph.add(origin_y, dy)])
     }
 
-    fn sum_of_points(&mut self, first: &Expr, rest: &[(Sign, Expr)], context: &Context<'_>) -> Option<Place> {
+    fn sum_of_points(&mut self, first: &Expr, rest: &[(Sign, Expr)], context: &Context<'_>) -> Option<Position> {
         let mut sum = self.point_at(first, context);
         for (sign, term) in rest {
             let (Some(left), Some(right)) = (sum, self.point_at(term, context)) else {
@@ -158,8 +159,8 @@ impl Checker<'_> {
         sum
     }
 
-    /// A point times and divided by numbers.
-    fn multiple(&mut self, e: &Expr, first: &Expr, rest: &[(Factor, Expr)], context: &Context<'_>) -> Option<Place> {
+    /// Evaluates a point multiplied or divided by numbers.
+    fn multiple(&mut self, e: &Expr, first: &Expr, rest: &[(Factor, Expr)], context: &Context<'_>) -> Option<Position> {
         let mut product = self.factor(first, context);
         for (factor, term) in rest {
             let (Some(left), Some(right)) = (product, self.factor(term, context)) else {
@@ -170,7 +171,7 @@ impl Checker<'_> {
         }
         match product? {
             Scaled::Point(at, dim) => {
-                self.demand("what a point is multiplied by", Dimension::PURE, e.span, dim, context)?;
+                self.require_dimension("what a point is multiplied by", Dimension::PURE, e.span, dim, context)?;
                 self.finite_point(e.span, at)
             }
             Scaled::Number(_) => {
@@ -214,28 +215,28 @@ impl Checker<'_> {
         })
     }
 
-    fn finite_point(&mut self, span: Span, at: Place) -> Option<Place> {
+    fn finite_point(&mut self, span: Span, at: Position) -> Option<Position> {
         for id in at {
             self.finite(span, Value { id, dim: Dim::LENGTH })?;
         }
         Some(at)
     }
 
-    /// `polar(r, angle)`, `mid(P, Q)`
+    /// Evaluates `polar(r, angle)` or `mid(P, Q)`.
     fn called_point(
         &mut self,
         e: &Expr,
         (name, window): (&Name, Option<&Window>),
         arguments: &[Expr],
         context: &Context<'_>,
-    ) -> Option<Place> {
+    ) -> Option<Position> {
         if self.hidden.contains(name.text.as_str()) || !matches!(name.text.as_str(), "polar" | "mid") {
-            // what is wrong with the call itself explains more
+            // A fault of the call itself explains more.
             self.number(e, context)?;
             self.no_point(e);
             return None;
         }
-        self.refuse_window(name, window)?;
+        self.reject_window(name, window)?;
         let [first, second] = self.two_arguments(e, name, arguments)?;
         if name.text == "polar" {
             return self.polar(first, second, context);
@@ -250,16 +251,16 @@ impl Checker<'_> {
         }))
     }
 
-    fn polar(&mut self, radius: &Expr, angle: &Expr, context: &Context<'_>) -> Option<Place> {
+    fn polar(&mut self, radius: &Expr, angle: &Expr, context: &Context<'_>) -> Option<Position> {
         self.warn_of_degrees_in(angle);
         let (r, a) = (self.number(radius, context), self.number(angle, context));
         let (r, a) = (r?, a?);
-        if !context.judged && self.refuses_angle("the first argument of `polar`", radius) {
+        if !context.judged && self.reject_angle("the first argument of `polar`", radius) {
             return None;
         }
-        self.demand("the first argument of `polar`", Dimension::LENGTH, radius.span, r.dim, context)?;
-        self.demand("the angle of `polar`", Dimension::PURE, angle.span, a.dim, context)?;
-        self.remember_any_length(radius, r.id, context.judged);
+        self.require_dimension("the first argument of `polar`", Dimension::LENGTH, radius.span, r.dim, context)?;
+        self.require_dimension("the angle of `polar`", Dimension::PURE, angle.span, a.dim, context)?;
+        self.record_length_term(radius, r.id, context.judged);
         let graph = &mut self.model.graph;
         let (sin, cos) = (graph.unary(Unary::Sin, a.id), graph.unary(Unary::Cos, a.id));
         Some([graph.mul(r.id, cos), graph.mul(r.id, sin)])
@@ -267,7 +268,7 @@ impl Checker<'_> {
 
     // ---- numbers of points
 
-    /// `length(P, Q)`, `direction(P, Q)`
+    /// Evaluates `length(P, Q)` or `direction(P, Q)`.
     pub(super) fn number_of_points(
         &mut self,
         e: &Expr,
@@ -286,7 +287,7 @@ impl Checker<'_> {
             return None;
         }
         let argument = context.argument.map(|(name, _)| name);
-        let judged = [first, second].into_iter().any(|e| self.holds_dimension(argument, e, Wanted::Point));
+        let judged = [first, second].into_iter().any(|e| self.holds_dimension(argument, e, Expected::Point));
         let inner = Context {
             judged,
             time: false,
@@ -297,16 +298,16 @@ impl Checker<'_> {
         };
         let (p, q) = (self.point_at(first, &inner), self.point_at(second, &inner));
         let (p, q) = (p?, q?);
-        let way = [0, 1].map(|k| self.model.graph.sub(q[k], p[k]));
+        let offset = [0, 1].map(|k| self.model.graph.sub(q[k], p[k]));
         if name.text == "length" {
-            let id = self.model.graph.binary(Binary::Hypot, way[0], way[1]);
+            let id = self.model.graph.binary(Binary::Hypot, offset[0], offset[1]);
             return Some(Value { id, dim: Dim::LENGTH });
         }
-        let id = self.direction_of_way(way, "`direction`", e.span)?;
+        let id = self.direction_of_vector(offset, "`direction`", e.span)?;
         Some(Value { id, dim: Dim::PURE })
     }
 
-    /// The place of a point of a body, if one of two points is that and has no place in a drawing.
+    /// Returns the location of a body's point among two points, if the site allows no drawn points.
     fn moving_among(&self, points: [&Expr; 2]) -> Option<Span> {
         let is_moving = |e: &&Expr| match &e.bare().kind {
             ExprKind::Member { owner, .. } => self.is_body(owner) && !self.is_named_point(owner),
@@ -315,17 +316,17 @@ impl Checker<'_> {
         points.into_iter().find(is_moving).map(|e| e.span).filter(|_| !self.scope.site.takes_drawn_points())
     }
 
-    /// The angle of the way between two points, in (−π, π].
-    pub(super) fn direction_of_way(&mut self, way: Place, what: &str, span: Span) -> Option<ExprId> {
-        let [dx, dy] = way.map(|id| self.decided(id, DecidedBy::Sign));
+    /// Returns the angle of the vector between two points, in (−π, π].
+    pub(super) fn direction_of_vector(&mut self, offset: Position, what: &str, span: Span) -> Option<ExprId> {
+        let [dx, dy] = offset.map(|id| self.decided(id, GuardKind::Sign));
         if dx == Some(0.0) && dy == Some(0.0) && !self.branch.is_untaken {
             self.report(errors::points_coincide(what, span));
             return None;
         }
         let graph = &mut self.model.graph;
-        let angle = graph.binary(Binary::Atan2, way[1], way[0]);
-        // the arc tangent of a negative zero is -π
-        if !may_be_negative_zero(graph, way[1]) {
+        let angle = graph.binary(Binary::Atan2, offset[1], offset[0]);
+        // `atan2` of a negative zero is −π.
+        if !may_be_negative_zero(graph, offset[1]) {
             return Some(angle);
         }
         let [lowest, turn] = [-std::f64::consts::PI, std::f64::consts::TAU].map(|value| graph.constant(value));
@@ -344,18 +345,18 @@ impl Checker<'_> {
         None
     }
 
-    /// `P.x`: a coordinate of a point; `None` where it is broken, which has been said.
-    pub(super) fn coordinate_of(&mut self, e: &Expr, context: &Context<'_>) -> Result<Option<Value>, NoPoint> {
-        let ExprKind::Member { owner, feature } = &e.kind else { return Err(NoPoint) };
+    /// Evaluates `P.x`, a coordinate of a point; `None` if it is broken, which has been reported.
+    pub(super) fn coordinate_of(&mut self, e: &Expr, context: &Context<'_>) -> Result<Option<Value>, NotAPoint> {
+        let ExprKind::Member { owner, feature } = &e.kind else { return Err(NotAPoint) };
         if !context.names {
-            self.point_param(owner).ok_or(NoPoint)?;
+            self.point_param(owner).ok_or(NotAPoint)?;
             self.report(errors::names_in_option(owner));
             return Ok(None);
         }
-        let drawn = match self.found(owner, Wanted::Point) {
-            Found::Nothing => return Err(NoPoint),
-            Found::Broken => return Ok(None),
-            Found::Point(drawn) => drawn,
+        let drawn = match self.lookup_point(owner, Expected::Point) {
+            PointLookup::NotAPoint => return Err(NotAPoint),
+            PointLookup::Broken => return Ok(None),
+            PointLookup::Point(drawn) => drawn,
         };
         let Some(k) = coordinate(feature) else {
             self.report(errors::no_coordinate(owner, feature));
@@ -365,19 +366,19 @@ impl Checker<'_> {
     }
 }
 
-/// Whether a formula could have the value −0: of params, which are no such zero, differences and means are none.
+/// Returns whether a formula could be −0. Params are not, nor are differences and means of such.
 fn may_be_negative_zero(graph: &Graph, id: ExprId) -> bool {
     let mut open = vec![id];
-    let mut seen = FxHashSet::default();
+    let mut visited = FxHashSet::default();
     while let Some(id) = open.pop() {
-        if !seen.insert(id) {
+        if !visited.insert(id) {
             continue;
         }
         match graph.node(id) {
             Node::Const(bits) if bits == (-0.0_f64).to_bits() => return true,
             Node::Const(_) | Node::Symbol(_) => {}
             Node::Add(a, b) => open.extend([a, b]),
-            // less than +0 by nothing
+            // A difference of +0 and 0 is +0.
             Node::Sub(a, _) => open.push(a),
             Node::Mul(a, b) if graph.as_const(a).is_some_and(|factor| factor > 0.0) => open.push(b),
             _ => return true,

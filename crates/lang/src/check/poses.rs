@@ -1,9 +1,10 @@
-//! Where bodies are drawn: the poses behind `at`, which may follow from those of other bodies.
+//! Drawn poses of bodies: the formulas after `at`, which may depend on the poses of other bodies.
 
 use super::formula::Context;
-use super::names::Ordered;
-use super::sites::{Place, Site};
-use super::{Checker, errors, mends};
+use super::formula_scope::{FormulaSite, Position};
+use super::names::DefinitionOrder;
+use super::{Checker, errors};
+use crate::check::suggest::edits;
 use crate::model::Frame;
 use mechc_expr::ExprId;
 use mechc_syntax::ast::{DrawnPose, Expr, ExprKind, Item, ItemKind, Name};
@@ -12,13 +13,13 @@ use mechc_text::source::Span;
 use mechc_text::vocabulary::Keyword;
 use rustc_hash::FxHashMap;
 
-/// For messages.
+/// The place in messages.
 const PLACE: &str = "the estimate of a pose";
 
 impl<'a> Checker<'a> {
-    /// The poses of all bodies, each after those that it needs.
+    /// Evaluates the poses of all bodies, each after those that it uses.
     pub(super) fn poses(&mut self) {
-        // in their own frames they need nothing of what is around them
+        // In their own frames they depend on nothing outside.
         self.in_parts(Checker::poses);
         let mut poses = Vec::new();
         for item in self.items() {
@@ -28,10 +29,10 @@ impl<'a> Checker<'a> {
         }
         let uses = self.uses_of_poses(&poses);
         let mut is_sound = vec![false; poses.len()];
-        let Ordered { order, on_circles } = self.ordered(&uses);
-        self.break_places_of_parts(on_circles.iter().filter_map(|k| k.checked_sub(poses.len())));
+        let DefinitionOrder { order, on_cycles } = self.ordered(&uses);
+        self.break_places_of_parts(on_cycles.iter().filter_map(|k| k.checked_sub(poses.len())));
         for k in order {
-            // behind the bodies stand the parts
+            // Parts follow the bodies.
             let Some(&(item, _, pose)) = poses.get(k) else {
                 let part = k - poses.len();
                 if self.is_placed_by_features(part) {
@@ -40,19 +41,19 @@ impl<'a> Checker<'a> {
                 continue;
             };
             is_sound[k] = match pose {
-                Some(pose) => self.at_site(Site::Drawing, None, |checker| checker.pose(k, pose)).is_some(),
+                Some(pose) => self.at_site(FormulaSite::Drawing, None, |checker| checker.pose(k, pose)).is_some(),
                 None => !self.has_unread_pose(item),
             };
             if !is_sound[k] {
                 self.common.broken_poses.insert(self.bodies[k]);
             }
         }
-        // those on a circle have none
+        // Poses on a cycle are broken.
         let broken = self.bodies.iter().zip(is_sound).filter(|(_, is_sound)| !is_sound);
         self.common.broken_poses.extend(broken.map(|(&body, _)| body));
     }
 
-    /// Which bodies the pose of each one names.
+    /// Returns the bodies that the pose of each one uses.
     fn uses_of_poses(
         &self,
         poses: &[(&'a Item, &'a Name, Option<&'a DrawnPose>)],
@@ -64,14 +65,14 @@ impl<'a> Checker<'a> {
         for (k, part) in self.bindings.iter().enumerate() {
             positions.entry(part.name.text.as_str()).or_insert(poses.len() + k);
         }
-        // what is in a part stands where the part does
+        // The position of what is in a part depends on that of the part.
         let position = |name: &Name| positions.get(name.text.split('.').next().unwrap_or_default()).copied();
         let uses = poses.iter().map(|&(_, name, pose)| {
             (name, self.owners_in(pose.into_iter().flat_map(DrawnPose::parts).collect(), position))
         });
         let mut uses: Vec<_> = uses.collect();
         for (part, child) in self.bindings.iter().zip(&self.parts) {
-            // of one whose mount is refused that is said
+            // A rejected mount has been reported.
             let is_mounted = child.address.part.is_some_and(|id| self.model[id].mount != self.address.ground);
             let mount = part.on.as_ref().filter(|_| is_mounted).and_then(|on| match &on.kind {
                 ExprKind::Name(name) => position(name).map(|k| (k, name.span)),
@@ -85,7 +86,7 @@ impl<'a> Checker<'a> {
         uses
     }
 
-    /// Whose features formulas name, by their positions.
+    /// Returns the owners of the features that formulas use, by their positions.
     fn owners_in(&self, mut open: Vec<&Expr>, position: impl Fn(&Name) -> Option<usize>) -> Vec<(usize, Span)> {
         let mut uses = Vec::new();
         while let Some(e) = open.pop() {
@@ -99,14 +100,14 @@ impl<'a> Checker<'a> {
         uses
     }
 
-    /// Parts whose places go in a circle have none; those of bodies follow.
+    /// Marks the poses of parts on a cycle as broken.
     fn break_places_of_parts(&mut self, parts: impl Iterator<Item = usize>) {
         for part in parts {
             self.common.broken_poses.extend(self.parts[part].address.part.map(Frame::Part));
         }
     }
 
-    /// Whether a body has a pose that does not follow the grammar, which has been said.
+    /// Returns whether a body has a pose that does not follow the grammar, which has been reported.
     fn has_unread_pose(&self, item: &Item) -> bool {
         let head = self.sources.text(item.span).split('{').next().unwrap_or_default();
         keywords_in(head).any(|(_, keyword)| keyword.word.name == "at")
@@ -124,8 +125,8 @@ impl<'a> Checker<'a> {
         Some(())
     }
 
-    /// `(x, y, phi)` or `(P, phi)`
-    pub(super) fn place_and_angle(&mut self, at: &Expr) -> Option<(Option<Place>, Option<ExprId>)> {
+    /// Evaluates `(x, y, phi)` or `(P, phi)`.
+    pub(super) fn place_and_angle(&mut self, at: &Expr) -> Option<(Option<Position>, Option<ExprId>)> {
         let ExprKind::Tuple(parts) = &at.kind else {
             self.wrong_pose(at, &[]);
             return None;
@@ -136,7 +137,7 @@ impl<'a> Checker<'a> {
                 let place = self.lengths_in([x, y], &context);
                 (place, self.angle(phi, "the angle of a pose"))
             }
-            [point, phi] if self.is_meant_as_point(point) => {
+            [point, phi] if self.is_intended_as_point(point) => {
                 let place = self.drawn_point_of(point);
                 (place, self.angle(phi, "the angle of a pose"))
             }
@@ -147,15 +148,15 @@ impl<'a> Checker<'a> {
         })
     }
 
-    /// `at A toward B`
-    fn pose_toward(&mut self, from: &Expr, to: &Expr) -> (Option<Place>, Option<ExprId>) {
+    /// Evaluates `at A toward B`.
+    fn pose_toward(&mut self, from: &Expr, to: &Expr) -> (Option<Position>, Option<ExprId>) {
         let (p, q) = (self.drawn_point_of(from), self.drawn_point_of(to));
         let (Some(p), Some(q)) = (p, q) else { return (None, None) };
-        let way = [0, 1].map(|k| self.model.graph.sub(q[k], p[k]));
-        (Some(p), self.direction_of_way(way, "`toward`", from.span.to(to.span)))
+        let offset = [0, 1].map(|k| self.model.graph.sub(q[k], p[k]));
+        (Some(p), self.direction_of_vector(offset, "`toward`", from.span.to(to.span)))
     }
 
-    fn drawn_point_of(&mut self, e: &Expr) -> Option<Place> {
+    fn drawn_point_of(&mut self, e: &Expr) -> Option<Position> {
         match &e.kind {
             ExprKind::Name(name) if !self.is_point(e) => {
                 self.no_point_named(name);
@@ -165,8 +166,8 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// A point, or a name or feature that is not known.
-    fn is_meant_as_point(&self, e: &Expr) -> bool {
+    /// Returns whether a formula is a point, or an unknown name or feature.
+    fn is_intended_as_point(&self, e: &Expr) -> bool {
         self.is_point(e)
             || match &e.kind {
                 ExprKind::Name(name) => !self.is_number_name(name),
@@ -183,7 +184,7 @@ impl<'a> Checker<'a> {
         let found = if parts.is_empty() { 1 } else { parts.len() };
         let word = Keyword::named("at").map(|keyword| &keyword.word);
         let diagnostic = errors::argument_count("at", word, e.span, "two lengths and an angle", found);
-        let fix = self.decimal_comma(parts, 3).or_else(|| mends::angle_missing(parts));
-        self.report(mends::fixed_first(diagnostic, fix));
+        let fix = self.suggest_decimal_point(parts, 3).or_else(|| edits::suggest_pose_angle(parts));
+        self.report(edits::with_preferred_fix(diagnostic, fix));
     }
 }

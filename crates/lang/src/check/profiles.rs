@@ -1,9 +1,10 @@
-//! Circles and curves: the lines that wheels roll on and contacts run along.
+//! Circles and curves: the profiles of wheels and contacts.
 
 use super::features::Feature;
 use super::formula::{Context, Dim, Value};
-use super::sites::{Drawn, Site};
-use super::{Checker, errors, mends};
+use super::formula_scope::{FormulaSite, InitialPoint};
+use super::{Checker, errors};
+use crate::check::suggest::edits;
 use crate::model::{Circle, CircleId, Curve, CurveId, Frame, Named, Profile};
 use mechc_expr::Dependence;
 use mechc_syntax::ast::{self, Expr, ExprKind, FeatureKind, Name};
@@ -27,8 +28,8 @@ impl<'a> Checker<'a> {
     }
 
     fn circle_feature(&mut self, frame: Frame, name: &Name, center: &Expr, radius: &Expr) -> Option<CircleId> {
-        let center = self.at_site(Site::Inside(frame), None, |checker| checker.place(frame, center));
-        let radius = self.at_site(Site::Inside(frame), None, |checker| checker.radius(radius));
+        let center = self.at_site(FormulaSite::Inside(frame), None, |checker| checker.place(frame, center));
+        let radius = self.at_site(FormulaSite::Inside(frame), None, |checker| checker.radius(radius));
         let (center, radius) = (center?, radius?);
         Some(self.model.add_circle(Circle { frame, name: name.text.clone(), span: name.span, center, radius }))
     }
@@ -43,18 +44,18 @@ impl<'a> Checker<'a> {
     ) -> Option<CurveId> {
         let id = self.name_symbol(Named::Argument, 0);
         let value = Value { id, dim: Dim::PURE };
-        let known = self.model.conditions.len();
+        let before = self.model.conditions.len();
         let pair = self.at_curve(frame, &argument.text, |checker| {
             checker.place_of(at, "curve", "a curve", Some((&argument.text, value)))
         });
-        // what must be positive along the curve must be so at a contact only
-        let mut conditions = self.model.conditions.split_off(known);
+        // Conditions of the argument only apply at a contact.
+        let mut conditions = self.model.conditions.split_off(before);
         for condition in &mut conditions {
             condition.owner.clone_from(&name.text);
         }
         let estimate = match estimate {
             None => None,
-            Some(estimate) => Some(self.at_site(Site::Inside(frame), None, |checker| {
+            Some(estimate) => Some(self.at_site(FormulaSite::Inside(frame), None, |checker| {
                 checker.angle(estimate, "the estimate of a curve's argument")
             })?),
         };
@@ -75,20 +76,20 @@ impl<'a> Checker<'a> {
         Some(self.model.add_curve(curve))
     }
 
-    /// A circle of a body or of the ground.
+    /// Returns a circle of a body or of the ground.
     pub(super) fn circle(&mut self, e: &Expr) -> Option<CircleId> {
         let is_circle = |feature| matches!(feature, Feature::Circle(_));
         match self.feature_at(e, "circle", is_circle)? {
             (Feature::Circle(circle), _) => circle,
             (other, span) => {
                 let diagnostic = errors::wrong_kind(span, "a circle", other.noun());
-                self.report(diagnostic.fix_if(self.profile_for(e, is_circle)));
+                self.report(diagnostic.fix_if(self.suggest_profile(e, is_circle)));
                 None
             }
         }
     }
 
-    /// A curve of a body or of the ground, or a circle in its place.
+    /// Returns a curve of a body or of the ground, or a circle in its place.
     pub(super) fn profile(&mut self, e: &Expr) -> Option<Profile> {
         let is_profile = |feature| matches!(feature, Feature::Circle(_) | Feature::Curve(_));
         match self.feature_at(e, "curve", is_profile)? {
@@ -96,50 +97,50 @@ impl<'a> Checker<'a> {
             (Feature::Curve(curve), _) => curve.map(Profile::Curve),
             (other, span) => {
                 let diagnostic = errors::wrong_kind(span, "a curve or a circle", other.noun());
-                self.report(diagnostic.fix_if(self.profile_for(e, is_profile)));
+                self.report(diagnostic.fix_if(self.suggest_profile(e, is_profile)));
                 None
             }
         }
     }
 
-    /// The feature that `body.feature` names, with the place of its name.
-    fn feature_at(&mut self, e: &Expr, what: &str, wanted: impl Fn(Feature) -> bool) -> Option<(Feature, Span)> {
+    /// Returns the feature of `body.feature`, with the location of its name.
+    fn feature_at(&mut self, e: &Expr, what: &str, expected: impl Fn(Feature) -> bool) -> Option<(Feature, Span)> {
         match &e.kind {
             ExprKind::Member { owner, feature } => {
                 let frame = self.body(owner)?;
-                self.feature(frame, feature, what, wanted).map(|found| (found, feature.span))
+                self.feature(frame, feature, what, expected).map(|found| (found, feature.span))
             }
             ExprKind::Name(name) => {
                 self.bare_name(name, what);
                 None
             }
             _ => {
-                let wanted = format!("a {what}");
-                self.wrong_kind(e.span, &wanted, Self::describe(e));
+                let expected = format!("a {what}");
+                self.wrong_kind(e.span, &expected, Self::describe(e));
                 None
             }
         }
     }
 
-    /// `(x, y)`, two lengths that are judged together, or another formula of points; over an argument, if there is one.
+    /// Evaluates `(x, y)`, whose dimensions are judged together, or another formula of points, with an argument if given.
     pub(super) fn place_of(
         &mut self,
         e: &Expr,
         what: &str,
         place: &'static str,
         argument: Option<(&str, Value)>,
-    ) -> Option<Drawn> {
+    ) -> Option<InitialPoint> {
         match &e.kind {
             ExprKind::Tuple(parts) => {
                 if let [x, y] = parts.as_slice() {
                     let name = argument.map(|(name, _)| name);
                     let context = Context { argument, ..self.pair_context([x, y], place, name) };
                     let at = self.lengths_in([x, y], &context)?;
-                    Some(Drawn { at, dimensional: context.judged })
+                    Some(InitialPoint { at, dimensional: context.judged })
                 } else {
                     let word = Keyword::named(what).map(|keyword| &keyword.word);
                     let diagnostic = errors::argument_count(what, word, e.span, "two lengths", parts.len());
-                    self.report(mends::fixed_first(diagnostic, self.decimal_comma(parts, 2)));
+                    self.report(edits::with_preferred_fix(diagnostic, self.suggest_decimal_point(parts, 2)));
                     None
                 }
             }

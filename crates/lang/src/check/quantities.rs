@@ -1,4 +1,4 @@
-//! Calls of kinematic quantities, and the references to features that they take.
+//! Calls of kinematic quantities, and the references to features in them.
 
 use super::entity::Entity;
 use super::formula::{Context, Dim, Value};
@@ -9,7 +9,7 @@ use mechc_text::source::Span;
 use mechc_text::vocabulary::QuantityWord;
 
 impl Checker<'_> {
-    /// `x(P)`, `angle(b, c)`, `rotation(J)` …
+    /// Evaluates `x(P)`, `angle(b, c)`, `rotation(J)` …
     pub(super) fn quantity(
         &mut self,
         e: &Expr,
@@ -25,13 +25,13 @@ impl Checker<'_> {
         }
         let quantity = self.quantity_called(e, name, arguments)?;
         if quantity.may_not_exist() {
-            self.ask_for_existence(quantity, e.span);
+            self.require_existence(quantity, e.span);
         }
         let id = self.name_symbol(Named::Quantity(self.address.part, quantity), quantity.order());
         Some(Value { id, dim: Dim::Of(quantity.dimension()) })
     }
 
-    /// Whether kinematic quantities, and this one, may stand in a formula; says why not.
+    /// Returns whether kinematic quantities, and this one, are allowed in a formula; otherwise reports it.
     fn quantity_may_stand(&mut self, e: &Expr, name: &Name, arguments: &[Expr], context: &Context<'_>) -> bool {
         if !context.quantities && context.results {
             let what = format!("the kinematic quantity `{}`", name.text);
@@ -39,7 +39,7 @@ impl Checker<'_> {
             self.report(errors::outside_reduction(&what, e.span, text));
             return false;
         }
-        // what comes out says itself where it may not stand
+        // Computed forces report themselves where they are not allowed.
         let word = QuantityWord::named(&name.text).filter(|word| !word.is_force);
         let Some(word) = word else { return true };
         if !context.quantities {
@@ -48,7 +48,7 @@ impl Checker<'_> {
         }
         if !context.measures && (word.gives_way || name.text == "angle" && arguments.len() == 3) {
             let diagnostic = errors::quantity_of_measures(context.place, &name.text, e.span);
-            let diagnostic = match self.rate_of_joint(e, name, arguments, context) {
+            let diagnostic = match self.suggest_joint_rate(e, name, arguments, context) {
                 Some(fix) => diagnostic.instead(fix),
                 None => diagnostic,
             };
@@ -58,7 +58,7 @@ impl Checker<'_> {
         true
     }
 
-    /// The quantity that is called; its arguments are what it is of.
+    /// Returns the called quantity with its arguments.
     fn quantity_called(&mut self, e: &Expr, name: &Name, arguments: &[Expr]) -> Option<Quantity> {
         Some(match (name.text.as_str(), arguments) {
             ("x", [p]) => Quantity::X(None, self.point(p)?),
@@ -114,8 +114,8 @@ impl Checker<'_> {
         })
     }
 
-    /// Asks that a quantity exists, where the branch that it stands in counts.
-    fn ask_for_existence(&mut self, quantity: Quantity, span: Span) {
+    /// Adds the condition that a quantity exists, in the current branch.
+    fn require_existence(&mut self, quantity: Quantity, span: Span) {
         let exists = self.name_symbol(Named::Exists(self.address.part, quantity), quantity.order());
         let one = self.model.graph.constant(1.0);
         let positive = self.branch.guard.map_or(exists, |guard| self.model.graph.select(guard, exists, one));
@@ -123,13 +123,13 @@ impl Checker<'_> {
         self.model.conditions.push(Condition { positive, kind, span, owner: String::new() });
     }
 
-    /// A quantity of the language, unless a function or table of the mechanism has its name, which it gives way to.
+    /// Returns a quantity of the language, unless a function or table of the mechanism hides it.
     pub(super) fn quantity_word(&self, name: &Name) -> Option<&'static QuantityWord> {
         let is_hidden = || matches!(self.entity(name), Some(Entity::Function(_) | Entity::Table(_)));
         QuantityWord::named(&name.text).filter(|quantity| !quantity.gives_way || !is_hidden())
     }
 
-    /// A body, or the ground.
+    /// Returns a body or the ground.
     fn body_of(&mut self, e: &Expr) -> Option<Frame> {
         if let ExprKind::Name(name) = &e.bare().kind {
             return self.body(name);
@@ -143,7 +143,7 @@ impl Checker<'_> {
         Some((p?, q?))
     }
 
-    /// A body, the ground, or an axis.
+    /// Returns the direction of a body, the ground or an axis.
     fn direction(&mut self, e: &Expr) -> Option<Direction> {
         match &e.kind {
             ExprKind::Paren(inner) => self.direction(inner),
@@ -164,33 +164,33 @@ impl Checker<'_> {
         let frames = self.model[joint].kind.frames(&self.model);
         for (axis, e, frame) in [(u_id, u, frames[0]), (v_id, v, frames[1])] {
             if self.model[axis].frame != frame {
-                let wanted = self.frame_name(frame).to_owned();
+                let expected = self.frame_name(frame).to_owned();
                 let (joint, axis) = (self.model[joint].declared.name.clone(), self.model[axis].name.clone());
-                self.report(errors::axes_elsewhere(&joint, &axis, e.span, &wanted));
+                self.report(errors::axes_elsewhere(&joint, &axis, e.span, &expected));
                 return None;
             }
         }
         Some(Quantity::Rotation(joint, Some((u_id, v_id))))
     }
 
-    /// A joint of the kind that has the quantity.
+    /// Returns a joint of a kind that has the quantity.
     fn joint_with(&mut self, quantity: &str, e: &Expr) -> Option<JointId> {
         let (joint, name) = self.joint_named(quantity, e)?;
         let kind = self.model[joint].kind.plain();
         if kind.has_quantity(quantity) {
             return Some(joint);
         }
-        let wanted = match quantity {
+        let expected = match quantity {
             "rotation" => "revolute",
             "displacement" => "translational",
             _ => "`point_follower`, `cam` and `flat_follower`",
         };
         let declared = self.model[joint].declared.clone();
-        self.report(errors::joint_without(quantity, wanted, &declared.name, kind, name.span, declared.span));
+        self.report(errors::joint_without(quantity, expected, &declared.name, kind, name.span, declared.span));
         None
     }
 
-    /// The joint that an argument names, of whatever kind.
+    /// Returns the joint that an argument names, of any kind.
     pub(super) fn joint_named<'e>(&mut self, quantity: &str, e: &'e Expr) -> Option<(JointId, &'e Name)> {
         let ExprKind::Name(name) = &e.bare().kind else {
             let found = Self::describe(e);
@@ -201,12 +201,12 @@ impl Checker<'_> {
             Some(Entity::Joint(k)) => self.joints.get(k).copied().flatten()?,
             Some(entity) => {
                 let diagnostic = errors::wrong_kind(name.span, "a joint", entity.noun());
-                self.report(self.joint_for(quantity, name, diagnostic));
+                self.report(self.suggest_joint(quantity, name, diagnostic));
                 return None;
             }
             None => {
-                let known = self.suggestions(|entity| matches!(entity, Entity::Joint(_)));
-                let diagnostic = errors::unknown("joint", name, &known);
+                let candidates = self.suggestions(|entity| matches!(entity, Entity::Joint(_)));
+                let diagnostic = errors::unknown("joint", name, &candidates);
                 self.report(diagnostic);
                 return None;
             }
@@ -214,7 +214,7 @@ impl Checker<'_> {
         Some((joint, name))
     }
 
-    /// A body of that name, or the ground.
+    /// Returns the body of a name, or the ground.
     pub(super) fn body(&mut self, name: &Name) -> Option<Frame> {
         if name.text == "ground" {
             return Some(self.address.ground);
@@ -232,7 +232,7 @@ impl Checker<'_> {
         }
     }
 
-    /// What stands in the place of something else.
+    /// Describes a formula for a message.
     pub(super) fn describe(e: &Expr) -> &'static str {
         match &e.bare().kind {
             ExprKind::Literal { .. } => "a number",
@@ -246,12 +246,12 @@ impl Checker<'_> {
         }
     }
 
-    /// What a name in the place of a feature stands for.
+    /// Describes a name that stands in the place of a feature.
     pub(super) fn describe_name(&self, name: &Name) -> &'static str {
         self.entity(name).map_or("a name", Entity::noun)
     }
 
-    /// Every frame that a quantity speaks of.
+    /// Returns every frame on which a quantity depends.
     pub(super) fn frames_of(&self, quantity: Quantity) -> Vec<Frame> {
         let point = |p: PointId| self.model[p].frame;
         let axis = |a: AxisId| self.model[a].frame;
@@ -273,13 +273,13 @@ impl Checker<'_> {
         }
     }
 
-    /// Says that a span holds something of the wrong kind.
-    pub(super) fn wrong_kind(&mut self, span: Span, wanted: &str, found: &str) {
-        self.report(errors::wrong_kind(span, wanted, found));
+    /// Reports a formula of the wrong kind.
+    pub(super) fn wrong_kind(&mut self, span: Span, expected: &str, found: &str) {
+        self.report(errors::wrong_kind(span, expected, found));
     }
 }
 
-/// Which coordinate of a pole is asked for.
+/// Returns the coordinate that a pole's word selects.
 fn part_of(name: &Name) -> u32 {
     u32::from(name.text.ends_with('y'))
 }

@@ -1,11 +1,11 @@
-//! Repetition: declarations that stand for one for each whole number are written out, and paths like `link[k - 1].pin` become the
-//! names that the copies have. All else of `check` knows plain declarations alone.
+//! Repetition: repeated declarations are expanded into copies, and paths like `link[k - 1].pin` become the names of copies. All other
+//! modules of `check` only know plain declarations.
 
+mod copies;
 mod paths;
-mod written;
 
+use super::free_names::name_of;
 use super::instance::{Copies, Instance};
-use super::mentions::name_of;
 use super::{Checker, errors};
 use crate::model::Dimension;
 use mechc_syntax::ast::{self, Expr, ExprKind, Factor, Item, ItemKind, Mechanism, Name, Sign};
@@ -15,56 +15,56 @@ use mechc_text::vocabulary::is_taken;
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::rc::Rc;
 
-/// Declarations that a mechanism may have, written out, with those of its parts.
+/// The largest number of declarations of a mechanism with its parts, after expansion.
 pub(super) const MOST: usize = 1_000_000;
 
-/// Indices that a declaration may have: all of them stand in the names of its copies.
+/// The largest number of indices of a declaration, all of which stand in the names of its copies.
 const MOST_INDICES: usize = 16;
 
-/// How far a number may be from a whole one: rounding.
+/// The allowed distance of an index from an integer, because of rounding.
 const WHOLE: f64 = 1e-9;
 
-/// Whether something of a mechanism is repeated, or a part.
-pub(super) fn needs_writing(tree: &Mechanism) -> bool {
+/// Returns whether a mechanism has repetitions or parts.
+pub(super) fn needs_expansion(tree: &Mechanism) -> bool {
     tree.items.iter().any(|item| !item.ranges.is_empty() || matches!(item.kind, ItemKind::Part(_)))
 }
 
-/// The numbers of a copy, each with what it is called.
+/// The indices of a copy with their names.
 pub(super) type Numbers<'t> = Vec<(&'t str, i64)>;
 
-/// Writes out one mechanism.
-pub(super) struct Writer<'t, 'c> {
+/// The expansion of one mechanism.
+pub(super) struct Expander<'t, 'c> {
     tree: &'t Mechanism,
-    /// Knows the params.
+    /// A checker that knows the params.
     checker: Checker<'c>,
-    /// The mechanism's names.
+    /// The names of the mechanism.
     names: FxHashSet<&'t str>,
-    /// Of what is repeated: the numbers of its copies.
+    /// The indices of the copies of repeated declarations.
     copies: FxHashMap<&'t str, Copies>,
-    /// Its parts; nothing where one cannot be, which has been said.
+    /// The parts; `None` for one that cannot be instantiated, which has been reported.
     parts: FxHashMap<String, Option<Rc<Instance<'t>>>>,
-    /// What its formulas name in its parts.
+    /// The paths into parts that formulas use.
     paths: FxHashSet<String>,
-    /// Declarations so far.
+    /// The number of declarations so far.
     count: usize,
-    /// Which has been said.
+    /// True if the excess of declarations has been reported.
     is_too_large: bool,
-    /// Where something was told already: what is wrong in every copy is told once.
-    told: FxHashSet<Span>,
+    /// The locations of reported errors. An error in every copy is reported once.
+    reported: FxHashSet<Span>,
 }
 
-/// A mechanism with every repeated declaration written out, and what is wrong with the repetition.
-type WrittenOut = (Mechanism, Diagnostics);
+/// A mechanism with all repetitions expanded, and the diagnostics.
+type ExpandedMechanism = (Mechanism, Diagnostics);
 
-/// A formula or declaration that cannot be written out, which has been said.
-pub(super) struct Unwritten;
+/// A formula or declaration that cannot be expanded, which has been reported.
+pub(super) struct NotExpandable;
 
-type Written<T> = Result<T, Unwritten>;
+type Expanded<T> = Result<T, NotExpandable>;
 
-impl<'t, 'c> Writer<'t, 'c> {
-    /// With a reader of formulas that knows the mechanism's params.
-    pub fn new(tree: &'t Mechanism, checker: Checker<'c>) -> Writer<'t, 'c> {
-        Writer {
+impl<'t, 'c> Expander<'t, 'c> {
+    /// Returns the expansion of a mechanism; `checker` knows its params.
+    pub fn new(tree: &'t Mechanism, checker: Checker<'c>) -> Expander<'t, 'c> {
+        Expander {
             tree,
             checker,
             names: tree.items.iter().filter_map(name_of).map(|name| name.text.as_str()).collect(),
@@ -73,28 +73,28 @@ impl<'t, 'c> Writer<'t, 'c> {
             paths: FxHashSet::default(),
             count: 0,
             is_too_large: false,
-            told: FxHashSet::default(),
+            reported: FxHashSet::default(),
         }
     }
 
-    /// Declarations, written out.
+    /// Returns the number of declarations after expansion.
     pub fn count(&self) -> usize {
         self.count
     }
 
-    /// What is wrong so far.
-    pub fn said(self) -> Diagnostics {
+    /// Returns the diagnostics so far.
+    pub fn into_diagnostics(self) -> Diagnostics {
         self.checker.diagnostics
     }
 
-    /// Whether there are too many.
+    /// Returns whether there are too many declarations.
     pub fn is_too_large(&self) -> bool {
         self.is_too_large
     }
 
-    /// The numbers of the copies of each declaration; nothing where they cannot be told.
+    /// Returns the indices of the copies of each declaration; `None` if they cannot be determined.
     pub fn all_copies(&mut self, tree: &'t Mechanism) -> Vec<Option<Vec<Numbers<'t>>>> {
-        let named = self.have_names_of_their_own(tree);
+        let named = self.unique_names(tree);
         let items = tree.items.iter().zip(named);
         let copies: Vec<_> = items.map(|(item, is_named)| if is_named { self.copies(item) } else { None }).collect();
         for (item, copies) in tree.items.iter().zip(&copies) {
@@ -106,25 +106,25 @@ impl<'t, 'c> Writer<'t, 'c> {
         copies
     }
 
-    /// The value of what is bound of a param that decides a range; nothing where it is broken, which is told here: what it decides is
-    /// never there to tell it.
+    /// Returns the value of a binding that determines a range; `None` if it is broken. This is reported here, as the declarations that
+    /// could report it do not exist.
     pub fn number(&mut self, e: &Expr, numbers: &Numbers<'_>) -> Option<f64> {
         let formula = self.formula(e, numbers).ok()?;
-        let said = self.checker.diagnostics.len();
+        let before = self.checker.diagnostics.len();
         let value = self.checker.any_constant(&formula);
         if value.is_none() {
-            self.is_of_a_part(e, "a binding that decides a range", said);
+            self.report_part_dependence(e, "a binding that decides a range", before);
         }
         value
     }
 
-    /// The mechanism written out, with its parts by their names; the numbers of what is repeated; what its formulas name in its parts.
+    /// Returns the expanded mechanism, with its parts by their names, the copies' indices, and the paths into parts.
     pub fn written(
         mut self,
         tree: &'t Mechanism,
         copies: &[Option<Vec<Numbers<'t>>>],
         parts: FxHashMap<String, Option<Rc<Instance<'t>>>>,
-    ) -> (WrittenOut, FxHashMap<&'t str, Copies>, Vec<String>) {
+    ) -> (ExpandedMechanism, FxHashMap<&'t str, Copies>, Vec<String>) {
         self.parts = parts;
         let mut items = Vec::new();
         for (item, copies) in tree.items.iter().zip(copies) {
@@ -139,43 +139,43 @@ impl<'t, 'c> Writer<'t, 'c> {
         ((written, self.checker.diagnostics), self.copies, paths)
     }
 
-    fn tell(&mut self, diagnostic: Diagnostic) {
+    fn report_once(&mut self, diagnostic: Diagnostic) {
         let span = diagnostic.labels.first().map(|label| label.span);
-        if span.is_none_or(|span| self.told.insert(span)) {
+        if span.is_none_or(|span| self.reported.insert(span)) {
             self.checker.report(diagnostic);
         }
     }
 
-    /// Which declarations have a name that is free; of those that are not repeated the rest of `check` says it.
-    fn have_names_of_their_own(&mut self, tree: &'t Mechanism) -> Vec<bool> {
+    /// Returns which declarations have a unique name. The check reports those that are not repeated.
+    fn unique_names(&mut self, tree: &'t Mechanism) -> Vec<bool> {
         let mut first: FxHashMap<&str, (Span, bool)> = FxHashMap::default();
-        let mut is_free = |item: &'t Item| {
+        let mut is_unique_index = |item: &'t Item| {
             let Some(name) = name_of(item) else { return true };
             let is_repeated = !item.ranges.is_empty();
             if is_repeated && is_taken(&name.text) {
-                self.tell(errors::reserved(name, None, &[]));
+                self.report_once(errors::reserved(name, None, &[]));
                 return false;
             }
             let (span, other) = *first.entry(&name.text).or_insert((name.span, is_repeated));
             let is_twice = span != name.span && (is_repeated || other);
             if is_twice {
-                self.tell(errors::declared_twice(name, span));
+                self.report_once(errors::declared_twice(name, span));
             }
             !is_twice
         };
-        tree.items.iter().map(&mut is_free).collect()
+        tree.items.iter().map(&mut is_unique_index).collect()
     }
 
-    /// The numbers of each copy of a declaration; of one that is not repeated there is one, without numbers. None where that cannot
-    /// be told.
+    /// Returns the indices of each copy of a declaration; one copy without indices if it is not repeated, `None` if they cannot be
+    /// determined.
     fn copies(&mut self, item: &'t Item) -> Option<Vec<Numbers<'t>>> {
         let mut copies: Vec<Numbers<'t>> = vec![Vec::new()];
         if let Some(range) = item.ranges.get(MOST_INDICES) {
-            self.tell(errors::too_many_indices(range.index.span, MOST_INDICES));
+            self.report_once(errors::too_many_indices(range.index.span, MOST_INDICES));
             return None;
         }
         for range in &item.ranges {
-            if !self.is_free(range, &item.ranges) {
+            if !self.is_unique_index(range, &item.ranges) {
                 return None;
             }
             let mut longer = Vec::new();
@@ -184,7 +184,7 @@ impl<'t, 'c> Writer<'t, 'c> {
                 let more = usize::try_from(to.saturating_sub(from)).unwrap_or(0);
                 let count = self.count.saturating_add(longer.len()).saturating_add(more);
                 if count > MOST {
-                    self.tell(errors::too_many_declarations(range.index.span, MOST, "too large a range"));
+                    self.report_once(errors::too_many_declarations(range.index.span, MOST, "too large a range"));
                     self.is_too_large = true;
                     return None;
                 }
@@ -200,63 +200,63 @@ impl<'t, 'c> Writer<'t, 'c> {
         Some(copies)
     }
 
-    /// Whether an index has a name of its own.
-    fn is_free(&mut self, range: &ast::IndexRange, all: &[ast::IndexRange]) -> bool {
+    /// Returns whether an index has a unique name.
+    fn is_unique_index(&mut self, range: &ast::IndexRange, all: &[ast::IndexRange]) -> bool {
         let name = &range.index;
         let before = all.iter().take_while(|other| other.index.span != name.span);
-        let is_again = before.into_iter().any(|other| other.index.text == name.text);
-        let is_free = !is_taken(&name.text) && !self.names.contains(name.text.as_str()) && !is_again;
-        if !is_free {
-            self.tell(errors::index_is_taken(name));
+        let is_duplicate = before.into_iter().any(|other| other.index.text == name.text);
+        let is_unique_index = !is_taken(&name.text) && !self.names.contains(name.text.as_str()) && !is_duplicate;
+        if !is_unique_index {
+            self.report_once(errors::index_is_taken(name));
         }
-        is_free
+        is_unique_index
     }
 
-    /// The first number, and the one behind the last.
+    /// Returns the first index, and the one after the last.
     fn bounds(&mut self, range: &ast::IndexRange, numbers: &Numbers<'_>) -> Option<[i64; 2]> {
         let from = self.whole_number(&range.from, numbers, "a bound of a range").ok()?;
         let to = self.whole_number(&range.to, numbers, "a bound of a range").ok()?;
         Some([from, if range.is_closed { to.saturating_add(1) } else { to }])
     }
 
-    fn whole_number(&mut self, e: &Expr, numbers: &Numbers<'_>, place: &str) -> Written<i64> {
+    fn whole_number(&mut self, e: &Expr, numbers: &Numbers<'_>, place: &str) -> Expanded<i64> {
         let value = if let Some(value) = simple(e, numbers) {
             value
         } else {
             let formula = self.formula(e, numbers)?;
-            let said = self.checker.diagnostics.len();
+            let before = self.checker.diagnostics.len();
             match self.checker.constant(&formula, place, Dimension::PURE) {
                 Some((_, value)) => value,
-                None => return Err(self.is_of_a_part(e, place, said)),
+                None => return Err(self.report_part_dependence(e, place, before)),
             }
         };
         let whole = value.round();
         if !value.is_finite() || (value - whole).abs() > WHOLE || whole.abs() > 1e15 {
-            self.tell(errors::not_whole(place, e.span, value, numbers));
-            return Err(Unwritten);
+            self.report_once(errors::not_whole(place, e.span, value, numbers));
+            return Err(NotExpandable);
         }
         Ok(whole as i64)
     }
 
-    /// Says of a number that cannot be told that it is made of what a part has, if it is, rather than what was said of it.
-    pub fn is_of_a_part(&mut self, e: &Expr, place: &str, said: usize) -> Unwritten {
+    /// Reports that a number depends on a declaration in a part, in place of the diagnostics from `before` on, if it does.
+    pub fn report_part_dependence(&mut self, e: &Expr, place: &str, before: usize) -> NotExpandable {
         if let Some(path) = path_into_part(self.tree, e) {
-            self.checker.diagnostics.truncate(said);
+            self.checker.diagnostics.truncate(before);
             let text = self.checker.sources.text(path);
             let diagnostic = errors::decided_by_a_part(place, text, e.span, path);
-            self.tell(diagnostic);
+            self.report_once(diagnostic);
         }
-        Unwritten
+        NotExpandable
     }
 }
 
-/// A declaration, or one of its copies, that cannot be written out, which has been said.
+/// Returns a declaration, or a copy of it, that cannot be expanded, which has been reported.
 pub(super) fn broken(item: &Item, numbers: &Numbers<'_>) -> Item {
     let names = name_of(item).map(|name| named(name, numbers)).into_iter().collect();
     Item { docs: Vec::new(), span: item.span, ranges: Vec::new(), kind: ItemKind::Broken { names } }
 }
 
-/// What a copy is called.
+/// Returns the name of a copy.
 pub(super) fn named(name: &Name, numbers: &Numbers<'_>) -> Name {
     if numbers.is_empty() {
         return name.clone();
@@ -265,17 +265,17 @@ pub(super) fn named(name: &Name, numbers: &Numbers<'_>) -> Name {
     Name { text: indexed(&name.text, &numbers), span: name.span }
 }
 
-/// `grid[1,3]`
+/// Returns a name such as `grid[1,3]`.
 fn indexed(name: &str, numbers: &[i64]) -> String {
     let numbers: Vec<String> = numbers.iter().map(i64::to_string).collect();
     format!("{name}[{}]", numbers.join(","))
 }
 
-/// The place of what a formula names in a part, also by way of other definitions.
+/// Returns the location of a path into a part in a formula, also through other definitions.
 fn path_into_part(tree: &Mechanism, formula: &Expr) -> Option<Span> {
-    let item = |name: &Name| tree.items.iter().find(|item| name_of(item).is_some_and(|own| own.text == name.text));
+    let item = |name: &Name| tree.items.iter().find(|item| name_of(item).is_some_and(|other| other.text == name.text));
     let is_part = |name: &Name| item(name).is_some_and(|item| matches!(item.kind, ItemKind::Part(_)));
-    let (mut open, mut seen) = (vec![formula], FxHashSet::default());
+    let (mut open, mut visited) = (vec![formula], FxHashSet::default());
     while let Some(e) = open.pop() {
         let (owner, is_path) = match &e.kind {
             ExprKind::Name(name) | ExprKind::Call { name, .. } => (Some(name), false),
@@ -287,7 +287,7 @@ fn path_into_part(tree: &Mechanism, formula: &Expr) -> Option<Span> {
             if is_path && is_part(name) {
                 return Some(e.span);
             }
-            if seen.insert(&name.text) {
+            if visited.insert(&name.text) {
                 open.extend(item(name).map(Item::formulas).unwrap_or_default());
             }
         }
@@ -296,7 +296,7 @@ fn path_into_part(tree: &Mechanism, formula: &Expr) -> Option<Span> {
     None
 }
 
-/// The value of a formula of numbers alone, as most indices are.
+/// Returns the value of a formula of numbers alone, as most indices are.
 fn simple(e: &Expr, numbers: &Numbers<'_>) -> Option<f64> {
     Some(match &e.kind {
         ExprKind::Literal { value, unit: None } => *value,

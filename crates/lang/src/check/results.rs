@@ -1,58 +1,58 @@
-//! Results: formulas over reductions, each of which takes a formula as a measure has it to one number for the whole analysis.
+//! Results: formulas of reductions, each of which takes a formula as in a measure to one number for the whole analysis.
 
+use super::display_units::determined_dimension;
 use super::elements::measure_context;
 use super::entity::Entity;
 use super::formula::{Context, Dim, Value};
-use super::printed::known_dimension;
 use super::{Checker, errors};
-use crate::model::{DecidedBy, Dimension, Named, Outcome, Reduction, ReductionKind, Units};
+use crate::model::{Dimension, GuardKind, Named, Outcome, Reduction, ReductionKind, Units};
 use mechc_expr::{ExprId, Symbol};
 use mechc_syntax::ast::{Expr, ItemKind, Name, Window, WrittenUnit};
 use mechc_text::vocabulary::ReductionWord;
 
-/// What is known of a result before its turn.
+/// The state of a result.
 pub(super) struct ResultState<'a> {
     formula: &'a Expr,
-    /// In what it is told, if that is said.
+    /// The unit in which it is printed, if there is one.
     pub unit: Option<&'a WrittenUnit>,
-    /// Holds a unit, or something that does.
+    /// True if it holds a unit, directly or through names.
     pub dimensional: bool,
-    /// `None` before its turn, and where it is broken.
+    /// `None` before evaluation, and if it is broken.
     pub value: Option<Value>,
-    /// How often an angle is a factor of it.
+    /// The exponent of angles in it.
     pub angle: i32,
 }
 
-/// A call that is none of a reduction.
-pub(super) struct NoReduction;
+/// A call that is not a reduction.
+pub(super) struct NotAReduction;
 
-/// The option whose condition is a result beside those of the text, and its name.
+/// The option whose condition becomes a further result, and that result's name.
 pub const UNTIL: &str = "--until";
 
 impl<'a> ResultState<'a> {
-    pub fn of(formula: &'a Expr, unit: Option<&'a WrittenUnit>) -> ResultState<'a> {
+    pub fn new(formula: &'a Expr, unit: Option<&'a WrittenUnit>) -> ResultState<'a> {
         ResultState { formula, unit, dimensional: false, value: None, angle: 0 }
     }
 }
 
 impl Checker<'_> {
-    /// Results, which no row needs.
+    /// Evaluates and lists the results. They follow all that rows need.
     pub(super) fn results(&mut self) {
         self.model.named_before_results = self.model.named.len();
-        if self.around.lead.is_none() {
+        if self.options.continuation.is_none() {
             self.result_values();
             self.list_results();
         }
     }
 
-    /// The values of results, those of parts first, then in the order in which they need each other.
+    /// Evaluates results: those of parts first, then in order of dependence.
     fn result_values(&mut self) {
         self.in_parts(Checker::result_values);
         for k in std::mem::take(&mut self.result_order) {
             let formula = self.results[k].formula;
             let context = result_context(self.results[k].dimensional);
             let source = self.sources.get(formula.span.file);
-            // what a variant is looked for by decides nothing of it: where it is not finite, it does not hold
+            // A search condition decides nothing about a variant. Where it is not finite, it does not hold.
             self.branch.is_untaken = source.is_option && source.name == UNTIL;
             let value = self.formula(formula, &context);
             self.branch.is_untaken = false;
@@ -61,13 +61,13 @@ impl Checker<'_> {
         }
     }
 
-    /// Lists the results in the order of the text, those of parts where these are declared.
+    /// Lists the results in the order of the text, those of a part where it is declared.
     fn list_results(&mut self) {
-        let (mut own, mut parts) = (0..self.results.len(), 0..self.parts.len());
+        let (mut numbers, mut parts) = (0..self.results.len(), 0..self.parts.len());
         for item in self.items() {
             match &item.kind {
                 ItemKind::Result { name, .. } => {
-                    let Some(k) = own.next() else { continue };
+                    let Some(k) = numbers.next() else { continue };
                     let Some(value) = self.results[k].value else { continue };
                     if let Some(units) = self.units_of_result(k, value) {
                         let declared = self.declared(name);
@@ -87,13 +87,13 @@ impl Checker<'_> {
     fn units_of_result(&mut self, k: usize, value: Value) -> Option<Units> {
         let (formula, unit) = (self.results[k].formula, self.results[k].unit);
         let dimension = match unit {
-            Some(_) => known_dimension(value),
+            Some(_) => determined_dimension(value),
             None => Some(value.dim.settled()),
         };
         self.units(formula, dimension, self.results[k].angle, unit)
     }
 
-    /// The reduction that a call of a name with so many arguments is; a function or table of the mechanism is meant before it.
+    /// Returns the reduction of a call. A function or table of the mechanism takes precedence.
     pub(super) fn reduction_word(&self, name: &Name, arguments: usize) -> Option<&'static ReductionWord> {
         let is_hidden = || matches!(self.entity(name), Some(Entity::Function(_) | Entity::Table(_)));
         let compares = ["max", "min"].contains(&name.text.as_str());
@@ -101,29 +101,29 @@ impl Checker<'_> {
         (compares || !is_hidden()).then_some(word)
     }
 
-    /// The value of a call, if that is one of a reduction. (What formulas inside each other pass through has no room for it.)
+    /// Evaluates a call if it is a reduction. (A separate function, as nested formulas have no stack for its locals.)
     pub(super) fn call_of_reduction(
         &mut self,
         e: &Expr,
         (name, window): (&Name, Option<&Window>),
         arguments: &[Expr],
         context: &Context<'_>,
-    ) -> Result<Option<Value>, NoReduction> {
-        let word = self.reduction_word(name, arguments.len()).ok_or(NoReduction)?;
+    ) -> Result<Option<Value>, NotAReduction> {
+        let word = self.reduction_word(name, arguments.len()).ok_or(NotAReduction)?;
         if context.results {
             return Ok(self.reduction(e, (word, name), (arguments, window), context));
         }
-        // with one argument too few it compares
+        // With one argument too few it compares values.
         let compares = self.is_of_language(&name.text) && window.is_none();
         let means_itself = matches!(self.space.get(&name.text), None | Some(Entity::Param(_) | Entity::Measure(_)));
         if compares || !means_itself {
-            return Err(NoReduction);
+            return Err(NotAReduction);
         }
         self.report(errors::reduction_in(context.place, word, e.span));
         Ok(None)
     }
 
-    /// `max(e)`, `at(e, T)`: a number for the whole analysis.
+    /// Evaluates `max(e)` or `at(e, T)`: one number for the whole analysis.
     fn reduction(
         &mut self,
         e: &Expr,
@@ -136,11 +136,11 @@ impl Checker<'_> {
             self.report(errors::argument_count(name, Some(&word.word), e.span, word.takes, arguments.len()));
             return None;
         }
-        self.refuse_window(written, window.filter(|_| word.takes_time()))?;
+        self.reject_window(written, window.filter(|_| word.takes_time()))?;
         let conditions = self.model.conditions.len();
         let inner = Context { place: "a reduction", results: true, ..measure_context(context.judged) };
         let of = self.number(&arguments[0], &inner);
-        let conditions = self.asked_at_times(conditions, "");
+        let conditions = self.conditions_in_time(conditions, "");
         let at = match arguments.get(1) {
             Some(time) => Some(self.time_in_analysis(time, "the second argument of `at`")?),
             None => None,
@@ -156,9 +156,9 @@ impl Checker<'_> {
             ReductionKind::Integral => of.dim.map(|dimension| dimension.times(Dimension::TIME)),
             _ => of.dim.of_term(),
         };
-        let is_known = |known: &Reduction| known.kind == kind && known.of == of.id && known.window == window;
-        let known = self.model.reductions.iter().position(is_known);
-        let k = known.unwrap_or_else(|| {
+        let is_same = |other: &Reduction| other.kind == kind && other.of == of.id && other.window == window;
+        let existing = self.model.reductions.iter().position(is_same);
+        let k = existing.unwrap_or_else(|| {
             let order = self.derivative_order(of.id);
             self.model.reductions.push(Reduction { kind, span: e.span, of: of.id, window, order, conditions });
             self.model.reductions.len() - 1
@@ -166,7 +166,7 @@ impl Checker<'_> {
         Some(Value { id: self.name_symbol(Named::Reduction(k as u32), 0), dim })
     }
 
-    /// Whether a formula is one number for the whole analysis: it holds reductions, and nothing else that changes.
+    /// Returns whether a formula is one number for the whole analysis: it holds reductions, and nothing else that varies.
     pub(super) fn is_of_whole_analysis(&self, id: ExprId) -> bool {
         let symbols = self.model.graph.symbols(id);
         let is_reduction = |k: u32| matches!(self.model.named.get(k as usize), Some(Named::Reduction(_)));
@@ -183,19 +183,19 @@ impl Checker<'_> {
         !symbols.iter().any(changes)
     }
 
-    /// Whether a formula holds a number for the whole analysis.
+    /// Returns whether a formula holds a reduction.
     pub(super) fn holds_reduction(&self, id: ExprId) -> bool {
         self.holds_named(id, |named| matches!(named, Named::Reduction(_)))
     }
 
     /// Reports the window of a call that takes none.
-    pub(super) fn refuse_window(&mut self, called: &Name, window: Option<&Window>) -> Option<()> {
+    pub(super) fn reject_window(&mut self, called: &Name, window: Option<&Window>) -> Option<()> {
         let Some(window) = window else { return Some(()) };
         self.report(errors::window_of_no_reduction(called, window.span));
         None
     }
 
-    /// The bounds of the part of the analysis that a reduction takes.
+    /// Evaluates the bounds of a reduction's window.
     fn window(&mut self, word: &'static ReductionWord, window: &Window) -> Option<[Option<ExprId>; 2]> {
         let mut read = |bound: &Option<Expr>, place: &str| match bound {
             Some(bound) => self.time_in_analysis(bound, place).map(Some),
@@ -206,7 +206,7 @@ impl Checker<'_> {
         let bounds = [from?, to?];
         if let [Some(from), Some(to)] = bounds {
             let length = self.model.graph.sub(to, from);
-            let is_negative = self.decided(length, DecidedBy::Sign).is_some_and(|length| length < 0.0);
+            let is_negative = self.decided(length, GuardKind::Sign).is_some_and(|length| length < 0.0);
             let times = [self.number_of(from), self.number_of(to)];
             if let ([Some(from), Some(to)], true, false) = (times, is_negative, self.branch.is_untaken) {
                 self.report(errors::window_ends_early(word, window.span, [from, to]));
@@ -216,15 +216,15 @@ impl Checker<'_> {
         Some(bounds)
     }
 
-    /// A time within the analysis: one number, over params and other reductions.
+    /// Evaluates a time within the analysis, over params and other reductions.
     fn time_in_analysis(&mut self, time: &Expr, place: &str) -> Option<ExprId> {
         let judged = self.is_dimensional(time);
         let context = Context { judged, ..result_context(judged) };
         let context = context.at(place, None);
         let value = self.number(time, &context)?;
-        // what a reduction is has a dimension in plain formulas too
+        // Reductions have dimensions in plain formulas too.
         let judged = self.counts(value, &context);
-        self.demand(place, Dimension::TIME, time.span, value.dim, &Context { judged, ..context })?;
+        self.require_dimension(place, Dimension::TIME, time.span, value.dim, &Context { judged, ..context })?;
         Some(value.id)
     }
 }
@@ -244,7 +244,7 @@ fn kind(word: &str, at: Option<ExprId>) -> Option<ReductionKind> {
     })
 }
 
-/// How the formula of a result is read.
+/// Returns the context in which the formula of a result is read.
 fn result_context(judged: bool) -> Context<'static> {
     Context { judged, results: true, ..Context::constant("a result") }
 }

@@ -1,5 +1,5 @@
-//! Tables with a line of names: samples of inputs, with a column of times; variants, with a column for each param that varies. Each fault
-//! has its place in the file.
+//! Tables with a header line: samples of inputs with a column of times, and variants with a column for each param. Faults have locations in
+//! the file.
 
 use super::table_file::{between_commas, number};
 use mechc_syntax::normalized;
@@ -7,70 +7,70 @@ use mechc_text::diag::{Code, Diagnostic};
 use mechc_text::source::{FileId, Source, Span};
 use mechc_text::vocabulary::{CompoundUnit, Dimension, Unit};
 
-/// What the rows of a table are, in messages.
+/// The words for a table and its rows in messages.
 #[derive(Clone, Copy)]
-struct Words {
-    /// All of them.
+struct TableWording {
+    /// The plural of the rows.
     many: &'static str,
-    /// One number of them.
+    /// The singular of a number in them.
     one: &'static str,
-    /// How its units are written, by an example.
+    /// An example of the units.
     example: &'static str,
-    /// What is needed at least.
+    /// The required columns.
     least: &'static str,
 }
 
-const SAMPLES: Words = Words {
+const SAMPLES: TableWording = TableWording {
     many: "samples",
     one: "sample",
     example: "`turn [deg]`, `feed [mm/s]`",
     least: "two rows are needed at least",
 };
-const VARIANTS: Words = Words {
+const VARIANTS: TableWording = TableWording {
     many: "variants",
     one: "value",
     example: "`rod [mm]`, `speed [rpm]`",
     least: "a line that names the params is needed, and a row for each variant",
 };
 
-/// What a file of samples holds.
+/// The content of a file of samples.
 pub(super) struct Samples {
-    /// In seconds, rising.
+    /// The times (s), ascending.
     pub times: Vec<f64>,
-    /// But for that of the times.
+    /// The columns except that of the times.
     pub columns: Vec<Column>,
 }
 
 /// A column of numbers.
 pub struct Column {
-    /// The input or param that it is of.
+    /// The name of the input or param.
     pub name: String,
-    /// Of the cell of its header.
+    /// The location of the header's cell.
     pub span: Span,
-    /// Of its unit, if it has one.
+    /// The dimension of its unit, if it has one.
     pub dimension: Option<Dimension>,
-    /// Whether its unit speaks of an angle.
+    /// True if its unit holds a unit of angle.
     pub is_of_angles: bool,
-    /// In SI.
+    /// The values, in SI units.
     pub values: Vec<f64>,
 }
 
-/// A part of a line with its place, without the white space and quotes around it.
+/// A cell of a line with its location, without surrounding white space and quotes.
 struct Cell<'a> {
     text: &'a str,
     span: Span,
 }
 
-/// What a header says of a column.
-pub(super) struct Head<'a> {
-    /// As it is written.
+/// The header of a column.
+pub(super) struct ColumnHeader<'a> {
+    /// The name as it is written.
     pub name: &'a str,
-    /// Of its cell.
+    /// The location of its cell.
     pub span: Span,
     unit: Option<CompoundUnit>,
 }
 
-/// Units joined by `*` and `/`, each with its power.
+/// Returns a unit of factors joined by `*` and `/`, each with its power.
 fn unit_named(text: &str) -> Option<CompoundUnit> {
     let (mut units, mut rest, mut sign) = (Vec::new(), text, 1);
     loop {
@@ -90,36 +90,36 @@ fn unit_named(text: &str) -> Option<CompoundUnit> {
     }
 }
 
-/// The first line of samples, with what follows it.
-pub(super) struct Headed<'a> {
+/// The header line of samples, with the file behind it.
+pub(super) struct SampleFile<'a> {
     source: &'a Source,
     file: FileId,
-    heads: Vec<Head<'a>>,
+    heads: Vec<ColumnHeader<'a>>,
     /// The number of the column of times.
     at: usize,
 }
 
-/// Reads the first line of samples.
+/// Reads the header line of samples.
 ///
 /// # Errors
-/// What is wrong with it.
-pub(super) fn header(source: &Source, file: FileId) -> Result<Headed<'_>, Vec<Diagnostic>> {
+/// The faults of the line.
+pub(super) fn header(source: &Source, file: FileId) -> Result<SampleFile<'_>, Vec<Diagnostic>> {
     let (line, heads) = heads(source, file, SAMPLES)?;
     let at = time_column(&heads, line.span)?;
     if heads.len() == 1 {
         let help = "each input that is told has a column of its own, behind a comma: `t,turn [deg]`";
         return Err(vec![fault(Code::E0416, "the samples are of no input", line.span, "times alone").help(help)]);
     }
-    Ok(Headed { source, file, heads, at })
+    Ok(SampleFile { source, file, heads, at })
 }
 
 /// Reads a table of variants: a column for each param that varies.
 ///
 /// # Errors
-/// What is wrong with it.
+/// The faults of the table.
 pub fn variants(source: &Source, file: FileId) -> Result<Vec<Column>, Vec<Diagnostic>> {
     let (line, heads) = heads(source, file, VARIANTS)?;
-    let numbers = |head: &Head<'_>| number(head.name).is_some();
+    let numbers = |head: &ColumnHeader<'_>| number(head.name).is_some();
     if heads.iter().all(numbers) {
         let help = "the first line names the params, each with its unit: `rod [mm],speed [rpm]`";
         return Err(vec![fault(Code::E0416, "the variants are of no param", line.span, "numbers alone").help(help)]);
@@ -136,12 +136,16 @@ pub fn variants(source: &Source, file: FileId) -> Result<Vec<Column>, Vec<Diagno
     Ok(heads.iter().zip(columns).map(|(head, values)| head.column(values)).collect())
 }
 
-/// The first line of a table, and what it names.
-fn heads(source: &Source, file: FileId, words: Words) -> Result<(Line<'_>, Vec<Head<'_>>), Vec<Diagnostic>> {
+/// Returns the first line of a table, and the headers of its columns.
+fn heads(
+    source: &Source,
+    file: FileId,
+    words: TableWording,
+) -> Result<(Line<'_>, Vec<ColumnHeader<'_>>), Vec<Diagnostic>> {
     let Some(line) = lines(source, file).next() else {
-        let nothing = Span { file, start: 0, end: 0 };
+        let start_of_file = Span { file, start: 0, end: 0 };
         let message = format!("the {} are empty", words.many);
-        return Err(vec![fault(Code::E0413, &message, nothing, words.least)]);
+        return Err(vec![fault(Code::E0413, &message, start_of_file, words.least)]);
     };
     let one = |fault: Box<Diagnostic>| vec![*fault];
     line.has_commas(words).map_err(one)?;
@@ -156,17 +160,22 @@ fn heads(source: &Source, file: FileId, words: Words) -> Result<(Line<'_>, Vec<H
     Ok((line, heads))
 }
 
-/// The rows behind a first line.
+/// The rows below the header line.
 struct Rows {
-    /// By column: its numbers (SI).
+    /// The numbers of each column (SI).
     columns: Vec<Vec<f64>>,
-    /// By row and column.
+    /// The locations, by row and column.
     places: Vec<Vec<Span>>,
 }
 
 impl Rows {
-    /// Reads them; blank lines are passed over.
-    fn read(source: &Source, file: FileId, heads: &[Head<'_>], words: Words) -> Result<Rows, Vec<Diagnostic>> {
+    /// Reads the rows, without blank lines.
+    fn read(
+        source: &Source,
+        file: FileId,
+        heads: &[ColumnHeader<'_>],
+        words: TableWording,
+    ) -> Result<Rows, Vec<Diagnostic>> {
         let mut rows = Rows { columns: vec![Vec::new(); heads.len()], places: Vec::new() };
         for line in lines(source, file).skip(1) {
             let cells = line.cells(words).map_err(|fault| vec![*fault])?;
@@ -180,16 +189,16 @@ impl Rows {
     }
 }
 
-impl<'a> Headed<'a> {
-    /// The columns but for that of the times.
-    pub fn columns(&self) -> impl Iterator<Item = &Head<'a>> {
+impl<'a> SampleFile<'a> {
+    /// Returns the headers except that of the times.
+    pub fn columns(&self) -> impl Iterator<Item = &ColumnHeader<'a>> {
         self.heads.iter().enumerate().filter(|(k, _)| *k != self.at).map(|(_, head)| head)
     }
 
-    /// Reads the rows; blank lines are passed over.
+    /// Reads the rows, without blank lines.
     ///
     /// # Errors
-    /// What is wrong with them.
+    /// The faults of the rows.
     pub fn rows(&self) -> Result<Samples, Vec<Diagnostic>> {
         let Rows { columns: mut values, places } = Rows::read(self.source, self.file, &self.heads, SAMPLES)?;
         let times = values.remove(self.at);
@@ -200,8 +209,8 @@ impl<'a> Headed<'a> {
     }
 }
 
-impl Head<'_> {
-    /// The input that it is of; the numbers of a copy may be written with spaces.
+impl ColumnHeader<'_> {
+    /// Returns the path of the input. Spaces in indices are ignored.
     pub fn path(&self) -> String {
         normalized(self.name).chars().filter(|c| !c.is_whitespace()).collect()
     }
@@ -209,12 +218,12 @@ impl Head<'_> {
     fn column(&self, values: Vec<f64>) -> Column {
         let (name, span, dimension) = (self.path(), self.span, self.unit.as_ref().map(CompoundUnit::dimension));
         let mut units = self.unit.iter().flat_map(CompoundUnit::factors);
-        let is_of_angles = units.any(|(unit, _)| unit.is_of_angle());
+        let is_of_angles = units.any(|(unit, _)| unit.measures_angle());
         Column { name, span, dimension, is_of_angles, values }
     }
 
-    /// What is to be written, where its brackets are not as a unit's.
-    pub fn meant(&self) -> Option<String> {
+    /// Returns a suggestion if the brackets are not written as those of a unit.
+    pub fn suggestion(&self) -> Option<String> {
         let (name, rest) = self.name.rsplit_once('[')?;
         let text = rest.strip_suffix(']').unwrap_or(rest).trim();
         unit_named(text)?;
@@ -227,13 +236,13 @@ impl Head<'_> {
     }
 }
 
-/// A line that holds something, without the white space around it.
+/// A line that is not blank, without surrounding white space.
 struct Line<'a> {
     text: &'a str,
     span: Span,
 }
 
-/// The lines that hold something.
+/// Returns the lines that are not blank.
 fn lines(source: &Source, file: FileId) -> impl Iterator<Item = Line<'_>> {
     let mut at = 0;
     source.text.split('\n').filter_map(move |line| {
@@ -246,11 +255,11 @@ fn lines(source: &Source, file: FileId) -> impl Iterator<Item = Line<'_>> {
 }
 
 impl<'a> Line<'a> {
-    /// What stands between its commas.
+    /// Returns the cells of the line.
     ///
     /// # Errors
     /// A quote is not closed.
-    fn cells(&self, words: Words) -> Result<Vec<Cell<'a>>, Box<Diagnostic>> {
+    fn cells(&self, words: TableWording) -> Result<Vec<Cell<'a>>, Box<Diagnostic>> {
         let (mut from, mut cells) = (self.span.start as usize, Vec::new());
         for part in between_commas(self.text) {
             let (begin, text) = (from + (part.len() - part.trim_start().len()), part.trim());
@@ -266,7 +275,7 @@ impl<'a> Line<'a> {
         Ok(cells)
     }
 
-    /// Whether something else than commas parts its cells.
+    /// Returns the separator of the line if it is not a comma.
     fn other_separator(&self) -> Option<&'static str> {
         const OTHERS: [(char, &str); 2] = [(';', "semicolons"), ('\t', "tabs")];
         let found = OTHERS.iter().find(|(separator, _)| self.text.contains(*separator));
@@ -277,45 +286,45 @@ impl<'a> Line<'a> {
         found.map(|(_, name)| *name).or_else(|| is_spaced().then_some("spaces"))
     }
 
-    /// Looks at the first line for columns.
+    /// Checks that commas separate the columns of the first line.
     ///
     /// # Errors
-    /// Something else than commas is between them.
-    fn has_commas(&self, words: Words) -> Result<(), Box<Diagnostic>> {
+    /// Another separator is used.
+    fn has_commas(&self, words: TableWording) -> Result<(), Box<Diagnostic>> {
         match self.other_separator().filter(|_| !self.text.contains(',')) {
             Some(found) => Err(Box::new(self.separated_by(found, words))),
             None => Ok(()),
         }
     }
 
-    fn separated_by(&self, found: &str, words: Words) -> Diagnostic {
+    fn separated_by(&self, found: &str, words: TableWording) -> Diagnostic {
         let message = format!("the {} are separated by {found}", words.many);
         fault(Code::E0416, &message, self.span, &format!("{found}, and no commas")).help(SEPARATORS)
     }
 }
 
-/// How columns and numbers are written.
+/// The format of columns and numbers.
 const SEPARATORS: &str = "columns are separated by commas, and decimals written with a point";
 
-/// `NAME` or `NAME [UNIT]`
-fn head<'a>(cell: &Cell<'a>, words: Words) -> Result<Head<'a>, Box<Diagnostic>> {
+/// Reads a header `NAME` or `NAME [UNIT]`.
+fn head<'a>(cell: &Cell<'a>, words: TableWording) -> Result<ColumnHeader<'a>, Box<Diagnostic>> {
     let Some((name, unit)) = cell.text.strip_suffix(']').and_then(|text| text.rsplit_once(" [")) else {
-        return Ok(Head { name: cell.text, span: cell.span, unit: None });
+        return Ok(ColumnHeader { name: cell.text, span: cell.span, unit: None });
     };
     if let Some(unit) = unit_named(unit) {
-        return Ok(Head { name: name.trim(), span: cell.span, unit: Some(unit) });
+        return Ok(ColumnHeader { name: name.trim(), span: cell.span, unit: Some(unit) });
     }
     let message = format!("`{unit}` is not a unit");
     let help = format!("units stand in brackets behind the name, joined by `*` and `/`: {}", words.example);
     Err(Box::new(fault(Code::E0202, &message, cell.span, "the unit of this column").help(help)))
 }
 
-/// The number of the column of times.
-fn time_column(heads: &[Head<'_>], line: Span) -> Result<usize, Vec<Diagnostic>> {
+/// Returns the number of the column of times.
+fn time_column(heads: &[ColumnHeader<'_>], line: Span) -> Result<usize, Vec<Diagnostic>> {
     let Some(at) = heads.iter().position(|head| head.name == "t") else {
         let help = "the first line names the columns: `t` or `t [ms]` for the times, and the inputs".to_owned();
-        let is_time = |head: &&Head<'_>| head.name.split('[').next().is_some_and(|name| name.trim() == "t");
-        let help = heads.iter().find(is_time).and_then(Head::meant).unwrap_or(help);
+        let is_time = |head: &&ColumnHeader<'_>| head.name.split('[').next().is_some_and(|name| name.trim() == "t");
+        let help = heads.iter().find(is_time).and_then(ColumnHeader::suggestion).unwrap_or(help);
         return Err(vec![fault(Code::E0416, "the samples have no column `t`", line, "the first line").help(help)]);
     };
     match heads[at].unit.as_ref().map(CompoundUnit::dimension) {
@@ -327,8 +336,13 @@ fn time_column(heads: &[Head<'_>], line: Span) -> Result<usize, Vec<Diagnostic>>
     }
 }
 
-/// The numbers of a line.
-fn row_of(line: &Line<'_>, cells: &[Cell<'_>], heads: &[Head<'_>], words: Words) -> Result<Vec<f64>, Vec<Diagnostic>> {
+/// Returns the numbers of a line.
+fn row_of(
+    line: &Line<'_>,
+    cells: &[Cell<'_>],
+    heads: &[ColumnHeader<'_>],
+    words: TableWording,
+) -> Result<Vec<f64>, Vec<Diagnostic>> {
     if cells.len() != heads.len() {
         if let Some(found) = line.other_separator().filter(|_| cells.len() == 1) {
             return Err(vec![line.separated_by(found, words)]);
@@ -337,7 +351,7 @@ fn row_of(line: &Line<'_>, cells: &[Cell<'_>], heads: &[Head<'_>], words: Words)
         let message = format!("a row of {} has {count}, and the first line {}", words.many, heads.len());
         return Err(vec![fault(Code::E0416, &message, line.span, "this row").help(SEPARATORS)]);
     }
-    let value = |(cell, head): (&Cell<'_>, &Head<'_>)| {
+    let value = |(cell, head): (&Cell<'_>, &ColumnHeader<'_>)| {
         number(cell.text).ok_or_else(|| {
             let message = format!("a {} of `{}` is not a number", words.one, head.name);
             let label = if cell.text.is_empty() { "empty".to_owned() } else { format!("`{}`", cell.text) };
@@ -371,7 +385,7 @@ mod tests {
     use super::{Samples, header};
     use mechc_text::source::Sources;
 
-    fn of(text: &str) -> Result<Samples, String> {
+    fn read(text: &str) -> Result<Samples, String> {
         let mut sources = Sources::default();
         let file = sources.add("samples.csv", text);
         header(sources.get(file), file).and_then(|headed| headed.rows()).map_err(|faults| faults[0].message.clone())
@@ -379,7 +393,7 @@ mod tests {
 
     #[test]
     fn columns_come_in_any_order_with_units() {
-        let samples = of("turn [deg],t [ms], feed [mm/s] ,\"a\"\r\n90,0,1,0\n\n180,500,2,1e-3\n")
+        let samples = read("turn [deg],t [ms], feed [mm/s] ,\"a\"\r\n90,0,1,0\n\n180,500,2,1e-3\n")
             .unwrap_or_else(|fault| panic!("{fault}"));
         assert_eq!(samples.times, [0.0, 0.5]);
         let names: Vec<&str> = samples.columns.iter().map(|column| column.name.as_str()).collect();
@@ -390,8 +404,8 @@ mod tests {
     }
 
     #[test]
-    fn faults_are_told() {
-        let fault = |text: &str| of(text).err().expect("a fault");
+    fn faults_are_reported() {
+        let fault = |text: &str| read(text).err().expect("a fault");
         assert_eq!(fault(""), "the samples are empty");
         assert_eq!(fault("turn\n1\n2\n"), "the samples have no column `t`");
         assert_eq!(fault("t,turn\n0,1\n"), "samples need two rows at least, found 1");

@@ -1,10 +1,9 @@
-//! Who declares a name, and who uses it: every name of a mechanism with the declaration or the word of the language that it
-//! stands for.
+//! The symbol table: every name of a mechanism with the declaration or the word of the language that it stands for.
 //!
-//! By the tree alone: so it is there for a text with mistakes too, and costs nothing where nobody asks.
+//! It uses the tree alone, so that it is also available for texts with errors.
 
-use super::kinds::{self, Wanted, coordinate};
-use super::meaning::{Alone, alone};
+use super::bare_names::{BareName, resolve_bare_name};
+use super::point_kinds::{self, Expected, coordinate};
 use mechc_syntax::ast::{
     DrawnPose, Expr, ExprKind, Feature, FeatureKind, Item, ItemKind, Mechanism, Name, PathSegment, TableRows, UsedFile,
     WrittenUnit,
@@ -12,7 +11,7 @@ use mechc_syntax::ast::{
 use mechc_syntax::keywords_in;
 use mechc_text::source::{FileId, Span};
 use mechc_text::vocabulary::{
-    Constant, Function, JointWord, Keyword, QuantityWord, ReductionWord, Role, StandsFor, Unit, Word,
+    Constant, Function, JointWord, Keyword, NamedConstant, QuantityWord, ReductionWord, Role, Unit, Word,
 };
 use rustc_hash::{FxHashMap, FxHashSet};
 
@@ -21,19 +20,19 @@ use rustc_hash::{FxHashMap, FxHashSet};
 pub struct NameId(u32);
 
 impl NameId {
-    /// Its number.
+    /// Returns its number.
     #[must_use]
     pub fn index(self) -> usize {
         self.0 as usize
     }
 }
 
-/// What a declaration declares.
+/// The kind of a declaration.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub enum NameKind {
     /// `mechanism`
     Mechanism,
-    /// What stands behind `as`, and before the names of a used file's mechanisms.
+    /// The name after `as`, and before those of a used file's mechanisms.
     Prefix,
     /// `param`
     Param,
@@ -73,12 +72,12 @@ pub enum NameKind {
     Part,
     /// `result`
     Result,
-    /// What cannot be read.
+    /// A declaration that cannot be parsed.
     Broken,
 }
 
 impl NameKind {
-    /// What a declaration is.
+    /// Returns the kind of a declaration.
     #[must_use]
     pub fn of(item: &Item) -> NameKind {
         match &item.kind {
@@ -104,19 +103,19 @@ impl NameKind {
 /// A declared name.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct DeclaredName {
-    /// Its name, in NFC.
+    /// The name, in Unicode normalization form NFC.
     pub name: String,
-    /// What it is.
+    /// The kind of its declaration.
     pub kind: NameKind,
-    /// Where its name stands.
+    /// The location of the name.
     pub span: Span,
-    /// The whole declaration.
+    /// The location of the whole declaration.
     pub declaration: Span,
-    /// What it belongs to: the body of a point, the function of an argument.
+    /// The owner: the body of a point, or the function of an argument.
     pub owner: Option<NameId>,
 }
 
-/// What a name or word stands for.
+/// The meaning of a name or word.
 #[derive(Clone, Copy, Debug)]
 pub enum Meaning {
     /// A declaration of the mechanism.
@@ -125,54 +124,54 @@ pub enum Meaning {
     Word(&'static Word),
 }
 
-/// A place where a name or word stands.
+/// The occurrence of a name or word.
 #[derive(Clone, Copy, Debug)]
 pub struct Use {
-    /// Where.
+    /// The location.
     pub span: Span,
-    /// What it stands for.
+    /// The meaning.
     pub meaning: Meaning,
-    /// Whether it is the declaration itself.
+    /// True for the declaration itself.
     pub declares: bool,
 }
 
-/// The names of a mechanism, by place and by declaration.
+/// The names of a mechanism, by location and by declaration.
 #[derive(Clone, Debug, Default)]
 pub struct Symbols {
     symbols: Vec<DeclaredName>,
-    /// By place.
+    /// Sorted by location.
     uses: Vec<Use>,
 }
 
 impl Symbols {
-    /// The names of a mechanism, and of the files that its file uses; the text is that of its file, where its keywords stand.
+    /// Returns the names of a mechanism and of the `use`s of its file. `text` is that of the file, for its keywords.
     #[must_use]
     pub fn of(tree: &Mechanism, uses: &[UsedFile], text: &str) -> Symbols {
-        let point_params = kinds::point_params(tree);
-        let mut walk = Walk { point_params, hidden: kinds::own_functions(tree), ..Walk::default() };
+        let point_params = point_kinds::point_params(tree);
+        let mut walk = Walk { point_params, hidden: point_kinds::hiding_functions(tree), ..Walk::default() };
         walk.mechanism(tree);
         walk.prefixes(uses);
         let mut symbols = walk.symbols;
         for span in uses.iter().map(|used| used.span).chain([tree.span]) {
             symbols.add_keywords(span, text);
         }
-        // where a name declares and is a use of another one, it is the declaration that `at` finds
+        // If a name is a declaration and a use of another one, `at` finds the declaration.
         symbols.uses.sort_by_key(|used| (used.span, used.declares));
         symbols
     }
 
-    /// All declarations, in the order of the text, prefixes of used files last.
+    /// Returns all declarations in the order of the text; the prefixes of used files follow.
     pub fn iter(&self) -> impl Iterator<Item = (NameId, &DeclaredName)> {
         self.symbols.iter().enumerate().map(|(k, symbol)| (NameId(k as u32), symbol))
     }
 
-    /// A declaration.
+    /// Returns a declaration.
     #[must_use]
     pub fn get(&self, id: NameId) -> &DeclaredName {
         &self.symbols[id.index()]
     }
 
-    /// What stands at a byte of a file, or ends there.
+    /// Returns the name or word that contains a byte offset or ends there.
     #[must_use]
     pub fn at(&self, file: FileId, offset: u32) -> Option<Use> {
         let end = self.uses.partition_point(|used| (used.span.file, used.span.start) <= (file, offset));
@@ -180,56 +179,56 @@ impl Symbols {
         self.uses[..end].iter().rev().take(2).find(holds).copied()
     }
 
-    /// Every place of a declaration's name, itself included, in the order of the text.
+    /// Returns every occurrence of a declaration's name, including the declaration, in the order of the text.
     pub fn uses_of(&self, id: NameId) -> impl Iterator<Item = Span> {
         let is_it = move |used: &&Use| matches!(used.meaning, Meaning::Declared(of) if of == id);
         self.uses.iter().filter(is_it).map(|used| used.span)
     }
 
-    /// Every name and word, by place.
+    /// Returns every name and word, by location.
     pub fn uses(&self) -> impl Iterator<Item = Use> {
         self.uses.iter().copied()
     }
 
-    /// The words of the language that are no names, as far as the parts of declarations and formulas go.
+    /// Adds the keywords within declarations and formulas.
     fn add_keywords(&mut self, within: Span, text: &str) {
-        let known: FxHashSet<u32> = self.uses.iter().map(|used| used.span.start).collect();
+        let used: FxHashSet<u32> = self.uses.iter().map(|used| used.span.start).collect();
         let inside = &text[within.start as usize..within.end as usize];
         for (at, keyword) in keywords_in(inside) {
             let start = within.start + at as u32;
             let span = Span { file: within.file, start, end: start + keyword.word.name.len() as u32 };
-            if !known.contains(&start) {
+            if !used.contains(&start) {
                 self.uses.push(Use { span, meaning: Meaning::Word(&keyword.word), declares: false });
             }
         }
     }
 }
 
-/// A walk over a tree, with the names that are declared.
+/// A traversal of a tree with the declared names.
 #[derive(Default)]
 struct Walk<'t> {
-    /// The names of params that are points.
+    /// The params that are points.
     point_params: FxHashSet<&'t str>,
-    /// The names of functions and tables that hide a function of the language.
+    /// The functions and tables that hide a function of the language.
     hidden: FxHashSet<&'t str>,
     symbols: Symbols,
-    /// The mechanism's space.
+    /// The name space of the mechanism.
     names: FxHashMap<String, NameId>,
     ground: Option<NameId>,
-    /// The spaces of the bodies and of the ground.
+    /// The name spaces of the bodies and of the ground.
     features: FxHashMap<(NameId, String), NameId>,
 }
 
-/// What a formula may name beside the mechanism's names.
+/// The names that are in scope besides those of the mechanism.
 #[derive(Clone, Copy, Default)]
 struct Scope<'a> {
-    /// The argument of the function or curve around it.
+    /// The argument of the function or curve.
     argument: Option<(&'a str, NameId)>,
-    /// What the numbers of a repeated declaration are called.
+    /// The indices of a repeated declaration.
     indices: &'a [(&'a str, NameId)],
-    /// The body whose feature it belongs to.
+    /// The body to whose features the formula belongs.
     body: Option<NameId>,
-    /// The point whose own formula it is.
+    /// The point that the formula defines.
     defined: Option<&'a str>,
 }
 
@@ -257,7 +256,7 @@ impl Walk<'_> {
         id
     }
 
-    /// Declares what an item does; a name that is taken twice keeps its first meaning.
+    /// Declares the name of an item. A duplicate keeps its first meaning.
     fn item(&mut self, item: &Item) -> Option<NameId> {
         let (name, kind) = match &item.kind {
             ItemKind::Param { name, .. } => (name, NameKind::Param),
@@ -308,7 +307,7 @@ impl Walk<'_> {
                 FeatureKind::Broken | FeatureKind::Mass { .. } => NameKind::Broken,
             };
             let id = self.declare(&feature.name, kind, feature.span, Some(owner));
-            // two grounds are one, for those who look for a point
+            // Two `ground` declarations share one name space.
             let space =
                 if self.symbols.get(owner).kind == NameKind::Ground { self.ground.unwrap_or(owner) } else { owner };
             self.features.entry((space, feature.name.text.clone())).or_insert(id);
@@ -350,14 +349,14 @@ impl Walk<'_> {
             ItemKind::Ground { features } => self.uses_in_features(features, self.ground, plain),
             ItemKind::Body { pose, features, .. } => {
                 for part in pose.iter().flat_map(DrawnPose::parts) {
-                    self.read(part, plain, Wanted::Either);
+                    self.read(part, plain, Expected::Either);
                 }
                 self.uses_in_features(features, id, plain);
             }
             ItemKind::Part(part) => {
                 let bindings = part.bindings.iter().map(|binding| &binding.value);
                 for formula in bindings.chain(&part.on).chain(&part.at) {
-                    self.read(formula, plain, Wanted::Either);
+                    self.read(formula, plain, Expected::Either);
                 }
             }
             ItemKind::Joint { kind, arguments, .. } => {
@@ -383,43 +382,43 @@ impl Walk<'_> {
     }
 
     fn uses_in_features(&mut self, features: &[Feature], body: Option<NameId>, plain: Scope<'_>) {
-        let own = Scope { body, ..plain };
+        let in_body = Scope { body, ..plain };
         for feature in features {
             match &feature.kind {
                 FeatureKind::Point { at } => {
                     let name = &feature.name;
                     match at {
-                        Some(at) => self.read(at, Scope { defined: Some(&name.text), ..own }, Wanted::Point),
+                        Some(at) => self.read(at, Scope { defined: Some(&name.text), ..in_body }, Expected::Point),
                         None => self.point_taken(name),
                     }
                 }
                 FeatureKind::AxisAlong { origin, direction } => {
-                    self.read(origin, own, Wanted::Point);
-                    self.formula(direction, own);
+                    self.read(origin, in_body, Expected::Point);
+                    self.formula(direction, in_body);
                 }
                 FeatureKind::AxisTo { origin, target } => {
-                    self.read(origin, own, Wanted::Point);
-                    self.read(target, own, Wanted::Point);
+                    self.read(origin, in_body, Expected::Point);
+                    self.read(target, in_body, Expected::Point);
                 }
                 FeatureKind::Circle { center, radius } => {
-                    self.read(center, own, Wanted::Point);
-                    self.formula(radius, own);
+                    self.read(center, in_body, Expected::Point);
+                    self.formula(radius, in_body);
                 }
                 FeatureKind::Curve { argument, at, estimate } => {
                     let curve = body.and_then(|body| self.features.get(&(body, feature.name.text.clone())).copied());
                     let declared = self.declare(argument, NameKind::Argument, feature.span, curve);
-                    self.read(at, Scope { argument: Some((&argument.text, declared)), ..own }, Wanted::Point);
+                    self.read(at, Scope { argument: Some((&argument.text, declared)), ..in_body }, Expected::Point);
                     if let Some(estimate) = estimate {
-                        self.formula(estimate, own);
+                        self.formula(estimate, in_body);
                     }
                 }
                 FeatureKind::Mass { mass, at, inertia } => {
-                    self.formula(mass, own);
+                    self.formula(mass, in_body);
                     if let Some(at) = at {
-                        self.read(at, own, Wanted::Point);
+                        self.read(at, in_body, Expected::Point);
                     }
                     if let Some(inertia) = inertia {
-                        self.formula(inertia, own);
+                        self.formula(inertia, in_body);
                     }
                 }
                 FeatureKind::Broken => {}
@@ -428,26 +427,26 @@ impl Walk<'_> {
     }
 
     fn formula(&mut self, formula: &Expr, scope: Scope<'_>) {
-        self.read(formula, scope, Wanted::Number);
+        self.read(formula, scope, Expected::Number);
     }
 
-    /// A formula of numbers or of points.
-    fn read(&mut self, formula: &Expr, scope: Scope<'_>, wanted: Wanted) {
-        let mut open = vec![(formula, wanted)];
-        while let Some((e, wanted)) = open.pop() {
+    /// Adds the names in a formula of numbers or of points.
+    fn read(&mut self, formula: &Expr, scope: Scope<'_>, expected: Expected) {
+        let mut open = vec![(formula, expected)];
+        while let Some((e, expected)) = open.pop() {
             match &e.kind {
                 ExprKind::Literal { unit: Some((unit, _)), .. } => self.unit(unit),
-                ExprKind::Name(name) => self.name(name, scope, wanted),
-                ExprKind::Member { owner, feature } => self.member(owner, feature, scope, wanted),
-                ExprKind::Path(segments) => self.path(segments, scope, wanted),
+                ExprKind::Name(name) => self.name(name, scope, expected),
+                ExprKind::Member { owner, feature } => self.member(owner, feature, scope, expected),
+                ExprKind::Path(segments) => self.path(segments, scope, expected),
                 ExprKind::Call { name, arguments, .. } => self.called(name, arguments.len()),
                 _ => {}
             }
-            open.extend(kinds::inside(e, wanted, |name| self.hidden.contains(name)));
+            open.extend(point_kinds::inside(e, expected, |name| self.hidden.contains(name)));
         }
     }
 
-    /// `point A` alone, which takes the mechanism's point.
+    /// Adds a lone `point A`, which refers to the mechanism's point.
     fn point_taken(&mut self, name: &Name) {
         if self.point_params.contains(name.text.as_str())
             && let Some(&id) = self.names.get(&name.text)
@@ -456,9 +455,9 @@ impl Walk<'_> {
         }
     }
 
-    /// What a name stands for among the features of the body around a formula; the same rule as that of the reader of formulas.
-    fn own(&self, name: &Name, scope: Scope<'_>, wanted: Wanted) -> Option<NameId> {
-        let body = scope.body.filter(|_| wanted != Wanted::Number && scope.defined != Some(&name.text))?;
+    /// Looks a name up among the features of the body around a formula, by the rule of the formula reader.
+    fn feature(&self, name: &Name, scope: Scope<'_>, expected: Expected) -> Option<NameId> {
+        let body = scope.body.filter(|_| expected != Expected::Number && scope.defined != Some(&name.text))?;
         let &id = self.features.get(&(body, name.text.clone()))?;
         let is_point = matches!(self.symbols.get(id).kind, NameKind::Point | NameKind::Broken);
         let declared = self.names.get(&name.text).map(|&id| self.symbols.get(id).kind);
@@ -468,13 +467,13 @@ impl Walk<'_> {
             None if scope.argument.is_some_and(|(argument, _)| argument == name.text) => true,
             None => Constant::named(&name.text).is_some() || Unit::named(&name.text).is_some(),
         };
-        let is_own = match wanted {
-            Wanted::Number => false,
-            // where a point is wanted, what is none is told with its name
-            Wanted::Point => is_point || !is_point_param,
-            Wanted::Either => is_point && !is_number,
+        let is_feature = match expected {
+            Expected::Number => false,
+            // A feature that is not a point is reported by its name if a point is expected.
+            Expected::Point => is_point || !is_point_param,
+            Expected::Either => is_point && !is_number,
         };
-        is_own.then_some(id)
+        is_feature.then_some(id)
     }
 
     fn word(&mut self, name: &Name, word: &'static Word) {
@@ -495,9 +494,9 @@ impl Walk<'_> {
         }
     }
 
-    /// A name in a formula; where it stands for a point, one of its own body comes first.
-    fn name(&mut self, name: &Name, scope: Scope<'_>, wanted: Wanted) {
-        if let Some(id) = self.own(name, scope, wanted) {
+    /// Adds a name in a formula. Where it may be a point, those of its own body take precedence.
+    fn name(&mut self, name: &Name, scope: Scope<'_>, expected: Expected) {
+        if let Some(id) = self.feature(name, scope, expected) {
             self.declared(name, id);
             return;
         }
@@ -506,15 +505,15 @@ impl Walk<'_> {
             return;
         }
         let argument = scope.argument.map(|(argument, _)| argument);
-        match alone(&name.text, argument, self.names.get(&name.text).copied()) {
-            Alone::Argument => scope.argument.into_iter().for_each(|(_, id)| self.declared(name, id)),
-            Alone::Constant(Constant { stands_for: StandsFor::Ground, .. }) if self.ground.is_some() => {
+        match resolve_bare_name(&name.text, argument, self.names.get(&name.text).copied()) {
+            BareName::Argument => scope.argument.into_iter().for_each(|(_, id)| self.declared(name, id)),
+            BareName::Constant(Constant { stands_for: NamedConstant::Ground, .. }) if self.ground.is_some() => {
                 self.ground.into_iter().for_each(|id| self.declared(name, id));
             }
-            Alone::Constant(constant) => self.word(name, &constant.word),
-            Alone::Unit(unit) => self.word(name, &unit.word),
-            Alone::Declared(id) => self.declared(name, id),
-            Alone::Unknown => {
+            BareName::Constant(constant) => self.word(name, &constant.word),
+            BareName::Unit(unit) => self.word(name, &unit.word),
+            BareName::Declared(id) => self.declared(name, id),
+            BareName::Unknown => {
                 if let Some(side) = Keyword::named(&name.text).filter(|keyword| keyword.role == Role::Side) {
                     self.word(name, &side.word);
                 }
@@ -522,22 +521,22 @@ impl Walk<'_> {
         }
     }
 
-    /// `link[2].pin`; the numbers are formulas of their own.
-    fn path(&mut self, segments: &[PathSegment], scope: Scope<'_>, wanted: Wanted) {
+    /// Adds a path such as `link[2].pin` with the formulas of its indices.
+    fn path(&mut self, segments: &[PathSegment], scope: Scope<'_>, expected: Expected) {
         match segments {
-            [owner, feature, ..] => self.member(&owner.name, &feature.name, scope, wanted),
-            [alone] => {
-                if let Some(&id) = self.names.get(&alone.name.text) {
-                    self.declared(&alone.name, id);
+            [owner, feature, ..] => self.member(&owner.name, &feature.name, scope, expected),
+            [resolve_bare_name] => {
+                if let Some(&id) = self.names.get(&resolve_bare_name.name.text) {
+                    self.declared(&resolve_bare_name.name, id);
                 }
             }
             [] => {}
         }
     }
 
-    fn member(&mut self, owner: &Name, feature: &Name, scope: Scope<'_>, wanted: Wanted) {
-        let is_coordinate = wanted != Wanted::Point && coordinate(feature).is_some();
-        if let Some(id) = self.own(owner, scope, Wanted::Point).filter(|_| is_coordinate) {
+    fn member(&mut self, owner: &Name, feature: &Name, scope: Scope<'_>, expected: Expected) {
+        let is_coordinate = expected != Expected::Point && coordinate(feature).is_some();
+        if let Some(id) = self.feature(owner, scope, Expected::Point).filter(|_| is_coordinate) {
             self.declared(owner, id);
             return;
         }
@@ -549,14 +548,14 @@ impl Walk<'_> {
         }
     }
 
-    /// What is called: the language's own functions before the user's, unless they give way.
+    /// Adds a call: the language's own functions take precedence, unless they give way.
     fn called(&mut self, name: &Name, arguments: usize) {
         let declared = self.names.get(&name.text);
         let is_callable = |id: &NameId| matches!(self.symbols.get(*id).kind, NameKind::Function | NameKind::Table);
         let hides = declared.is_some_and(is_callable);
         let quantity = QuantityWord::named(&name.text).filter(|quantity| !quantity.gives_way || !hides);
         let function = Function::named(&name.text).map(|function| &function.word);
-        // with more arguments `max` and `min` compare
+        // With more arguments `max` and `min` compare.
         let reduces = |_: &&ReductionWord| !hides && (function.is_none() || arguments == 1);
         let reduction = ReductionWord::named(&name.text).filter(reduces).map(|reduction| &reduction.word);
         let word = reduction.or(function).or_else(|| quantity.map(|quantity| &quantity.word));
@@ -586,7 +585,7 @@ mod tests {
         (sources, symbols)
     }
 
-    /// Every place of the name that stands at the first `‸` of a text, as the lines that hold it.
+    /// Returns the lines of every occurrence of the name at the first `‸` of a text.
     fn places(text: &str) -> Vec<String> {
         let at = text.find('‸').expect("a cursor");
         let text = text.replacen('‸', "", 1);
@@ -600,7 +599,7 @@ mod tests {
     }
 
     #[test]
-    fn every_word_of_an_example_is_known() {
+    fn every_word_of_an_example_resolves() {
         let (sources, symbols) = symbols(TEXT);
         let starts: BTreeSet<u32> = symbols.uses().map(|used| used.span.start).collect();
         let file = symbols.get(super::NameId(0)).span.file;
@@ -617,7 +616,7 @@ mod tests {
     }
 
     #[test]
-    fn a_name_is_found_from_its_use_and_from_its_declaration() {
+    fn uses_and_declaration_find_the_name() {
         let text = "mechanism m {\n param r = 3 mm\n fn f(r2) = r2 * r\n ground { point O = (0, 0) }\n body b { point O = (r, 0)\n axis a = O along (1, 0) }\n joint j: revolute(ground.O, b.O)\n driver d: rotation(j) = f(t)\n measure m2 = x(b.O) + r\n}";
         let of = |from: &str, to: &str| {
             assert!(text.contains(from), "{from}");
@@ -661,7 +660,7 @@ mod tests {
     fn traces_units_and_quantities_have_their_meanings() {
         let text = "mechanism m {\n param Hz = 3\n body b { point ‸P = (2, 0) }\n trace trace = b.P in mm\n measure speed = speed(b.P) in mm/Hz\n measure in_it = speed / 2 in mm/s\n}";
         assert_eq!(places(text).len(), 3);
-        // a unit behind `in` is one, whatever else is called so
+        // The word after `in` is a unit, even if a declaration has its name.
         assert_eq!(places(&text.replace('‸', "").replace("Hz =", "‸Hz =")).len(), 1);
         assert_eq!(places(&text.replace('‸', "").replace("measure speed", "measure ‸speed")).len(), 2);
         assert_eq!(places(&text.replace('‸', "").replace("trace trace", "trace ‸trace")).len(), 1);
@@ -681,7 +680,7 @@ mod tests {
     }
 
     #[test]
-    fn names_are_known_beside_a_fault() {
+    fn names_resolve_next_to_a_fault() {
         let text = "mechanism m {\n param ‸r = 3 mm\n body b { point P = (r, 0) }\n joint j revolute(b.P, ground.O)\n measure k = r\n}";
         assert_eq!(places(text).len(), 3);
     }

@@ -1,29 +1,29 @@
-//! A table's file: two columns of numbers separated by commas, or two among others, each fault with its place in the file.
+//! A table's file: two columns of numbers separated by commas, or two of several. Faults have locations in the file.
 
 use mechc_text::diag::{Code, Diagnostic};
 use mechc_text::source::{FileId, Source, Span};
 
-/// Which cells of a row a table takes.
+/// The cells of a row that a table takes.
 #[derive(Clone, Copy)]
 pub(super) enum Picked {
-    /// Both; there are no others.
+    /// Both cells of a row of two.
     Both,
-    /// Two of them, by their numbers from 0.
+    /// Two cells by their numbers, from 0.
     Two {
-        /// Argument and value.
+        /// The columns of the argument and of the value.
         cells: [usize; 2],
-        /// Whether they are named in the first line, which is a header then, whatever it looks like.
+        /// True if they are named, so that the first line is a header.
         by_name: bool,
     },
 }
 
-/// The cells of the first line that is not blank, as names.
+/// Returns the cells of the first line that is not blank, as names.
 pub(super) fn first_line(source: &Source) -> Vec<&str> {
     let line = source.text.split('\n').find(|line| !line.trim().is_empty()).unwrap_or_default();
     cells(line).collect()
 }
 
-/// What stands between the commas of a line: between quotes a comma parts nothing.
+/// Splits a line at commas, except within quotes.
 pub(super) fn between_commas(line: &str) -> impl Iterator<Item = &str> {
     let mut is_quoted = false;
     line.split(move |c| {
@@ -32,7 +32,7 @@ pub(super) fn between_commas(line: &str) -> impl Iterator<Item = &str> {
     })
 }
 
-/// The cells of a line, without the quotes around them.
+/// Returns the cells of a line, without quotes.
 fn cells(line: &str) -> impl Iterator<Item = &str> {
     between_commas(line).map(|cell| {
         let cell = cell.trim();
@@ -40,8 +40,7 @@ fn cells(line: &str) -> impl Iterator<Item = &str> {
     })
 }
 
-/// The rows with their places, and what is wrong with the others, each kind of fault once. A header line and blank lines
-/// are passed over.
+/// Returns the rows with their locations, and the faults of others, each kind once. The header and blank lines are skipped.
 pub(super) fn read(source: &Source, file: FileId, picked: Picked) -> (Vec<([f64; 2], Span)>, Vec<Diagnostic>) {
     let mut rows = Vec::new();
     let mut faults: Vec<(Diagnostic, usize)> = Vec::new();
@@ -62,7 +61,7 @@ pub(super) fn read(source: &Source, file: FileId, picked: Picked) -> (Vec<([f64;
                     Picked::Both => not_two_numbers(line, span),
                     Picked::Two { cells, .. } => not_numbers_there(line, span, cells),
                 };
-                match faults.iter_mut().find(|(known, _)| known.help == fault.help) {
+                match faults.iter_mut().find(|(other, _)| other.help == fault.help) {
                     Some((_, more)) => *more += 1,
                     None => faults.push((fault, 0)),
                 }
@@ -70,12 +69,12 @@ pub(super) fn read(source: &Source, file: FileId, picked: Picked) -> (Vec<([f64;
         }
         may_be_header = false;
     }
-    let told = |(fault, more): (Diagnostic, usize)| match more {
+    let reported = |(fault, more): (Diagnostic, usize)| match more {
         0 => fault,
         1 => fault.note("1 more row like it"),
         more => fault.note(format!("{more} more rows like it")),
     };
-    (rows, faults.into_iter().map(told).collect())
+    (rows, faults.into_iter().map(reported).collect())
 }
 
 fn numbers(line: &str, picked: Picked) -> Option<[f64; 2]> {
@@ -92,13 +91,13 @@ fn numbers(line: &str, picked: Picked) -> Option<[f64; 2]> {
     }
 }
 
-/// A finite number as programs write it: `inf`, `nan` and the like are none.
+/// Parses a finite decimal number; `inf`, `nan` and the like are rejected.
 pub(super) fn number(cell: &str) -> Option<f64> {
     let plain = cell.bytes().all(|byte| byte.is_ascii_digit() || b"+-.eE".contains(&byte));
     cell.parse().ok().filter(|value: &f64| plain && value.is_finite())
 }
 
-/// A line none of whose parts is a number.
+/// Returns whether no cell of a line is a number.
 fn is_header(line: &str, picked: Picked) -> bool {
     let begins_a_number = |part: &str| {
         part.trim_start_matches(['"', '\'']).starts_with(|c: char| c.is_ascii_digit() || "+-.".contains(c))
@@ -134,7 +133,7 @@ fn not_two_numbers(line: &str, span: Span) -> Diagnostic {
     Diagnostic::new(Code::E0416, "this row of a table is not two numbers").at(span, label).help(help)
 }
 
-/// A row in which a column that was picked is missing, or holds no number.
+/// Reports a row in which a selected column is missing, or holds no number.
 fn not_numbers_there(line: &str, span: Span, picked: [usize; 2]) -> Diagnostic {
     let count = cells(line).count();
     let label = match picked.iter().find(|&&at| cells(line).nth(at).is_none_or(|cell| number(cell).is_none())) {
@@ -150,7 +149,7 @@ fn not_numbers_there(line: &str, span: Span, picked: [usize; 2]) -> Diagnostic {
     )
 }
 
-/// As much of a cell as a message has room for.
+/// Returns a cell, shortened for a message.
 fn shown(cell: &str) -> String {
     const LONGEST: usize = 80;
     let text: String = cell.chars().take(LONGEST).collect();

@@ -12,23 +12,23 @@ use mechc_text::source::{FileId, Span};
 use mechc_text::vocabulary::CompoundUnit;
 use rustc_hash::FxHashMap;
 
-/// How far beyond its range an argument may lie and still count as the end, as a part of the range: rounding.
+/// The distance beyond its range, relative to the range, up to which an argument counts as the end because of rounding.
 const AT_THE_END: f64 = 1e-12;
 
-/// How much the ends of a periodic table may differ, as a part of its largest value: rounding.
+/// The allowed difference of a periodic table's ends, relative to its largest value, because of rounding.
 const SAME: f64 = 1e-12;
 
-/// The texts of the files that tables name, by the text that names one and the path as written; or why one cannot be read.
+/// The texts of the files that tables name, by the naming text and the path as written; or the reason why one cannot be read.
 pub type TableFiles = FxHashMap<(FileId, String), Result<FileId, Box<Diagnostic>>>;
 
-/// What is known of a table.
+/// The state of a table.
 pub(super) struct TableState<'a> {
     pub name: &'a Name,
     pub periodic: bool,
     pub rows: &'a TableRows,
-    /// Holds a unit, or something that does.
+    /// True if it holds a unit, directly or through names.
     pub dimensional: bool,
-    /// Where it went, if it is sound.
+    /// The table in the graph, if it is valid.
     pub made: Option<Made>,
 }
 
@@ -36,17 +36,17 @@ pub(super) struct TableState<'a> {
 #[derive(Clone, Copy)]
 pub(super) struct Made {
     id: TableId,
-    /// Of the argument and of the value.
+    /// The dimensions of the argument and of the value.
     columns: [Dim; 2],
-    /// First and last argument.
+    /// The first and the last argument.
     range: [ExprId; 2],
     periodic: bool,
 }
 
-/// A row with its place.
+/// A row with its location.
 struct Row {
     cells: [ExprId; 2],
-    /// The argument as the file has it, in its own unit.
+    /// The argument in the file, in its own unit.
     written: Option<f64>,
     span: Span,
 }
@@ -78,7 +78,7 @@ impl<'a> Checker<'a> {
         self.tables[k].made = Some(Made { id, columns, range, periodic });
     }
 
-    /// `[(a, b), …]`: each column is judged as a whole.
+    /// Reads `[(a, b), …]`. The dimensions of each column are judged as a whole.
     fn listed_rows(&mut self, rows: &'a [Expr]) -> Option<(Vec<Row>, [Dim; 2])> {
         let mut pairs = Vec::new();
         for row in rows {
@@ -115,9 +115,9 @@ impl<'a> Checker<'a> {
                 continue;
             };
             match &mut all {
-                Some((span, known)) if known.dim != Dim::Any => {
-                    match self.alike(&format!("{what} are"), (*span, *known), (cell.span, value), &context) {
-                        Some(dim) => known.dim = dim,
+                Some((span, column_so_far)) if column_so_far.dim != Dim::Any => {
+                    match self.unify(&format!("{what} are"), (*span, *column_so_far), (cell.span, value), &context) {
+                        Some(dim) => column_so_far.dim = dim,
                         None => column = None,
                     }
                 }
@@ -130,7 +130,7 @@ impl<'a> Checker<'a> {
         Some((column?, all.map_or(Dim::PLAIN, |(_, all)| all.dim.of_term())))
     }
 
-    /// `"file.csv" columns 1, 3 (unit, unit)`
+    /// Reads `"file.csv" columns 1, 3 (unit, unit)`.
     fn file_rows(
         &mut self,
         path: &Name,
@@ -176,7 +176,7 @@ impl<'a> Checker<'a> {
         Some((rows, dims))
     }
 
-    /// Where the two columns are that a text names.
+    /// Returns the numbers of the two columns that a text names.
     fn picked(&mut self, path: &Name, columns: &[ColumnName; 2], file: FileId) -> Option<Picked> {
         let header = table_file::first_line(self.sources.get(file));
         let cells = columns.each_ref().map(|column| match position_of(path, column, &header) {
@@ -190,9 +190,9 @@ impl<'a> Checker<'a> {
         Some(Picked::Two { cells: [cells[0]?, cells[1]?], by_name })
     }
 
-    /// The text that a table names, if it could be read.
+    /// Returns the file's text that a table names, if it could be read.
     fn file_of_table(&mut self, path: &Name) -> Option<FileId> {
-        match self.around.files.get(&(path.span.file, path.text.clone())) {
+        match self.options.files.get(&(path.span.file, path.text.clone())) {
             Some(Ok(file)) => Some(*file),
             Some(Err(diagnostic)) => {
                 let named = "named here";
@@ -211,7 +211,7 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Enough rows, arguments that rise, and, where it repeats, an end like the start.
+    /// Checks that there are enough rows, arguments ascend, and a periodic table ends with its first value.
     fn rows_are_sound(&mut self, name: &Name, periodic: bool, rows: &[Row], values: Dim, file: Option<Span>) -> bool {
         let dimension = values.settled();
         let named = |diagnostic: Diagnostic| match file {
@@ -228,8 +228,8 @@ impl<'a> Checker<'a> {
         for k in 1..rows.len() {
             let (before, here) = (values[k - 1][0], values[k][0]);
             if here.is_nan() || here <= before {
-                let told = [rows[k].written.unwrap_or(here), rows[k - 1].written.unwrap_or(before)];
-                self.report(named(errors::not_rising(name, told, [rows[k].span, rows[k - 1].span])));
+                let reported = [rows[k].written.unwrap_or(here), rows[k - 1].written.unwrap_or(before)];
+                self.report(named(errors::not_rising(name, reported, [rows[k].span, rows[k - 1].span])));
                 return false;
             }
         }
@@ -243,7 +243,7 @@ impl<'a> Checker<'a> {
         true
     }
 
-    /// `lift(e)`
+    /// Evaluates a call such as `lift(e)`.
     pub(super) fn table_call(
         &mut self,
         k: usize,
@@ -258,15 +258,21 @@ impl<'a> Checker<'a> {
         };
         let argument = self.number(written, context)?;
         let made = self.tables[k].made?;
-        let wanted = made.columns[0].settled();
-        self.demand(&format!("the argument of `{}`", name.text), wanted, written.span, argument.dim, context)?;
+        let expected = made.columns[0].settled();
+        self.require_dimension(
+            &format!("the argument of `{}`", name.text),
+            expected,
+            written.span,
+            argument.dim,
+            context,
+        )?;
         if !made.periodic {
             self.within(name, made, argument.id, written.span, context)?;
         }
         Some(Value { id: self.model.graph.table(made.id, 0, argument.id), dim: made.columns[1] })
     }
 
-    /// Demands that an argument lies in a table's range: now, if it is constant, else on the way.
+    /// Requires that an argument lies in a table's range: immediately if it is constant, else along the motion.
     fn within(&mut self, name: &Name, made: Made, x: ExprId, span: Span, context: &Context<'_>) -> Option<()> {
         let [first, last] = made.range;
         let ends = [self.constant_value(first)?, self.constant_value(last)?];
@@ -285,8 +291,8 @@ impl<'a> Checker<'a> {
         let slack = graph.constant(AT_THE_END);
         let slack = graph.mul(slack, length);
         let ways = [graph.sub(x, first), graph.sub(last, x)];
-        for way in ways {
-            let room = self.model.graph.add(way, slack);
+        for distance in ways {
+            let room = self.model.graph.add(distance, slack);
             let one = self.model.graph.constant(1.0);
             let positive = self.branch.guard.map_or(room, |guard| self.model.graph.select(guard, room, one));
             let owner = context.place.to_owned();
@@ -296,7 +302,7 @@ impl<'a> Checker<'a> {
     }
 }
 
-/// The number of a column in a file's first line, from 0.
+/// Returns the number of a column in a file's first line, from 0.
 fn position_of(path: &Name, column: &ColumnName, header: &[&str]) -> Result<usize, Box<Diagnostic>> {
     let at = match &column.kind {
         ColumnWord::Number(number) => Some(*number as usize - 1).filter(|at| *at < header.len()),

@@ -1,66 +1,65 @@
-//! What derivatives are taken by: the second argument of `der(e, NAME)`, and the names of `--by`.
+//! The variables of derivatives: the second argument of `der(e, NAME)`, and the names of `--by`.
 //!
-//! What is a number of its own varies itself. To what has a formula of its own a shift of 0 is added, but only where a derivative by it is
-//! asked for; so that all else is as if it were not.
+//! The variable of an independent number is its symbol. A value with a formula gets a shift of 0 added to it, but only if a derivative by
+//! it is requested, so that nothing else changes.
 
 use super::entity::Entity;
 use super::formula::{Context, Dim, Value};
-use super::told::is_told_by;
+use super::overrides::override_matches;
 use super::{Checker, errors};
-use crate::model::{AskedInPart, Declared, Dimension, Load, Named, Variable};
+use crate::model::{Declared, Dimension, Load, Named, PartDerivative, Variable};
 use mechc_expr::{ExprId, Symbol};
 use mechc_syntax::ast::{Expr, ExprKind, Item, Mechanism, Name};
 use mechc_text::source::Span;
 use rustc_hash::{FxHashMap, FxHashSet};
 
-/// How many variables a formula may be differentiated by, one after the other, and how often by time then.
+/// The largest numbers of variables, and of time derivatives besides, of one derivative.
 const MOST_VARIABLES: u8 = 2;
 const MOST_RATES: u8 = 2;
 
-/// What a mechanism is differentiated by.
+/// The variables of a mechanism.
 #[derive(Default)]
 pub(super) struct Variables {
-    /// Names by which derivatives are asked for: those of points and of repeated inputs stand for all that they hold.
-    asked: FxHashSet<String>,
-    /// The numbers of those that have had their turn.
-    pub known: FxHashMap<String, u32>,
-    /// Their dimensions, by number.
+    /// The requested names. Those of points and of repeated inputs stand for all their variables.
+    requested: FxHashSet<String>,
+    /// The numbers of the variables that have been created.
+    pub numbers: FxHashMap<String, u32>,
+    /// The dimensions by number.
     dims: Vec<Dim>,
-    /// Of the graph's named symbols that hold such derivatives: by how many variables, and how often by time.
+    /// For the named symbols of such derivatives: the numbers of variables and of time derivatives.
     orders: FxHashMap<ExprId, (u8, u8)>,
-    /// The places of those of formulas that hold forces.
+    /// The locations of derivatives of formulas with forces.
     of_forces: Vec<Span>,
 }
 
 impl Variables {
-    /// Those that the command line asks for.
-    pub fn told(by: &[String]) -> Variables {
-        Variables { asked: by.iter().cloned().collect(), ..Variables::default() }
+    /// Returns the variables that the command line requests.
+    pub fn new(by: &[String]) -> Variables {
+        Variables { requested: by.iter().cloned().collect(), ..Variables::default() }
     }
 
-    /// Those that a text asks for too, which stands under a path.
+    /// Adds the variables that a text requests; `path` is the prefix of its names.
     pub fn add(&mut self, tree: &Mechanism, path: &str) {
         for e in tree.items.iter().flat_map(Item::formulas).flat_map(Expr::parts) {
             if let Some((_, by)) = as_derivative(e) {
-                self.asked.extend(named(by).map(|name| format!("{path}{name}")));
+                self.requested.extend(named(by).map(|name| format!("{path}{name}")));
             }
         }
     }
 
-    fn is_asked(&self, name: &str) -> bool {
-        if self.asked.is_empty() {
+    fn is_requested(&self, name: &str) -> bool {
+        if self.requested.is_empty() {
             return false;
         }
         let whole = name.rsplit_once('.').map(|(point, _)| point);
-        self.asked.contains(name)
-            || self
-                .asked
-                .iter()
-                .any(|asked| is_told_by(name, asked) || whole.is_some_and(|whole| is_told_by(whole, asked)))
+        self.requested.contains(name)
+            || self.requested.iter().any(|requested| {
+                override_matches(name, requested) || whole.is_some_and(|whole| override_matches(whole, requested))
+            })
     }
 }
 
-/// `der(e, NAME)`
+/// Returns the arguments of `der(e, NAME)`.
 pub(super) fn as_derivative(e: &Expr) -> Option<(&Expr, &Expr)> {
     match &e.kind {
         ExprKind::Call { name, arguments, window: None } if name.text == "der" => match arguments.as_slice() {
@@ -71,7 +70,7 @@ pub(super) fn as_derivative(e: &Expr) -> Option<(&Expr, &Expr)> {
     }
 }
 
-/// A name, or `A.x`, as a text.
+/// Returns a name or `A.x` as text.
 fn named(e: &Expr) -> Option<String> {
     match &e.bare().kind {
         ExprKind::Name(name) => Some(name.text.clone()),
@@ -81,17 +80,17 @@ fn named(e: &Expr) -> Option<String> {
 }
 
 impl Checker<'_> {
-    /// A number of its own, if derivatives are taken by it.
-    pub(super) fn note_param(&mut self, declared: &Declared, symbol: Symbol, dim: Dim) {
-        if self.common.variables.is_asked(&declared.name) {
+    /// Registers an independent number, if it is a requested variable.
+    pub(super) fn register_param(&mut self, declared: &Declared, symbol: Symbol, dim: Dim) {
+        if self.common.variables.is_requested(&declared.name) {
             let is_angle = self.is_angle(&declared.name);
             self.add_variable(declared.clone(), symbol, dim, is_angle);
         }
     }
 
-    /// What has a formula of its own, with a shift if derivatives are taken by it.
+    /// Returns a value with a formula, with a shift if it is a requested variable.
     pub(super) fn with_shift(&mut self, declared: &Declared, value: Value) -> Value {
-        if !self.common.variables.is_asked(&declared.name) {
+        if !self.common.variables.is_requested(&declared.name) {
             return value;
         }
         let symbol = Symbol::Shift(self.model.variables.len() as u32);
@@ -102,8 +101,8 @@ impl Checker<'_> {
     }
 
     fn is_angle(&self, name: &str) -> bool {
-        let own = name.strip_prefix(self.address.path.as_str()).unwrap_or(name);
-        match self.space.get(own) {
+        let local = name.strip_prefix(self.address.path.as_str()).unwrap_or(name);
+        match self.space.get(local) {
             Some(Entity::Param(k)) => self.params.get(k).is_some_and(|param| param.angle == 1),
             Some(Entity::Input(k)) => self.inputs.get(k).is_some_and(|input| self.angle_power(input.formula) == 1),
             _ => false,
@@ -112,12 +111,12 @@ impl Checker<'_> {
 
     fn add_variable(&mut self, declared: Declared, symbol: Symbol, dim: Dim, is_angle: bool) {
         let number = self.model.variables.len() as u32;
-        self.common.variables.known.insert(declared.name.clone(), number);
+        self.common.variables.numbers.insert(declared.name.clone(), number);
         self.common.variables.dims.push(dim);
         self.model.variables.push(Variable { declared, symbol, dimension: dim.settled(), is_angle });
     }
 
-    /// `der(e, NAME)`
+    /// Evaluates `der(e, NAME)`.
     pub(super) fn derivative_by(&mut self, e: &Expr, [of, by]: [&Expr; 2], context: &Context<'_>) -> Option<Value> {
         if context.results && !context.measures {
             self.report(errors::variation_of_result(e.span));
@@ -150,27 +149,31 @@ impl Checker<'_> {
         if is_of_force {
             self.common.variables.of_forces.push(e.span);
         }
-        self.model.asked_in_parts.extend(self.address.part.map(|part| AskedInPart { part, span: e.span, is_of_force }));
+        self.model.part_derivatives.extend(self.address.part.map(|part| PartDerivative {
+            part,
+            span: e.span,
+            is_of_force,
+        }));
         let id = self.name_symbol(Named::By(inner.id, variable, within), rates);
         self.common.variables.orders.insert(id, (times + 1, rates));
         Some(Value { id, dim })
     }
 
-    /// Whether derivatives in this text are by its own equations alone, though it moves together with what is around it.
+    /// Returns whether derivatives in this text use only its own equations, although it moves together with its surroundings.
     fn is_coupled(&self) -> bool {
         let path = self.address.path.trim_end_matches('.');
-        self.around.coupled.iter().any(|coupled| coupled == path)
+        self.options.coupled.iter().any(|coupled| coupled == path)
     }
 
-    /// What an input of this part is bound to, which is held where derivatives are taken by the part's own equations.
-    pub(super) fn held(&mut self, value: Value) -> Value {
+    /// Returns the formula to which an input is bound, held fixed in derivatives by the part's own equations.
+    pub(super) fn held_input(&mut self, value: Value) -> Value {
         let Some(part) = self.address.part.filter(|_| self.is_coupled()) else { return value };
         let order = self.derivative_order(value.id);
         Value { id: self.name_symbol(Named::Held(part, value.id), order), ..value }
     }
 
-    /// Notes that a formula is the time derivative of another one; says whether that may be.
-    pub(super) fn note_rate(&mut self, of: ExprId, rate: ExprId) -> bool {
+    /// Registers a formula as the time derivative of another one. Returns whether its order is allowed.
+    pub(super) fn register_rate(&mut self, of: ExprId, rate: ExprId) -> bool {
         let (times, rates) = self.variation_orders(of);
         if times > 0 {
             self.common.variables.orders.insert(rate, (times, rates + 1));
@@ -178,7 +181,7 @@ impl Checker<'_> {
         times == 0 || rates < MOST_RATES
     }
 
-    /// By how many variables a formula is differentiated, and how often by time there.
+    /// Returns the numbers of variables and of time derivatives in a formula.
     fn variation_orders(&self, id: ExprId) -> (u8, u8) {
         if self.common.variables.orders.is_empty() {
             return (0, 0);
@@ -188,8 +191,8 @@ impl Checker<'_> {
         parts.fold((0, 0), |all, part| (all.0.max(part.0), all.1.max(part.1)))
     }
 
-    /// Derivatives of forces go through the loads: with third time derivatives in these there are none.
-    pub(super) fn refuse_derivatives_of_forces(&mut self) {
+    /// Reports derivatives of forces if a load holds third time derivatives.
+    pub(super) fn reject_derivatives_of_forces(&mut self) {
         let is_jerk = |&symbol: &Symbol| match symbol {
             Symbol::Named(k) => match self.model.named[k as usize] {
                 Named::Derivative(inner) => {
@@ -208,24 +211,24 @@ impl Checker<'_> {
         }
     }
 
-    /// The number of what a derivative is taken by.
+    /// Returns the number of a derivative's variable.
     fn variable(&mut self, by: &Expr) -> Option<u32> {
-        let own = named(by).map(|name| format!("{}{name}", self.address.path));
+        let full = named(by).map(|name| format!("{}{name}", self.address.path));
         let path = named(by).unwrap_or_default();
         if let Some(bound) = self.binding_of(&format!("{}{path}", self.address.path)) {
-            let own = |name: &String| name.strip_prefix(self.address.path.as_str()).unwrap_or(name).to_owned();
-            let made_of: Vec<String> = bound.made_of.iter().map(own).collect();
+            let local = |name: &String| name.strip_prefix(self.address.path.as_str()).unwrap_or(name).to_owned();
+            let made_of: Vec<String> = bound.made_of.iter().map(local).collect();
             self.report(errors::by_bound(by.span, &path, bound.span, &made_of));
             return None;
         }
-        let known = own.and_then(|name| self.common.variables.known.get(&name).copied());
-        if known.is_some() {
-            return known;
+        let number = full.and_then(|name| self.common.variables.numbers.get(&name).copied());
+        if number.is_some() {
+            return number;
         }
         let diagnostic = match &by.bare().kind {
-            ExprKind::Name(name) => self.no_variable(name)?,
+            ExprKind::Name(name) => self.non_variable_diagnostic(name)?,
             ExprKind::Member { owner, feature } if self.point_param(owner).is_some() => {
-                // one that is broken has been told
+                // A broken one has been reported.
                 if matches!(feature.text.as_str(), "x" | "y") {
                     return None;
                 }
@@ -241,8 +244,8 @@ impl Checker<'_> {
         None
     }
 
-    /// What is said of a name that no derivative is taken by; nothing where it is broken, which has been said.
-    fn no_variable(&self, name: &Name) -> Option<mechc_text::diag::Diagnostic> {
+    /// Returns the diagnostic of a name that is not a variable; `None` if it is broken, which has been reported.
+    fn non_variable_diagnostic(&self, name: &Name) -> Option<mechc_text::diag::Diagnostic> {
         match self.resolve(name).ok()? {
             Some(Entity::Param(_)) if self.point_param(name).is_some() => Some(errors::by_point(name, name.span)),
             Some(Entity::Param(_)) if self.deciding.contains(&name.text) => Some(errors::by_deciding(name)),
@@ -250,8 +253,8 @@ impl Checker<'_> {
             Some(entity) => Some(errors::not_a_variable(name.span, entity.noun())),
             None if name.text == "t" => Some(errors::by_time(name)),
             None => {
-                let known = self.suggestions(|entity| matches!(entity, Entity::Param(_) | Entity::Input(_)));
-                Some(errors::unknown("input or parameter", name, &known))
+                let candidates = self.suggestions(|entity| matches!(entity, Entity::Param(_) | Entity::Input(_)));
+                Some(errors::unknown("input or parameter", name, &candidates))
             }
         }
     }

@@ -1,5 +1,4 @@
-//! What holds a determined motion: what the bodies' inertia asks for, what weights and loads give, and what joints and drivers supply
-//! of the rest (`forces.md`; H 11.3).
+//! Generalized forces of a determined motion: inertia minus weights and loads, which joints and drivers balance (`forces.md`; H 11.3).
 
 use super::Lowering;
 use super::frames::Vector;
@@ -10,7 +9,7 @@ use mechc_expr::{ExprId, Symbol};
 use mechc_ir::tolerances::loads::AIMLESS;
 use mechc_ir::{self as ir, ConstraintSystem, DeclarationId, Forces};
 
-/// What a joint exerts on one body, in the ground's frame.
+/// The force and moment that a joint exerts on one body, in the ground's frame.
 #[derive(Clone, Copy)]
 pub(super) struct Reaction {
     /// (N)
@@ -19,8 +18,8 @@ pub(super) struct Reaction {
     moment: ExprId,
 }
 
-/// By named symbol, whether it holds forces. These are known when all rows are.
-pub(super) fn of_forces(model: &Mechanism) -> Vec<bool> {
+/// Returns for each named symbol whether it holds forces, which are resolved after all rows.
+pub(super) fn symbols_with_forces(model: &Mechanism) -> Vec<bool> {
     let mut holds = Vec::with_capacity(model.named.len());
     for named in &model.named {
         let of_others = |inner: ExprId| {
@@ -30,7 +29,7 @@ pub(super) fn of_forces(model: &Mechanism) -> Vec<bool> {
         holds.push(match *named {
             Named::Force(..) => true,
             Named::Derivative(inner) | Named::By(inner, ..) | Named::Held(_, inner) => {
-                model.asks_for_forces() && of_others(inner)
+                model.requires_forces() && of_others(inner)
             }
             Named::Quantity(..) | Named::Exists(..) | Named::Reduction(_) | Named::Argument => false,
         });
@@ -39,16 +38,16 @@ pub(super) fn of_forces(model: &Mechanism) -> Vec<bool> {
 }
 
 impl Lowering<'_> {
-    /// Whether a formula of the model asks for forces.
-    pub(super) fn asks_for_forces(&self, formula: ExprId) -> bool {
-        let is_force = |symbol: Symbol| matches!(symbol, Symbol::Named(k) if self.of_forces[k as usize]);
+    /// Returns whether a formula of the model holds forces.
+    pub(super) fn requires_forces(&self, formula: ExprId) -> bool {
+        let is_force = |symbol: Symbol| matches!(symbol, Symbol::Named(k) if self.holds_forces[k as usize]);
         self.model.graph.symbols(formula).into_iter().any(is_force)
     }
 
-    /// `p` of `Φ_qᵀ λ = p`; none where nobody asks for forces.
+    /// Returns the right side `p` of `Φ_qᵀ λ = p`; `None` if no output requires forces.
     pub(super) fn forces(&mut self) -> Option<Forces> {
         let model = self.model;
-        if !model.asks_for_forces() {
+        if !model.requires_forces() {
             return None;
         }
         let zero = self.graph.constant(0.0);
@@ -59,27 +58,27 @@ impl Lowering<'_> {
         for load in &model.loads {
             self.add_load(load, &mut needed);
         }
-        let are_pictured = model.draws_forces() && !model.reactions;
-        let mut reactions = if model.reactions || are_pictured { self.reactions() } else { Vec::new() };
+        let only_for_drawing = model.draws_forces() && !model.reactions;
+        let mut reactions = if model.reactions || only_for_drawing { self.reactions() } else { Vec::new() };
         if model.draws_forces() {
-            reactions.extend(model.loads.iter().map(|load| self.column_of_load(load)));
+            reactions.extend(model.loads.iter().map(|load| self.load_column(load)));
         }
-        let loads = model.loads.iter().map(|load| self.given(load)).collect();
-        Some(Forces { needed, reactions, are_pictured, loads, presses: self.presses() })
+        let loads = model.loads.iter().map(|load| self.load_force(load)).collect();
+        Some(Forces { needed, reactions, only_for_drawing, loads, presses: self.contact_forces() })
     }
 
-    /// What a load is.
-    fn given(&mut self, load: &Load) -> ir::LoadForce {
+    /// Returns a load as the system has it.
+    fn load_force(&mut self, load: &Load) -> ir::LoadForce {
         let conditions = load.conditions.iter().filter_map(|condition| {
             let positive = self.formula(condition.positive);
             super::condition(condition, positive)
         });
         let conditions = conditions.collect();
-        let (force, excess) = (self.value_of(load), self.excess(load));
+        let (force, excess) = (self.load_value(load), self.excess(load));
         ir::LoadForce { name: load.declared.name.clone(), span: load.declared.span, force, excess, conditions }
     }
 
-    /// By how much the distance that a load works on is longer than what has no direction (m).
+    /// Returns the excess (m) of the distance on which a load works over the shortest distance that has a direction.
     fn excess(&mut self, load: &Load) -> Option<ExprId> {
         let Quantity::Distance(p, q) = load.on else { return None };
         let size = [p, q].map(|point| self.size(self.model[point].frame)).into_iter().fold(0.0, f64::max);
@@ -88,26 +87,26 @@ impl Lowering<'_> {
         Some(self.graph.sub(distance, least))
     }
 
-    /// The same, for those who draw it.
-    fn column_of_load(&mut self, load: &Load) -> ir::Reaction {
+    /// Returns the column of a load, for pictures.
+    fn load_column(&mut self, load: &Load) -> ir::Reaction {
         let Declared { name, span } = &load.declared;
         ir::Reaction {
             name: format!("{name}.load"),
-            value: self.value_of(load),
+            value: self.load_value(load),
             unit: load.dimension.unit(),
             span: *span,
         }
     }
 
-    /// A column for all that each joint exerts, as far as it is not zero by its kind, and then for what each constraint or driver supplies.
+    /// Returns the columns of all joints' reactions, without components that are zero by the joint's kind, then those of all efforts.
     fn reactions(&mut self) -> Vec<ir::Reaction> {
         let model = self.model;
         let mut columns = Vec::new();
         for (joint, id) in model.joints.iter().zip(model.joint_ids()) {
             let all =
                 [("fx", Force::ReactionX(id)), ("fy", Force::ReactionY(id)), ("torque", Force::ReactionTorque(id))];
-            let asked = if joint.kind.plain().has_torque() { &all[..] } else { &all[..2] };
-            columns.extend(asked.iter().map(|&(ending, force)| self.column(&joint.declared, ending, force)));
+            let components = if joint.kind.plain().has_torque() { &all[..] } else { &all[..2] };
+            columns.extend(components.iter().map(|&(ending, force)| self.column(&joint.declared, ending, force)));
         }
         for (equation, id) in model.equations.iter().zip(model.equation_ids()) {
             columns.push(self.column(&equation.declared, "effort", Force::Effort(id)));
@@ -120,24 +119,24 @@ impl Lowering<'_> {
         ir::Reaction { name: format!("{}.{ending}", of.name), value: self.force(None, force), unit, span: of.span }
     }
 
-    /// What a mass asks for, less its weight: `m (c̈ − g)ᵀ ∂c/∂q + I φ̈ ∂φ/∂q`, c its centre. These are Lagrange's
+    /// Adds a mass' inertia minus its weight: `m (c̈ − g)ᵀ ∂c/∂q + I φ̈ ∂φ/∂q` with the centre of mass c. These are Lagrange's
     /// `d/dt ∂T/∂q̇ − ∂T/∂q + ∂V/∂q` of `T = ½ m ċᵀċ + ½ I φ̇²` and `V = −m gᵀc`, without the terms that cancel.
     fn add_mass(&mut self, of: &Mass, needed: &mut [ExprId]) {
         let frame = Frame::Body(of.body);
         let (mass, inertia) = (self.formula(of.amount), self.formula(of.inertia));
         let gravity = self.model.gravity.map(|gravity| gravity.map(|part| self.formula(part)));
-        let (center, phi) = (self.global(of.at), self.frame_coordinate(frame, 2));
+        let (center, phi) = (self.position(of.at), self.frame_coordinate(frame, 2));
         for (part, place) in center.into_iter().enumerate() {
-            let mut asked = self.second_rate(place);
+            let mut required = self.second_rate(place);
             if let Some(gravity) = gravity {
-                asked = self.graph.sub(asked, gravity[part]);
+                required = self.graph.sub(required, gravity[part]);
             }
-            let asked = self.graph.mul(mass, asked);
-            self.add_work(place, asked, needed);
+            let required = self.graph.mul(mass, required);
+            self.add_work(place, required, needed);
         }
         let turning = self.second_rate(phi);
-        let asked = self.graph.mul(inertia, turning);
-        self.add_work(phi, asked, needed);
+        let required = self.graph.mul(inertia, turning);
+        self.add_work(phi, required, needed);
     }
 
     fn second_rate(&mut self, of: ExprId) -> ExprId {
@@ -145,26 +144,26 @@ impl Lowering<'_> {
         ConstraintSystem::time_derivatives(&mut self.graph, &first, 2)[0]
     }
 
-    /// A load is not asked for but given: `−F ∂K/∂q`. Between points in one place there is no direction for it.
+    /// Adds a load: `−F ∂K/∂q`. A load between coincident points has no direction and no value.
     fn add_load(&mut self, load: &Load, needed: &mut [ExprId]) {
-        let mut force = self.value_of(load);
+        let mut force = self.load_value(load);
         if let Some(excess) = self.excess(load) {
             let is_aimed = self.is_positive(excess);
             force = self.only_where(Some(is_aimed), force);
         }
         let on = self.quantity(load.part, load.on);
-        let asked = self.graph.neg(force);
-        self.add_work(on, asked, needed);
+        let required = self.graph.neg(force);
+        self.add_work(on, required, needed);
     }
 
-    fn value_of(&mut self, load: &Load) -> ExprId {
+    fn load_value(&mut self, load: &Load) -> ExprId {
         let force = self.formula(load.force);
-        let force = self.later_side(force);
+        let force = self.right_limit(force);
         let holds = self.all_hold(&load.conditions);
         self.only_where(holds, force)
     }
 
-    /// A force on what changes with the coordinates works on each of them.
+    /// Adds the generalized forces of a force that works on `on`: `F ∂K/∂q`.
     fn add_work(&mut self, on: ExprId, force: ExprId, needed: &mut [ExprId]) {
         for (column, slope) in self.graph.slopes(on, 0) {
             let column = column as usize;
@@ -173,7 +172,7 @@ impl Lowering<'_> {
         }
     }
 
-    /// A force that is asked for, as it is seen from the ground of a part.
+    /// Returns a computed force relative to the ground of a part.
     pub(super) fn force(&mut self, view: Option<PartId>, force: Force) -> ExprId {
         match force {
             Force::Effort(equation) => self.effort(equation),
@@ -181,28 +180,28 @@ impl Lowering<'_> {
             Force::ReactionY(joint) => self.reaction_in(view, joint, 1),
             Force::ReactionTorque(joint) => {
                 let moment = self.reaction(joint).moment;
-                self.handed(view, moment)
+                self.with_handedness(view, moment)
             }
         }
     }
 
-    /// What a joint exerts on its second body, or on the ground, in the ground's frame (N).
+    /// Returns the force that a joint exerts on its second body or on the ground (N), in the ground's frame.
     pub(super) fn reaction_on_second(&mut self, joint: JointId) -> Vector {
         self.reaction(joint).force
     }
 
     fn reaction_in(&mut self, view: Option<PartId>, joint: JointId, part: usize) -> ExprId {
         let force = self.reaction(joint).force;
-        self.seen_from(view, |l| l.seen(force))[part]
+        self.relative_to(view, |l| l.vector_in_view(force))[part]
     }
 
-    /// What a constraint or driver supplies: `λ ∂Φ/∂(left − right)`.
+    /// Returns the effort of a constraint or driver: `λ ∂Φ/∂(left − right)`.
     fn effort(&mut self, equation: EquationId) -> ExprId {
-        let row = self.first_row(self.of_equations[equation.index()]);
+        let row = self.first_row(self.equation_declarations[equation.index()]);
         let multiplier = self.graph.symbol(Symbol::Multiplier(row as u32));
         match self.model[equation].form {
             EquationForm::Equality(..) => multiplier,
-            // d² − C² changes with d by 2 d, and d is C
+            // d² − C² has the derivative 2 d by d, and d equals C.
             EquationForm::Distance(_, _, distance) => {
                 let (two, distance) = (self.graph.constant(2.0), self.formula(distance));
                 let slope = self.graph.mul(two, distance);
@@ -211,21 +210,21 @@ impl Lowering<'_> {
         }
     }
 
-    /// What a joint's own equations exert on the body of its second argument, about the point that it is reduced to. On the ground it is
-    /// the opposite of what they exert on the first body.
+    /// Returns the force and moment that a joint's equations exert on the body of its second argument, about the attachment point. On the
+    /// ground they are the opposite of those on the first body.
     fn reaction(&mut self, joint: JointId) -> Reaction {
-        if let Some(&known) = self.reactions.get(&joint) {
-            return known;
+        if let Some(&cached) = self.reactions.get(&joint) {
+            return cached;
         }
-        let point = match self.seen_from(None, |l| l.place(joint)) {
+        let point = match self.relative_to(None, |l| l.attachment_point(joint)) {
             Some(point) => point,
             None => [0.0; 2].map(|zero| self.graph.constant(zero)),
         };
         let [first, second] = self.model[joint].kind.frames(self.model).map(|frame| self.model.carrier(frame));
         let frame = if second == Frame::Ground { first } else { second };
         let [x, y, about_origin] = self.exerted(joint, frame);
-        let origin = self.seen_from(None, |l| [0, 1].map(|part| l.frame_coordinate(frame, part)));
-        let arm = self.minus(point, origin);
+        let origin = self.relative_to(None, |l| [0, 1].map(|part| l.frame_coordinate(frame, part)));
+        let arm = self.difference(point, origin);
         let about_point = self.left_of(arm, [x, y]);
         let moment = self.graph.sub(about_origin, about_point);
         let mut reaction = Reaction { force: [x, y], moment };
@@ -237,17 +236,17 @@ impl Lowering<'_> {
         reaction
     }
 
-    /// What the equations of a joint exert on the coordinates of a body: `Σ λ ∂Φ/∂q`.
+    /// Returns the generalized forces that the equations of a joint exert on a body: `Σ λ ∂Φ/∂q`.
     fn exerted(&mut self, joint: JointId, frame: Frame) -> [ExprId; 3] {
         let mut sums = [0.0; 3].map(|zero| self.graph.constant(zero));
         let Frame::Body(body) = frame else { return sums };
         let pose = self.numbering.pose(body);
-        let declaration = super::of_joint(joint);
+        let declaration = super::joint_declaration(joint);
         let first = self.first_row(declaration);
         for row in first..first + self.declarations[declaration].rows {
             let multiplier = self.graph.symbol(Symbol::Multiplier(row as u32));
             for (column, slope) in self.graph.slopes(self.rows[row].phi, 0) {
-                if let Some(part) = pose.iter().position(|&own| own == column) {
+                if let Some(part) = pose.iter().position(|&number| number == column) {
                     let product = self.graph.mul(multiplier, slope);
                     sums[part] = self.graph.add(sums[part], product);
                 }
@@ -256,7 +255,7 @@ impl Lowering<'_> {
         sums
     }
 
-    /// The number of a declaration's first row.
+    /// Returns the index of a declaration's first row.
     fn first_row(&self, declaration: DeclarationId) -> usize {
         self.rows.partition_point(|row| row.declaration.index() < declaration.index())
     }

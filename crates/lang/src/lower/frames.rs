@@ -1,5 +1,4 @@
-//! Points and directions in the frame that they are seen from, the ground's or that of a part: `r^P = r + A(φ) s'`, `v = A(φ) v'`
-//! (`elements.md`, "Notation").
+//! Points and directions relative to the ground or to a part, the *view*: `r^P = r + A(φ) s'`, `v = A(φ) v'` (`elements.md`, "Notation").
 
 use super::{Lowering, carry};
 use crate::model::{Axis, AxisId, Frame, Mechanism, PartId, Placement, PointId};
@@ -9,20 +8,20 @@ use mechc_expr::{Binary, Comparison, ExprId, Symbol, Unary};
 pub(super) type Vector = [ExprId; 2];
 
 impl Lowering<'_> {
-    /// What things are, as they are seen from the ground of a part, or from the ground.
-    pub(super) fn seen_from<T>(&mut self, view: Option<PartId>, work: impl FnOnce(&mut Self) -> T) -> T {
+    /// Runs `work` with positions relative to the ground of a part, or to the ground.
+    pub(super) fn relative_to<T>(&mut self, view: Option<PartId>, work: impl FnOnce(&mut Self) -> T) -> T {
         let outer = std::mem::replace(&mut self.view, view);
         let result = work(self);
         self.view = outer;
         result
     }
 
-    /// Whether all is as it is written: a body of the mechanism itself, seen from the ground.
+    /// Returns whether a frame's coordinates need no transformation: the view is the ground, and the frame belongs to no part.
     fn is_plain(&self, frame: Frame) -> bool {
         self.view.is_none() && self.model.part_of(frame).is_none()
     }
 
-    /// A frame's coordinate: 0 for x (m), 1 for y (m), 2 for φ (rad); zero for the ground.
+    /// Returns a frame's coordinate in the view: 0 for x (m), 1 for y (m), 2 for φ (rad). Those of the ground are zero.
     pub(super) fn frame_coordinate(&mut self, frame: Frame, part: u32) -> ExprId {
         match frame {
             Frame::Ground if self.view.is_none() => self.graph.constant(0.0),
@@ -41,7 +40,7 @@ impl Lowering<'_> {
         }
     }
 
-    /// Where a frame is in the one that it is seen from.
+    /// Returns the placement of a frame in the view.
     fn placement(&mut self, frame: Frame) -> Placement {
         let Some(view) = self.view else {
             return if self.as_drawn { self.drawn(None, frame) } else { self.absolute(frame) };
@@ -58,15 +57,15 @@ impl Lowering<'_> {
             let mount = self.placement(self.model[part].mount);
             return self.on_mount(part, mount, Some(view));
         }
-        let (own, base) = (self.absolute(frame), self.absolute(Frame::Part(view)));
-        let way = self.minus(own.at, base.at);
-        let at = base.seen(&mut self.graph, way);
-        let turn = self.graph.sub(own.phi, base.phi);
+        let (inner, base) = (self.absolute(frame), self.absolute(Frame::Part(view)));
+        let offset = self.difference(inner.at, base.at);
+        let at = base.turned_back(&mut self.graph, offset);
+        let turn = self.graph.sub(inner.phi, base.phi);
         let phi = base.angle(&mut self.graph, turn);
-        Placement { at, phi, is_mirrored: own.is_mirrored != base.is_mirrored }
+        Placement { at, phi, is_mirrored: inner.is_mirrored != base.is_mirrored }
     }
 
-    /// Whether a frame is fixed to the ground of a part by its poses alone.
+    /// Returns whether a frame is fixed to the ground of a part by mounts alone.
     fn stands_on(&self, mut frame: Frame, view: PartId) -> bool {
         while let Frame::Part(part) = frame {
             if part == view {
@@ -77,7 +76,7 @@ impl Lowering<'_> {
         false
     }
 
-    /// Where a frame is in that of the ground.
+    /// Returns the placement of a frame in the ground's frame.
     pub(super) fn absolute(&mut self, frame: Frame) -> Placement {
         match frame {
             Frame::Ground => Placement::identity(&mut self.graph),
@@ -94,7 +93,7 @@ impl Lowering<'_> {
         }
     }
 
-    /// Where a frame is in the frame of the body that carries it, as the table has that.
+    /// Returns the placement of a frame in the right-handed frame of the body that carries it, as tables use it.
     pub(super) fn in_carrier(&mut self, frame: Frame) -> Placement {
         match frame {
             Frame::Part(part) => {
@@ -108,27 +107,27 @@ impl Lowering<'_> {
         }
     }
 
-    /// Where a part's frame is, seen from a part, if its mount is where it is.
+    /// Returns the placement in a view of a part's ground, from that of its mount.
     fn on_mount(&mut self, part: PartId, mount: Placement, view: Option<PartId>) -> Placement {
         let model = self.model;
         let part = &model[part];
-        // to who declares the part, what carries it is like everything in his text
+        // The mount has the handedness of the text that declares the part, as everything in that text.
         let is_mirrored = model.is_mirrored(part.within) != model.is_mirrored(view);
-        let (known, named) = (&mut self.known, &self.named);
-        let mut formula = |graph: &mut _, id| carry(graph, model, known, named, id);
+        let (imported, named) = (&mut self.imported, &self.named);
+        let mut formula = |graph: &mut _, id| carry(graph, model, imported, named, id);
         Mechanism::on_mount(&mut self.graph, &mut formula, Placement { is_mirrored, ..mount }, part)
     }
 
-    /// Where a frame is drawn, in that of a part or of the ground.
+    /// Returns the drawn placement of a frame in that of a part or of the ground.
     pub(super) fn drawn(&mut self, within: Option<PartId>, frame: Frame) -> Placement {
         let model = self.model;
-        let (known, named) = (&mut self.known, &self.named);
-        let mut formula = |graph: &mut _, id| carry(graph, model, known, named, id);
+        let (imported, named) = (&mut self.imported, &self.named);
+        let mut formula = |graph: &mut _, id| carry(graph, model, imported, named, id);
         model.drawn(&mut self.graph, &mut formula, within, frame)
     }
 
-    /// A vector fixed in a frame, turned into the one that it is seen from.
-    pub(super) fn turned(&mut self, frame: Frame, [x, y]: Vector) -> Vector {
+    /// Returns a vector of a frame in the view.
+    pub(super) fn transform_vector(&mut self, frame: Frame, [x, y]: Vector) -> Vector {
         if !self.is_plain(frame) {
             let placement = self.placement(frame);
             return placement.turned(&mut self.graph, [x, y]);
@@ -144,48 +143,48 @@ impl Lowering<'_> {
         [graph.sub(xc, ys), graph.add(xs, yc)]
     }
 
-    /// A point in the frame that it is seen from (m).
-    pub(super) fn global(&mut self, point: PointId) -> Vector {
+    /// Returns the position of a point in the view (m).
+    pub(super) fn position(&mut self, point: PointId) -> Vector {
         let point = &self.model[point];
         let frame = point.frame;
         let local = point.at.map(|id| self.formula(id));
-        self.placed(frame, local)
+        self.transform_point(frame, local)
     }
 
-    /// A point of a frame in the one that it is seen from (m).
-    pub(super) fn placed(&mut self, frame: Frame, local: Vector) -> Vector {
-        let [x, y] = self.turned(frame, local);
+    /// Returns a point of a frame in the view (m).
+    pub(super) fn transform_point(&mut self, frame: Frame, local: Vector) -> Vector {
+        let [x, y] = self.transform_vector(frame, local);
         let origin = [0, 1].map(|part| self.frame_coordinate(frame, part));
         [self.graph.add(origin[0], x), self.graph.add(origin[1], y)]
     }
 
-    /// A vector of the ground's frame, in the one that it is seen from.
-    pub(super) fn seen(&mut self, vector: Vector) -> Vector {
+    /// Returns a vector of the ground's frame in the view.
+    pub(super) fn vector_in_view(&mut self, vector: Vector) -> Vector {
         let Some(view) = self.view else { return vector };
         let base = self.absolute(Frame::Part(view));
-        base.seen(&mut self.graph, vector)
+        base.turned_back(&mut self.graph, vector)
     }
 
-    /// What is positive to the left in the ground's frame, as it is positive to the left in the text of a part.
-    pub(super) fn handed(&mut self, part: Option<PartId>, value: ExprId) -> ExprId {
+    /// Returns a signed value of the ground's frame with the sign of a part's handedness.
+    pub(super) fn with_handedness(&mut self, part: Option<PartId>, value: ExprId) -> ExprId {
         if self.model.is_mirrored(part) { self.graph.neg(value) } else { value }
     }
 
-    /// An axis' unit direction in its frame.
+    /// Returns the unit direction of an axis in its frame.
     pub(super) fn unit_direction(&mut self, axis: &Axis) -> Vector {
         let [x, y] = axis.direction.map(|id| self.formula(id));
         let length = self.graph.binary(Binary::Hypot, x, y);
         [self.graph.div(x, length), self.graph.div(y, length)]
     }
 
-    /// An axis' unit direction in the frame that it is seen from.
+    /// Returns the unit direction of an axis in the view.
     pub(super) fn direction(&mut self, axis: AxisId) -> Vector {
         let axis = &self.model[axis];
         let local = self.unit_direction(axis);
-        self.turned(axis.frame, local)
+        self.transform_vector(axis.frame, local)
     }
 
-    /// The angle θ of an axis in its frame (rad), in (−π, π]; of one that is seen in a mirror, that of its image.
+    /// Returns the angle θ of an axis in its frame (rad), in (−π, π]; if the view mirrors the frame, the angle of the mirror image.
     pub(super) fn local_angle(&mut self, axis: AxisId) -> ExprId {
         let model = self.model;
         let [x, y] = model[axis].direction.map(|id| self.formula(id));
@@ -195,7 +194,7 @@ impl Lowering<'_> {
         }
         let image = self.graph.neg(y);
         let angle = self.graph.binary(Binary::Atan2, image, x);
-        // the arc tangent of a negative zero is -π
+        // `atan2` of a negative zero is −π.
         let [zero, pi] = [0.0, std::f64::consts::PI].map(|value| self.graph.constant(value));
         let on_line = self.graph.compare(Comparison::Equal, y, zero);
         let behind = self.graph.compare(Comparison::Less, x, zero);
@@ -203,18 +202,18 @@ impl Lowering<'_> {
         self.graph.select(is_opposite, pi, angle)
     }
 
-    /// `b − a`
-    pub(super) fn minus(&mut self, b: Vector, a: Vector) -> Vector {
+    /// Returns `b − a`.
+    pub(super) fn difference(&mut self, b: Vector, a: Vector) -> Vector {
         [self.graph.sub(b[0], a[0]), self.graph.sub(b[1], a[1])]
     }
 
-    /// `aᵀ b`
+    /// Returns `aᵀ b`.
     pub(super) fn dot(&mut self, a: Vector, b: Vector) -> ExprId {
         let (x, y) = (self.graph.mul(a[0], b[0]), self.graph.mul(a[1], b[1]));
         self.graph.add(x, y)
     }
 
-    /// `(v^⊥)ᵀ d`, the signed distance of `d` to the left of `v`.
+    /// Returns `(v^⊥)ᵀ d`: for a unit vector `v` the signed distance of `d` to its left.
     pub(super) fn left_of(&mut self, v: Vector, d: Vector) -> ExprId {
         let (right, left) = (self.graph.mul(v[1], d[0]), self.graph.mul(v[0], d[1]));
         self.graph.sub(left, right)

@@ -1,13 +1,13 @@
-//! Gears and racks (H 3.4): circles that roll, without holding their centres apart.
+//! Gears and racks (H 3.4): circles that roll. They do not hold the distance of their centres.
 
 use super::frames::Vector;
 use super::{Entry, Lowering, entries};
 use crate::model::{AxisId, CircleId, Joint, Side};
 use mechc_expr::{Binary, ExprId, Unary};
-use mechc_ir::{CoordinateKind, Fit, RowUnit, WatchKind};
+use mechc_ir::{CoordinateKind, Fit, MonitorKind, RowUnit};
 
 impl Lowering<'_> {
-    /// `[−dx sin θ + dy cos θ, R_i(φ_i − θ) ± R_j(φ_j − θ) − κ]`, θ the direction of the line of centres.
+    /// Returns the rows of a gear: `[−dx sin θ + dy cos θ, R_i(φ_i − θ) ± R_j(φ_j − θ) − κ]`, θ the direction of the line of centres.
     pub(super) fn gear(
         &mut self,
         joint: &Joint,
@@ -15,23 +15,23 @@ impl Lowering<'_> {
         internal: bool,
         phase: Option<ExprId>,
     ) -> Vec<Entry> {
-        let drawn = self.as_drawn(|l| l.line_of_centers(circles));
+        let drawn = self.in_drawn_poses(|l| l.line_of_centers(circles));
         let drawn_theta = self.graph.binary(Binary::Atan2, drawn[1], drawn[0]);
         let phase = match phase {
             Some(phase) => self.formula(phase),
-            None => self.as_drawn(|l| l.rolled(circles, internal, drawn_theta)),
+            None => self.in_drawn_poses(|l| l.rolled(circles, internal, drawn_theta)),
         };
-        let theta = self.own_coordinate(joint, 0, CoordinateKind::Angle, drawn_theta);
+        let theta = self.add_coordinate(joint, 0, CoordinateKind::Angle, drawn_theta);
         let [dx, dy] = self.line_of_centers(circles);
         let (cos, sin) = (self.graph.unary(Unary::Cos, theta), self.graph.unary(Unary::Sin, theta));
         let line = [cos, sin];
         let across = self.left_of(line, [dx, dy]);
         let rolled = self.rolled(circles, internal, theta);
         let mesh = self.graph.sub(rolled, phase);
-        // the first row holds at θ + π too
+        // The first row also holds at θ + π, which this sign excludes.
         let along = self.dot(line, [dx, dy]);
         let scale = circles.map(|circle| self.size(self.model[circle].frame));
-        self.watch(along, WatchKind::LineOfCenters, f64::max(scale[0], scale[1]));
+        self.add_monitor(along, MonitorKind::LineOfCenters, f64::max(scale[0], scale[1]));
         let radii = circles.map(|circle| self.radius(circle));
         let wanted = if internal {
             let difference = self.graph.sub(radii[0], radii[1]);
@@ -49,13 +49,13 @@ impl Lowering<'_> {
         self.formula(self.model[circle].radius)
     }
 
-    /// From centre to centre (m).
+    /// Returns the vector from centre to centre (m).
     fn line_of_centers(&mut self, [c, d]: [CircleId; 2]) -> Vector {
-        let (from, to) = (self.global(self.model[c].center), self.global(self.model[d].center));
-        self.minus(to, from)
+        let (from, to) = (self.position(self.model[c].center), self.position(self.model[d].center));
+        self.difference(to, from)
     }
 
-    /// `R_i(φ_i − θ) ± R_j(φ_j − θ)` (m), minus for an internal mesh.
+    /// Returns `R_i(φ_i − θ) ± R_j(φ_j − θ)` (m), with minus for an internal gear.
     fn rolled(&mut self, circles: [CircleId; 2], internal: bool, theta: ExprId) -> ExprId {
         let [first, second] = circles.map(|circle| {
             let phi = self.frame_coordinate(self.model[circle].frame, 2);
@@ -66,7 +66,7 @@ impl Lowering<'_> {
         if internal { self.graph.sub(first, second) } else { self.graph.add(first, second) }
     }
 
-    /// `v_jᵀ(r_i^c − r_j^a) + σ R (φ_i − φ_j) − κ`
+    /// Returns the row of a rack: `v_jᵀ(r_i^c − r_j^a) + σ R (φ_i − φ_j) − κ`.
     pub(super) fn rack_pinion(
         &mut self,
         pinion: CircleId,
@@ -78,38 +78,38 @@ impl Lowering<'_> {
             Some(Side::Left) => self.graph.constant(1.0),
             Some(Side::Right) => self.graph.constant(-1.0),
             None => {
-                let left = self.as_drawn(|l| l.height(pinion, rack));
+                let left = self.in_drawn_poses(|l| l.height(pinion, rack));
                 self.graph.unary(Unary::Sign, left)
             }
         };
         let phase = match phase {
             Some(phase) => self.formula(phase),
-            None => self.as_drawn(|l| l.rolled_on(pinion, rack, sigma)),
+            None => self.in_drawn_poses(|l| l.rolled_on(pinion, rack, sigma)),
         };
         let rolled = self.rolled_on(pinion, rack, sigma);
         let height = self.height(pinion, rack);
-        // on the other side it is below zero
+        // The distance is negative on the other side of the rack.
         let distance = self.graph.mul(sigma, height);
         let radius = self.radius(pinion);
         self.fits.push(Fit { distance, wanted: radius, radius, declaration: self.declarations.next_id() });
         entries(RowUnit::LENGTH, [self.graph.sub(rolled, phase)])
     }
 
-    /// From the rack's point to the pinion's centre (m).
-    fn way_to_pinion(&mut self, pinion: CircleId, rack: AxisId) -> Vector {
-        let (origin, center) = (self.global(self.model[rack].origin), self.global(self.model[pinion].center));
-        self.minus(center, origin)
+    /// Returns the vector from the rack's origin to the pinion's centre (m).
+    fn pinion_offset(&mut self, pinion: CircleId, rack: AxisId) -> Vector {
+        let (origin, center) = (self.position(self.model[rack].origin), self.position(self.model[pinion].center));
+        self.difference(center, origin)
     }
 
-    /// How far the pinion's centre lies to the left of the rack's axis (m).
+    /// Returns the signed distance of the pinion's centre to the left of the rack's axis (m).
     fn height(&mut self, pinion: CircleId, rack: AxisId) -> ExprId {
-        let (v, d) = (self.direction(rack), self.way_to_pinion(pinion, rack));
+        let (v, d) = (self.direction(rack), self.pinion_offset(pinion, rack));
         self.left_of(v, d)
     }
 
-    /// `v_jᵀ(r_i^c − r_j^a) + σ R (φ_i − φ_j)` (m)
+    /// Returns `v_jᵀ(r_i^c − r_j^a) + σ R (φ_i − φ_j)` (m).
     fn rolled_on(&mut self, pinion: CircleId, rack: AxisId, sigma: ExprId) -> ExprId {
-        let (v, d) = (self.direction(rack), self.way_to_pinion(pinion, rack));
+        let (v, d) = (self.direction(rack), self.pinion_offset(pinion, rack));
         let along = self.dot(v, d);
         let frames = [self.model[pinion].frame, self.model[rack].frame];
         let [phi_i, phi_j] = frames.map(|frame| self.frame_coordinate(frame, 2));

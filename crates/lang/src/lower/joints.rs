@@ -10,13 +10,13 @@ impl Lowering<'_> {
         match joint.kind {
             // r_i^P − r_j^Q
             JointKind::Revolute(p, q) => {
-                let (p, q) = (self.global(p), self.global(q));
-                entries(RowUnit::LENGTH, self.minus(p, q))
+                let (p, q) = (self.position(p), self.position(q));
+                entries(RowUnit::LENGTH, self.difference(p, q))
             }
             // [v_i^⊥ᵀ d, v_i^⊥ᵀ v_j]
             JointKind::Translational(a, b) => {
-                let (origin, other) = (self.global(self.model[a].origin), self.global(self.model[b].origin));
-                let d = self.minus(other, origin);
+                let (origin, other) = (self.position(self.model[a].origin), self.position(self.model[b].origin));
+                let d = self.difference(other, origin);
                 let (v, w) = (self.direction(a), self.direction(b));
                 vec![(self.left_of(v, d), RowUnit::LENGTH), (self.left_of(v, w), RowUnit::NUMBER)]
             }
@@ -26,10 +26,10 @@ impl Lowering<'_> {
                 let [phi_i, phi_j] = frames.map(|frame| self.frame_coordinate(frame, 2));
                 let angle = self.formula(angle);
                 let turn = self.graph.sub(phi_j, phi_i);
-                let turn = self.handed(joint.part, turn);
+                let turn = self.with_handedness(joint.part, turn);
                 let turn = self.graph.sub(turn, angle);
-                let (p, q) = (self.global(p), self.global(q));
-                let [x, y] = self.minus(p, q);
+                let (p, q) = (self.position(p), self.position(q));
+                let [x, y] = self.difference(p, q);
                 vec![(x, RowUnit::LENGTH), (y, RowUnit::LENGTH), (turn, RowUnit::ANGLE)]
             }
             // dᵀd − L²
@@ -39,20 +39,20 @@ impl Lowering<'_> {
             }
             // v_j^⊥ᵀ (r_i^P − r_j^a) − c
             JointKind::RevoluteTranslational(p, a, offset) => {
-                let (point, origin) = (self.global(p), self.global(self.model[a].origin));
-                let d = self.minus(point, origin);
+                let (point, origin) = (self.position(p), self.position(self.model[a].origin));
+                let d = self.difference(point, origin);
                 let v = self.direction(a);
                 let offset = self.formula(offset);
                 let left = self.left_of(v, d);
-                let left = self.handed(joint.part, left);
+                let left = self.with_handedness(joint.part, left);
                 entries(RowUnit::LENGTH, [self.graph.sub(left, offset)])
             }
-            // their angles and phases are those of the text that declares them
+            // Angles and phases of gears are relative to the part that declares them.
             JointKind::Gear { circles, internal, phase } => {
-                self.seen_from(joint.part, |l| l.gear(joint, circles, internal, phase))
+                self.relative_to(joint.part, |l| l.gear(joint, circles, internal, phase))
             }
             JointKind::RackPinion { pinion, rack, phase, side } => {
-                self.seen_from(joint.part, |l| l.rack_pinion(pinion, rack, phase, side))
+                self.relative_to(joint.part, |l| l.rack_pinion(pinion, rack, phase, side))
             }
             JointKind::PointFollower(point, profile) => self.point_follower(joint, point, profile),
             JointKind::Cam(k, m) => self.cam(joint, k, m),
@@ -60,12 +60,12 @@ impl Lowering<'_> {
         }
     }
 
-    /// `dᵀd − C²`: no square root, and no singularity at the solution.
+    /// Returns `dᵀd − C²`, which has no square root and no singularity at the solution.
     pub(super) fn squared_distance_row(&mut self, p: PointId, q: PointId, distance: ExprId) -> ExprId {
-        let (p, q) = (self.global(p), self.global(q));
-        let d = self.minus(q, p);
+        let (p, q) = (self.position(p), self.position(q));
+        let d = self.difference(q, p);
         let square = self.dot(d, d);
-        let wanted = self.graph.power(distance, 2);
-        self.graph.sub(square, wanted)
+        let square_of_distance = self.graph.power(distance, 2);
+        self.graph.sub(square, square_of_distance)
     }
 }

@@ -1,57 +1,57 @@
-//! From the model to the constraint system: the only place where mathematics is written by hand, and it writes `Φ`
-//! alone (H stands for E. J. Haug, *Computer-Aided Kinematics and Dynamics of Mechanical Systems*,
-//! 1989).
+//! Writes the equations `Φ` of a model as a constraint system. `Φ` and the inertia of masses are the only mechanics written by hand.
+//!
+//! H stands for E. J. Haug, *Computer-Aided Kinematics and Dynamics of Mechanical Systems*, 1989.
 
+mod contact_forces;
 mod contacts;
-mod edges;
+mod continuation;
 mod features;
 mod forces;
 mod frames;
 mod gears;
 mod inputs;
 mod joints;
-mod later;
-mod led;
 mod numbering;
-mod parts;
-mod presses;
+mod part_scopes;
+mod part_starts;
 mod quantities;
 mod results;
-mod scopes;
+mod right_limits;
 mod size;
 mod slopes;
-mod uses;
+mod switching;
+mod used_features;
 mod variations;
 mod velocities;
 
 use crate::model::{
     self, BodyId, ConditionKind, EquationForm, Frame, JointId, Mechanism, Named, PartId, Placement, PointId, Quantity,
 };
-pub use led::{Clock, lower_on_its_way};
+pub use continuation::{TimeOnPath, lower_continuation};
 use mechc_expr::{Comparison, Dependence, ExprId, Graph, Symbol, TIME_SIGNAL};
 use mechc_ir::tolerances::scales::size::FAR_FRAME;
 use mechc_ir::{
     self as ir, Body, Condition, ConstraintSystem, Coordinate, CoordinateKind, Declaration, DeclarationId,
-    DeclarationKind, Fit, Forces, IdVec, Measure, OpenContact, Owner, Param, Row, RowUnit, Units, Variations, Watch,
+    DeclarationKind, Fit, Forces, IdVec, Measure, Monitor, OpenContact, Owner, Param, Row, RowUnit, Units, Variations,
     Written,
 };
 use numbering::Numbering;
 use rustc_hash::{FxHashMap, FxHashSet};
 
-/// What holds so many time derivatives of the coordinates has one that holds a third derivative.
+/// Order of time derivatives in a reduced formula from which its reduction needs third derivatives.
 const HOLDS_JERK: u8 = 2;
 
-/// The equations of a mechanism. Cannot fail: what could make it fail has been refused by `check`.
+/// Returns the constraint system of a model. Cannot fail, as `check` has rejected every model that could make it fail.
 #[must_use]
 pub fn lower(model: &Mechanism) -> ConstraintSystem {
-    let mut lowering = Lowering::of(model);
-    let written = lowering.written();
+    let mut lowering = Lowering::new(model);
+    let written = lowering.build();
     let with_jerk = needs_jerk(model, &written);
     let mut system = ConstraintSystem::of(written, with_jerk);
-    // late, so that what is there already is as it would be without
+    // Inputs and results follow the equations, so that neither changes the ids of the equations' expressions.
     inputs::add(model, &mut system);
     if !model.outcomes.is_empty() {
-        lowering.ask_of_the_whole(&mut system);
+        lowering.add_results(&mut system);
     }
     lowering.add_features(&mut system);
     lowering.add_analysis_formulas(&mut system);
@@ -59,20 +59,20 @@ pub fn lower(model: &Mechanism) -> ConstraintSystem {
     system
 }
 
-/// Whether measures, results or loads hold third derivatives of the coordinates, which only a system of time alone has.
+/// Returns whether measures, results or loads hold third derivatives of the coordinates. Only systems without signals have these.
 fn needs_jerk(model: &Mechanism, written: &Written) -> bool {
     let is_third = |id: ExprId| written.graph.dependence(id).highest_order() == Some(3);
     let mut measures = written.measures.iter();
     let is_measured = measures.any(|measure| (0..3).filter_map(|order| measure.derivative(order)).any(is_third));
     let mut of_forces = written.forces.iter().flat_map(Forces::formulas);
     let is_of_forces = of_forces.any(is_third);
-    // where an extremum goes is seen by two more
+    // The slope of an extremum needs two more derivatives.
     let holds = if model.slopes.is_some() { HOLDS_JERK - 1 } else { HOLDS_JERK };
-    let is_asked_for = model.reductions.iter().any(|reduction| reduction.order >= holds);
-    (is_measured || is_of_forces || is_asked_for) && !model.has_signals
+    let is_requested = model.reductions.iter().any(|reduction| reduction.order >= holds);
+    (is_measured || is_of_forces || is_requested) && !model.has_signals
 }
 
-/// The parameters; of each, how much of its name says in which part it is.
+/// Returns the parameters, each with the length of the part's path in its name.
 fn params(model: &Mechanism) -> Vec<Param> {
     let parts: FxHashSet<&str> = model.parts.iter().map(|part| part.declared.name.as_str()).collect();
     let path = |name: &str| {
@@ -89,18 +89,18 @@ fn params(model: &Mechanism) -> Vec<Param> {
     model.params.iter().map(param).collect()
 }
 
-/// A body of the model in the system: both have the same, in the same order.
-fn same_body(body: BodyId) -> ir::BodyId {
+/// Returns the id in the system of a body; both lists have the same order.
+fn ir_body(body: BodyId) -> ir::BodyId {
     body.index().into()
 }
 
-/// Likewise a point.
-fn same_point(point: PointId) -> ir::PointId {
+/// Returns the id in the system of a point; both lists have the same order.
+fn ir_point(point: PointId) -> ir::PointId {
     point.index().into()
 }
 
-/// The declaration of a joint: joints are the first.
-fn of_joint(joint: JointId) -> DeclarationId {
+/// Returns the declaration of a joint; declarations begin with the joints.
+fn joint_declaration(joint: JointId) -> DeclarationId {
     joint.index().into()
 }
 
@@ -108,58 +108,58 @@ struct Lowering<'m> {
     model: &'m Mechanism,
     numbering: Numbering,
     graph: Graph,
-    /// Formulas of the model that have been carried over.
-    known: FxHashMap<ExprId, ExprId>,
-    /// The model's named symbols as expressions in the coordinates.
+    /// The model's formulas that have been imported, with their expressions in `graph`.
+    imported: FxHashMap<ExprId, ExprId>,
+    /// The model's named symbols as expressions of the coordinates.
     named: Vec<ExprId>,
-    /// Whether frames stand in their poses as written, rather than where the coordinates put them.
+    /// True while frames have their drawn poses instead of those of the coordinates.
     as_drawn: bool,
-    /// The part from whose ground things are seen; the ground of all if there is none.
+    /// The part to whose ground positions are relative; `None` for the ground.
     view: Option<PartId>,
-    /// The size of each body (m), of the largest in each part, and of the largest of all.
+    /// The sizes (m) of each body, of the largest body in each part, and of the largest body.
     sizes: Vec<f64>,
     part_sizes: Vec<f64>,
     largest_size: f64,
-    /// Contacts that begin where nobody said.
+    /// Contacts whose arguments have no estimate yet.
     open_contacts: Vec<OpenContact>,
     coordinates: Vec<Coordinate>,
     rows: Vec<Row>,
     declarations: IdVec<DeclarationId, Declaration>,
-    /// By constraint or driver of the model, its declaration.
-    of_equations: Vec<DeclarationId>,
-    /// By named symbol, whether it holds forces: these are named when there are rows.
-    of_forces: Vec<bool>,
+    /// The declaration of each constraint and driver of the model.
+    equation_declarations: Vec<DeclarationId>,
+    /// For each named symbol, whether it holds forces; these symbols are resolved after all rows.
+    holds_forces: Vec<bool>,
     has_rows: bool,
-    /// Whether loads hold third derivatives of the coordinates, once that has been asked.
+    /// True if loads hold third derivatives of the coordinates; `None` until it is determined.
     loads_hold_jerks: Option<bool>,
-    /// How fast everything moves, as far as it has been asked for.
-    pace: Option<later::Pace>,
-    /// What joints exert, as far as it has been asked for.
+    /// The sums of rates of all coordinates, once needed.
+    rate_sums: Option<right_limits::RateSums>,
+    /// The reactions of joints, as far as they have been needed.
     reactions: FxHashMap<JointId, forces::Reaction>,
     conditions: Vec<Condition>,
-    known_conditions: FxHashSet<ExprId>,
-    watches: Vec<Watch>,
+    condition_formulas: FxHashSet<ExprId>,
+    watches: Vec<Monitor>,
     fits: Vec<Fit>,
-    /// Where derivatives are taken by something else than time.
+    /// The variables of derivatives other than time, with these derivatives.
     variations: Option<Variations>,
-    /// Where parts may hold their inputs.
-    over_leaves: scopes::OverLeaves,
+    /// The formulas in which the inputs of parts are leaves.
+    leaf_context: part_scopes::LeafContext,
 }
 
-/// A formula of the model in another graph.
+/// Imports a formula of the model into another graph.
 fn carry(
     graph: &mut Graph,
     model: &Mechanism,
-    known: &mut FxHashMap<ExprId, ExprId>,
+    imported: &mut FxHashMap<ExprId, ExprId>,
     named: &[ExprId],
     id: ExprId,
 ) -> ExprId {
-    graph.import(&model.graph, &[id], known, |graph, symbol| match symbol {
+    graph.import(&model.graph, &[id], imported, |graph, symbol| match symbol {
         Symbol::Named(k) => named[k as usize],
         Symbol::Time if model.has_signals => graph.symbol(Symbol::Signal { index: TIME_SIGNAL, order: 0 }),
         other => graph.symbol(other),
     });
-    known[&id]
+    imported[&id]
 }
 
 fn units(of: &model::Units) -> Units {
@@ -167,12 +167,13 @@ fn units(of: &model::Units) -> Units {
     Units { si, printed, scale }
 }
 
-/// A condition, by the formula that must be above zero; none where it is about a branch of a measure that is never taken.
+/// Returns a condition of the system on the formula `positive`; `None` for the existence of quantities, which selects between values
+/// instead.
 fn condition(of: &model::Condition, positive: ExprId) -> Option<Condition> {
     let kind = match of.kind {
         ConditionKind::Distance => ir::ConditionKind::Distance,
         ConditionKind::Interval => ir::ConditionKind::Interval,
-        // tables keep their numbers
+        // Tables have the same numbers in both graphs.
         ConditionKind::Range(table) => ir::ConditionKind::Range(table),
         ConditionKind::Samples(table) => ir::ConditionKind::Samples(table),
         ConditionKind::Existence => return None,
@@ -180,16 +181,16 @@ fn condition(of: &model::Condition, positive: ExprId) -> Option<Condition> {
     Some(Condition { positive, kind, span: of.span, owner: of.owner.clone() })
 }
 
-/// An entry of `Φ`, and what it is measured in.
+/// An entry of `Φ` with its unit.
 type Entry = (ExprId, RowUnit);
 
-/// Some that are measured in the same.
+/// Returns entries of one unit.
 fn entries<const N: usize>(unit: RowUnit, phi: [ExprId; N]) -> Vec<Entry> {
     phi.map(|phi| (phi, unit)).to_vec()
 }
 
-/// What the row of an equation is measured in: as its sides, but of a distance the squares.
-fn unit_of(equation: &model::Equation) -> RowUnit {
+/// Returns the unit of an equation's row: that of its sides; for a distance its square.
+fn equation_unit(equation: &model::Equation) -> RowUnit {
     match equation.form {
         EquationForm::Equality(..) => RowUnit { dimension: equation.dimension, is_angle: equation.is_angle },
         EquationForm::Distance(..) => RowUnit::AREA,
@@ -197,54 +198,54 @@ fn unit_of(equation: &model::Equation) -> RowUnit {
 }
 
 impl<'m> Lowering<'m> {
-    fn of(model: &'m Mechanism) -> Lowering<'m> {
-        let sizes = size::of_bodies(model);
+    fn new(model: &'m Mechanism) -> Lowering<'m> {
+        let sizes = size::body_sizes(model);
         Lowering {
             model,
-            numbering: Numbering::of(model),
+            numbering: Numbering::new(model),
             graph: Graph::new(),
-            known: FxHashMap::default(),
+            imported: FxHashMap::default(),
             named: Vec::new(),
             as_drawn: false,
             view: None,
-            part_sizes: size::of_parts(model, &sizes),
+            part_sizes: size::part_sizes(model, &sizes),
             largest_size: sizes.iter().copied().fold(0.0, f64::max),
             sizes,
             open_contacts: Vec::new(),
             coordinates: Vec::new(),
             rows: Vec::new(),
             declarations: IdVec::default(),
-            of_equations: vec![DeclarationId::from(0); model.equations.len()],
-            of_forces: forces::of_forces(model),
+            equation_declarations: vec![DeclarationId::from(0); model.equations.len()],
+            holds_forces: forces::symbols_with_forces(model),
             has_rows: false,
             loads_hold_jerks: None,
-            pace: None,
+            rate_sums: None,
             reactions: FxHashMap::default(),
             conditions: Vec::new(),
-            known_conditions: FxHashSet::default(),
+            condition_formulas: FxHashSet::default(),
             watches: Vec::new(),
             fits: Vec::new(),
             variations: variations::variables(model),
-            over_leaves: scopes::OverLeaves::default(),
+            leaf_context: part_scopes::LeafContext::default(),
         }
     }
 }
 
 impl Lowering<'_> {
-    /// The equations, with what is said of them.
-    fn written(&mut self) -> Written {
+    /// Builds the equations with all that depends on them, except for results.
+    fn build(&mut self) -> Written {
         let model = self.model;
         self.tables();
         self.open_scopes();
-        self.named_up_to(model.named_before_results);
+        self.resolve_symbols_up_to(model.named_before_results);
         self.body_coordinates();
         self.joint_rows();
         self.equation_rows();
-        self.name_forces();
+        self.resolve_force_symbols();
         self.rows_of_scopes();
         self.conditions();
         let (points, forces, measures) = (self.points(), self.forces(), self.measures());
-        let (parts, asking_parts) = (self.part_starts(), self.asking_parts());
+        let (parts, parts_with_derivatives) = (self.part_starts(), self.parts_with_derivatives());
         self.append_derivatives(forces.as_ref().map_or(&[], |forces| &forces.reactions), &measures);
         Written {
             name: model.declared.name.clone(),
@@ -259,7 +260,7 @@ impl Lowering<'_> {
             forces,
             measures,
             parts,
-            asking_parts,
+            parts_with_derivatives,
             variations: self.variations.take().map(Box::new),
             conditions: std::mem::take(&mut self.conditions),
             watches: std::mem::take(&mut self.watches),
@@ -271,8 +272,8 @@ impl Lowering<'_> {
         }
     }
 
-    /// What is asked of the whole analysis, which changes nothing of what is there.
-    fn ask_of_the_whole(&mut self, system: &mut ConstraintSystem) {
+    /// Adds the results to a system. Nothing that is already there changes.
+    fn add_results(&mut self, system: &mut ConstraintSystem) {
         self.graph = std::mem::take(system.graph_mut());
         self.coordinates = system.coordinates().to_vec();
         self.rows = system.rows().to_vec();
@@ -283,7 +284,7 @@ impl Lowering<'_> {
         system.add_results(results);
     }
 
-    /// Gives a system the formulas of the times of its analysis. They change nothing of what is there.
+    /// Adds the formulas of the analysis' times to a system. Nothing that is already there changes.
     fn add_analysis_formulas(&mut self, system: &mut ConstraintSystem) {
         if let Some(analysis) = self.model.analysis {
             self.graph = std::mem::take(system.graph_mut());
@@ -293,47 +294,47 @@ impl Lowering<'_> {
         }
     }
 
-    /// A formula of the model in this graph.
+    /// Imports a formula of the model.
     fn formula(&mut self, id: ExprId) -> ExprId {
-        carry(&mut self.graph, self.model, &mut self.known, &self.named, id)
+        carry(&mut self.graph, self.model, &mut self.imported, &self.named, id)
     }
 
     fn tables(&mut self) {
-        // a table holds parameters and nothing else
-        self.graph.import_tables(&self.model.graph, &mut self.known, Graph::symbol);
+        // Tables hold parameters only.
+        self.graph.import_tables(&self.model.graph, &mut self.imported, Graph::symbol);
     }
 
-    /// Named symbols up to one, in their order: each speaks only of those before it.
-    fn named_up_to(&mut self, end: usize) {
+    /// Resolves the named symbols before `end` in order; each refers to earlier ones only.
+    fn resolve_symbols_up_to(&mut self, end: usize) {
         for k in self.named.len()..end {
-            let id = self.named(k);
+            let id = self.resolve_symbol(k);
             self.named.push(id);
         }
     }
 
-    /// Names what holds forces, as there are rows now.
-    fn name_forces(&mut self) {
+    /// Resolves the symbols that hold forces, once all rows exist.
+    fn resolve_force_symbols(&mut self) {
         self.has_rows = true;
-        for k in (0..self.named.len()).filter(|&k| self.of_forces[k]).collect::<Vec<usize>>() {
-            self.named[k] = self.named(k);
+        for k in (0..self.named.len()).filter(|&k| self.holds_forces[k]).collect::<Vec<usize>>() {
+            self.named[k] = self.resolve_symbol(k);
         }
     }
 
-    fn named(&mut self, k: usize) -> ExprId {
+    fn resolve_symbol(&mut self, k: usize) -> ExprId {
         match self.model.named[k] {
-            // of these nothing is asked before there are rows
-            _ if self.of_forces[k] && !self.has_rows => self.graph.constant(0.0),
+            // Nothing uses these before all rows exist.
+            _ if self.holds_forces[k] && !self.has_rows => self.graph.constant(0.0),
             Named::Quantity(view, quantity) => self.quantity(view, quantity),
             Named::Force(view, force) => self.force(view, force),
-            Named::Exists(view, quantity) => self.seen_from(view, |l| l.existence(quantity)),
+            Named::Exists(view, quantity) => self.relative_to(view, |l| l.existence(quantity)),
             Named::Derivative(inner) => {
                 let inner = self.formula(inner);
                 ConstraintSystem::time_derivatives(&mut self.graph, &[inner], 3)[0]
             }
             Named::By(inner, variable, part) => self.derivative_within(k, inner, variable, part),
-            Named::Held(part, bound) => self.held(part, bound),
-            Named::Reduction(k) => self.reduced(k),
-            // a curve's formulas are carried over for each contact; else only formulas that nobody uses hold it
+            Named::Held(part, bound) => self.held_input(part, bound),
+            Named::Reduction(k) => self.reduction_number(k),
+            // The formulas of a curve are imported for each contact. Elsewhere only unused formulas hold its argument.
             Named::Argument => self.graph.constant(0.0),
         }
     }
@@ -352,7 +353,7 @@ impl Lowering<'_> {
         let model = self.model;
         let point = |point: &crate::model::Point| ir::Point {
             body: match model.carrier(point.frame) {
-                Frame::Body(body) => Some(same_body(body)),
+                Frame::Body(body) => Some(ir_body(body)),
                 Frame::Ground | Frame::Part(_) => None,
             },
             name: point.name.clone(),
@@ -361,7 +362,7 @@ impl Lowering<'_> {
         model.points.iter().map(point).collect()
     }
 
-    /// The place of a point in the frame of the body that carries it (m).
+    /// Returns the position of a point in the frame of the body that carries it (m).
     fn at_in_carrier(&mut self, point: &crate::model::Point) -> [ExprId; 2] {
         let local = point.at.map(|id| self.formula(id));
         if self.model.part_of(point.frame).is_none() {
@@ -371,7 +372,7 @@ impl Lowering<'_> {
         placement.placed(&mut self.graph, local)
     }
 
-    /// Where a body is drawn in the ground's frame.
+    /// Returns the drawn pose of a body in the ground's frame: x (m), y (m), phi (rad).
     fn drawn_pose(&mut self, body: BodyId) -> [ExprId; 3] {
         if self.model[body].part.is_none() {
             return self.model[body].pose.map(|id| self.formula(id));
@@ -384,7 +385,7 @@ impl Lowering<'_> {
         const PARTS: [(&str, CoordinateKind); 3] =
             [("x", CoordinateKind::Length), ("y", CoordinateKind::Length), ("phi", CoordinateKind::Angle)];
         let model = self.model;
-        let from_frames = size::of_frames(model);
+        let from_frames = size::frame_offsets(model);
         for (k, (id, body)) in model.body_ids().zip(&model.bodies).enumerate() {
             let is_far = from_frames[k] > FAR_FRAME * self.sizes[k];
             let size = if is_far { from_frames[k] } else { self.sizes[k] };
@@ -392,7 +393,7 @@ impl Lowering<'_> {
             for ((part, kind), estimate) in PARTS.into_iter().zip(pose) {
                 let coordinate = Coordinate {
                     name: format!("{}.{part}", body.declared.name),
-                    owner: Owner::Body(same_body(id)),
+                    owner: Owner::Body(ir_body(id)),
                     kind,
                     estimate,
                     scale: if kind == CoordinateKind::Length { size } else { 1.0 },
@@ -402,7 +403,7 @@ impl Lowering<'_> {
         }
     }
 
-    /// The size of a frame's body (m), that of the largest for the ground; for what carries a part, of the largest in the part.
+    /// Returns the size (m) of a frame's body; for the ground, of the largest body; for a part's ground, of the largest body in the part.
     fn size(&self, frame: Frame) -> f64 {
         let around = match frame {
             Frame::Body(body) => return self.sizes[body.index()],
@@ -413,8 +414,8 @@ impl Lowering<'_> {
         parts.find(|&size| size > 0.0).unwrap_or(self.largest_size)
     }
 
-    /// What frames are in their poses as written.
-    fn as_drawn<T>(&mut self, work: impl FnOnce(&mut Self) -> T) -> T {
+    /// Runs `work` with frames in their drawn poses.
+    fn in_drawn_poses<T>(&mut self, work: impl FnOnce(&mut Self) -> T) -> T {
         self.as_drawn = true;
         let result = work(self);
         self.as_drawn = false;
@@ -424,7 +425,7 @@ impl Lowering<'_> {
     fn declare(&mut self, declared: &crate::model::Declared, kind: DeclarationKind, phi: &[Entry], points: &[PointId]) {
         let declaration = self.declarations.next_id();
         let (name, span) = (declared.name.clone(), declared.span);
-        let points: Vec<ir::PointId> = points.iter().copied().map(same_point).collect();
+        let points: Vec<ir::PointId> = points.iter().copied().map(ir_point).collect();
         self.declarations.push(Declaration {
             name,
             span,
@@ -436,7 +437,7 @@ impl Lowering<'_> {
             circles: Vec::new(),
             at: None,
             written: None,
-            is_spoken_of: false,
+            is_referenced: false,
         });
         self.rows.extend(phi.iter().map(|&(phi, unit)| Row { declaration, phi, unit }));
     }
@@ -448,19 +449,19 @@ impl Lowering<'_> {
             let kind = DeclarationKind::Joint(joint.kind.plain());
             self.declare(&joint.declared, kind, &phi, &joint.kind.points(model));
             if let Some(declaration) = self.declarations.last_mut() {
-                // both have the same, in the same order
+                // Axes and circles have the same order in the model and in the system.
                 declaration.axes = joint.kind.axes().into_iter().map(|axis| axis.index().into()).collect();
                 declaration.circles = joint.kind.circles().into_iter().map(|circle| circle.index().into()).collect();
             }
         }
         for named in &model.named[..model.named_before_results] {
             if let Named::Quantity(_, Quantity::Rotation(joint, _) | Quantity::Displacement(joint, ..)) = named {
-                self.declarations[of_joint(*joint)].is_spoken_of = true;
+                self.declarations[joint_declaration(*joint)].is_referenced = true;
             }
         }
     }
 
-    /// Constraints, then drivers.
+    /// Adds the rows of constraints, then those of drivers.
     fn equation_rows(&mut self) {
         let model = self.model;
         for (drivers, kind) in [(false, DeclarationKind::Constraint), (true, DeclarationKind::Driver)] {
@@ -469,18 +470,19 @@ impl Lowering<'_> {
                     EquationForm::Equality(..) => Vec::new(),
                     EquationForm::Distance(p, q, _) => vec![p, q],
                 };
-                let entry = (self.equation_row(equation.form), unit_of(equation));
-                self.of_equations[number] = self.declarations.next_id();
+                let entry = (self.equation_row(equation.form), equation_unit(equation));
+                self.equation_declarations[number] = self.declarations.next_id();
                 self.declare(&equation.declared, kind, &[entry], &points);
                 if let Some(declaration) = self.declarations.last_mut() {
                     declaration.written = Some(equation.written);
-                    declaration.features = uses::of_equation(model, number).into_iter().map(same_point).collect();
+                    declaration.features =
+                        used_features::equation_points(model, number).into_iter().map(ir_point).collect();
                 }
             }
         }
     }
 
-    /// The row of an equation: left minus right, but of a distance the squares (H 3.2).
+    /// Returns the row of an equation: left minus right; for a distance `dᵀd − C²` (H 3.2).
     fn equation_row(&mut self, form: EquationForm) -> ExprId {
         match form {
             EquationForm::Equality(left, right) => {
@@ -504,7 +506,7 @@ impl Lowering<'_> {
 
     fn condition(&mut self, of: &crate::model::Condition, positive: ExprId) {
         let Some(condition) = condition(of, positive) else { return };
-        if self.known_conditions.insert(positive) {
+        if self.condition_formulas.insert(positive) {
             self.conditions.push(condition);
         }
     }
@@ -516,9 +518,9 @@ impl Lowering<'_> {
             .iter()
             .map(|measure| {
                 let value = self.formula(measure.value);
-                // a force has no rate, also where it is nothing
-                let first = if self.asks_for_forces(measure.value) { None } else { self.along_the_motion(value) };
-                let second = first.and_then(|first| self.along_the_motion(first));
+                // A force has no rate, not even where it is constantly zero.
+                let first = if self.requires_forces(measure.value) { None } else { self.time_derivative(value) };
+                let second = first.and_then(|first| self.time_derivative(first));
                 let (name, span) = (measure.declared.name.clone(), measure.declared.span);
                 let holds = self.all_hold(&measure.conditions);
                 let value = self.only_where(holds, value);
@@ -528,7 +530,7 @@ impl Lowering<'_> {
             .collect()
     }
 
-    /// Whether all of some conditions hold; none where there are none.
+    /// Returns whether all conditions hold; `None` if there are no conditions.
     fn all_hold(&mut self, conditions: &[crate::model::Condition]) -> Option<ExprId> {
         let mut all = None;
         for condition in conditions {
@@ -544,7 +546,7 @@ impl Lowering<'_> {
         self.graph.compare(Comparison::Less, zero, id)
     }
 
-    /// A formula where something holds, elsewhere nothing finite.
+    /// Returns a formula that is not finite where `holds` is false.
     fn only_where(&mut self, holds: Option<ExprId>, id: ExprId) -> ExprId {
         let Some(holds) = holds else {
             return id;
@@ -553,39 +555,40 @@ impl Lowering<'_> {
         self.graph.select(holds, id, none)
     }
 
-    /// A formula that has no value.
+    /// Returns a formula that has no value.
     fn no_value(&mut self) -> ExprId {
         let (one, zero) = (self.graph.constant(1.0), self.graph.constant(0.0));
         self.graph.div(one, zero)
     }
 
-    /// The time derivative of an expression, unless that needs a fourth derivative of `q`, or a third one that is varied.
-    fn along_the_motion(&mut self, id: ExprId) -> Option<ExprId> {
+    /// Returns the time derivative of an expression, unless it needs a fourth derivative of `q` or a varied third one.
+    fn time_derivative(&mut self, id: ExprId) -> Option<ExprId> {
         let dependence = self.graph.dependence(id);
         if dependence.highest_order() == Some(3) || dependence.highest_varied_order() == Some(2) {
             return None;
         }
-        // forces jump where loads do, and nobody differentiates them
+        // Forces jump where loads do, and so have no time derivative.
         if dependence.on(Dependence::FORCES) {
             return None;
         }
         Some(ConstraintSystem::time_derivatives(&mut self.graph, &[id], 3)[0])
     }
 
-    /// A quantity as it is seen from the ground of a part. What is the same from everywhere is written as it is seen from the ground.
+    /// Returns a quantity relative to the ground of a part. Quantities that do not depend on the observer are written relative to the
+    /// ground.
     fn quantity(&mut self, view: Option<PartId>, quantity: Quantity) -> ExprId {
         match quantity {
-            Quantity::X(from, to) => self.seen_from(view, |l| l.coordinate_between(from, to, 0)),
-            Quantity::Y(from, to) => self.seen_from(view, |l| l.coordinate_between(from, to, 1)),
-            Quantity::Angle(from, to) => self.seen_from(view, |l| l.angle_between(from, to)),
+            Quantity::X(from, to) => self.relative_to(view, |l| l.coordinate_between(from, to, 0)),
+            Quantity::Y(from, to) => self.relative_to(view, |l| l.coordinate_between(from, to, 1)),
+            Quantity::Angle(from, to) => self.relative_to(view, |l| l.angle_between(from, to)),
             Quantity::Distance(p, q) => self.distance(p, q),
-            Quantity::Rotation(joint, axes) => self.seen_from(view, |l| l.rotation(joint, axes)),
+            Quantity::Rotation(joint, axes) => self.relative_to(view, |l| l.rotation(joint, axes)),
             Quantity::Displacement(_, a, b) => self.displacement(a, b),
-            Quantity::Corner(points) => self.corner(view, points),
-            Quantity::Curvature(point) => self.seen_from(view, |l| l.path_curvature(point)),
-            Quantity::Pole(of, from, part) => self.seen_from(view, |l| l.pole(of, from, part)),
-            Quantity::Speed(point) => self.seen_from(view, |l| l.speed(point)),
-            Quantity::PressureAngle(joint, frame) => self.seen_from(view, |l| l.pressure_angle(joint, frame)),
+            Quantity::Corner(points) => self.corner_angle(view, points),
+            Quantity::Curvature(point) => self.relative_to(view, |l| l.path_curvature(point)),
+            Quantity::Pole(of, from, part) => self.relative_to(view, |l| l.pole(of, from, part)),
+            Quantity::Speed(point) => self.relative_to(view, |l| l.speed(point)),
+            Quantity::PressureAngle(joint, frame) => self.relative_to(view, |l| l.pressure_angle(joint, frame)),
             Quantity::Slip(joint) => self.slip(joint),
         }
     }

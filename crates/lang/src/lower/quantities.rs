@@ -1,24 +1,24 @@
-//! The kinematic quantities `K(q)` (`elements.md`, "Kinematic quantities").
+//! Kinematic quantities `K(q)` of positions (`elements.md`, "Kinematic quantities").
 
 use super::Lowering;
 use crate::model::{AxisId, Direction, Frame, JointId, PointId};
 use mechc_expr::{ExprId, Unary};
 
 impl Lowering<'_> {
-    /// x (part 0) or y (part 1) of a point, or from one point to another (m).
+    /// Returns x (part 0) or y (part 1) of a point, or from one point to another (m).
     pub(super) fn coordinate_between(&mut self, from: Option<PointId>, to: PointId, part: usize) -> ExprId {
-        let Some(from) = from else { return self.global(to)[part] };
+        let Some(from) = from else { return self.position(to)[part] };
         if self.view.is_none() {
-            let (end, start) = (self.global(to)[part], self.global(from)[part]);
+            let (end, start) = (self.position(to)[part], self.position(from)[part]);
             return self.graph.sub(end, start);
         }
         let ends = [from, to];
-        let [start, end] = self.seen_from(None, |l| ends.map(|point| l.global(point)));
-        let way = self.minus(end, start);
-        self.seen(way)[part]
+        let [start, end] = self.relative_to(None, |l| ends.map(|point| l.position(point)));
+        let offset = self.difference(end, start);
+        self.vector_in_view(offset)[part]
     }
 
-    /// Direction of a body or axis, or the angle from one to another (rad).
+    /// Returns the direction of a body or axis, or the angle from one to another (rad).
     pub(super) fn angle_between(&mut self, from: Option<Direction>, to: Direction) -> ExprId {
         let Some(from) = from else { return self.angle(to) };
         if self.view.is_none() {
@@ -41,16 +41,16 @@ impl Lowering<'_> {
         }
     }
 
-    /// How far a frame is turned from another (rad): between two that move what carries the observer has no part in it.
+    /// Returns the angle from one frame to another (rad). The view only decides its sign.
     fn turn(&mut self, from: Frame, to: Frame) -> ExprId {
         let view = self.view;
-        let own = view.map(Frame::Part);
-        if own.is_none() || own == Some(from) || own == Some(to) {
+        let observer = view.map(Frame::Part);
+        if observer.is_none() || observer == Some(from) || observer == Some(to) {
             let [start, end] = [from, to].map(|frame| self.frame_coordinate(frame, 2));
             return self.graph.sub(end, start);
         }
-        let turn = self.seen_from(None, |l| l.turn(from, to));
-        self.handed(view, turn)
+        let turn = self.relative_to(None, |l| l.turn(from, to));
+        self.with_handedness(view, turn)
     }
 
     fn angle(&mut self, direction: Direction) -> ExprId {
@@ -64,15 +64,15 @@ impl Lowering<'_> {
         }
     }
 
-    /// `√(dᵀd)` (m)
+    /// Returns `√(dᵀd)` (m).
     pub(super) fn distance(&mut self, p: PointId, q: PointId) -> ExprId {
-        let (p, q) = (self.global(p), self.global(q));
-        let d = self.minus(q, p);
+        let (p, q) = (self.position(p), self.position(q));
+        let d = self.difference(q, p);
         let square = self.dot(d, d);
         self.graph.unary(Unary::Sqrt, square)
     }
 
-    /// `(φ_j + θ_j) − (φ_i + θ_i)` (rad)
+    /// Returns `(φ_j + θ_j) − (φ_i + θ_i)` (rad).
     pub(super) fn rotation(&mut self, joint: JointId, axes: Option<(AxisId, AxisId)>) -> ExprId {
         let frames = self.model[joint].kind.frames(self.model);
         let turn = self.turn(frames[0], frames[1]);
@@ -86,10 +86,10 @@ impl Lowering<'_> {
         }
     }
 
-    /// `v_iᵀ d` (m)
+    /// Returns `v_iᵀ d` (m).
     pub(super) fn displacement(&mut self, a: AxisId, b: AxisId) -> ExprId {
-        let (origin, other) = (self.global(self.model[a].origin), self.global(self.model[b].origin));
-        let d = self.minus(other, origin);
+        let (origin, other) = (self.position(self.model[a].origin), self.position(self.model[b].origin));
+        let d = self.difference(other, origin);
         let v = self.direction(a);
         self.dot(v, d)
     }

@@ -1,4 +1,4 @@
-//! What results ask of the motion. It is lowered last, so that the equations are the same whatever is asked.
+//! Results and their reductions. They are lowered last, so that they do not change the equations.
 
 use super::slopes::{Reduced, Slopes};
 use super::{Lowering, units};
@@ -10,7 +10,7 @@ use rustc_hash::FxHashMap;
 impl Lowering<'_> {
     pub(super) fn results(&mut self) -> Results {
         let model = self.model;
-        self.named_up_to(model.named.len());
+        self.resolve_symbols_up_to(model.named.len());
         let formulas: Vec<Reduced> = model.reductions.iter().map(|reduction| self.reduced_formula(reduction)).collect();
         let mut reductions: Vec<ir::Reduction> = Vec::with_capacity(formulas.len());
         for (reduction, &formula) in model.reductions.iter().zip(&formulas) {
@@ -26,16 +26,16 @@ impl Lowering<'_> {
         let mut outcomes: Vec<Outcome> = outcomes.collect();
         if let Some(ends) = model.slopes {
             let ends = ends.map(|end| end.map(|formula| self.formula(formula)));
-            let formulas = self.squared(&formulas);
+            let formulas = self.with_squares(&formulas);
             let slopes = self.slopes(&outcomes, &mut reductions, &formulas, ends);
             outcomes.extend(slopes);
         }
         let holds_variations = reductions.iter().any(|reduction| self.graph.dependence(reduction.of).is_varied());
         let variations = self.variations.take().filter(|_| holds_variations).map(Box::new);
-        Results { reductions, outcomes, variations, varied_where: Vec::new() }
+        Results { reductions, outcomes, variations, variation_conditions: Vec::new() }
     }
 
-    /// The derivatives of results by what columns are differentiated by: of the first result by all, of the second, and so on.
+    /// Returns the derivatives of results by the variables of columns: those of the first result, then those of the second, and so on.
     fn slopes(
         &mut self,
         outcomes: &[Outcome],
@@ -43,20 +43,20 @@ impl Lowering<'_> {
         formulas: &[Reduced],
         ends: [Option<ExprId>; 2],
     ) -> Vec<Outcome> {
-        let mut known: Vec<_> = self.model.by.iter().map(|_| FxHashMap::default()).collect();
-        let mut found = Vec::with_capacity(outcomes.len() * known.len());
+        let mut cached: Vec<_> = self.model.by.iter().map(|_| FxHashMap::default()).collect();
+        let mut slopes = Vec::with_capacity(outcomes.len() * cached.len());
         for outcome in outcomes {
-            for (&variable, known) in self.model.by.iter().zip(&mut known) {
+            for (&variable, cached) in self.model.by.iter().zip(&mut cached) {
                 let window = [None; 2];
-                let mut slopes = Slopes { lowering: self, reductions, formulas, ends, window, variable, known };
-                found.push(slopes.of_outcome(outcome));
+                let mut context = Slopes { lowering: self, reductions, formulas, ends, window, variable, cached };
+                slopes.push(context.outcome_slope(outcome));
             }
         }
-        found
+        slopes
     }
 
-    /// Formulas of reductions, with the square of what a root of the mean of squares is of.
-    fn squared(&mut self, formulas: &[Reduced]) -> Vec<Reduced> {
+    /// Returns the formulas of reductions; for a root mean square the square of its formula.
+    fn with_squares(&mut self, formulas: &[Reduced]) -> Vec<Reduced> {
         let is_squared = self.model.reductions.iter().map(|reduction| reduction.kind == ReductionKind::Rms);
         let square = |(&of, is_squared): (&Reduced, bool)| {
             let value = if is_squared { self.graph.mul(of.value, of.value) } else { of.value };
@@ -65,7 +65,7 @@ impl Lowering<'_> {
         formulas.iter().zip(is_squared).map(square).collect()
     }
 
-    /// The formula of a reduction.
+    /// Returns the formula of a reduction.
     fn reduced_formula(&mut self, reduction: &crate::model::Reduction) -> Reduced {
         let value = self.formula(reduction.of);
         let holds = self.all_hold(&reduction.conditions);
@@ -91,8 +91,8 @@ impl Lowering<'_> {
         ir::Reduction { of, kind, window, span: reduction.span }
     }
 
-    /// What stands for a reduction in formulas.
-    pub(super) fn reduced(&mut self, k: u32) -> ExprId {
+    /// Returns the expression of a reduction's number in formulas.
+    pub(super) fn reduction_number(&mut self, k: u32) -> ExprId {
         let symbol = self.graph.symbol(Symbol::Named(k));
         if self.model.reductions[k as usize].kind == ReductionKind::Rms {
             return self.graph.unary(Unary::Sqrt, symbol);

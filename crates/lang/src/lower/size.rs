@@ -1,20 +1,20 @@
-//! The sizes of bodies, against which residuals and steps are judged.
+//! Sizes of bodies, by which residuals and steps are scaled.
 //!
-//! A length for the whole mechanism would not do: where many small loops stand far apart, or a small linkage sits on a
-//! large machine, it would make good positions look singular.
+//! One length for the whole mechanism is not enough: with many small loops far apart, or a small linkage on a large machine, good positions
+//! would look singular.
 
-use super::uses::Uses;
+use super::used_features::UsedFeatures;
 use crate::model::{Body, Curve, Frame, JointKind, Mechanism, Named};
 use mechc_expr::{ExprId, Symbol};
 use mechc_ir::tolerances::scales::size::{IN_PROPORTION, MANY_POINTS, PLACES_ON_CURVE, SMALLEST};
 
 use rustc_hash::FxHashMap;
 
-/// The size of each body (m): the largest distance between two of its features.
+/// Returns the size of each body (m): the largest distance between two of its features.
 ///
-/// A point that no equation uses is drawn or measured: it may lie a little off, or far away, which is nothing to the motion.
-/// What such points say counts only as far as it is in proportion to what those say that are used.
-pub(super) fn of_bodies(model: &Mechanism) -> Vec<f64> {
+/// Points that no equation uses are drawn or measured and may lie anywhere. They count only if the size with them is in proportion to the
+/// size without them.
+pub(super) fn body_sizes(model: &Mechanism) -> Vec<f64> {
     let mut values = Vec::new();
     model.graph.extend_values(&mut values, |symbol| match symbol {
         Symbol::Param(k) => model.params[k as usize].value,
@@ -22,9 +22,9 @@ pub(super) fn of_bodies(model: &Mechanism) -> Vec<f64> {
         _ => f64::NAN,
     });
     let value = |id: ExprId| values[id.index()];
-    let all = by_features(model, &value, None);
-    let Some(used) = by_features(model, &value, Some(&Uses::of(model))) else {
-        return all.unwrap_or_else(|| vec![other_size(model, value); model.bodies.len()]);
+    let all = sizes_by_features(model, &value, None);
+    let Some(used) = sizes_by_features(model, &value, Some(&UsedFeatures::new(model))) else {
+        return all.unwrap_or_else(|| vec![fallback_size(model, value); model.bodies.len()]);
     };
     let Some(all) = all else {
         return used;
@@ -33,12 +33,16 @@ pub(super) fn of_bodies(model: &Mechanism) -> Vec<f64> {
     all.into_iter().zip(used).map(|(all, used)| if in_proportion(all, used) { all } else { used }).collect()
 }
 
-/// The sizes of bodies by all features, or by those that are used; none where no body has two apart.
+/// Returns the sizes of bodies from all features or from the used ones; `None` if no body has two features apart.
 ///
-/// A body without two features apart takes the size of the largest body that a joint holds it to, then that of the
-/// largest one at all. What carries a part counts as its ground does: for nothing; and the largest body is that of the part.
-fn by_features(model: &Mechanism, value: &impl Fn(ExprId) -> f64, uses: Option<&Uses>) -> Option<Vec<f64>> {
-    let points = places(model, value, uses);
+/// A body without two features apart takes the size of the largest body to which a joint connects it, else that of the largest body of its
+/// part. The ground of a part has no size, like the ground.
+fn sizes_by_features(
+    model: &Mechanism,
+    value: &impl Fn(ExprId) -> f64,
+    uses: Option<&UsedFeatures>,
+) -> Option<Vec<f64>> {
+    let points = feature_positions(model, value, uses);
     let mut sizes = vec![0.0; model.bodies.len()];
     for (frame, points) in &points {
         if let Frame::Body(body) = frame {
@@ -49,32 +53,32 @@ fn by_features(model: &Mechanism, value: &impl Fn(ExprId) -> f64, uses: Option<&
     if !is_size(largest) {
         return None;
     }
-    let own = sizes.clone();
+    let from_features = sizes.clone();
     let size_of = |frame: Frame| match frame {
-        Frame::Body(body) => own[body.index()],
+        Frame::Body(body) => from_features[body.index()],
         Frame::Ground | Frame::Part(_) => 0.0,
     };
     for joint in &model.joints {
         let frames = joint.kind.frames(model);
         for (frame, other) in [(frames[0], frames[1]), (frames[1], frames[0])] {
             if let Frame::Body(body) = model.carrier(frame)
-                && !is_size(own[body.index()])
+                && !is_size(from_features[body.index()])
             {
                 sizes[body.index()] = f64::max(sizes[body.index()], size_of(other));
             }
         }
     }
-    let of_parts = of_parts(model, &sizes);
+    let largest_in_parts = part_sizes(model, &sizes);
     let around = |body: &Body| {
-        let mut parts = model.parts_around(body.part).map(|part| of_parts[part.index()]);
+        let mut parts = model.parts_around(body.part).map(|part| largest_in_parts[part.index()]);
         parts.find(|&size| is_size(size)).unwrap_or(largest)
     };
     let filled = sizes.iter().zip(&model.bodies).map(|(&size, body)| if is_size(size) { size } else { around(body) });
     Some(filled.collect())
 }
 
-/// The size of the largest body of each part, with those of its own parts (m); 0 where there is none.
-pub(super) fn of_parts(model: &Mechanism, sizes: &[f64]) -> Vec<f64> {
+/// Returns the size of the largest body of each part, including the parts in it (m); 0 if it has no bodies.
+pub(super) fn part_sizes(model: &Mechanism, sizes: &[f64]) -> Vec<f64> {
     let mut largest = vec![0.0; model.parts.len()];
     for (body, &size) in model.bodies.iter().zip(sizes) {
         for part in model.parts_around(body.part) {
@@ -84,20 +88,21 @@ pub(super) fn of_parts(model: &Mechanism, sizes: &[f64]) -> Vec<f64> {
     largest
 }
 
-/// How far each body's frame lies from the features that equations use (m): as far as that goes a body's origin moves when it
-/// turns a little, however small the body.
-pub(super) fn of_frames(model: &Mechanism) -> Vec<f64> {
+/// Returns the distance (m) from each body's origin to the nearest feature that equations use. By this lever the origin moves when the body
+/// turns a little, however small the body is.
+pub(super) fn frame_offsets(model: &Mechanism) -> Vec<f64> {
     let mut values = Vec::new();
     model.graph.extend_values(&mut values, |symbol| match symbol {
         Symbol::Param(k) => model.params[k as usize].value,
         Symbol::Shift(_) => 0.0,
         _ => f64::NAN,
     });
-    let points = places(model, &|id: ExprId| values[id.index()], Some(&Uses::of(model)));
+    let points = feature_positions(model, &|id: ExprId| values[id.index()], Some(&UsedFeatures::new(model)));
     let mut distances = vec![0.0; model.bodies.len()];
     for (frame, points) in &points {
         if let Frame::Body(body) = frame {
-            let all = points.iter().map(|[x, y]| mechc_expr::math::hypot(*x, *y)).filter(|way| way.is_finite());
+            let all =
+                points.iter().map(|[x, y]| mechc_expr::math::hypot(*x, *y)).filter(|distance| distance.is_finite());
             let nearest = all.fold(f64::INFINITY, f64::min);
             distances[body.index()] = if nearest.is_finite() { nearest } else { 0.0 };
         }
@@ -105,9 +110,13 @@ pub(super) fn of_frames(model: &Mechanism) -> Vec<f64> {
     distances
 }
 
-/// The places of features in each frame (m).
-fn places(model: &Mechanism, value: &impl Fn(ExprId) -> f64, uses: Option<&Uses>) -> FxHashMap<Frame, Vec<[f64; 2]>> {
-    let counts = |list: fn(&Uses) -> &[bool], k: usize| uses.is_none_or(|uses| list(uses)[k]);
+/// Returns the positions of features in each frame (m).
+fn feature_positions(
+    model: &Mechanism,
+    value: &impl Fn(ExprId) -> f64,
+    uses: Option<&UsedFeatures>,
+) -> FxHashMap<Frame, Vec<[f64; 2]>> {
+    let counts = |list: fn(&UsedFeatures) -> &[bool], k: usize| uses.is_none_or(|uses| list(uses)[k]);
     let mut points: FxHashMap<Frame, Vec<[f64; 2]>> = FxHashMap::default();
     for (_, point) in model.points.iter().enumerate().filter(|(k, _)| counts(|uses| &uses.points, *k)) {
         let (frame, place) = model.in_carrier(value, point.frame, point.at.map(value));
@@ -121,14 +130,14 @@ fn places(model: &Mechanism, value: &impl Fn(ExprId) -> f64, uses: Option<&Uses>
     }
     for (_, curve) in model.curves.iter().enumerate().filter(|(k, _)| counts(|uses| &uses.curves, *k)) {
         let frame = model.carrier(curve.frame);
-        let in_carrier = places_on(model, curve).map(|place| model.in_carrier(value, curve.frame, place).1);
+        let in_carrier = sample_curve(model, curve).map(|place| model.in_carrier(value, curve.frame, place).1);
         points.entry(frame).or_default().extend(in_carrier);
     }
     points
 }
 
-/// Some places on a curve (m), over one turn of its argument.
-fn places_on<'m>(model: &'m Mechanism, curve: &'m Curve) -> impl Iterator<Item = [f64; 2]> + 'm {
+/// Returns sample points of a curve (m) over one turn of its argument.
+fn sample_curve<'m>(model: &'m Mechanism, curve: &'m Curve) -> impl Iterator<Item = [f64; 2]> + 'm {
     (0..PLACES_ON_CURVE).filter_map(move |k| {
         let u = std::f64::consts::PI * (2.0 * f64::from(k) / f64::from(PLACES_ON_CURVE) - 1.0);
         let place = curve.at.map(|id| {
@@ -143,10 +152,10 @@ fn places_on<'m>(model: &'m Mechanism, curve: &'m Curve) -> impl Iterator<Item =
     })
 }
 
-/// A size for all bodies where none has one of its own, by what else the file says of sizes: offsets from a body's origin,
-/// lengths of links, the extent of the ground, the bodies' places; 1 m if there is nothing.
-fn other_size(model: &Mechanism, value: impl Fn(ExprId) -> f64) -> f64 {
-    let ground = places(model, &value, None).get(&Frame::Ground).map_or(0.0, |points| extent(points));
+/// Returns one size (m) for all bodies if none has a size: the largest of offsets from origins, link lengths, and the extents of the ground
+/// and of the bodies' positions; 1 m if all are zero.
+fn fallback_size(model: &Mechanism, value: impl Fn(ExprId) -> f64) -> f64 {
+    let ground = feature_positions(model, &value, None).get(&Frame::Ground).map_or(0.0, |points| extent(points));
     let of_a_body = model.points.iter().filter(|point| point.frame != Frame::Ground);
     let offsets = of_a_body.map(|point| mechc_expr::math::hypot(value(point.at[0]), value(point.at[1])));
     let links = model.joints.iter().filter_map(|joint| match joint.kind {

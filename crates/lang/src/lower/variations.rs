@@ -1,11 +1,11 @@
-//! Derivatives by inputs and parameters: those that measures hold, and the columns that are appended for them.
+//! Derivatives by inputs and parameters: those in measures, and the columns appended for them.
 
 use super::Lowering;
 use crate::model::{Mechanism, Units, quotient};
 use mechc_expr::{Dependence, ExprId};
-use mechc_ir::{Appended, Coordinate, Measure, Reaction, Variable, Variations};
+use mechc_ir::{Coordinate, DerivativeColumn, Measure, Reaction, Variable, Variations};
 
-/// What a mechanism is differentiated by; none where that is nothing.
+/// Returns the variables of derivatives; `None` if there are no variables.
 pub(super) fn variables(model: &Mechanism) -> Option<Variations> {
     let variable = |of: &crate::model::Variable| Variable {
         name: of.declared.name.clone(),
@@ -18,11 +18,11 @@ pub(super) fn variables(model: &Mechanism) -> Option<Variations> {
     (!variables.is_empty()).then(|| Variations::of(variables))
 }
 
-/// The endings of columns, by how often they are differentiated by time.
+/// The endings of columns by the order of their time derivative.
 const ENDINGS: [&str; 3] = ["", ".d", ".dd"];
 
 impl Lowering<'_> {
-    /// The derivative of an expression by a variable.
+    /// Returns the derivative of an expression by a variable.
     pub(super) fn derivative_by(&mut self, id: ExprId, variable: u32) -> ExprId {
         match &mut self.variations {
             Some(variations) => variations.derivatives(&mut self.graph, &[id], variable)[0],
@@ -30,83 +30,83 @@ impl Lowering<'_> {
         }
     }
 
-    /// Whether there are derivatives of a formula by what is not time: none of third derivatives of the coordinates, which loads may hold, and
-    /// no third ones.
+    /// Returns whether a formula has derivatives by a variable: it has none if it holds third derivatives of the coordinates, also through
+    /// loads, or if it is a second such derivative already.
     pub(super) fn can_be_varied(&mut self, formula: ExprId) -> bool {
         let times = self.variations.as_ref().map_or(0, |variations| variations.times(&self.graph, formula));
         let dependence = self.graph.dependence(formula);
         times < 2 && !is_third(dependence) && (!dependence.on(Dependence::FORCES) || !self.loads_hold_jerks())
     }
 
-    /// Whether a load holds a third derivative of the coordinates; all loads are looked at once, and not for each column.
+    /// Returns whether a load holds a third derivative of the coordinates. The answer is cached.
     fn loads_hold_jerks(&mut self) -> bool {
-        if let Some(known) = self.loads_hold_jerks {
-            return known;
+        if let Some(cached) = self.loads_hold_jerks {
+            return cached;
         }
         let model = self.model;
-        let found = model.loads.iter().any(|load| {
+        let holds_jerks = model.loads.iter().any(|load| {
             let force = self.formula(load.force);
             is_third(self.graph.dependence(force))
         });
-        *self.loads_hold_jerks.insert(found)
+        *self.loads_hold_jerks.insert(holds_jerks)
     }
 
-    /// A column for each variable that was asked for and each column that can be differentiated by it.
+    /// Appends the derivatives of all columns that can be differentiated, by each variable of `by`.
     pub(super) fn append_derivatives(&mut self, reactions: &[Reaction], measures: &[Measure]) {
         for &variable in &self.model.by {
             for order in 0..ENDINGS.len() {
                 for k in 0..self.coordinates.len() {
-                    self.append_of_coordinate(k, order, variable);
+                    self.append_coordinate_derivative(k, order, variable);
                 }
                 if order == 0 {
                     for of in reactions {
-                        self.append_of_reaction(of, variable);
+                        self.append_reaction_derivative(of, variable);
                     }
                 }
                 for (k, measure) in measures.iter().enumerate() {
                     let value = [Some(measure.value), measure.first, measure.second][order];
                     if let Some(value) = value {
-                        self.append_of_measure((k, measure), order, value, variable);
+                        self.append_measure_derivative(k, measure, order, value, variable);
                     }
                 }
             }
         }
     }
 
-    fn append_of_coordinate(&mut self, k: usize, order: usize, variable: u32) {
+    fn append_coordinate_derivative(&mut self, k: usize, order: usize, variable: u32) {
         let id = self.graph.symbol(mechc_expr::Symbol::Coordinate { index: k as u32, order: order as u8 });
         let value = self.derivative_by(id, variable);
         let Coordinate { name, kind, .. } = &self.coordinates[k];
         let unit = per_second(kind.unit(), order);
-        self.append(&(name.clone() + ENDINGS[order]), value, variable, (unit, [1.0; 3]));
+        self.append(&(name.clone() + ENDINGS[order]), value, variable, &unit, [1.0; 3]);
     }
 
     /// Forces have no time derivatives.
-    fn append_of_reaction(&mut self, of: &Reaction, variable: u32) {
+    fn append_reaction_derivative(&mut self, of: &Reaction, variable: u32) {
         if !self.can_be_varied(of.value) {
             return;
         }
         let value = self.derivative_by(of.value, variable);
-        self.append(&of.name, value, variable, (of.unit.clone(), [1.0; 3]));
+        self.append(&of.name, value, variable, &of.unit, [1.0; 3]);
     }
 
-    /// One that needs too many derivatives is left out.
-    fn append_of_measure(&mut self, (k, measure): (usize, &Measure), order: usize, value: ExprId, variable: u32) {
+    /// Measures that need too high derivatives have no column.
+    fn append_measure_derivative(&mut self, k: usize, measure: &Measure, order: usize, value: ExprId, variable: u32) {
         if !self.can_be_varied(value) {
             return;
         }
         let holds = self.all_hold(&self.model.measures[k].conditions);
         let value = self.derivative_by(value, variable);
         let value = self.only_where(holds, value);
-        let unit = (measure.units.printed[order].clone(), measure.units.scale);
-        self.append(&format!("{}{}", measure.name, ENDINGS[order]), value, variable, unit);
+        let (unit, scale) = (&measure.units.printed[order], measure.units.scale);
+        self.append(&format!("{}{}", measure.name, ENDINGS[order]), value, variable, unit, scale);
     }
 
-    fn append(&mut self, of: &str, value: ExprId, variable: u32, (unit, scale): (String, [f64; 3])) {
+    fn append(&mut self, of: &str, value: ExprId, variable: u32, unit: &str, scale: [f64; 3]) {
         if let Some(variations) = &mut self.variations {
             let by = &variations.variables[variable as usize];
-            let (name, unit) = (format!("{of}.by.{}", by.name), quotient(&unit, &by.unit));
-            variations.appended.push(Appended { name, value, variable, unit, scale });
+            let (name, unit) = (format!("{of}.by.{}", by.name), quotient(unit, &by.unit));
+            variations.appended.push(DerivativeColumn { name, value, variable, unit, scale });
         }
     }
 }

@@ -1,7 +1,6 @@
-//! Quantities of measures that speak of velocities and accelerations, and the angle at a point; with where they exist.
+//! Quantities of measures that depend on velocities and accelerations, the angle at a point, and where these quantities exist.
 //!
-//! A velocity is the time derivative of a place as it is seen from the ground, so that all of these follow from the formulas of
-//! places, and their own derivatives from them.
+//! A velocity is the time derivative of a position in the ground's frame, so that all formulas here follow from those of positions.
 
 use super::Lowering;
 use super::frames::Vector;
@@ -11,16 +10,16 @@ use mechc_ir::ConstraintSystem;
 use mechc_ir::tolerances::determinacy::velocities::{NOTHING, ROUNDING};
 use std::f64::consts::PI;
 
-/// Where two bodies touch.
+/// The point in which two bodies touch.
 struct Contact {
-    /// In the ground's frame (m).
+    /// The position in the ground's frame (m).
     at: Vector,
-    /// Along both lines; of any length.
+    /// A common tangent of both profiles, of any length.
     tangent: Vector,
 }
 
 impl Lowering<'_> {
-    /// The time derivative of a place or direction.
+    /// Returns the time derivative of a position or direction.
     fn rate(&mut self, of: Vector) -> Vector {
         let rates = ConstraintSystem::time_derivatives(&mut self.graph, &of, 3);
         [rates[0], rates[1]]
@@ -30,16 +29,16 @@ impl Lowering<'_> {
         self.graph.binary(Binary::Hypot, x, y)
     }
 
-    /// The length of a point's velocity (m/s).
+    /// Returns the length of a point's velocity (m/s).
     pub(super) fn speed(&mut self, point: PointId) -> ExprId {
-        let at = self.global(point);
+        let at = self.position(point);
         let velocity = self.rate(at);
         self.length(velocity)
     }
 
-    /// Of a point's path, positive to the left (1/m): `(v^⊥)ᵀ a / |v|³`
+    /// Returns the curvature of a point's path, positive to the left (1/m): `(v^⊥)ᵀ a / |v|³`.
     pub(super) fn path_curvature(&mut self, point: PointId) -> ExprId {
-        let at = self.global(point);
+        let at = self.position(point);
         let velocity = self.rate(at);
         let acceleration = self.rate(velocity);
         let (turning, speed) = (self.left_of(velocity, acceleration), self.length(velocity));
@@ -48,19 +47,19 @@ impl Lowering<'_> {
         self.graph.div(turning, cube)
     }
 
-    /// From one point to two others (m).
+    /// Returns the vectors from the second of three points to the two others (m).
     fn arms(&mut self, [p, q, r]: [PointId; 3]) -> [Vector; 2] {
-        let [p, q, r] = [p, q, r].map(|point| self.global(point));
-        [self.minus(p, q), self.minus(r, q)]
+        let [p, q, r] = [p, q, r].map(|point| self.position(point));
+        [self.difference(p, q), self.difference(r, q)]
     }
 
-    /// The angle at the second of three points, from the first to the third, in (−π, π] (rad).
-    pub(super) fn corner(&mut self, view: Option<PartId>, points: [PointId; 3]) -> ExprId {
+    /// Returns the angle at the second of three points, from the first to the third, in (−π, π] (rad).
+    pub(super) fn corner_angle(&mut self, view: Option<PartId>, points: [PointId; 3]) -> ExprId {
         let [to_p, to_r] = self.arms(points);
         let (across, along) = (self.left_of(to_p, to_r), self.dot(to_p, to_r));
-        let across = self.handed(view, across);
+        let across = self.with_handedness(view, across);
         let angle = self.graph.binary(Binary::Atan2, across, along);
-        // opposite to each other they stand at π, with either zero; seen from behind it has the same derivatives
+        // Opposite arms stand at π, whichever sign the zero has. The angle to the opposite of the arm has the same derivatives.
         let back = self.graph.neg(along);
         let from_behind = self.graph.binary(Binary::Atan2, across, back);
         let pi = self.graph.constant(PI);
@@ -72,55 +71,57 @@ impl Lowering<'_> {
         self.graph.select(is_opposite, opposite, angle)
     }
 
-    /// How fast a frame turns (rad/s), and the velocity of its origin (m/s), as seen from another.
+    /// Returns the angular velocity of a frame (rad/s) and the velocity of its origin (m/s), relative to another frame.
     fn relative(&mut self, of: Frame, from: Frame) -> (ExprId, Vector) {
         let origin = [0, 1].map(|part| self.frame_coordinate(of, part));
-        let [own, other] = [of, from].map(|frame| self.point_velocity(frame, origin));
-        let rates = [of, from].map(|frame| self.turning(frame));
-        (self.graph.sub(rates[0], rates[1]), self.minus(own, other))
+        let [velocity, other] = [of, from].map(|frame| self.point_velocity(frame, origin));
+        let rates = [of, from].map(|frame| self.angular_velocity(frame));
+        (self.graph.sub(rates[0], rates[1]), self.difference(velocity, other))
     }
 
-    fn turning(&mut self, frame: Frame) -> ExprId {
+    fn angular_velocity(&mut self, frame: Frame) -> ExprId {
         let phi = self.frame_coordinate(frame, 2);
         ConstraintSystem::time_derivatives(&mut self.graph, &[phi], 3)[0]
     }
 
-    /// The velocity of the point of a frame that is at a place now (m/s): `ṙ + φ̇ (p − r)^⊥`
+    /// Returns the velocity of the point of a frame that is momentarily at a position (m/s): `ṙ + φ̇ (p − r)^⊥`.
     fn point_velocity(&mut self, frame: Frame, place: Vector) -> Vector {
         let origin = [0, 1].map(|part| self.frame_coordinate(frame, part));
-        let (velocity, turning) = (self.rate(origin), self.turning(frame));
-        let [x, y] = self.minus(place, origin);
+        let (velocity, turning) = (self.rate(origin), self.angular_velocity(frame));
+        let [x, y] = self.difference(place, origin);
         let (across, along) = (self.graph.mul(turning, y), self.graph.mul(turning, x));
         [self.graph.sub(velocity[0], across), self.graph.add(velocity[1], along)]
     }
 
-    /// x (part 0) or y (part 1) of the instant centre of a frame relative to another (m): where their points have one velocity.
+    /// Returns x (part 0) or y (part 1) of the instant centre of a frame relative to another (m): the point where their velocities are
+    /// equal.
     pub(super) fn pole(&mut self, of: Frame, from: Frame, part: u32) -> ExprId {
         let (turning, velocity) = self.relative(of, from);
         let origin = self.frame_coordinate(of, part);
         let graph = &mut self.graph;
         if part == 0 {
-            let way = graph.div(velocity[1], turning);
-            graph.sub(origin, way)
+            let offset = graph.div(velocity[1], turning);
+            graph.sub(origin, offset)
         } else {
-            let way = graph.div(velocity[0], turning);
-            graph.add(origin, way)
+            let offset = graph.div(velocity[0], turning);
+            graph.add(origin, offset)
         }
     }
 
-    /// Where a follower, cam or flat follower touches; a joint of another kind touches nowhere.
+    /// Returns the point of contact of a follower, cam or flat follower; `None` for other joints.
     fn contact(&mut self, joint: JointId) -> Option<Contact> {
         let on = |lowering: &mut Self, profile: Profile| {
             let frame = profile.frame(lowering.model);
             let u = lowering.contact_argument(joint);
-            let local = lowering.local(profile, u);
-            let (at, tangent) = (lowering.placed(frame, local.at), lowering.turned(frame, local.tangent));
+            let local = lowering.profile_point(profile, u);
+            let (at, tangent) =
+                (lowering.transform_point(frame, local.at), lowering.transform_vector(frame, local.tangent));
             Contact { at, tangent }
         };
         match self.model[joint].kind {
             JointKind::PointFollower(_, profile) | JointKind::Cam(profile, _) => Some(on(self, profile)),
             JointKind::FlatFollower(profile, face) => {
-                // the face has a direction where the curve has none
+                // The face has a direction even where the curve has none.
                 let tangent = self.direction(face);
                 Some(Contact { tangent, ..on(self, profile) })
             }
@@ -128,59 +129,59 @@ impl Lowering<'_> {
         }
     }
 
-    /// The place of a contact in the ground's frame (m).
-    pub(super) fn contact_place(&mut self, joint: JointId) -> Option<Vector> {
+    /// Returns the position of a contact in the ground's frame (m).
+    pub(super) fn contact_position(&mut self, joint: JointId) -> Option<Vector> {
         self.contact(joint).map(|contact| contact.at)
     }
 
-    /// The first coordinate that a joint brings along.
+    /// Returns the first coordinate of a joint.
     fn contact_argument(&mut self, joint: JointId) -> ExprId {
-        let index = self.numbering.own(joint).start;
+        let index = self.numbering.of_joint(joint).start;
         self.graph.symbol(Symbol::Coordinate { index, order: 0 })
     }
 
-    /// Between the common normal at a contact and the velocity of a frame's point there, 0 to 90° (rad).
+    /// Returns the angle between the common normal at a contact and the velocity of a frame's point there, 0 to π/2 (rad).
     pub(super) fn pressure_angle(&mut self, joint: JointId, frame: Frame) -> ExprId {
-        let Some(Contact { at, tangent }) = self.contact(joint) else { return self.nothing() };
+        let Some(Contact { at, tangent }) = self.contact(joint) else { return self.placeholder() };
         let velocity = self.point_velocity(frame, at);
         let (along, across) = (self.dot(tangent, velocity), self.left_of(tangent, velocity));
         let [along, across] = [along, across].map(|part| self.graph.unary(Unary::Abs, part));
         self.graph.binary(Binary::Atan2, along, across)
     }
 
-    /// The speed at which the bodies of a contact slide on each other (m/s).
+    /// Returns the sliding speed of the bodies at a contact (m/s).
     pub(super) fn slip(&mut self, joint: JointId) -> ExprId {
-        let Some(Contact { at, tangent }) = self.contact(joint) else { return self.nothing() };
+        let Some(Contact { at, tangent }) = self.contact(joint) else { return self.placeholder() };
         let [first, second] = self.model[joint].kind.frames(self.model).map(|frame| self.point_velocity(frame, at));
-        let sliding = self.minus(second, first);
+        let sliding = self.difference(second, first);
         let (along, length) = (self.dot(tangent, sliding), self.length(tangent));
         let slip = self.graph.div(along, length);
         self.graph.unary(Unary::Abs, slip)
     }
 
-    /// What is asked of a joint that does not have it; `check` refuses that.
-    fn nothing(&mut self) -> ExprId {
+    /// Returns a placeholder for a quantity that a joint does not have; `check` rejects these.
+    fn placeholder(&mut self) -> ExprId {
         self.graph.constant(0.0)
     }
 
-    /// What is above zero where a quantity exists; none for those that always do.
+    /// Returns a number that is greater than zero where a quantity exists; constantly 1 for quantities that always do.
     pub(super) fn existence(&mut self, quantity: Quantity) -> ExprId {
         let length = NOTHING * self.largest_size;
         match quantity {
             Quantity::Corner(points) => {
                 let arms = self.arms(points).map(|arm| self.length(arm));
                 let shorter = self.graph.binary(Binary::Min, arms[0], arms[1]);
-                self.beyond(shorter, length)
+                self.minus_constant(shorter, length)
             }
             Quantity::Curvature(point) => {
                 let speed = self.speed(point);
-                self.beyond(speed, length / self.duration())
+                self.minus_constant(speed, length / self.duration())
             }
             Quantity::PressureAngle(joint, frame) => {
-                let Some(Contact { at, .. }) = self.contact(joint) else { return self.nothing() };
+                let Some(Contact { at, .. }) = self.contact(joint) else { return self.placeholder() };
                 let velocity = self.point_velocity(frame, at);
                 let speed = self.length(velocity);
-                self.beyond(speed, length / self.duration())
+                self.minus_constant(speed, length / self.duration())
             }
             Quantity::Pole(of, from, _) => {
                 let (turning, velocity) = self.relative(of, from);
@@ -195,8 +196,8 @@ impl Lowering<'_> {
         }
     }
 
-    /// What rounding may make of how fast a body turns (rad/s): all bodies are solved for together, so that one that rests has the rounding of
-    /// the fastest.
+    /// Returns a bound of the rounding in a body's angular velocity (rad/s). All bodies are solved for together, so that a body at rest has
+    /// the rounding of the fastest one.
     fn rounding_of_turning(&mut self) -> ExprId {
         let mut fastest = self.graph.constant(0.0);
         for body in self.model.body_ids() {
@@ -211,19 +212,19 @@ impl Lowering<'_> {
         self.graph.mul(part, fastest)
     }
 
-    /// A speed (m/s) as the turning (rad/s) of something as large as the mechanism.
+    /// Returns a speed (m/s) as the angular velocity (rad/s) of a body of the mechanism's size.
     fn per_size(&mut self, speed: ExprId) -> ExprId {
         let size = if self.largest_size > 0.0 { self.largest_size } else { 1.0 };
         let size = self.graph.constant(1.0 / size);
         self.graph.mul(size, speed)
     }
 
-    fn beyond(&mut self, value: ExprId, limit: f64) -> ExprId {
+    fn minus_constant(&mut self, value: ExprId, limit: f64) -> ExprId {
         let limit = self.graph.constant(limit);
         self.graph.sub(value, limit)
     }
 
-    /// How long the file's analysis takes (s); a second without one.
+    /// Returns the duration of the model's analysis (s); 1 s without one.
     fn duration(&self) -> f64 {
         self.model.analysis.map(|analysis| analysis.to - analysis.from).filter(|length| *length > 0.0).unwrap_or(1.0)
     }

@@ -1,4 +1,4 @@
-//! Constraints, drivers, what is tabulated of a motion, and what must hold on the way.
+//! Constraints, drivers, measures, and the conditions of formulas.
 
 use super::{CompoundUnit, Declared, Dimension, PartId, PointId};
 use mechc_expr::{ExprId, TableId};
@@ -7,52 +7,52 @@ use mechc_text::source::Span;
 /// A constraint or driver.
 #[derive(Clone, Debug)]
 pub struct Equation {
-    /// Its name.
+    /// The equation's name.
     pub declared: Declared,
-    /// A driver, rather than a constraint.
+    /// True for a driver, false for a constraint.
     pub driver: bool,
-    /// What it demands.
+    /// The equation's content.
     pub form: EquationForm,
-    /// Of both sides; as far as that is known where plain numbers stand for anything.
+    /// The dimension of both sides, as far as plain numbers leave it determined.
     pub dimension: Dimension,
-    /// Whether an angle is a factor of them, as far as their words tell.
+    /// True if an angle is a factor of the sides, as far as their formulas show it.
     pub is_angle: bool,
-    /// Where both sides are written.
+    /// The location of both sides.
     pub written: Span,
 }
 
-/// What an equation says.
+/// The form of an equation.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum EquationForm {
     /// Two formulas are equal.
     Equality(ExprId, ExprId),
-    /// Two points have a distance, which is a formula without kinematic quantities (m).
+    /// Two points have a distance (m), given by a formula without kinematic quantities.
     Distance(PointId, PointId, ExprId),
 }
 
-/// A number to tabulate.
+/// A tabulated number.
 #[derive(Clone, Debug)]
 pub struct Measure {
-    /// Its name.
+    /// The measure's name.
     pub declared: Declared,
-    /// Its formula.
+    /// The measure's formula.
     pub value: ExprId,
-    /// What must be positive for it to have a value.
+    /// Formulas that must be positive for the measure to have a value.
     pub conditions: Vec<Condition>,
-    /// In what it is printed.
+    /// The units in which the measure is printed.
     pub units: Units,
 }
 
 /// The path of a point: two measures, `NAME.x` and `NAME.y`.
 #[derive(Clone, Debug)]
 pub struct Trace {
-    /// Its name.
+    /// The trace's name.
     pub declared: Declared,
-    /// The part in whose text it is declared, and in whose frame its measures are.
+    /// The part in whose text it is declared; its measures are relative to that part's ground.
     pub part: Option<PartId>,
-    /// The point, if it is one that is fixed to a frame.
+    /// The point, if it is fixed to a frame.
     pub point: Option<PointId>,
-    /// The place of its first measure among the measures.
+    /// The index of its first measure.
     pub measure: usize,
 }
 
@@ -61,21 +61,21 @@ pub struct Trace {
 pub struct Units {
     /// The SI unit of its value.
     pub si: String,
-    /// Those in which it, its first and its second time derivative are printed.
+    /// The printed units of the value and of its first and second time derivative.
     pub printed: [String; 3],
-    /// What SI is divided by, multiplied with and divided by to be in these.
+    /// The factors from SI to the printed units: divide by the first, multiply with the second, divide by the third.
     pub scale: [f64; 3],
 }
 
 impl Units {
-    /// SI; angles are told from other pure numbers.
+    /// Returns SI units; an angle has its own unit, unlike other pure numbers.
     #[must_use]
     pub fn si(dimension: Dimension, is_angle: bool) -> Units {
         let printed = [0.0, 1.0, 2.0].map(|times| dimension.over(Dimension::TIME.to_the(times)).unit_of(is_angle));
         Units { si: printed[0].clone(), printed, scale: [1.0; 3] }
     }
 
-    /// Another unit.
+    /// Returns the units that belong to a unit of the language.
     #[must_use]
     pub fn of(unit: &CompoundUnit, is_angle: bool) -> Units {
         let printed = [0, 1, 2].map(|times| unit.per_second(times));
@@ -83,45 +83,45 @@ impl Units {
     }
 }
 
-/// A formula that must be positive, for others to have a meaning.
+/// A formula that must be positive for others to be defined.
 #[derive(Clone, Debug)]
 pub struct Condition {
-    /// Must be above zero.
+    /// The formula, which must be greater than zero.
     pub positive: ExprId,
-    /// What it is.
+    /// The subject of the condition.
     pub kind: ConditionKind,
-    /// The formula's place.
+    /// The location of the formula.
     pub span: Span,
-    /// The declaration that asks for it.
+    /// The name of the declaration that requires the condition.
     pub owner: String,
 }
 
-/// What a condition is about.
+/// The subject of a condition.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum ConditionKind {
     /// A prescribed distance.
     Distance,
-    /// A quantity of measures; where it does not exist, they have no value.
+    /// A quantity of measures exists; where it does not, the measures have no value.
     Existence,
-    /// The interval of a motion function.
+    /// An argument lies within the interval of a motion function.
     Interval,
-    /// The range of a table.
+    /// An argument lies within the range of a table.
     Range(TableId),
-    /// The times of the samples of an input.
+    /// Time lies within the samples of an input.
     Samples(TableId),
 }
 
-/// Which times to compute.
+/// The times to compute.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Analysis {
     /// First time (s).
     pub from: f64,
     /// Last time (s).
     pub to: f64,
-    /// Step (s).
+    /// Time between rows (s).
     pub every: f64,
-    /// The formulas of these three, of parameters alone.
+    /// The formulas of these three times, over parameters only.
     pub formulas: [ExprId; 3],
-    /// The declaration.
+    /// The location of the declaration.
     pub span: Span,
 }

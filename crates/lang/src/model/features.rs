@@ -1,17 +1,17 @@
-//! Bodies, and what is on them: points, axes, circles, curves.
+//! Bodies and their features: points, axes, circles and curves.
 
 use super::{BodyId, CircleId, Condition, CurveId, Declared, Mechanism, PartId, PointId};
 use mechc_expr::ExprId;
 use mechc_text::source::Span;
 
-/// What a feature is fixed to.
+/// A frame of reference to which features are fixed.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub enum Frame {
     /// The body without coordinates.
     Ground,
     /// A moving body.
     Body(BodyId),
-    /// What is the ground in a part; fixed on what carries the part.
+    /// The ground of a part, fixed to the frame that carries the part.
     Part(PartId),
 }
 
@@ -20,89 +20,89 @@ pub enum Frame {
 pub struct Body {
     /// The part in whose text it is declared.
     pub part: Option<PartId>,
-    /// Its name.
+    /// The body's name.
     pub declared: Declared,
     /// The text of its `///` lines.
     pub docs: Vec<String>,
-    /// The pose as written: x (m), y (m), phi (rad), in the frame of the part that declares it.
+    /// The declared pose: x (m), y (m), phi (rad), in the frame of the part that declares the body.
     pub pose: [ExprId; 3],
-    /// Where the pose is written, if it is.
+    /// The location of the declared pose, if there is one.
     pub pose_span: Option<Span>,
 }
 
 /// A point fixed in a frame.
 #[derive(Clone, Debug)]
 pub struct Point {
-    /// What it is fixed to.
+    /// The frame to which the point is fixed.
     pub frame: Frame,
-    /// Its name; a literal point has none.
+    /// The point's name; `None` for a literal point.
     pub name: Option<String>,
-    /// Where it is written.
+    /// The location of the declaration.
     pub span: Span,
-    /// In the frame (m).
+    /// The coordinates in the frame (m).
     pub at: [ExprId; 2],
 }
 
 /// A directed line fixed in a frame.
 #[derive(Clone, Debug)]
 pub struct Axis {
-    /// What it is fixed to.
+    /// The frame to which the axis is fixed.
     pub frame: Frame,
-    /// Its name.
+    /// The axis' name.
     pub name: String,
-    /// Where it is written.
+    /// The location of the declaration.
     pub span: Span,
-    /// A point of it.
+    /// A point on the axis.
     pub origin: PointId,
-    /// Its direction in the frame, of any length but zero.
+    /// The direction in the frame, of any length except zero.
     pub direction: [ExprId; 2],
 }
 
 /// A circle fixed in a frame.
 #[derive(Clone, Debug)]
 pub struct Circle {
-    /// What it is fixed to.
+    /// The frame to which the circle is fixed.
     pub frame: Frame,
-    /// Its name.
+    /// The circle's name.
     pub name: String,
-    /// Where it is written.
+    /// The location of the declaration.
     pub span: Span,
-    /// Its centre.
+    /// The centre.
     pub center: PointId,
-    /// Its radius (m), positive.
+    /// The radius (m), positive.
     pub radius: ExprId,
 }
 
 /// A curve fixed in a frame.
 #[derive(Clone, Debug)]
 pub struct Curve {
-    /// What it is fixed to.
+    /// The frame to which the curve is fixed.
     pub frame: Frame,
-    /// Its name.
+    /// The curve's name.
     pub name: String,
-    /// Where it is written.
+    /// The location of the declaration.
     pub span: Span,
-    /// The name of its argument, a pure number.
+    /// The name of the curve's argument, a pure number.
     pub argument: String,
-    /// Its points in the frame (m), with `Named::Argument` for the argument.
+    /// The curve's point in the frame (m) as a formula of `Named::Argument`.
     pub at: [ExprId; 2],
-    /// First estimate of the argument at a contact.
+    /// The estimate of the argument at a contact.
     pub estimate: Option<ExprId>,
-    /// Formulas of the argument that must stay positive for the points to have a meaning.
+    /// Formulas of the argument that must be positive for the point to be defined.
     pub conditions: Vec<Condition>,
 }
 
-/// A line that a contact runs along.
+/// A curve or circle along which a contact runs.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Profile {
-    /// A curve, by its argument.
+    /// A curve; its parameter is the curve's argument.
     Curve(CurveId),
-    /// A circle, by the angle from the x axis of its body.
+    /// A circle; its parameter is the angle from the x axis of its body.
     Circle(CircleId),
 }
 
 impl Profile {
-    /// What it is fixed to.
+    /// Returns the frame to which the profile is fixed.
     #[must_use]
     pub fn frame(self, mechanism: &Mechanism) -> Frame {
         match self {
@@ -111,7 +111,7 @@ impl Profile {
         }
     }
 
-    /// Its own name.
+    /// Returns the profile's name without that of its frame.
     #[must_use]
     pub fn name(self, mechanism: &Mechanism) -> &str {
         match self {
@@ -121,11 +121,11 @@ impl Profile {
     }
 }
 
-/// On which side of a rack its pinion lies.
+/// The side of a rack on which its pinion lies.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Side {
-    /// Left of the axis' direction.
+    /// To the left of the axis' direction.
     Left,
-    /// Right of it.
+    /// To the right of the axis' direction.
     Right,
 }

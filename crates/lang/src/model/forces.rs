@@ -1,58 +1,58 @@
-//! Masses, loads, and the forces that are asked for: what a mechanism's motion takes and gives.
+//! Masses, loads, and the forces that outputs use.
 
 use super::{BodyId, Condition, Declared, Dimension, EquationId, JointId, Mechanism, PartId, PointId, Quantity};
 use mechc_expr::ExprId;
 use mechc_text::source::Span;
 
-/// A mass of a body; those of one body add up.
+/// A mass of a body. The masses of one body add up.
 #[derive(Clone, Debug)]
 pub struct Mass {
-    /// Whose it is.
+    /// The body.
     pub body: BodyId,
-    /// How much (kg), not negative; holds parameters only, as all of these do.
+    /// The mass (kg), not negative; like all formulas here it holds parameters only.
     pub amount: ExprId,
-    /// Its centre, a point of the body.
+    /// The centre of mass, a point of the body.
     pub at: PointId,
-    /// Its moment of inertia about that centre (kg·m²), not negative.
+    /// The moment of inertia about the centre of mass (kg·m²), not negative.
     pub inertia: ExprId,
-    /// Where it is written.
+    /// The location of the declaration.
     pub span: Span,
 }
 
-/// A force or torque of which a formula is known. Its virtual work is `F·δK`.
+/// An applied force or torque `F` that works on a quantity `K`: its virtual work is `F·δK`.
 #[derive(Clone, Debug)]
 pub struct Load {
-    /// Its name.
+    /// The load's name.
     pub declared: Declared,
-    /// The part in whose text it is declared, from whose ground `K` is seen.
+    /// The part in whose text it is declared; `K` is relative to that part's ground.
     pub part: Option<PartId>,
-    /// `F`, in SI; as the formula of a measure it may hold time, inputs, quantities and their rates, but no forces.
+    /// `F`, in SI units: a formula as in a measure, of time, inputs, quantities and their rates, but without forces.
     pub force: ExprId,
-    /// What must be positive for `F` to have a value.
+    /// Formulas that must be positive for `F` to have a value.
     pub conditions: Vec<Condition>,
-    /// `K`, of positions alone.
+    /// `K`, a function of positions only.
     pub on: Quantity,
-    /// Of `F`: that of an energy over that of `K`.
+    /// The dimension of `F`: energy over the dimension of `K`.
     pub dimension: Dimension,
-    /// Where both are written.
+    /// The location of both formulas.
     pub written: Span,
 }
 
-/// What comes out of the forces at a time. It stands in measures and results alone.
+/// A force that the analysis computes. Only measures and results may hold it.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub enum Force {
-    /// What a constraint or driver supplies: it works on the left side less the right side, as both are written.
+    /// The effort of a constraint or driver: it works on the left side minus the right side of the declared equation.
     Effort(EquationId),
-    /// x of what a joint's own equations exert on the body of its second argument (N).
+    /// The x component of the force that a joint's equations exert on the body of its second argument (N).
     ReactionX(JointId),
-    /// y of the same (N).
+    /// The y component of that force (N).
     ReactionY(JointId),
-    /// Its moment about the point that it is reduced to (N·m), counter-clockwise.
+    /// The moment of that force about the joint's reference point (N·m), counter-clockwise.
     ReactionTorque(JointId),
 }
 
 impl Force {
-    /// As the language writes it.
+    /// Returns the force as source text.
     #[must_use]
     pub fn written(self, mechanism: &Mechanism) -> String {
         match self {
@@ -65,7 +65,7 @@ impl Force {
 }
 
 impl Mechanism {
-    /// The dimension of a force that is asked for.
+    /// Returns the dimension of a computed force.
     #[must_use]
     pub fn dimension_of_force(&self, force: Force) -> Dimension {
         match force {
@@ -75,13 +75,13 @@ impl Mechanism {
         }
     }
 
-    /// Whether there are forces to draw, and they are to be drawn.
+    /// Returns whether pictures show forces and there are masses or loads.
     #[must_use]
     pub fn draws_forces(&self) -> bool {
         self.pictures_forces && !(self.masses.is_empty() && self.loads.is_empty())
     }
 
-    /// Whether anything in it speaks of masses, gravity or loads.
+    /// Returns whether the mechanism declares masses, gravity or loads.
     #[must_use]
     pub fn has_forces(&self) -> bool {
         !self.masses.is_empty() || self.gravity.is_some() || !self.loads.is_empty()

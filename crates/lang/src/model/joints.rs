@@ -1,4 +1,4 @@
-//! Joints.
+//! Joints and the features that they join.
 
 use super::{AxisId, CircleId, CurveId, Declared, Frame, Mechanism, PartId, PointId, Profile, Side};
 use mechc_expr::ExprId;
@@ -9,13 +9,13 @@ use mechc_text::vocabulary;
 pub struct Joint {
     /// The part in whose text it is declared.
     pub part: Option<PartId>,
-    /// Its name.
+    /// The joint's name.
     pub declared: Declared,
-    /// What it holds together, and how.
+    /// The kind, with the joined features.
     pub kind: JointKind,
 }
 
-/// The joints, with the features they join.
+/// The kind of a joint, with the features that it joins.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum JointKind {
     /// Two points coincide.
@@ -28,36 +28,36 @@ pub enum JointKind {
     RevoluteRevolute(PointId, PointId, ExprId),
     /// A point stays on an axis, or at an offset (m) to its left.
     RevoluteTranslational(PointId, AxisId, ExprId),
-    /// Two circles roll on each other, with a phase (m) that the drawing gives if nothing else does.
+    /// Two circles roll on each other.
     Gear {
-        /// Of the first and of the second body.
+        /// The circle of the first body and that of the second body.
         circles: [CircleId; 2],
-        /// One is a ring around the other.
+        /// True if one circle is a ring around the other.
         internal: bool,
-        /// `κ`
+        /// The phase `κ` (m); by default that of the drawn poses.
         phase: Option<ExprId>,
     },
     /// A circle rolls on an axis.
     RackPinion {
-        /// Of the first body.
+        /// The circle of the first body.
         pinion: CircleId,
-        /// Of the second body.
+        /// The axis of the second body.
         rack: AxisId,
-        /// `κ` (m)
+        /// The phase `κ` (m); by default that of the drawn poses.
         phase: Option<ExprId>,
-        /// Where the pinion lies, if the drawing is not to say it.
+        /// The side on which the pinion lies; by default that of the drawn poses.
         side: Option<Side>,
     },
-    /// A point stays on a line.
+    /// A point stays on a profile.
     PointFollower(PointId, Profile),
-    /// Two lines touch.
+    /// Two profiles touch.
     Cam(Profile, Profile),
-    /// A line touches a straight face.
+    /// A profile touches a straight face.
     FlatFollower(Profile, AxisId),
 }
 
 impl JointKind {
-    /// The kind alone, without its features.
+    /// Returns the kind without its features.
     #[must_use]
     pub fn plain(self) -> vocabulary::JointKind {
         use vocabulary::JointKind as Plain;
@@ -76,15 +76,15 @@ impl JointKind {
         }
     }
 
-    /// The word of the language.
+    /// Returns the keyword of the language.
     #[must_use]
     pub fn word(self) -> &'static str {
         self.plain().word()
     }
 
-    /// The names of the coordinates that it brings along.
+    /// Returns the names of the coordinates that the joint adds.
     #[must_use]
-    pub fn own_coordinates(self) -> &'static [&'static str] {
+    pub fn coordinate_names(self) -> &'static [&'static str] {
         match self {
             JointKind::Gear { .. } => &["theta"],
             JointKind::PointFollower(..) | JointKind::FlatFollower(..) => &["u"],
@@ -93,7 +93,7 @@ impl JointKind {
         }
     }
 
-    /// The points where it takes hold of its bodies; a curve has none.
+    /// Returns the points by which the joint holds its bodies; a curve has none.
     #[must_use]
     pub fn points(self, mechanism: &Mechanism) -> Vec<PointId> {
         let on_profile = |profile: Profile| match profile {
@@ -117,7 +117,7 @@ impl JointKind {
         first.into_iter().chain(second).collect()
     }
 
-    /// The axes that it joins.
+    /// Returns the joined axes.
     #[must_use]
     pub fn axes(self) -> Vec<AxisId> {
         match self {
@@ -129,7 +129,7 @@ impl JointKind {
         }
     }
 
-    /// The lines that a contact runs along.
+    /// Returns the profiles of a contact.
     fn profiles(self) -> Vec<Profile> {
         match self {
             JointKind::PointFollower(_, profile) | JointKind::FlatFollower(profile, _) => vec![profile],
@@ -138,7 +138,7 @@ impl JointKind {
         }
     }
 
-    /// The circles that it joins, those that a contact runs along too.
+    /// Returns the joined circles, including the profiles of contacts.
     #[must_use]
     pub fn circles(self) -> Vec<CircleId> {
         let on_circle = |profile: Profile| match profile {
@@ -152,7 +152,7 @@ impl JointKind {
         }
     }
 
-    /// The curves that a contact runs along.
+    /// Returns the curves among the profiles of a contact.
     #[must_use]
     pub fn curves(self) -> Vec<CurveId> {
         let on_curve = |profile: Profile| match profile {
@@ -162,7 +162,7 @@ impl JointKind {
         self.profiles().into_iter().filter_map(on_curve).collect()
     }
 
-    /// The frames of its first and of its second feature.
+    /// Returns the frames of the first and the second feature.
     #[must_use]
     pub fn frames(self, mechanism: &Mechanism) -> [Frame; 2] {
         match self {

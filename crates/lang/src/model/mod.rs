@@ -1,7 +1,7 @@
-//! The checked mechanism: every name resolved, every quantity in SI, every formula in one graph.
+//! The checked mechanism: names are resolved, quantities are in SI units, and all formulas share one graph.
 //!
-//! Pure data, without meaning for mechanics yet: that a joint has equations is the business of `lower`. What stands
-//! here has been found sound; nothing after `check` fails on it.
+//! The model is plain data. It must not know the equations of a joint, which `lower` writes. `check` has validated everything in it, so
+//! that later stages do not fail on it.
 
 mod equations;
 mod features;
@@ -22,8 +22,8 @@ pub use forces::{Force, Load, Mass};
 pub use joints::{Joint, JointKind};
 pub use mechc_text::vocabulary::{CompoundUnit, Dimension};
 pub use named::Named;
-pub use params::{Input, Led, Param, Variable};
-pub use parts::{AskedInPart, Part};
+pub use params::{ContinuedParam, Input, Param, Variable};
+pub use parts::{Part, PartDerivative};
 pub use placement::Placement;
 pub use quantities::{Direction, Quantity};
 pub use quotients::quotient;
@@ -32,12 +32,12 @@ pub use results::{Outcome, Reduction, ReductionKind};
 use mechc_expr::{ExprId, Graph};
 use mechc_text::source::Span;
 
-/// A name and the place where it is declared.
+/// The name of a declaration and its location.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Declared {
-    /// In NFC.
+    /// The name, in Unicode normalization form NFC.
     pub name: String,
-    /// The name's place in the text.
+    /// The location of the name in the text.
     pub span: Span,
 }
 
@@ -48,7 +48,7 @@ macro_rules! ids {
         pub struct $id(u32);
 
         impl $id {
-            /// Position in the mechanism's list, from 0.
+            /// Returns the position in the mechanism's list, from 0.
             #[must_use]
             pub fn index(self) -> usize {
                 self.0 as usize
@@ -63,7 +63,7 @@ macro_rules! ids {
         }
 
         impl Mechanism {
-            #[doc = concat!("Adds to `", stringify!($list), "`.")]
+            #[doc = concat!("Appends to `", stringify!($list), "` and returns the id.")]
             pub fn $add(&mut self, item: $of) -> $id {
                 self.$list.push(item);
                 $id(self.$list.len() as u32 - 1)
@@ -73,7 +73,7 @@ macro_rules! ids {
 }
 
 ids! {
-    /// A part: another mechanism, once more.
+    /// An instance of another mechanism.
     PartId Part parts add_part;
     /// A body of the mechanism.
     BodyId Body bodies add_body;
@@ -89,95 +89,95 @@ ids! {
     JointId Joint joints add_joint;
     /// A constraint or driver.
     EquationId Equation equations add_equation;
-    /// What a `Symbol::Named` of the graph stands for.
+    /// A named symbol (`Symbol::Named`) of the graph.
     NamedId Named named add_named;
 }
 
 /// A mechanism that has passed `check`.
 #[derive(Clone, Debug)]
 pub struct Mechanism {
-    /// Its name.
+    /// The mechanism's name.
     pub declared: Declared,
     /// The text of its `///` lines.
     pub docs: Vec<String>,
-    /// Every formula.
+    /// The graph that holds every formula.
     pub graph: Graph,
-    /// What the graph's named symbols stand for, by their number.
+    /// The meanings of the graph's named symbols, by their number.
     pub named: Vec<Named>,
-    /// The parameters that depend on no other, by the number of their symbol.
+    /// The independent parameters, by the number of their symbol.
     pub params: Vec<Param>,
-    /// In the order in which they need nothing of a later one.
+    /// The inputs, ordered so that each depends only on earlier ones.
     pub inputs: Vec<Input>,
-    /// The inputs and parameters that are led along a line, where the mechanism is led; time goes from 0 to 1 then.
-    pub led: Vec<Led>,
-    /// Each behind the one that it is a part of.
+    /// The parameters and inputs that vary along a continuation path; then time runs from 0 to 1.
+    pub continued: Vec<ContinuedParam>,
+    /// The parts; a part within another one follows it.
     pub parts: Vec<Part>,
-    /// What derivatives are taken by, by their number.
+    /// The variables of derivatives, by their number.
     pub variables: Vec<Variable>,
-    /// Where parts ask for such derivatives in their own texts.
-    pub asked_in_parts: Vec<AskedInPart>,
-    /// The numbers of those that all columns are differentiated by, in the order of the columns.
+    /// The derivatives by such variables in the texts of parts.
+    pub part_derivatives: Vec<PartDerivative>,
+    /// The numbers of the variables by which all columns are differentiated, in the order of the columns.
     pub by: Vec<u32>,
-    /// Whether what all joints exert and all drivers supply is tabulated.
+    /// True if the reactions of all joints and the efforts of all drivers are tabulated.
     pub reactions: bool,
-    /// Whether pictures are to show forces: then all reactions are tabulated as far as they are determined, and all loads, if there are masses
-    /// or loads at all.
+    /// True if pictures show forces. Then all loads, and all reactions that are determined, are tabulated if there are masses or loads.
     pub pictures_forces: bool,
-    /// Whether formulas hold inputs as signals, rather than what these are.
+    /// True if inputs stand in formulas as signals, and not as their own formulas.
     pub has_signals: bool,
-    /// In order of declaration, as all that follows, those of a part where it is declared.
+    /// The bodies, in order of declaration like all lists below; those of a part stand where the part is declared.
     pub bodies: Vec<Body>,
-    /// Declared points, and literal ones where they were met.
+    /// The declared points, and literal points in the order in which they occur.
     pub points: Vec<Point>,
-    /// In order of declaration.
+    /// The axes, in order of declaration.
     pub axes: Vec<Axis>,
-    /// In order of declaration.
+    /// The circles, in order of declaration.
     pub circles: Vec<Circle>,
-    /// In order of declaration.
+    /// The curves, in order of declaration.
     pub curves: Vec<Curve>,
-    /// In order of declaration.
+    /// The joints, in order of declaration.
     pub joints: Vec<Joint>,
     /// Constraints and drivers, in order of declaration.
     pub equations: Vec<Equation>,
     /// The masses of bodies, in order of declaration.
     pub masses: Vec<Mass>,
-    /// The acceleration of free fall (m/s²) in the ground's frame, where the outermost mechanism has it.
+    /// The acceleration of gravity (m/s²) in the ground's frame, if the outermost mechanism declares it.
     pub gravity: Option<[ExprId; 2]>,
-    /// In order of declaration.
+    /// The loads, in order of declaration.
     pub loads: Vec<Load>,
-    /// In order of declaration.
+    /// The measures, in order of declaration.
     pub measures: Vec<Measure>,
-    /// Traces, each of which is two of the measures, in order of declaration.
+    /// The traces, in order of declaration; each refers to two of the measures.
     pub traces: Vec<Trace>,
     /// Results, in order of declaration.
     pub outcomes: Vec<Outcome>,
-    /// What they ask of the whole analysis, by the number of its symbol.
+    /// The reductions that results use, by the number of their symbol.
     pub reductions: Vec<Reduction>,
-    /// Where results are differentiated by the variables of `by` too: the formulas of those ends of the analysis that go with these.
+    /// Present if results are differentiated by the variables of `by` too: the formulas of the analysis' start and end, if they depend on
+    /// these variables.
     pub slopes: Option<[Option<ExprId>; 2]>,
-    /// So many named symbols stand for what has nothing to do with results.
+    /// The number of named symbols that precede those of results.
     pub named_before_results: usize,
-    /// Formulas that must stay positive for others to have a meaning.
+    /// Formulas that must be positive for other formulas to be defined.
     pub conditions: Vec<Condition>,
-    /// What `run` does unless told otherwise.
+    /// The times that `run` computes by default.
     pub analysis: Option<Analysis>,
-    /// Formulas of parameters by whose values something was decided when the text was checked: with other values of which nothing else
-    /// would be decided the mechanism is the same but for these.
-    pub decided: Vec<(ExprId, DecidedBy)>,
+    /// Parameter formulas whose values decided something in `check`. With other parameter values that decide nothing differently, the
+    /// mechanism differs from this one in these values only.
+    pub guards: Vec<(ExprId, GuardKind)>,
 }
 
-/// What of a formula's value decides something about the text.
+/// The property of a formula's value on which a decision of `check` depends.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum DecidedBy {
-    /// Whether it is a finite number.
+pub enum GuardKind {
+    /// The value is finite.
     Finite,
-    /// Whether it is negative, nothing, or positive.
+    /// The sign: negative, zero or positive.
     Sign,
-    /// All of it.
+    /// The whole value.
     Value,
 }
 impl Mechanism {
-    /// One without any declaration.
+    /// Returns a mechanism without declarations.
     #[must_use]
     pub fn new(declared: Declared, docs: Vec<String>) -> Mechanism {
         Mechanism {
@@ -187,10 +187,10 @@ impl Mechanism {
             named: Vec::new(),
             params: Vec::new(),
             inputs: Vec::new(),
-            led: Vec::new(),
+            continued: Vec::new(),
             parts: Vec::new(),
             variables: Vec::new(),
-            asked_in_parts: Vec::new(),
+            part_derivatives: Vec::new(),
             by: Vec::new(),
             reactions: false,
             pictures_forces: false,
@@ -213,12 +213,12 @@ impl Mechanism {
             named_before_results: 0,
             conditions: Vec::new(),
             analysis: None,
-            decided: Vec::new(),
+            guards: Vec::new(),
         }
     }
 
-    /// Leaves out what a mechanism has no use for while it is led: its analysis is of another time, and forces have no part in it.
-    pub fn leave_what_leads(&mut self) {
+    /// Removes the outputs and the forces, which have no part in a continuation.
+    pub fn strip_outputs(&mut self) {
         self.measures.clear();
         self.masses.clear();
         self.loads.clear();
@@ -228,32 +228,32 @@ impl Mechanism {
         self.analysis = None;
     }
 
-    /// The ids of the bodies, in order.
+    /// Returns the ids of the bodies, in order.
     pub fn body_ids(&self) -> impl Iterator<Item = BodyId> {
         (0..self.bodies.len() as u32).map(BodyId)
     }
 
-    /// The ids of the constraints and drivers, in order.
+    /// Returns the ids of the constraints and drivers, in order.
     pub fn equation_ids(&self) -> impl Iterator<Item = EquationId> + use<> {
         (0..self.equations.len() as u32).map(EquationId)
     }
 
-    /// The ids of the joints, in order.
+    /// Returns the ids of the joints, in order.
     pub fn joint_ids(&self) -> impl Iterator<Item = JointId> + use<> {
         (0..self.joints.len() as u32).map(JointId)
     }
 
-    /// The ids of the parts, in order.
+    /// Returns the ids of the parts, in order.
     pub fn part_ids(&self) -> impl Iterator<Item = PartId> + use<> {
         (0..self.parts.len() as u32).map(PartId)
     }
 
-    /// The grounds of the parts, in order.
+    /// Returns the ground frames of the parts, in order.
     pub fn part_frames(&self) -> impl Iterator<Item = Frame> {
         (0..self.parts.len() as u32).map(|part| Frame::Part(PartId(part)))
     }
 
-    /// A frame's name: the body's, or `ground`.
+    /// Returns the name of a frame: the body's name, `ground`, or the name of a part's ground.
     #[must_use]
     pub fn frame_name(&self, frame: Frame) -> &str {
         match frame {
@@ -263,7 +263,7 @@ impl Mechanism {
         }
     }
 
-    /// What carries a frame: a body, or the ground.
+    /// Returns the frame that carries a frame: a body or the ground.
     #[must_use]
     pub fn carrier(&self, mut frame: Frame) -> Frame {
         while let Frame::Part(part) = frame {
@@ -272,7 +272,7 @@ impl Mechanism {
         frame
     }
 
-    /// A frame, what carries it, and so on.
+    /// Returns a frame, the frame on which it is mounted, and so on.
     pub fn carrier_chain(&self, frame: Frame) -> impl Iterator<Item = Frame> {
         std::iter::successors(Some(frame), |frame| match frame {
             Frame::Part(part) => Some(self[*part].mount),
@@ -280,7 +280,7 @@ impl Mechanism {
         })
     }
 
-    /// The part in whose text a frame's features stand.
+    /// Returns the part in whose text the features of a frame are declared.
     #[must_use]
     pub fn part_of(&self, frame: Frame) -> Option<PartId> {
         match frame {
@@ -290,20 +290,20 @@ impl Mechanism {
         }
     }
 
-    /// A part and those that it stands in, the innermost first.
+    /// Returns a part and the parts that enclose it, the innermost first.
     pub fn parts_around(&self, part: Option<PartId>) -> impl Iterator<Item = PartId> {
         std::iter::successors(part, |&part| self[part].within)
     }
 
-    /// Whether lengths to the left in the text of a part are lengths to the right in the ground's frame.
+    /// Returns whether the text of a part is mirrored in the ground's frame, so that its left is the ground's right.
     #[must_use]
     pub fn is_mirrored(&self, part: Option<PartId>) -> bool {
         part.is_some_and(|part| self[part].is_mirrored)
     }
 
-    /// Whether forces are to be computed.
+    /// Returns whether any output requires forces.
     #[must_use]
-    pub fn asks_for_forces(&self) -> bool {
+    pub fn requires_forces(&self) -> bool {
         self.reactions || self.draws_forces() || self.named.iter().any(|named| matches!(named, Named::Force(..)))
     }
 }

@@ -1,26 +1,26 @@
-//! What the graph's named symbols stand for.
+//! The meanings of the graph's named symbols.
 
 use super::{Force, PartId, Quantity};
 use mechc_expr::ExprId;
 
-/// What a named symbol of the graph stands for.
+/// The meaning of a named symbol of the graph.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub enum Named {
-    /// A kinematic quantity, as it is seen from the ground of a part.
+    /// A kinematic quantity, relative to the ground of a part.
     Quantity(Option<PartId>, Quantity),
-    /// The time derivative of a formula, along the motion.
+    /// The time derivative of a formula along the motion.
     Derivative(ExprId),
-    /// The derivative of a formula by a variable, by its number, at fixed time.
-    /// Inside a part that moves together with what is around it, by the equations of that part.
+    /// The derivative of a formula by the variable of this number, at fixed time. In a part that moves together with its surroundings, the
+    /// derivative is taken by the part's own equations.
     By(ExprId, u32, Option<PartId>),
-    /// An input of such a part, which is held where these derivatives are taken: what it is bound to.
+    /// An input of such a part, held fixed in these derivatives: the formula to which the input is bound.
     Held(PartId, ExprId),
-    /// Above zero where a quantity of measures exists.
+    /// A formula that is greater than zero where a quantity of measures exists.
     Exists(Option<PartId>, Quantity),
-    /// A number for the whole analysis, by its place among the reductions.
+    /// A number of the whole analysis, by its index among the reductions.
     Reduction(u32),
-    /// A force or torque, as it is seen from the ground of a part.
+    /// A force or torque, relative to the ground of a part.
     Force(Option<PartId>, Force),
-    /// The argument of a curve; or of a user's function, where its formula is read on its own.
+    /// The argument of a curve, or of a user's function that is checked on its own.
     Argument,
 }

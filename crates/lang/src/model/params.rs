@@ -1,56 +1,56 @@
-//! What may be set from outside, and what derivatives are taken by.
+//! Parameters, inputs, and the variables of derivatives.
 
 use super::{Declared, Dimension};
 use mechc_expr::{ExprId, Symbol};
 
-/// A parameter that depends on no other one.
+/// A parameter that depends on no other parameter.
 #[derive(Clone, Debug)]
 pub struct Param {
-    /// Its name.
+    /// The parameter's name.
     pub declared: Declared,
     /// The text of its `///` lines.
     pub docs: Vec<String>,
-    /// In SI.
+    /// The value, in SI units.
     pub value: f64,
-    /// Of its value.
+    /// The dimension of the value.
     pub dimension: Dimension,
 }
 
-/// A signal that comes from outside.
+/// A signal whose values may come from outside.
 #[derive(Clone, Debug)]
 pub struct Input {
-    /// Its name.
+    /// The input's name.
     pub declared: Declared,
-    /// Its place among the inputs as they are declared, which is the number of its signal.
+    /// The index among the inputs in order of declaration, which is the number of its signal.
     pub number: usize,
-    /// What it is, as a formula of time, in SI.
+    /// The input as a formula of time, in SI units.
     pub value: ExprId,
-    /// Of its value.
+    /// The dimension of the value.
     pub dimension: Dimension,
 }
 
-/// An input or a parameter on its way from one value to another.
+/// A parameter or input that moves from one value to another along a continuation path.
 #[derive(Clone, Debug)]
-pub struct Led {
-    /// Its name.
+pub struct ContinuedParam {
+    /// The name of the parameter or input.
     pub declared: Declared,
-    /// Which of the mechanism's parameters it is, if it is one: its symbol stands for the first value then.
+    /// The index of the parameter, whose symbol then stands for the first value; `None` for an input.
     pub param: Option<u32>,
-    /// From and to, in SI.
+    /// The first and the last value, in SI units.
     pub line: [f64; 2],
-    /// Of its value.
+    /// The dimension of the value.
     pub dimension: Dimension,
 }
 
-/// An input or parameter that derivatives are taken by.
+/// An input or parameter by which derivatives are taken.
 #[derive(Clone, Debug)]
 pub struct Variable {
-    /// Its name; of a coordinate of a point `A.x`.
+    /// The name; `A.x` for a coordinate of a point.
     pub declared: Declared,
-    /// What of the formulas changes: its own parameter, or a shift that is added to its formula.
+    /// The symbol by which formulas are differentiated: the parameter, or a shift that is added to its formula.
     pub symbol: Symbol,
-    /// Of its value.
+    /// The dimension of the value.
     pub dimension: Dimension,
-    /// Whether it is an angle, as far as its words tell.
+    /// True if the value is an angle, as far as its formula shows it.
     pub is_angle: bool,
 }

@@ -1,41 +1,41 @@
-//! Parts within a mechanism.
+//! Parts: instances of other mechanisms.
 
 use super::{Declared, Frame, PartId};
 use mechc_expr::ExprId;
 use mechc_text::source::Span;
 
-/// The declarations of another mechanism, once more.
+/// An instance of another mechanism.
 #[derive(Clone, Debug)]
 pub struct Part {
-    /// Its name, with those of the parts around it.
+    /// The part's name, prefixed with those of the parts that enclose it.
     pub declared: Declared,
-    /// The name of its mechanism, in the text of that.
+    /// The name of the instantiated mechanism, in that mechanism's text.
     pub text: Span,
-    /// What is bound of its params, by their names there; a coordinate of a point has its own.
+    /// The bound parameters, by their names in the part; each coordinate of a point has its own entry.
     pub params: Vec<(String, ExprId)>,
-    /// What its inputs are.
+    /// The formulas of the inputs, by their names in the part.
     pub inputs: Vec<(String, ExprId)>,
-    /// What its ground is called.
+    /// The name of the part's ground.
     pub ground_name: String,
     /// The part in whose text it is declared.
     pub within: Option<PartId>,
-    /// What its ground is fixed on.
+    /// The frame to which the part's ground is fixed.
     pub mount: Frame,
-    /// Where its frame is in that of the mount: x (m), y (m), phi (rad), in the handedness of the text that declares it.
+    /// The pose of the part's ground in the mount: x (m), y (m), phi (rad), in the handedness of the text that declares the part.
     pub pose: [ExprId; 3],
-    /// Whether its text is mirrored in the text that declares it.
-    pub is_turned_over: bool,
-    /// Whether its text is mirrored in the end.
+    /// True if the part's text is mirrored relative to the text that declares the part.
+    pub is_mirrored_in_parent: bool,
+    /// True if the part's text is mirrored relative to the ground.
     pub is_mirrored: bool,
 }
 
-/// A derivative by an input or parameter that the text of a part asks for.
+/// A derivative by an input or parameter in the text of a part.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub struct AskedInPart {
+pub struct PartDerivative {
     /// The part.
     pub part: PartId,
-    /// Where it does.
+    /// The location of the derivative.
     pub span: Span,
-    /// Whether it is that of a force.
+    /// True if a force is differentiated.
     pub is_of_force: bool,
 }

@@ -1,28 +1,28 @@
-//! Frames in frames: where a point of one is in another, and what becomes of left and right.
+//! Poses of frames relative to other frames, with their handedness.
 
 use super::{Frame, Mechanism, PartId};
 use mechc_expr::{ExprId, Graph, Unary, unary_value};
 
-/// A frame in another one.
+/// The pose of an inner frame relative to an outer one.
 #[derive(Clone, Copy, Debug)]
 pub struct Placement {
-    /// Where its origin is (m).
+    /// The position of the inner frame's origin (m).
     pub at: [ExprId; 2],
-    /// The direction of its x axis (rad).
+    /// The direction of the inner frame's x axis (rad).
     pub phi: ExprId,
-    /// Whether its y axis points to the right of its x axis.
+    /// True if the inner frame is left-handed relative to the outer one.
     pub is_mirrored: bool,
 }
 
 impl Placement {
-    /// That of a frame in itself.
+    /// Returns the placement of a frame relative to itself.
     #[must_use]
     pub fn identity(graph: &mut Graph) -> Placement {
         let zero = graph.constant(0.0);
         Placement { at: [zero; 2], phi: zero, is_mirrored: false }
     }
 
-    /// A vector of the frame, in the other one.
+    /// Returns a vector of the inner frame in the outer frame.
     #[must_use]
     pub fn turned(&self, graph: &mut Graph, [x, y]: [ExprId; 2]) -> [ExprId; 2] {
         let y = if self.is_mirrored { graph.neg(y) } else { y };
@@ -32,31 +32,31 @@ impl Placement {
         [graph.sub(xc, ys), graph.add(xs, yc)]
     }
 
-    /// A point of the frame, in the other one.
+    /// Returns a point of the inner frame in the outer frame.
     #[must_use]
     pub fn placed(&self, graph: &mut Graph, local: [ExprId; 2]) -> [ExprId; 2] {
         let [x, y] = self.turned(graph, local);
         [graph.add(self.at[0], x), graph.add(self.at[1], y)]
     }
 
-    /// What is an angle in the frame, as a difference of angles in the other one.
+    /// Returns an angle of the inner frame as an angle of the outer frame, with the sign of its handedness.
     #[must_use]
     pub fn angle(&self, graph: &mut Graph, phi: ExprId) -> ExprId {
         if self.is_mirrored { graph.neg(phi) } else { phi }
     }
 
-    /// A frame that stands in this one, in the other one.
+    /// Returns the placement relative to the outer frame of a frame that is placed in the inner frame.
     #[must_use]
-    pub fn of(&self, graph: &mut Graph, inner: &Placement) -> Placement {
+    pub fn compose(&self, graph: &mut Graph, inner: &Placement) -> Placement {
         let at = self.placed(graph, inner.at);
         let turn = self.angle(graph, inner.phi);
         let phi = graph.add(self.phi, turn);
         Placement { at, phi, is_mirrored: self.is_mirrored != inner.is_mirrored }
     }
 
-    /// A frame of the other one, seen in this one: x and y of a vector from this frame's origin on.
+    /// Returns a vector of the outer frame in the inner frame.
     #[must_use]
-    pub fn seen(&self, graph: &mut Graph, [x, y]: [ExprId; 2]) -> [ExprId; 2] {
+    pub fn turned_back(&self, graph: &mut Graph, [x, y]: [ExprId; 2]) -> [ExprId; 2] {
         let (cos, sin) = (graph.unary(Unary::Cos, self.phi), graph.unary(Unary::Sin, self.phi));
         let (xc, ys) = (graph.mul(x, cos), graph.mul(y, sin));
         let (xs, yc) = (graph.mul(x, sin), graph.mul(y, cos));
@@ -66,7 +66,7 @@ impl Placement {
 }
 
 impl Mechanism {
-    /// A place in a frame (m), in the frame of the body that carries it, or in the ground's, as tables have these.
+    /// Returns a point of a frame (m) in the right-handed frame of the body or ground that carries it, as tables use it, with that frame.
     pub fn in_carrier(
         &self,
         value: &impl Fn(ExprId) -> f64,
@@ -87,8 +87,8 @@ impl Mechanism {
         (frame, [x, if is_mirrored { -y } else { y }])
     }
 
-    /// Where a frame is drawn, in the frame of a part, or of the ground, that it stands in: by the poses as written. `formula` carries a
-    /// formula of the mechanism over into the graph.
+    /// Returns the placement of a frame relative to the ground of a part, or to the ground, in the poses as written. `formula` imports a
+    /// formula of the mechanism into the graph.
     #[must_use]
     pub fn drawn(
         &self,
@@ -102,25 +102,25 @@ impl Mechanism {
             return Placement::identity(graph);
         }
         match frame {
-            // nothing of a part speaks of what is around it
+            // The text of a part refers to nothing outside the part.
             Frame::Ground => Placement::identity(graph),
             Frame::Body(body) => {
                 let body = &self[body];
                 let text = self.drawn(graph, formula, within, body.part.map_or(Frame::Ground, Frame::Part));
                 let [x, y, phi] = body.pose.map(|id| formula(graph, id));
-                text.of(graph, &Placement { at: [x, y], phi, is_mirrored: false })
+                text.compose(graph, &Placement { at: [x, y], phi, is_mirrored: false })
             }
             Frame::Part(part) => {
                 let part = &self[part];
                 let mount = self.drawn(graph, formula, within, part.mount);
-                // to who declares the part, what carries it is like everything in his text
+                // The mount has the handedness of the text that declares the part, as everything in that text.
                 let is_mirrored = self.is_mirrored(part.within) != self.is_mirrored(within);
                 Mechanism::on_mount(graph, formula, Placement { is_mirrored, ..mount }, part)
             }
         }
     }
 
-    /// Where a part's frame is, if its mount is where it is in the handedness of the text that declares the part.
+    /// Returns the placement of a part's ground on its mount, where the mount has the handedness of the text that declares the part.
     #[must_use]
     pub fn on_mount(
         graph: &mut Graph,
@@ -129,6 +129,6 @@ impl Mechanism {
         part: &super::Part,
     ) -> Placement {
         let [x, y, phi] = part.pose.map(|id| formula(graph, id));
-        mount.of(graph, &Placement { at: [x, y], phi, is_mirrored: part.is_turned_over })
+        mount.compose(graph, &Placement { at: [x, y], phi, is_mirrored: part.is_mirrored_in_parent })
     }
 }

@@ -1,4 +1,4 @@
-//! The model as readable text: names resolved, values in SI.
+//! The model as readable text: names are resolved, values are in SI units.
 
 use super::{
     AxisId, BodyId, CircleId, Direction, EquationForm, Frame, JointKind, Mechanism, Named, PointId, Profile, Quantity,
@@ -7,14 +7,14 @@ use super::{
 use mechc_expr::{ExprId, Printer, Symbol, number};
 use rustc_hash::FxHashMap;
 
-/// A mechanism with names for the parts that its formulas share, so that none is written out many times.
+/// A mechanism as text. Subformulas that occur several times have names, so that each is written out once.
 struct Text<'m> {
     model: &'m Mechanism,
     names: FxHashMap<ExprId, String>,
 }
 
 impl Text<'_> {
-    /// A point as the language names it; a literal one by its coordinates.
+    /// Returns the name of a point; for a literal point its coordinates.
     fn point_text(&self, id: PointId, text: &dyn Fn(ExprId) -> String) -> String {
         let point = &self.model[id];
         match &point.name {
@@ -80,12 +80,12 @@ impl Text<'_> {
         Ok(())
     }
 
-    /// A formula of the model as text.
+    /// Returns a formula of the model as text.
     fn formula_text(&self, id: ExprId) -> String {
         self.print(id, false)
     }
 
-    /// A formula as text; one that has a name itself is written out if the whole is wanted.
+    /// Returns a formula as text. If `whole`, a formula that has a name is written out too.
     fn print(&self, id: ExprId, whole: bool) -> String {
         let text = |inner: ExprId| self.formula_text(inner);
         let printer = Printer::new(&self.model.graph, |symbol| match symbol {
@@ -151,7 +151,7 @@ impl Text<'_> {
 
     fn write_features(&self, f: &mut std::fmt::Formatter<'_>, frame: Frame) -> std::fmt::Result {
         for point in self.model.points.iter().filter(|point| point.frame == frame) {
-            // a literal point is told where it is used
+            // Literal points are written out where they are used.
             let Some(name) = &point.name else {
                 continue;
             };
@@ -186,7 +186,7 @@ impl Text<'_> {
             writeln!(f, "    circle {} = {center} radius {}", circle.name, text(circle.radius))?;
         }
         for curve in self.model.curves.iter().filter(|curve| curve.frame == frame) {
-            // in every curve the argument is called u here
+            // The argument of every curve is printed as `u`.
             let [x, y] = curve.at.map(text);
             let estimate = curve.estimate.map_or(String::new(), |estimate| format!(" at {}", text(estimate)));
             writeln!(f, "    curve {}(u) = ({x}, {y}){estimate}", curve.name)?;
@@ -194,7 +194,7 @@ impl Text<'_> {
         Ok(())
     }
 
-    /// The ground, bodies and parts, with what is on them.
+    /// Writes the ground, bodies and parts with their features.
     fn write_frames(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         writeln!(f, "\nground")?;
         self.write_features(f, Frame::Ground)?;
@@ -207,14 +207,14 @@ impl Text<'_> {
         for (part, frame) in self.model.parts.iter().zip(self.model.part_frames()) {
             let [x, y, phi] = part.pose.map(|id| self.formula_text(id));
             let mount = self.model.frame_name(part.mount);
-            let mirrored = if part.is_turned_over { " mirrored" } else { "" };
+            let mirrored = if part.is_mirrored_in_parent { " mirrored" } else { "" };
             writeln!(f, "\n{} on {mount} at ({x}, {y}, {phi}){mirrored}", part.ground_name)?;
             self.write_features(f, frame)?;
         }
         Ok(())
     }
 
-    /// What determines the motion.
+    /// Writes joints, constraints and drivers.
     fn write_equations(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         writeln!(f, "\njoints")?;
         for joint in &self.model.joints {
@@ -235,7 +235,7 @@ impl Text<'_> {
         Ok(())
     }
 
-    /// Gravity and loads.
+    /// Writes gravity and loads.
     fn write_loads(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         if let Some(gravity) = self.model.gravity {
             let [x, y] = gravity.map(|id| self.formula_text(id));
@@ -252,7 +252,7 @@ impl Text<'_> {
         Ok(())
     }
 
-    /// What is printed, and when.
+    /// Writes measures, results and the analysis.
     fn write_outputs(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         if !self.model.measures.is_empty() {
             writeln!(f, "\nmeasures")?;
@@ -279,7 +279,7 @@ impl Text<'_> {
 }
 
 impl Mechanism {
-    /// Every formula of the mechanism.
+    /// Returns every formula of the mechanism.
     fn formulas(&self) -> Vec<ExprId> {
         let mut list: Vec<ExprId> = self.points.iter().flat_map(|point| point.at).collect();
         list.extend(self.axes.iter().flat_map(|axis| axis.direction));
@@ -314,7 +314,7 @@ impl Mechanism {
     }
 }
 
-/// Every declaration with its names resolved and its values in SI.
+/// Writes every declaration with its names resolved and its values in SI units.
 impl std::fmt::Display for Mechanism {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let mut printer = Printer::new(&self.graph, |_| String::new());

@@ -1,8 +1,8 @@
-//! Kinematic quantities.
+//! Kinematic quantities: scalar functions of the coordinates and of their rates.
 
 use super::{AxisId, Dimension, Frame, JointId, PointId};
 
-/// A scalar function of the coordinates (`elements.md`, "Kinematic quantities").
+/// A kinematic quantity (`elements.md`, "Kinematic quantities").
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub enum Quantity {
     /// Global x of a point, or from one point to another (m).
@@ -15,10 +15,10 @@ pub enum Quantity {
     Distance(PointId, PointId),
     /// Angle of a revolute joint (rad), between axes if given.
     Rotation(JointId, Option<(AxisId, AxisId)>),
-    /// Way of a translational joint along its first axis, to its second (m).
+    /// Displacement of a translational joint along its first axis, from there to its second axis (m).
     Displacement(JointId, AxisId, AxisId),
-    /// The angle at the second of three points, from the first to the third, in (−π, π] (rad); this and the following stand in measures
-    /// alone.
+    /// The angle at the second of three points, from the first to the third, in (−π, π] (rad). Only measures may hold this and the
+    /// following quantities.
     Corner([PointId; 3]),
     /// Curvature of a point's path, positive to the left (1/m).
     Curvature(PointId),
@@ -26,14 +26,14 @@ pub enum Quantity {
     Pole(Frame, Frame, u32),
     /// Length of a point's velocity (m/s).
     Speed(PointId),
-    /// Between the common normal at a contact and the velocity of a frame's point there, 0 to π/2 (rad).
+    /// The angle between the common normal at a contact and the velocity of a frame's point there, 0 to π/2 (rad).
     PressureAngle(JointId, Frame),
     /// Sliding speed at a contact (m/s).
     Slip(JointId),
 }
 
 impl Quantity {
-    /// How many time derivatives of the coordinates it holds.
+    /// Returns the highest order of time derivatives of the coordinates in the quantity.
     #[must_use]
     pub fn order(self) -> u8 {
         match self {
@@ -43,13 +43,13 @@ impl Quantity {
         }
     }
 
-    /// Whether there are positions or velocities at which it has no value.
+    /// Returns whether the quantity has no value at some positions or velocities.
     #[must_use]
     pub fn may_not_exist(self) -> bool {
         matches!(self, Quantity::Corner(_) | Quantity::Curvature(_) | Quantity::Pole(..) | Quantity::PressureAngle(..))
     }
 
-    /// Its dimension.
+    /// Returns the quantity's dimension.
     #[must_use]
     pub fn dimension(self) -> Dimension {
         match self {
@@ -67,11 +67,11 @@ impl Quantity {
     }
 }
 
-/// A body's x axis, or an axis.
+/// The direction of an axis, or of a frame's x axis.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub enum Direction {
     /// The x axis of a frame.
     Frame(Frame),
-    /// An axis.
+    /// The direction of an axis.
     Axis(AxisId),
 }

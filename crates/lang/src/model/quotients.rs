@@ -1,15 +1,15 @@
-//! The units of derivatives by inputs and parameters, as they are written.
+//! The units of derivatives by inputs and parameters.
 
-/// Powers of units are mostly whole numbers, to rounding.
+/// Tolerance for rounding in the exponents of units, which are mostly whole numbers.
 const WHOLE: f64 = 1e-9;
 
-/// The unit of a quotient: `mm/m`; `1` for no unit at all. An angle counts as a unit only where it cancels one.
+/// Returns the unit of a quotient, such as `mm/m`, or `1` if all units cancel. An angle counts as a unit only where it cancels one.
 #[must_use]
 pub fn quotient(unit: &str, other: &str) -> String {
     let mut powers = factors(unit);
     for (name, power) in factors(other) {
-        match powers.iter_mut().find(|(known, _)| *known == name) {
-            Some((_, known)) => *known -= power,
+        match powers.iter_mut().find(|(factor, _)| *factor == name) {
+            Some((_, exponent)) => *exponent -= power,
             None if name == "rad" => {}
             None => powers.push((name, -power)),
         }
@@ -22,7 +22,7 @@ pub fn quotient(unit: &str, other: &str) -> String {
     powers.iter().filter(|(_, power)| *power < -WHOLE).fold(above, |all, &(name, p)| all + "/" + &text(name, -p))
 }
 
-/// The factors of a unit, as units are written: `m*rad/s^2`, `1/(m*s)`.
+/// Returns the factors of a unit, such as `m*rad/s^2` or `1/(m*s)`, with their exponents.
 fn factors(unit: &str) -> Vec<(&str, f64)> {
     let mut powers: Vec<(&str, f64)> = Vec::new();
     let (mut sign, mut is_group) = (1.0, false);
@@ -35,8 +35,8 @@ fn factors(unit: &str) -> Vec<(&str, f64)> {
             None => (name.trim_matches(['(', ')']), 1.0),
         };
         if !matches!(name, "" | "1") {
-            match powers.iter_mut().find(|(known, _)| *known == name) {
-                Some((_, known)) => *known += sign * power,
+            match powers.iter_mut().find(|(factor, _)| *factor == name) {
+                Some((_, exponent)) => *exponent += sign * power,
                 None => powers.push((name, sign * power)),
             }
         }
@@ -53,8 +53,8 @@ mod tests {
     use super::quotient;
 
     #[test]
-    fn what_is_alike_cancels() {
-        for (unit, other, wanted) in [
+    fn equal_units_cancel() {
+        for (unit, other, expected) in [
             ("m", "m", "1"),
             ("mm", "m", "mm/m"),
             ("m/s", "m", "1/s"),
@@ -67,7 +67,7 @@ mod tests {
             ("m^0.5", "m", "1/m^0.5"),
             ("mm", "/s", "mm*s"),
         ] {
-            assert_eq!(quotient(unit, other), wanted, "{unit} by {other}");
+            assert_eq!(quotient(unit, other), expected, "{unit} by {other}");
         }
     }
 }

@@ -1,38 +1,38 @@
-//! What is asked of a whole analysis: results, as formulas over reductions.
+//! Results of a whole analysis, as formulas of reductions.
 
 use super::{Condition, Declared, Units};
 use mechc_expr::ExprId;
 use mechc_text::source::Span;
 
-/// One number for the whole analysis.
+/// A result: one number for the whole analysis.
 #[derive(Clone, Debug)]
 pub struct Outcome {
-    /// Its name.
+    /// The result's name.
     pub declared: Declared,
-    /// Its formula, over parameters and reductions.
+    /// The formula, over parameters and reductions.
     pub value: ExprId,
-    /// In what it is told.
+    /// The units in which it is printed.
     pub units: Units,
 }
 
-/// What becomes of a formula over the whole analysis.
+/// The reduction of a formula over the whole analysis to one number.
 #[derive(Clone, Debug)]
 pub struct Reduction {
-    /// Which number of it is asked for.
+    /// The kind of reduction.
     pub kind: ReductionKind,
-    /// Where it is written first.
+    /// The location of its first occurrence.
     pub span: Span,
-    /// The formula: that of a measure, which may hold other reductions.
+    /// The formula: as in a measure, and it may hold other reductions.
     pub of: ExprId,
-    /// From when to when it is taken (s): formulas of parameters and other reductions; an end of the analysis where there is none.
+    /// The start and end of the window (s), formulas of parameters and other reductions; `None` for the start or end of the analysis.
     pub window: [Option<ExprId>; 2],
-    /// How many time derivatives of the coordinates it holds.
+    /// The highest order of time derivatives of the coordinates in the formula.
     pub order: u8,
-    /// What must be positive for it to have a value.
+    /// Formulas that must be positive for the formula to have a value.
     pub conditions: Vec<Condition>,
 }
 
-/// The reductions.
+/// The kinds of reductions.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub enum ReductionKind {
     /// The largest value.
@@ -58,7 +58,7 @@ pub enum ReductionKind {
 }
 
 impl ReductionKind {
-    /// How it is written, with the text of its times.
+    /// Returns the reduction as source text; `time` writes a time.
     #[must_use]
     pub fn written(self, formula: &str, window: [Option<ExprId>; 2], time: impl Fn(ExprId) -> String) -> String {
         let word = match self {

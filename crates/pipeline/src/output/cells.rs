@@ -1,6 +1,6 @@
-//! The cells of tables, column by column.
+//! Cells of tables, column by column.
 
-/// What the cells of a column are.
+/// The type of the cells of a column.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Kind {
     /// Whole numbers, none missing.
@@ -14,27 +14,27 @@ pub enum Kind {
 /// A column of a sheet.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct SheetColumn {
-    /// Its name.
+    /// Name.
     pub name: String,
-    /// The unit of its numbers; `1` for pure numbers, and for what is no number.
+    /// Unit of the numbers; `1` for pure numbers, and for cells that are no numbers.
     pub unit: String,
-    /// What its cells are.
+    /// Type of the cells.
     pub kind: Kind,
 }
 
-/// Some cells of a column.
+/// Cells of a column.
 #[derive(Clone, PartialEq, Debug)]
 pub enum Cells {
     /// Whole numbers.
     Whole(Vec<u64>),
-    /// Numbers; what is not finite is missing.
+    /// Numbers; those that are not finite are missing.
     Numbers(Vec<f64>),
     /// Words.
     Words(Vec<&'static str>),
 }
 
 impl Cells {
-    /// None yet.
+    /// Returns an empty column.
     #[must_use]
     pub fn none(kind: Kind) -> Cells {
         match kind {
@@ -44,7 +44,7 @@ impl Cells {
         }
     }
 
-    /// How many there are.
+    /// Returns the number of cells.
     #[must_use]
     pub fn count(&self) -> usize {
         match self {

@@ -1,4 +1,4 @@
-//! Result tables: as text, where numbers are the shortest decimals that read back to the same `f64`, and, with the feature `parquet`, as Parquet.
+//! Result tables: as text, in which numbers are the shortest decimals that read back to the same `f64`, and as Parquet with the feature `parquet`.
 
 mod cells;
 #[cfg(feature = "parquet")]
@@ -13,10 +13,10 @@ pub use sheet::{Made, Sheet, SheetWriter};
 use std::io::{self, Write};
 use text::TextWriter;
 
-/// The forms of a result table.
+/// The format of a result table.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub enum TableFormat {
-    /// A header, then a row per time.
+    /// A header, then a line for each row.
     #[default]
     Csv,
     /// `{"columns": […], "units": […], "rows": [[…], …]}`
@@ -38,10 +38,10 @@ enum Form<W: Write + Send> {
 }
 
 impl<W: Write + Send> TableWriter<W> {
-    /// Begins a table with its columns' names and units; CSV has no place for units.
+    /// Begins a table with the names and units of its columns; CSV has no units.
     ///
     /// # Errors
-    /// As the writer underneath.
+    /// The underlying writer fails.
     pub fn new(out: W, format: TableFormat, columns: &[String], units: &[&str]) -> io::Result<TableWriter<W>> {
         let form = match format {
             TableFormat::Csv => Form::Text(Box::new(TextWriter::csv(out, columns)?)),
@@ -60,10 +60,10 @@ impl<W: Write + Send> TableWriter<W> {
         Ok(TableWriter { form })
     }
 
-    /// Writes a row; what is not finite is a value that is missing.
+    /// Writes a row; values that are not finite are missing.
     ///
     /// # Errors
-    /// As the writer underneath.
+    /// The underlying writer fails.
     pub fn row(&mut self, values: &[f64]) -> io::Result<()> {
         match &mut self.form {
             Form::Text(text) => text.row(values),
@@ -72,10 +72,10 @@ impl<W: Write + Send> TableWriter<W> {
         }
     }
 
-    /// Ends the table and gives the writer back, flushed.
+    /// Ends the table and returns the writer, flushed.
     ///
     /// # Errors
-    /// As the writer underneath.
+    /// The underlying writer fails.
     pub fn finish(self) -> io::Result<W> {
         match self.form {
             Form::Text(text) => text.finish(),

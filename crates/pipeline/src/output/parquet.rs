@@ -1,5 +1,5 @@
-//! A table as Parquet: a column for each of its own, 64-bit floating-point numbers for what may be missing, 64-bit integers for whole
-//! numbers, texts for words; with their units as the key `units` of its metadata.
+//! Tables as Parquet: numbers that may be missing are 64-bit floating-point, whole numbers 64-bit integers, words texts. The units are the key
+//! `units` of the metadata.
 
 use super::cells::{Cells, Kind, SheetColumn};
 use parquet::basic::{LogicalType, Repetition, Type as Physical};
@@ -13,17 +13,17 @@ use parquet::schema::types::{ColumnPath, Type};
 use std::io::{self, Write};
 use std::sync::Arc;
 
-/// Cells that are gathered before they are written: 32 MB of numbers.
+/// Cells that are collected before they are written: 32 MB of numbers.
 const GROUP: usize = 1 << 22;
 
-/// Writes a table; rows are gathered, since the format stores column after column.
+/// Writes a table; rows are collected, since the format stores columns.
 pub(super) struct ParquetWriter<W: Write + Send> {
     file: SerializedFileWriter<W>,
     gathered: Vec<Cells>,
     rows: usize,
-    /// Numbers of a column that are there.
+    /// Numbers of a column that are not missing.
     there: Vec<f64>,
-    /// By row: 1 where the column has a number.
+    /// For each row, 1 if the column has a number.
     levels: Vec<i16>,
 }
 
@@ -36,7 +36,7 @@ impl<W: Write + Send> ParquetWriter<W> {
         let mut properties = WriterProperties::builder()
             .set_created_by(format!("mechc {}", env!("CARGO_PKG_VERSION")))
             .set_key_value_metadata(Some(vec![KeyValue::new("units".to_owned(), serde_json::json!(units).to_string())]))
-            // hardly any number comes twice
+            // few numbers repeat
             .set_dictionary_enabled(false)
             .set_statistics_enabled(EnabledStatistics::Chunk);
         for column in columns.iter().filter(|column| column.kind == Kind::Word) {
@@ -47,7 +47,7 @@ impl<W: Write + Send> ParquetWriter<W> {
         Ok(ParquetWriter { file, gathered, rows: 0, there: Vec::new(), levels: Vec::new() })
     }
 
-    /// A row of numbers alone.
+    /// Writes a row of numbers.
     pub fn row(&mut self, values: &[f64]) -> io::Result<()> {
         for (column, &value) in self.gathered.iter_mut().zip(values) {
             if let Cells::Numbers(numbers) = column {
@@ -57,7 +57,7 @@ impl<W: Write + Send> ParquetWriter<W> {
         self.gathered(1)
     }
 
-    /// Rows, column by column.
+    /// Writes rows, column by column.
     pub fn block(&mut self, cells: Vec<Cells>) -> io::Result<()> {
         let rows = cells.first().map_or(0, Cells::count);
         for pair in self.gathered.iter_mut().zip(cells) {
@@ -76,7 +76,7 @@ impl<W: Write + Send> ParquetWriter<W> {
         if (self.rows + 1) * self.gathered.len() > GROUP { self.write_group() } else { Ok(()) }
     }
 
-    /// Ends the table and gives the writer back, flushed.
+    /// Ends the table and returns the writer, flushed.
     pub fn finish(mut self) -> io::Result<W> {
         self.write_group()?;
         let mut out = self.file.into_inner().map_err(into_io)?;
@@ -91,7 +91,7 @@ impl<W: Write + Send> ParquetWriter<W> {
         let mut group = self.file.next_row_group().map_err(into_io)?;
         for (k, cells) in self.gathered.iter_mut().enumerate() {
             let Some(mut column) = group.next_column().map_err(into_io)? else { break };
-            // the first column misses none
+            // the first column has no missing number
             let has_levels = k > 0;
             match cells {
                 Cells::Numbers(numbers) => {
@@ -117,16 +117,16 @@ impl<W: Write + Send> ParquetWriter<W> {
     }
 }
 
-/// A column in the schema; the first one misses no number.
+/// Returns a column of the schema; the first one has no missing number.
 fn field(k: usize, column: &SheetColumn) -> Result<Type, ParquetError> {
-    let of = |physical| Type::primitive_type_builder(&column.name, physical);
+    let builder = |physical| Type::primitive_type_builder(&column.name, physical);
     match column.kind {
-        Kind::Whole => of(Physical::INT64).with_repetition(Repetition::REQUIRED),
-        Kind::Number if k == 0 => of(Physical::DOUBLE).with_repetition(Repetition::REQUIRED),
-        Kind::Number => of(Physical::DOUBLE).with_repetition(Repetition::OPTIONAL),
-        Kind::Word => {
-            of(Physical::BYTE_ARRAY).with_logical_type(Some(LogicalType::String)).with_repetition(Repetition::REQUIRED)
-        }
+        Kind::Whole => builder(Physical::INT64).with_repetition(Repetition::REQUIRED),
+        Kind::Number if k == 0 => builder(Physical::DOUBLE).with_repetition(Repetition::REQUIRED),
+        Kind::Number => builder(Physical::DOUBLE).with_repetition(Repetition::OPTIONAL),
+        Kind::Word => builder(Physical::BYTE_ARRAY)
+            .with_logical_type(Some(LogicalType::String))
+            .with_repetition(Repetition::REQUIRED),
     }
     .build()
 }
@@ -160,7 +160,7 @@ fn write_words(column: &mut SerializedColumnWriter<'_>, words: &[&'static str]) 
     }
 }
 
-/// What went wrong underneath, a full disk say, as it was told there.
+/// Returns the error of the underlying writer, such as a full disk, with its own text.
 fn into_io(error: ParquetError) -> io::Error {
     match error {
         ParquetError::External(inner) => match inner.downcast::<io::Error>() {
@@ -181,7 +181,7 @@ mod tests {
         SerializedFileReader::new(bytes::Bytes::from(bytes)).unwrap()
     }
 
-    /// Columns of numbers.
+    /// Returns columns of numbers.
     fn columns(columns: &[(&str, &str)]) -> Vec<SheetColumn> {
         let column = |(name, unit): &(&str, &str)| SheetColumn {
             name: (*name).to_owned(),
@@ -203,13 +203,13 @@ mod tests {
         let schema = reader.metadata().file_metadata().schema_descr();
         let names: Vec<String> = schema.columns().iter().map(|column| column.name().to_owned()).collect();
         assert_eq!(names, ["t", "rod.phi.dd"]);
-        let found: Vec<[u64; 2]> = reader
+        let read_back: Vec<[u64; 2]> = reader
             .get_row_iter(None)
             .unwrap()
             .map(|row| row.unwrap())
             .map(|row| [0, 1].map(|k| row.get_double(k).unwrap().to_bits()))
             .collect();
-        assert_eq!(found, rows.map(|row| row.map(f64::to_bits)));
+        assert_eq!(read_back, rows.map(|row| row.map(f64::to_bits)));
     }
 
     #[test]
@@ -228,9 +228,9 @@ mod tests {
             writer.row(&row).unwrap();
         }
         let reader = read(writer.finish().unwrap());
-        let found: Vec<Option<f64>> =
+        let read_back: Vec<Option<f64>> =
             reader.get_row_iter(None).unwrap().map(|row| row.unwrap().get_double(1).ok()).collect();
-        assert_eq!(found, [Some(1.5), None, None, Some(2.5)]);
+        assert_eq!(read_back, [Some(1.5), None, None, Some(2.5)]);
     }
 
     #[test]

@@ -1,5 +1,5 @@
-//! Tables of variants: columns of whole numbers, numbers and words, written block by block. The text of a block is made wherever the block
-//! is; only the order of blocks is the writer's.
+//! Tables of variants: columns of whole numbers, numbers and words, written block by block. Any thread can format a block; the writer keeps the
+//! order.
 
 use super::TableFormat;
 use super::cells::{Cells, SheetColumn};
@@ -9,25 +9,25 @@ use std::io::{self, Write};
 #[cfg(feature = "parquet")]
 use super::parquet::ParquetWriter;
 
-/// The columns of a table and its form: CSV, a JSON object a line, or Parquet.
+/// Columns and format of a table: CSV, JSON lines, or Parquet.
 #[derive(Clone, Debug)]
 pub struct Sheet {
     format: TableFormat,
     columns: Vec<SheetColumn>,
-    /// By column: what stands before its cell in a line.
+    /// For each column, the text before its cell in a line.
     before: Vec<String>,
 }
 
-/// A block as it is written.
+/// A formatted block.
 pub enum Made {
-    /// As text.
+    /// Text of the lines.
     Text(Vec<u8>),
-    /// By columns.
+    /// Columns.
     Cells(Vec<Cells>),
 }
 
 impl Sheet {
-    /// A table of columns in a form.
+    /// Makes a table of columns.
     #[must_use]
     pub fn new(format: TableFormat, columns: Vec<SheetColumn>) -> Sheet {
         let before = |(k, column): (usize, &SheetColumn)| {
@@ -41,13 +41,13 @@ impl Sheet {
         Sheet { before: columns.iter().enumerate().map(before).collect(), format, columns }
     }
 
-    /// Its columns.
+    /// Returns the columns.
     #[must_use]
     pub fn columns(&self) -> &[SheetColumn] {
         &self.columns
     }
 
-    /// Makes a block of it: the cells of each of its columns.
+    /// Formats a block, given by the cells of all columns.
     #[must_use]
     #[cfg_attr(not(feature = "parquet"), allow(clippy::needless_pass_by_value))] // Parquet keeps them
     pub fn made(&self, cells: Vec<Cells>) -> Made {
@@ -66,7 +66,7 @@ impl Sheet {
             for (before, cells) in self.before.iter().zip(cells) {
                 text.extend_from_slice(before.as_bytes());
                 match cells {
-                    // whole numbers below 2^53 are what they are as numbers; beyond, which nobody reaches, they are written out
+                    // as text, so that whole numbers beyond 2^53 are exact
                     Cells::Whole(cells) => text.extend_from_slice(cells[row].to_string().as_bytes()),
                     Cells::Numbers(cells) if cells[row].is_finite() => {
                         text.extend_from_slice(number.format_finite(cells[row]).as_bytes());
@@ -98,10 +98,10 @@ enum Form<W: Write + Send> {
 }
 
 impl<W: Write + Send> SheetWriter<W> {
-    /// Begins a table; only Parquet has a place for units.
+    /// Begins a table; only Parquet has units.
     ///
     /// # Errors
-    /// As the writer underneath.
+    /// The underlying writer fails.
     pub fn new(mut out: W, sheet: &Sheet) -> io::Result<SheetWriter<W>> {
         let form = match sheet.format {
             TableFormat::Csv => {
@@ -119,7 +119,7 @@ impl<W: Write + Send> SheetWriter<W> {
     /// Writes a block.
     ///
     /// # Errors
-    /// As the writer underneath.
+    /// The underlying writer fails.
     pub fn write(&mut self, block: Made) -> io::Result<()> {
         match (&mut self.form, block) {
             (Form::Text(out), Made::Text(text)) => out.write_all(&text),
@@ -129,10 +129,10 @@ impl<W: Write + Send> SheetWriter<W> {
         }
     }
 
-    /// Ends the table and gives the writer back, flushed.
+    /// Ends the table and returns the writer, flushed.
     ///
     /// # Errors
-    /// As the writer underneath.
+    /// The underlying writer fails.
     pub fn finish(self) -> io::Result<W> {
         match self.form {
             Form::Text(mut out) => {
@@ -179,8 +179,8 @@ mod tests {
     #[test]
     fn csv_has_a_line_for_each_row() {
         let text = String::from_utf8(written(TableFormat::Csv)).unwrap();
-        let wanted = "variant,rod,\"at (1, 2)\",status\n0,0.1,-2.0,ok\n1,,,E0602\n2,0.1,-2.0,ok\n3,,,E0602\n";
-        assert_eq!(text, wanted);
+        let expected = "variant,rod,\"at (1, 2)\",status\n0,0.1,-2.0,ok\n1,,,E0602\n2,0.1,-2.0,ok\n3,,,E0602\n";
+        assert_eq!(text, expected);
     }
 
     #[test]

@@ -1,17 +1,17 @@
-//! A table as CSV or JSON: rows are gathered, and their text is made of many at once, by several threads where there are many.
+//! Tables as CSV or JSON: rows are collected and formatted in blocks, by several threads if there are many.
 
-use mechc_parallel::{Relay, usual_jobs};
+use mechc_parallel::{OrderedPipeline, default_jobs};
 use std::io::{self, Write};
 use std::mem;
 
-/// Numbers whose text is made at once: 64 kB of them, twice that of text.
+/// Numbers that are formatted at once: 64 kB of them, twice that of text.
 const AT_ONCE: usize = 1 << 13;
-/// So many threads make text as fast as one can solve for rows.
-const MOST_JOBS: usize = 4;
-/// Numbers that are written beside each other: each is copied when the processor has long put its digits away.
-const ABREAST: usize = 8;
+/// This many threads format text as fast as one thread computes rows.
+const MAX_JOBS: usize = 4;
+/// Numbers that are formatted side by side: each is copied after the processor has stored its digits.
+const BATCH: usize = 8;
 
-/// The name of a column in CSV: no name holds a quote, and a comma one of two numbers (RFC 4180).
+/// Returns the name of a column in CSV. Names hold no quotes; those of pairs hold a comma (RFC 4180).
 pub(super) fn quoted(name: &str) -> String {
     if name.contains(',') { format!("\"{name}\"") } else { name.to_owned() }
 }
@@ -20,26 +20,26 @@ pub(super) fn quoted(name: &str) -> String {
 pub(super) struct TextWriter<W> {
     out: W,
     marks: Marks,
-    /// Numbers whose text is not made yet, and of how many rows.
+    /// Rows that are not formatted yet.
     gathered: Rows,
-    /// What makes text of rows; from the second time on, as most tables are small.
-    relay: Option<Relay<Rows, Vec<u8>>>,
+    /// Formats rows on other threads; made for the second block, as most tables are small.
+    relay: Option<OrderedPipeline<Rows, Vec<u8>>>,
     has_rows: bool,
 }
 
-/// The numbers of some rows.
+/// Numbers of rows.
 #[derive(Default)]
 struct Rows {
     numbers: Vec<f64>,
     count: usize,
 }
 
-/// What stands around numbers.
+/// Text around numbers.
 #[derive(Clone, Copy)]
 struct Marks {
-    /// Before a row and behind it.
+    /// Text before and after a row.
     row: [&'static str; 2],
-    /// Instead of what is not finite.
+    /// Text in place of a number that is not finite.
     missing: &'static str,
 }
 
@@ -68,7 +68,7 @@ impl<W: Write> TextWriter<W> {
         if self.gathered.numbers.len() < AT_ONCE { Ok(()) } else { self.make_text() }
     }
 
-    /// Has the text of what is gathered made, and writes what is ready.
+    /// Formats the collected rows, and writes what is ready.
     fn make_text(&mut self) -> io::Result<()> {
         let next = Rows { numbers: Vec::with_capacity(self.gathered.numbers.len()), count: 0 };
         let rows = mem::replace(&mut self.gathered, next);
@@ -77,18 +77,18 @@ impl<W: Write> TextWriter<W> {
             return text.map_or(Ok(()), |text| self.write(&text));
         }
         let marks = self.marks;
-        self.relay = Some(Relay::new(usual_jobs().min(MOST_JOBS), move |rows: Rows| marks.text(&rows)));
+        self.relay = Some(OrderedPipeline::new(default_jobs().min(MAX_JOBS), move |rows: Rows| marks.text(&rows)));
         self.write(&marks.text(&rows))
     }
 
     fn write(&mut self, text: &[u8]) -> io::Result<()> {
-        // nothing stands before the first row of JSON that parts it from another
+        // the first row of JSON has no separator before it
         let is_first = !mem::replace(&mut self.has_rows, true);
         self.out.write_all(text.strip_prefix(b",").filter(|_| is_first && self.marks.is_json()).unwrap_or(text))
     }
 
     pub fn finish(mut self) -> io::Result<W> {
-        while let Some(text) = self.relay.as_mut().and_then(Relay::take) {
+        while let Some(text) = self.relay.as_mut().and_then(OrderedPipeline::take) {
             self.write(&text)?;
         }
         if self.gathered.count > 0 {
@@ -107,7 +107,7 @@ impl Marks {
         !self.row[0].is_empty()
     }
 
-    /// The text of rows.
+    /// Formats rows.
     fn text(self, rows: &Rows) -> Vec<u8> {
         let width = rows.numbers.len().checked_div(rows.count).unwrap_or(0);
         let mut text = Vec::with_capacity(rows.numbers.len() * 20 + rows.count * 4);
@@ -121,8 +121,8 @@ impl Marks {
     }
 }
 
-/// What numbers are written with: each as the shortest decimal that reads back to it.
-pub(super) struct Numbers([zmij::Buffer; ABREAST]);
+/// Formats numbers, each as the shortest decimal that reads back to it.
+pub(super) struct Numbers([zmij::Buffer; BATCH]);
 
 impl Default for Numbers {
     fn default() -> Numbers {
@@ -131,10 +131,10 @@ impl Default for Numbers {
 }
 
 impl Numbers {
-    /// Adds numbers to a text, parted by commas; `missing` stands for what is not finite.
+    /// Appends numbers to a text, separated by commas; `missing` stands for those that are not finite.
     pub fn write(&mut self, values: &[f64], missing: &str, text: &mut Vec<u8>) {
-        for (group, values) in values.chunks(ABREAST).enumerate() {
-            let mut written = [missing; ABREAST];
+        for (group, values) in values.chunks(BATCH).enumerate() {
+            let mut written = [missing; BATCH];
             for ((written, buffer), &value) in written.iter_mut().zip(&mut self.0).zip(values) {
                 if value.is_finite() {
                     *written = buffer.format_finite(value);

@@ -39,7 +39,7 @@ pub(super) fn runs(rows: &[Row], are_alike: impl Fn(Kind, Kind) -> bool) -> Vec<
 pub(super) struct Cells(Vec<(usize, usize)>);
 
 impl Cells {
-    /// Gives nothing of a row whose columns cannot be told, because a comment stands in them.
+    /// Returns the cells of a row; none if a comment inside hides its columns.
     pub fn of(words: &[Word], lexemes: &[Lexeme<'_>]) -> Cells {
         let starts = std::iter::once(0).chain((0..words.len()).filter(|&k| words[k].begins_cell));
         let starts: Vec<usize> = starts.collect();
@@ -59,7 +59,7 @@ impl Cells {
     }
 }
 
-/// Whether bodies on a line each can be brought into columns: they have the same ones, and fit.
+/// Returns whether one-line bodies can be aligned: they have the same columns, and fit.
 fn have_room(rows: &[Row], cells: &[Option<Cells>]) -> bool {
     // the ground has none
     let of_bodies = || cells.iter().flatten().map(|cells| &cells.0).filter(|cells| cells.len() > 1);
@@ -90,8 +90,7 @@ pub(super) fn align(rows: &[Row], cells: &[Option<Cells>], spaces: &mut [usize])
     }
 }
 
-/// The spaces before the comments behind the rows of a run, by the columns at which the rows end; those of rows of several lines are
-/// none.
+/// The spaces before the comments behind the rows of a run, by the columns at which the rows end; those of rows of several lines are none.
 pub(super) fn before_comments(rows: &[Row], ends: &[Option<usize>]) -> Vec<usize> {
     let commented = rows.iter().zip(ends).filter(|(row, _)| row.behind.is_some());
     let columns = commented.filter_map(|(_, end)| *end).filter(|&end| end <= WIDEST_BEFORE_COMMENT);

@@ -6,7 +6,7 @@
 use crate::ast::{ComparisonSign, Expr, ExprKind, Factor, Sign, Window};
 use mechc_text::vocabulary::Unit;
 
-/// What binds how tightly, loosest first.
+/// Binding strength of a form, loosest first.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Level {
     If,
@@ -235,7 +235,7 @@ fn is_unit(e: &Expr) -> bool {
     }
 }
 
-/// What stands behind `^`: a sign needs no parentheses there, a unit does, also behind a sign.
+/// Writes the exponent behind `^`: a sign needs no parentheses there, a unit does, also behind a sign.
 fn write_exponent(text: &mut String, e: &Expr) {
     let e = e.bare();
     match &e.kind {

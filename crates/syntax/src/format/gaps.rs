@@ -1,4 +1,4 @@
-//! What stands between the lexemes of a formatted text, and how it differs from what stands there now.
+//! Gaps between the lexemes of a formatted text, and the edits that create them.
 
 use super::columns::{self, Cells};
 use super::groups::{Grouped, grouped};
@@ -12,10 +12,10 @@ use mechc_text::source::{FileId, Span};
 use rustc_hash::FxHashSet;
 use std::ops::Range;
 
-/// What stands before a lexeme.
+/// The text before a lexeme.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 enum Gap {
-    /// What stands there now.
+    /// The present text.
     Kept,
     Spaces(usize),
     /// The end of a line, and blank lines, before a line with an indentation.
@@ -25,7 +25,7 @@ enum Gap {
     },
 }
 
-/// What becomes of a comma behind the last item of a list, or of the place for one.
+/// Change of a comma behind the last item of a list.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 enum Comma {
     Unchanged,
@@ -42,7 +42,7 @@ pub(super) struct Formatted<'a> {
     gaps: Vec<Gap>,
     /// By lexeme.
     commas: Vec<Comma>,
-    /// How often something was looked at.
+    /// Number of examined items.
     pub steps: usize,
 }
 
@@ -171,10 +171,10 @@ impl<'a> Formatted<'a> {
         out + &text[at..]
     }
 
-    /// What to change in the rows that are `wanted`, by the bytes that they reach from and to.
-    pub fn edits(&self, text: &str, file: FileId, wanted: impl Fn(Range<usize>) -> bool) -> Vec<Edit> {
+    /// Returns the edits in the rows that `selects` accepts by their byte range.
+    pub fn edits(&self, text: &str, file: FileId, selects: impl Fn(Range<usize>) -> bool) -> Vec<Edit> {
         let mut edits = Vec::new();
-        self.each_change(text, wanted, |range, new| {
+        self.each_change(text, selects, |range, new| {
             let span = Span { file, start: range.start as u32, end: range.end as u32 };
             edits.push(Edit { span, text: new.to_owned() });
         });
@@ -185,7 +185,7 @@ impl<'a> Formatted<'a> {
     fn each_change(
         &self,
         text: &str,
-        wanted: impl Fn(Range<usize>) -> bool,
+        selects: impl Fn(Range<usize>) -> bool,
         mut change: impl FnMut(Range<usize>, &str),
     ) {
         let line_end = if text.find('\n').is_some_and(|at| text[..at].ends_with('\r')) { "\r\n" } else { "\n" };
@@ -194,24 +194,24 @@ impl<'a> Formatted<'a> {
         let (mut end, mut comma) = (0, "");
         for row in &self.rows {
             let last = row.behind.unwrap_or(row.lexemes.end - 1);
-            let is_wanted = wanted(self.lexemes[row.lexemes.start].start..self.lexemes[last].end());
+            let is_selected = selects(self.lexemes[row.lexemes.start].start..self.lexemes[last].end());
             for k in row.lexemes.clone().chain(row.behind) {
                 let lexeme = self.lexemes[k];
-                if self.commas[k] == Comma::Dropped && is_wanted {
+                if self.commas[k] == Comma::Dropped && is_selected {
                     continue;
                 }
                 new.clear();
                 new += comma;
-                comma = if self.commas[k] == Comma::Added && is_wanted { "," } else { "" };
+                comma = if self.commas[k] == Comma::Added && is_selected { "," } else { "" };
                 let is_kept = self.write_gap(k, line_end, &mut new);
-                if is_wanted && !is_kept {
+                if is_selected && !is_kept {
                     minimal(text, end..lexeme.start, &new, &mut change);
                 }
                 end = lexeme.end();
             }
         }
         let is_kept = self.rows.last().is_none_or(|row| row.kind == Kind::Kept);
-        if !is_kept && wanted(end..text.len()) {
+        if !is_kept && selects(end..text.len()) {
             minimal(text, end..text.len(), line_end, &mut change);
         }
     }

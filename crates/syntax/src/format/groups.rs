@@ -26,7 +26,7 @@ pub(super) struct List {
 /// Spaces before a comment that stands behind something on its line.
 pub(super) const BEFORE_COMMENT: usize = 3;
 
-/// What stands open while the words of a declaration are read.
+/// An open bracket, conditional or operator.
 enum Frame {
     Bracket {
         bracket: Bracket,
@@ -44,7 +44,7 @@ enum Frame {
     },
 }
 
-/// Which groups begin and end at each lexeme of a declaration.
+/// The groups that begin and end at each lexeme of a declaration.
 #[derive(Default)]
 struct Groups {
     /// By lexeme: the groups that begin with it, inner ones first.
@@ -63,7 +63,7 @@ struct Grouping<'a> {
     ends: Vec<usize>,
     groups: Groups,
     frames: Vec<Frame>,
-    /// Where the operand begins that was read last, by open bracket or conditional.
+    /// Start of the last operand, by open bracket or conditional.
     operands: Vec<Option<usize>>,
 }
 
@@ -130,7 +130,7 @@ impl Grouping<'_> {
         self.operand(k);
     }
 
-    /// Whether a line may end before a keyword: where it joins two parts of a declaration that is no formula with its unit.
+    /// Returns whether a line may end before a keyword: where it joins two parts of a declaration, other than a formula and its unit.
     fn begins_clause(&self, k: usize) -> bool {
         let is_behind_operand =
             matches!(self.words[k - 1].class, Class::Name | Class::Number | Class::Unit | Class::Close | Class::Quoted);
@@ -243,7 +243,7 @@ impl Grouping<'_> {
     }
 }
 
-/// What stands before the last column of a declaration is not broken, unless it takes more columns than this.
+/// The text before the last column of a declaration breaks only if it is wider than this.
 const WIDEST_HEAD: usize = 60;
 
 /// The first lexeme before which a line may end.
@@ -306,7 +306,7 @@ impl Grouped {
         self.push(Node::Close, k);
     }
 
-    /// What stands before a lexeme.
+    /// Adds the gap before a lexeme.
     fn gap(&mut self, k: usize, (words, lexemes, spaces): (&[Word], &[Lexeme<'_>], &[usize]), groups: &Groups) {
         let is_at_list = groups.is_list[k - 1] && words[k - 1].class != Class::Close
             || groups.is_list[k] && words[k].class == Class::Close;

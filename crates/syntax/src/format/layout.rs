@@ -1,9 +1,9 @@
-//! Where lines are broken: groups that stand on one line if they fit, and break at their own gaps before those of the groups in them.
+//! Line breaking: a group stays on one line if it fits, and otherwise breaks at its own gaps before those of inner groups.
 //!
 //! One pass from the end measures what must fit behind each gap, one from the beginning decides. Both touch each node a bounded
 //! number of times, however deep the groups nest (after D. C. Oppen, "Prettyprinting", 1980, and P. Wadler, "A prettier printer", 2003).
 
-/// How the gaps of a group are broken if it does not fit on its line.
+/// Style in which the gaps of a group break if it does not fit.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Style {
     /// Only those behind which the next piece would not fit.
@@ -14,7 +14,7 @@ pub(super) enum Style {
     Listed,
 }
 
-/// What a line is made of.
+/// A piece of a line.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Node {
     /// So many columns.
@@ -38,7 +38,7 @@ pub(super) const WIDTH: usize = 100;
 /// Columns beyond which nothing is indented further.
 pub(super) const DEEPEST_INDENT: usize = 48;
 
-/// How nodes are laid out.
+/// Result of the layout.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub(super) struct Laid {
     /// For each node that is a gap or line: the indentation of the line that it begins, if it does.
@@ -47,13 +47,13 @@ pub(super) struct Laid {
     pub is_broken: Vec<bool>,
     /// The column behind the last node.
     pub column: usize,
-    /// Whether there is more than one line.
+    /// True if there is more than one line.
     pub has_lines: bool,
-    /// How often a node was looked at.
+    /// Number of examined nodes.
     pub steps: usize,
 }
 
-/// What is measured before anything is decided.
+/// Measures that the decisions need.
 struct Measures {
     /// Columns before each node, all in one line; and behind the last.
     columns: Vec<usize>,
@@ -125,9 +125,9 @@ impl Measures {
 struct Group {
     style: Style,
     is_flat: bool,
-    /// Of the line in which it begins.
+    /// Indentation of the line in which it begins.
     base: usize,
-    /// Of the lines that it breaks into.
+    /// Indentation of the lines that it breaks into.
     indent: usize,
     has_lines: bool,
 }

@@ -2,14 +2,14 @@
 
 use std::str::Chars;
 
-/// What a lexeme looks like.
+/// Kinds of lexemes.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Shape {
     /// A name, a unit, a keyword.
     Word,
-    /// With its exponent, without its unit.
+    /// A number with its exponent, without its unit.
     Number,
-    /// With its quotes.
+    /// A string with its quotes.
     Quoted,
     /// From its slashes to the end of its line, white space at the end left out.
     Comment,
@@ -23,7 +23,7 @@ pub(super) struct Lexeme<'a> {
     pub start: usize,
     pub text: &'a str,
     pub shape: Shape,
-    /// How many line ends stand between it and the one before.
+    /// Number of line ends before it.
     pub lines_before: usize,
 }
 
@@ -78,7 +78,7 @@ fn first(text: &str) -> Option<(Shape, usize)> {
     Some((Shape::Sign, first.len_utf8()))
 }
 
-/// Whether a character may stand in a name: beyond ASCII nothing else can stand outside of strings and comments.
+/// Returns whether a character can be part of a name: beyond ASCII nothing else occurs outside of strings and comments.
 fn is_of_a_word(c: char) -> bool {
     c.is_ascii_alphanumeric() || c == '_' || !c.is_ascii() && !c.is_whitespace()
 }

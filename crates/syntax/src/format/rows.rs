@@ -10,7 +10,7 @@ use mechc_text::source::Span;
 use rustc_hash::FxHashSet;
 use std::ops::Range;
 
-/// What begins a line of its own.
+/// A line of its own, or several if it is broken.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub(super) struct Row {
     pub lexemes: Range<usize>,
@@ -19,13 +19,13 @@ pub(super) struct Row {
     /// In columns.
     pub indent: usize,
     pub kind: Kind,
-    /// Whether a blank line stands before it.
+    /// True if a blank line stands before it.
     pub is_apart: bool,
     /// The byte at which the unit behind `in` begins.
     pub printed: Option<usize>,
 }
 
-/// What a row is.
+/// Kinds of rows.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Kind {
     Comment,
@@ -62,7 +62,7 @@ pub(super) enum Group {
 }
 
 impl Group {
-    /// Of the declarations of a mechanism; none of what is broken.
+    /// Returns the group of a declaration; `None` for a broken one.
     pub fn of(kind: &ItemKind) -> Option<Group> {
         Some(match kind {
             ItemKind::Param { .. } => Group::Params,
@@ -123,7 +123,7 @@ impl Rows<'_> {
         self.faults.get(first).is_some_and(|&at| at < range.end)
     }
 
-    /// What stands before a byte: comments, and what is kept.
+    /// Adds the rows before a byte: comments, and unchanged text.
     fn up_to(&mut self, byte: usize, indent: usize) {
         while self.starts_before(byte) {
             if self.lexemes[self.at].is_comment() { self.comment(indent) } else { self.keep(self.at + 1) }
@@ -190,7 +190,7 @@ impl Rows<'_> {
         }
     }
 
-    /// Whether what comes next stands behind a byte: what begins there is in a row already.
+    /// Returns whether the next lexeme stands behind a byte, so that a declaration that begins there is in a row already.
     fn starts_behind(&self, byte: usize) -> bool {
         self.lexemes.get(self.at).is_none_or(|lexeme| lexeme.start > byte)
     }

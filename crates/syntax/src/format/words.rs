@@ -1,12 +1,12 @@
-//! What each lexeme of a declaration is to those around it, which decides the spaces between them.
+//! Classification of the lexemes of a declaration, which determines the spaces between them.
 
 use super::lexemes::{Lexeme, Shape};
 use crate::tokens::may_begin_a_bound;
-use mechc_text::vocabulary::{Constant, Keyword, Place, Role, Synonym, Unit, is_before_a_name};
+use mechc_text::vocabulary::{Constant, Keyword, Place, Role, Synonym, Unit, declares_name};
 use rustc_hash::FxHashSet;
 use std::ops::Range;
 
-/// How tightly an operator binds, loosest first.
+/// Binding strength of an operator, loosest first.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub(super) enum Level {
     Or,
@@ -16,7 +16,7 @@ pub(super) enum Level {
     Product,
 }
 
-/// What a lexeme is in its declaration.
+/// Kinds of lexemes in a declaration.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Class {
     /// Begins a declaration, or joins its parts.
@@ -48,14 +48,14 @@ pub(super) enum Class {
     Comment,
 }
 
-/// What a bracket holds.
+/// Contents of a bracket.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Bracket {
     /// Arguments of what stands before it, or indices.
     Arguments,
     /// A formula, or a point.
     Formula,
-    /// What is bound of a part.
+    /// The bindings of a part.
     Bindings,
     /// The rows of a table.
     Rows,
@@ -75,7 +75,7 @@ pub(super) struct Word {
     pub class: Class,
     /// The spaces before it, if it does not begin a line.
     pub spaces: usize,
-    /// Whether a column begins with it.
+    /// True if a column begins with it.
     pub begins_cell: bool,
     /// A comma behind the last item of a list: it stands only where each item has a line of its own.
     pub is_last_comma: bool,
@@ -86,9 +86,8 @@ const BETWEEN_FEATURES: usize = 2;
 
 /// The words that a text declares as names, wherever: none of them means a unit in a formula.
 pub(super) fn declared<'a>(lexemes: &[Lexeme<'a>]) -> FxHashSet<&'a str> {
-    let is_keyword = |lexeme: &Lexeme<'_>| {
-        is_before_a_name(lexeme.text) && Keyword::named(lexeme.text).is_some_and(|k| begins(k.role))
-    };
+    let is_keyword =
+        |lexeme: &Lexeme<'_>| declares_name(lexeme.text) && Keyword::named(lexeme.text).is_some_and(|k| begins(k.role));
     let behind_keywords = lexemes.windows(2).filter(|pair| is_keyword(&pair[0])).map(|pair| pair[1].text);
     let is_argument = |run: &&[Lexeme<'_>]| ["fn", "curve"].contains(&run[0].text) && run[2].text == "(";
     let arguments = lexemes.windows(4).filter(is_argument).map(|run| run[3].text);
@@ -106,7 +105,7 @@ pub(super) fn words(
     range: Range<usize>,
     printed: Option<usize>,
 ) -> Vec<Word> {
-    let mut reading = Reading {
+    let mut reading = Classifier {
         lexemes,
         names,
         range: range.clone(),
@@ -128,29 +127,29 @@ pub(super) fn width(words: &[Word], lexemes: &[Lexeme<'_>]) -> usize {
     shown.map(|(k, (word, lexeme))| usize::from(k > 0) * word.spaces + super::width(lexeme.text)).sum()
 }
 
-/// Where the next column begins.
+/// Position of the next column.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Cells {
     None,
-    /// With the next lexeme.
+    /// Before the next lexeme.
     Next,
-    /// With `=`.
+    /// Before `=`.
     Equals,
     /// Behind `:`.
     Colon,
     /// Behind `:`, and then with `=`.
     ColonAndEquals,
-    /// With the next keyword.
+    /// Before the next keyword.
     As,
-    /// With the next keyword, and then as the next.
+    /// Before the next keyword, and then again.
     At,
-    /// With every keyword.
+    /// Before every keyword.
     Keywords,
-    /// With the brace that opens a block.
+    /// Before the brace that opens a block.
     Brace,
 }
 
-/// Whether a number with its unit stands before, to which another unit may be joined: `30 deg/s * t`, but not `a / 30 deg/s`,
+/// State of a number with its unit before the lexeme, to which another unit may be joined: `30 deg/s * t`, but not `a / 30 deg/s`,
 /// which would look like a / (30 deg/s).
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Quantity {
@@ -160,15 +159,15 @@ enum Quantity {
     Yes,
 }
 
-struct Reading<'a> {
+struct Classifier<'a> {
     lexemes: &'a [Lexeme<'a>],
     names: &'a FxHashSet<&'a str>,
     range: Range<usize>,
     printed: Option<usize>,
-    /// That of the declaration.
+    /// Keyword of the declaration.
     keyword: &'a str,
     brackets: Vec<Bracket>,
-    /// What stands before, comments aside.
+    /// The class of the previous lexeme that is no comment.
     before: Option<Class>,
     cells: Cells,
     quantity: Quantity,
@@ -177,7 +176,7 @@ struct Reading<'a> {
     takes_name: bool,
 }
 
-impl<'a> Reading<'a> {
+impl<'a> Classifier<'a> {
     fn word(&mut self, k: usize) -> Word {
         let class = self.class(k);
         let spaces = self.spaces(k, class);
@@ -252,7 +251,7 @@ impl<'a> Reading<'a> {
         }
     }
 
-    /// Whether `from` or `to` begins the window of a reduction.
+    /// Returns whether `from` or `to` begins the window of a reduction.
     fn begins_window(&self, k: usize) -> bool {
         let is_argument = self.before == Some(Class::Comma) && self.brackets.last() == Some(&Bracket::Arguments);
         let is_apart = |behind: &Lexeme<'_>| behind.start > self.lexemes[k].end();
@@ -263,7 +262,7 @@ impl<'a> Reading<'a> {
     fn begin(&mut self, keyword: &'a str) {
         let is_first = self.before.is_none();
         self.keyword = keyword;
-        self.takes_name = is_before_a_name(keyword) && keyword != "use";
+        self.takes_name = declares_name(keyword) && keyword != "use";
         // what stands in a block on one line has no columns
         if is_first {
             let has_cells = !matches!(keyword, "ground" | "analysis" | "gravity" | "mechanism");
@@ -309,7 +308,7 @@ impl<'a> Reading<'a> {
         }
     }
 
-    /// Whether a unit stands behind a lexeme, with its power or alone.
+    /// Returns whether a unit stands behind a lexeme, with its power or alone.
     fn is_a_unit_behind(&self, k: usize) -> bool {
         let mut behind = self.lexemes[k + 1..self.range.end].iter().filter(|lexeme| !lexeme.is_comment());
         // `min` is none, but meant as one; `t` is the time
@@ -393,7 +392,7 @@ impl<'a> Reading<'a> {
     }
 }
 
-/// Where columns begin behind the name of a declaration.
+/// Returns where columns begin behind the name of a declaration.
 fn cells_of(keyword: &str) -> Cells {
     match keyword {
         "joint" | "part" | "load" => Cells::Colon,
@@ -405,7 +404,7 @@ fn cells_of(keyword: &str) -> Cells {
     }
 }
 
-/// Whether the lexemes behind a `^` are a whole number, which may be negative.
+/// Returns whether the lexemes behind a `^` are a whole number, which may be negative.
 fn is_exponent<'a>(mut behind: impl Iterator<Item = &'a Lexeme<'a>>) -> bool {
     let mut next = behind.next();
     if next.is_some_and(|lexeme| lexeme.text == "-") {

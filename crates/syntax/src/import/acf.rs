@@ -10,22 +10,22 @@ use mechc_text::diag::Diagnostics;
 /// More steps than this are not counted on: each must be a number of its own.
 const MOST_STEPS: f64 = 9e15;
 
-/// How many digits a step may have to be written as a number.
+/// Maximum number of digits of a step that is written as a number.
 const STEP_DIGITS: usize = 6;
 
 /// The analysis that a settings file asks for.
-pub(super) fn read(value: &Value, said: &mut Diagnostics) -> Option<Item> {
+pub(super) fn read(value: &Value, diagnostics: &mut Diagnostics) -> Option<Item> {
     let Kind::Object(members) = &value.kind else {
         let message = format!("settings must be an object, found {}", value.describe());
-        said.push(errors::fault(value.span, message, "expected `{`"));
+        diagnostics.push(errors::fault(value.span, message, "expected `{`"));
         return None;
     };
     let place = members.first().map_or(value.span, |(key, _)| key.span);
     let fields = Fields::new(value, "the settings file", place);
-    simulation(value, said);
-    let end = fields.number_with("tend", (|t| t > 0.0, "positive"), said);
+    simulation(value, diagnostics);
+    let end = fields.number_with("tend", (|t| t > 0.0, "positive"), diagnostics);
     let whole = |n: f64| (1.0..=MOST_STEPS).contains(&n) && n % 1.0 == 0.0;
-    let steps = fields.number_with("outputSteps", (whole, "a positive whole number"), said);
+    let steps = fields.number_with("outputSteps", (whole, "a positive whole number"), diagnostics);
     let (end, steps) = (end?, steps?);
     let from = build::quantity(0.0, "s", end.span, build::Zero::WithUnit);
     let to = build::quantity(end.value, "s", end.span, build::Zero::WithUnit);
@@ -34,19 +34,19 @@ pub(super) fn read(value: &Value, said: &mut Diagnostics) -> Option<Item> {
     Some(Item { docs: Vec::new(), span, ranges: Vec::new(), kind: ItemKind::Analysis { from, to, every } })
 }
 
-fn simulation(value: &Value, said: &mut Diagnostics) {
+fn simulation(value: &Value, diagnostics: &mut Diagnostics) {
     let Some(simulation) = value.get("simulation") else {
         return;
     };
     let wanted = "`Kinematics` or `Dynamics`";
     match &simulation.kind {
         Kind::Text(text) if text.text == "Kinematics" => {}
-        Kind::Text(text) if text.text == "Dynamics" => said.push(errors::only_kinematics(text.span)),
+        Kind::Text(text) if text.text == "Dynamics" => diagnostics.push(errors::only_kinematics(text.span)),
         Kind::Text(text) => {
             let message = format!("`simulation` must be {wanted}, found `{}`", text.text);
-            said.push(errors::fault(text.span, message, format!("expected {wanted}")));
+            diagnostics.push(errors::fault(text.span, message, format!("expected {wanted}")));
         }
-        _ => said.push(errors::wrong_type("simulation", wanted, simulation)),
+        _ => diagnostics.push(errors::wrong_type("simulation", wanted, simulation)),
     }
 }
 

@@ -1,8 +1,7 @@
-//! A model file as typed data: bodies and constraints, with everything checked that can be checked without the
-//! language that it goes to.
+//! A model file as typed data: bodies and constraints, with everything checked that can be checked without the language that it goes to.
 
 use super::errors;
-use super::fields::{Fields, Number, Vector, name_of, objects, place_of};
+use super::fields::{Fields, Number, Vector, location_of, name_of, objects};
 use super::matlab::{self, Formula};
 use super::value::{Kind as Json, Quoted, Value};
 use mechc_text::diag::{Diagnostic, Diagnostics};
@@ -37,7 +36,7 @@ pub(super) enum Coordinate {
     Y,
 }
 
-/// What a constraint says of its bodies, which are positions in the list.
+/// Kinds of constraints; bodies are positions in the list.
 pub(super) enum Kind {
     Point { coordinate: Coordinate, body: usize, point: Vector<2>, formula: Formula },
     Angle { body: usize, formula: Formula },
@@ -61,38 +60,39 @@ pub(super) struct RackPinion {
 const TYPES: &[&str] =
     &["AbsoluteX", "AbsoluteY", "AbsoluteAngle", "RevoluteJoint", "TranslationalJoint", "RackPinion"];
 
-/// Reads a model; `None` where it is none at all. Every mistake that is found is said.
-pub(super) fn read<'a>(value: &'a Value, said: &mut Diagnostics) -> Option<Model<'a>> {
+/// Reads a model; `None` if the file is not a model. Reports every mistake that it finds.
+pub(super) fn read<'a>(value: &'a Value, diagnostics: &mut Diagnostics) -> Option<Model<'a>> {
     let Json::Object(members) = &value.kind else {
         let message = format!("a model must be an object, found {}", value.describe());
-        said.push(errors::fault(value.span, message, "expected `{`"));
+        diagnostics.push(errors::fault(value.span, message, "expected `{`"));
         return None;
     };
     // an object without keys is short enough to be shown whole
     let place = members.first().map_or(value.span, |(key, _)| key.span);
     let fields = Fields::new(value, "the model", place);
-    let name = name_of(value, said);
-    let bodies = fields.list("bodies", said);
-    let constraints = fields.list("constraints", said);
+    let name = name_of(value, diagnostics);
+    let bodies = fields.list("bodies", diagnostics);
+    let constraints = fields.list("constraints", diagnostics);
     let (bodies, constraints) = (bodies?, constraints?);
     if bodies.is_empty() {
         let span = value.get("bodies").map_or(place, |list| list.span);
-        said.push(errors::fault(span, "the model has no bodies", "an empty list"));
+        diagnostics.push(errors::fault(span, "the model has no bodies", "an empty list"));
     }
     let count = bodies.len();
-    let bodies = objects("bodies", bodies, said).into_iter().filter_map(|object| body(object, said)).collect();
-    let constraints = objects("constraints", constraints, said)
+    let bodies =
+        objects("bodies", bodies, diagnostics).into_iter().filter_map(|object| body(object, diagnostics)).collect();
+    let constraints = objects("constraints", constraints, diagnostics)
         .into_iter()
-        .filter_map(|object| Reader::new(object, count).constraint(said))
+        .filter_map(|object| Reader::new(object, count).constraint(diagnostics))
         .collect();
     Some(Model { name, place, bodies, constraints })
 }
 
-fn body<'a>(object: &'a Value, said: &mut Diagnostics) -> Option<Body<'a>> {
-    let place = place_of(object);
-    let name = name_of(object, said);
+fn body<'a>(object: &'a Value, diagnostics: &mut Diagnostics) -> Option<Body<'a>> {
+    let place = location_of(object);
+    let name = name_of(object, diagnostics);
     let what = name.map_or("the body".to_owned(), |name| format!("body `{}`", name.text));
-    let pose = Fields::new(object, what, place).vector("q0", "[0, 0, 0]", said)?;
+    let pose = Fields::new(object, what, place).vector("q0", "[0, 0, 0]", diagnostics)?;
     Some(Body { name, place, pose })
 }
 
@@ -101,13 +101,13 @@ struct Reader<'a> {
     object: &'a Value,
     fields: Fields<'a>,
     place: Span,
-    /// How many bodies there are.
+    /// Number of bodies.
     bodies: usize,
 }
 
 impl<'a> Reader<'a> {
     fn new(object: &'a Value, bodies: usize) -> Reader<'a> {
-        let place = place_of(object);
+        let place = location_of(object);
         let name = match object.get("name").map(|name| &name.kind) {
             Some(Json::Text(name)) => format!("constraint `{}`", name.text),
             _ => "the constraint".to_owned(),
@@ -115,56 +115,56 @@ impl<'a> Reader<'a> {
         Reader { object, fields: Fields::new(object, name, place), place, bodies }
     }
 
-    fn constraint(&self, said: &mut Diagnostics) -> Option<Constraint<'a>> {
-        let name = name_of(self.object, said);
-        let kind = self.fields.text("type", &format!("`\"type\": \"{}\"`, say", TYPES[3]), said)?;
+    fn constraint(&self, diagnostics: &mut Diagnostics) -> Option<Constraint<'a>> {
+        let name = name_of(self.object, diagnostics);
+        let kind = self.fields.text("type", &format!("`\"type\": \"{}\"`, say", TYPES[3]), diagnostics)?;
         let kind = match kind.text.as_str() {
-            "AbsoluteX" => self.point(Coordinate::X, said),
-            "AbsoluteY" => self.point(Coordinate::Y, said),
+            "AbsoluteX" => self.point(Coordinate::X, diagnostics),
+            "AbsoluteY" => self.point(Coordinate::Y, diagnostics),
             "AbsoluteAngle" => {
-                let body = self.body("body1", said);
-                let formula = self.formula(said);
+                let body = self.body("body1", diagnostics);
+                let formula = self.formula(diagnostics);
                 body.zip(formula).map(|(body, formula)| Kind::Angle { body, formula })
             }
             "RevoluteJoint" => {
-                let (bodies, points) = (self.two_bodies(said), self.two_points(said));
+                let (bodies, points) = (self.two_bodies(diagnostics), self.two_points(diagnostics));
                 bodies.zip(points).map(|(bodies, points)| Kind::Revolute { bodies, points })
             }
-            "TranslationalJoint" => self.translational(said),
-            "RackPinion" => self.rack_pinion(said),
+            "TranslationalJoint" => self.translational(diagnostics),
+            "RackPinion" => self.rack_pinion(diagnostics),
             unknown => {
-                said.push(errors::unknown_type(unknown, kind.span, TYPES));
+                diagnostics.push(errors::unknown_type(unknown, kind.span, TYPES));
                 None
             }
         };
         Some(Constraint { name, place: self.place, kind: kind? })
     }
 
-    fn point(&self, coordinate: Coordinate, said: &mut Diagnostics) -> Option<Kind> {
-        let body = self.body("body1", said);
-        let point = self.fields.vector("sP1", "[0, 0]", said);
-        let formula = self.formula(said);
+    fn point(&self, coordinate: Coordinate, diagnostics: &mut Diagnostics) -> Option<Kind> {
+        let body = self.body("body1", diagnostics);
+        let point = self.fields.vector("sP1", "[0, 0]", diagnostics);
+        let formula = self.formula(diagnostics);
         Some(Kind::Point { coordinate, body: body?, point: point?, formula: formula? })
     }
 
-    fn translational(&self, said: &mut Diagnostics) -> Option<Kind> {
-        let (bodies, points) = (self.two_bodies(said), self.two_points(said));
-        let (first, second) = (self.direction("vP1", said), self.direction("vP2", said));
+    fn translational(&self, diagnostics: &mut Diagnostics) -> Option<Kind> {
+        let (bodies, points) = (self.two_bodies(diagnostics), self.two_points(diagnostics));
+        let (first, second) = (self.direction("vP1", diagnostics), self.direction("vP2", diagnostics));
         Some(Kind::Translational { bodies: bodies?, points: points?, directions: [first?, second?] })
     }
 
-    fn rack_pinion(&self, said: &mut Diagnostics) -> Option<Kind> {
-        let bodies = self.two_bodies(said);
-        let p: Option<Vector<2>> = self.fields.vector("sP1", "[0, 0]", said);
-        let q: Option<Vector<2>> = self.fields.vector("sQ1", "[1, 0]", said);
-        let center = self.fields.vector("sP2", "[0, 0]", said);
-        let radius = self.fields.number_with("R2", (|r| r > 0.0, "positive"), said);
-        let (theta1, theta2) = (self.fields.number("theta1", said), self.fields.number("theta2", said));
+    fn rack_pinion(&self, diagnostics: &mut Diagnostics) -> Option<Kind> {
+        let bodies = self.two_bodies(diagnostics);
+        let p: Option<Vector<2>> = self.fields.vector("sP1", "[0, 0]", diagnostics);
+        let q: Option<Vector<2>> = self.fields.vector("sQ1", "[1, 0]", diagnostics);
+        let center = self.fields.vector("sP2", "[0, 0]", diagnostics);
+        let radius = self.fields.number_with("R2", (|r| r > 0.0, "positive"), diagnostics);
+        let (theta1, theta2) = (self.fields.number("theta1", diagnostics), self.fields.number("theta2", diagnostics));
         if let (Some(p), Some(q)) = (p, q)
             && p.values.iter().zip(q.values).all(|(&p, q)| same(p, q))
         {
             let message = "the pitch line needs two points, and `sP1` and `sQ1` are one";
-            said.push(errors::fault(q.span, message, "the same point").also(p.span, "this point"));
+            diagnostics.push(errors::fault(q.span, message, "the same point").also(p.span, "this point"));
             return None;
         }
         let [rack, pinion] = bodies?;
@@ -172,22 +172,27 @@ impl<'a> Reader<'a> {
         Some(Kind::RackPinion(RackPinion { rack, pinion, p: p?, q: q?, center: center?, radius: radius?, phases }))
     }
 
-    fn direction(&self, key: &str, said: &mut Diagnostics) -> Option<Vector<2>> {
-        let direction: Vector<2> = self.fields.vector(key, "[1, 0]", said)?;
+    fn direction(&self, key: &str, diagnostics: &mut Diagnostics) -> Option<Vector<2>> {
+        let direction: Vector<2> = self.fields.vector(key, "[1, 0]", diagnostics)?;
         if direction.values.iter().all(|&x| same(x, 0.0)) {
-            said.push(errors::fault(direction.span, format!("`{key}` is a direction of length zero"), "no direction"));
+            diagnostics.push(errors::fault(
+                direction.span,
+                format!("`{key}` is a direction of length zero"),
+                "no direction",
+            ));
             return None;
         }
         Some(direction)
     }
 
-    fn two_points(&self, said: &mut Diagnostics) -> Option<[Vector<2>; 2]> {
-        let (first, second) = (self.fields.vector("sP1", "[0, 0]", said), self.fields.vector("sP2", "[0, 0]", said));
+    fn two_points(&self, diagnostics: &mut Diagnostics) -> Option<[Vector<2>; 2]> {
+        let (first, second) =
+            (self.fields.vector("sP1", "[0, 0]", diagnostics), self.fields.vector("sP2", "[0, 0]", diagnostics));
         Some([first?, second?])
     }
 
-    fn two_bodies(&self, said: &mut Diagnostics) -> Option<[usize; 2]> {
-        let (first, second) = (self.body("body1", said), self.body("body2", said));
+    fn two_bodies(&self, diagnostics: &mut Diagnostics) -> Option<[usize; 2]> {
+        let (first, second) = (self.body("body1", diagnostics), self.body("body2", diagnostics));
         let (first, second) = (first?, second?);
         if first == second {
             let span = |key| self.object.get(key).map_or(self.place, |value| value.span);
@@ -195,30 +200,30 @@ impl<'a> Reader<'a> {
                 Json::Text(name) => &name.text,
                 _ => "",
             });
-            said.push(errors::with_itself(name, span("body1"), span("body2")));
+            diagnostics.push(errors::with_itself(name, span("body1"), span("body2")));
             return None;
         }
         Some([first, second])
     }
 
     /// A body by its position from 1, as a position from 0.
-    fn body(&self, key: &str, said: &mut Diagnostics) -> Option<usize> {
-        let number = self.fields.number(key, said)?;
+    fn body(&self, key: &str, diagnostics: &mut Diagnostics) -> Option<usize> {
+        let number = self.fields.number(key, diagnostics)?;
         // a whole number prints without a point, and nothing else reads back as one
         let position = number.value.to_string().parse().ok().filter(|k| (1..=self.bodies).contains(k));
         if position.is_none() {
-            said.push(errors::no_such_body(key, number.value, number.span, self.bodies));
+            diagnostics.push(errors::no_such_body(key, number.value, number.span, self.bodies));
         }
         position.map(|position| position - 1)
     }
 
-    fn formula(&self, said: &mut Diagnostics) -> Option<Formula> {
-        let text = self.fields.text("fun", "`\"fun\": \"0\"`, say", said)?;
-        matlab::translate(text).map_err(|fault| said.push(*fault)).ok()
+    fn formula(&self, diagnostics: &mut Diagnostics) -> Option<Formula> {
+        let text = self.fields.text("fun", "`\"fun\": \"0\"`, say", diagnostics)?;
+        matlab::translate(text).map_err(|fault| diagnostics.push(*fault)).ok()
     }
 }
 
-/// Whether two numbers are one and the same.
+/// Returns whether two numbers are equal.
 fn same(a: f64, b: f64) -> bool {
     a.partial_cmp(&b).is_some_and(std::cmp::Ordering::is_eq)
 }
@@ -237,7 +242,7 @@ pub(super) fn left_behind(model: &Value) -> Option<Diagnostic> {
         1 => what.push("1 force".to_owned()),
         count => what.push(format!("{count} forces")),
     }
-    let mut places: Vec<Span> = forces.into_iter().map(place_of).collect();
+    let mut places: Vec<Span> = forces.into_iter().map(location_of).collect();
     let has = |key: &str| model.get(key).is_some();
     let of_a_body = |key: &str| items("bodies").iter().any(|body| body.get(key).is_some());
     for (there, name) in [

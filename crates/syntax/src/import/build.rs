@@ -3,7 +3,7 @@
 use crate::ast::{Expr, ExprKind, Name};
 use mechc_text::source::Span;
 
-/// How a zero is written.
+/// Notation of a zero.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Zero {
     /// `0`, which fits anything.

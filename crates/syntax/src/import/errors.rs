@@ -1,4 +1,4 @@
-//! What is said of a model file that cannot be translated, and of what its translation changed or left behind.
+//! Diagnostics for a model file that cannot be translated, and for what its translation changed or left out.
 
 use super::value::{Rule, Value};
 use crate::DEEPEST;
@@ -25,7 +25,7 @@ pub(super) fn number_not_finite(span: Span) -> Diagnostic {
     fault(span, "this number is not finite", "not finite")
 }
 
-/// What the parser of JSON could not go on with, in human words.
+/// Reports a text that the parser of JSON rejects.
 pub(super) fn not_json(error: &Error<Rule>, text: &str, file: FileId) -> Diagnostic {
     let offset = match error.location {
         InputLocation::Pos(at) | InputLocation::Span((at, _)) => at,
@@ -55,7 +55,7 @@ pub(super) fn not_json(error: &Error<Rule>, text: &str, file: FileId) -> Diagnos
     };
     let shown = if word.is_empty() { "the end of the file".to_owned() } else { format!("`{word}`") };
     fault(span, format!("expected {expected}, found {shown}"), format!("expected {expected}"))
-        .help_if(mend(word, text, start))
+        .help_if(suggestion(word, text, start))
 }
 
 /// A string that does not end, or that holds an escape which is none.
@@ -111,7 +111,7 @@ fn expectation(rules: &[Rule]) -> String {
     if words.is_empty() { last.to_owned() } else { format!("{} or {last}", words.join(", ")) }
 }
 
-fn mend(found: &str, text: &str, at: usize) -> Option<String> {
+fn suggestion(found: &str, text: &str, at: usize) -> Option<String> {
     let before = text.get(..at).unwrap_or("").trim_end();
     let help = if matches!(found, "]" | "}") && before.ends_with(',') {
         "the last `,` is one too many"
@@ -128,9 +128,9 @@ fn mend(found: &str, text: &str, at: usize) -> Option<String> {
 // ---- keys and values
 
 /// A value of the wrong type.
-pub(super) fn wrong_type(key: &str, wanted: &str, found: &Value) -> Diagnostic {
-    let message = format!("`{key}` must be {wanted}, found {}", found.describe());
-    fault(found.span, message, format!("expected {wanted}"))
+pub(super) fn wrong_type(key: &str, expected: &str, found: &Value) -> Diagnostic {
+    let message = format!("`{key}` must be {expected}, found {}", found.describe());
+    fault(found.span, message, format!("expected {expected}"))
 }
 
 /// A key that is not there.
@@ -138,10 +138,10 @@ pub(super) fn missing(what: &str, key: &str, place: Span, help: &str) -> Diagnos
     fault(place, format!("{what} has no `{key}`"), format!("`{key}` is missing")).help(format!("add {help}"))
 }
 
-pub(super) fn unknown_type(name: &str, span: Span, known: &[&str]) -> Diagnostic {
-    let help = match nearest(name, known.iter().copied()) {
+pub(super) fn unknown_type(name: &str, span: Span, types: &[&str]) -> Diagnostic {
+    let help = match nearest(name, types.iter().copied()) {
         Some(near) => format!("was `{near}` meant?"),
-        None => format!("the types are {}", known.join(", ")),
+        None => format!("the types are {}", types.join(", ")),
     };
     fault(span, format!("an unknown type of constraint: `{name}`"), "unknown").help(help)
 }
@@ -172,7 +172,7 @@ pub(super) fn formula_too_large(span: Span) -> Diagnostic {
         .help("functions like `floor` and `round` name their argument twice; nest fewer of them")
 }
 
-// ---- what is told of a translation that succeeded
+// ---- notes on a translation that succeeded
 
 /// A name that could not stay.
 pub(super) fn renamed(what: &str, old: &str, new: &str, span: Span, why: &str) -> Diagnostic {
@@ -184,7 +184,7 @@ pub(super) fn named(what: &str, new: &str, span: Span) -> Diagnostic {
     Diagnostic::new(Code::N0702, format!("the {what} without a name is called `{new}`")).at(span, "it has no `name`")
 }
 
-/// What a kinematic model has no place for.
+/// Reports what a kinematic model does not support.
 pub(super) fn left_behind(what: &[String], places: Vec<Span>) -> Diagnostic {
     let listed = match what.split_last() {
         Some((last, [])) => last.clone(),

@@ -13,16 +13,16 @@ pub(super) struct Features {
     points: Vec<Point>,
     axes: Vec<Axis>,
     circles: Vec<Circle>,
-    /// Where a point, an axis or a circle is in its list, by its numbers: models may have many.
-    known: FxHashMap<Key, usize>,
+    /// Positions of points, axes and circles in their lists, by their values: models may have many.
+    positions: FxHashMap<Key, usize>,
     used: FxHashSet<String>,
     next: FxHashMap<String, u32>,
 }
 
-/// What makes a feature one and the same: its kind, the position of its point, and the bits of its numbers.
+/// Identity of a feature: its kind, the position of its point, and the bits of its numbers.
 type Key = (&'static str, usize, [u64; 2]);
 
-/// What a point is for.
+/// Purpose of a point.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub(super) enum Purpose {
     /// A joint with another body, of this name.
@@ -51,7 +51,7 @@ struct Axis {
     name: String,
 }
 
-/// How an axis goes on from its point.
+/// Direction of an axis from its point.
 #[derive(Clone)]
 pub(super) enum Line {
     /// In a direction.
@@ -71,7 +71,7 @@ impl Features {
     /// The point at a place, made at its first use.
     pub fn point(&mut self, at: [f64; 2], span: Span, purpose: Purpose) -> usize {
         let count = self.points.len();
-        let position = *self.known.entry(("point", 0, at.map(f64::to_bits))).or_insert(count);
+        let position = *self.positions.entry(("point", 0, at.map(f64::to_bits))).or_insert(count);
         match self.points.get_mut(position) {
             Some(point) => point.purposes.push(purpose),
             None => self.points.push(Point { at, span, purposes: vec![purpose], name: String::new() }),
@@ -86,7 +86,7 @@ impl Features {
             Line::Along(direction) => ("along", origin, direction.map(f64::to_bits)),
             Line::To { numbers, .. } => ("to", origin, numbers.map(f64::to_bits)),
         };
-        let position = *self.known.entry(key).or_insert(count);
+        let position = *self.positions.entry(key).or_insert(count);
         if position == count {
             self.axes.push(Axis { origin, line, span, name: String::new() });
         }
@@ -96,7 +96,7 @@ impl Features {
     /// A circle around one of the points.
     pub fn circle(&mut self, center: usize, radius: f64, span: Span) -> usize {
         let count = self.circles.len();
-        let position = *self.known.entry(("circle", center, [radius.to_bits(), 0])).or_insert(count);
+        let position = *self.positions.entry(("circle", center, [radius.to_bits(), 0])).or_insert(count);
         if position == count {
             self.circles.push(Circle { center, radius, span, name: String::new() });
         }
@@ -106,8 +106,8 @@ impl Features {
     /// Gives every feature its name; after this, none is added.
     pub fn name(&mut self) {
         for k in 0..self.points.len() {
-            let wanted = self.points.get(k).map_or("P".to_owned(), |point| purpose_in_a_word(&point.purposes));
-            let name = self.free(&wanted);
+            let preferred = self.points.get(k).map_or("P".to_owned(), |point| purpose_in_a_word(&point.purposes));
+            let name = self.free(&preferred);
             if let Some(point) = self.points.get_mut(k) {
                 point.name = name;
             }
@@ -156,7 +156,7 @@ impl Features {
         self.circles.get(position).map_or("", |circle| &circle.name)
     }
 
-    /// As declarations: points, then what goes through them.
+    /// Returns the declarations: points, then axes and circles.
     pub fn declarations(&self) -> Vec<Feature> {
         let feature = |name: &str, span: Span, kind: FeatureKind| Feature {
             docs: Vec::new(),

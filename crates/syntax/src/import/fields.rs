@@ -1,5 +1,4 @@
-//! Keys of JSON objects as what they must be: a number, a vector, a string. What is wrong is said once, with its
-//! place, and the reading goes on.
+//! Typed access to keys of JSON objects: numbers, vectors, strings. Each mistake is reported once, with its span, and reading continues.
 
 use super::errors;
 use super::value::{Kind, Quoted, Value};
@@ -9,9 +8,9 @@ use mechc_text::source::Span;
 /// An object whose keys are asked for.
 pub(super) struct Fields<'a> {
     object: &'a Value,
-    /// What it is, for messages: "constraint `rev`".
+    /// Description for messages: "constraint `rev`".
     what: String,
-    /// Where to say that something is missing: a word of it rather than all its lines.
+    /// Span for messages about missing keys: a word of the object rather than all its lines.
     place: Span,
 }
 
@@ -35,18 +34,18 @@ impl<'a> Fields<'a> {
     }
 
     /// A value that has to be there.
-    pub fn required(&self, key: &str, help: &str, said: &mut Diagnostics) -> Option<&'a Value> {
+    pub fn required(&self, key: &str, help: &str, diagnostics: &mut Diagnostics) -> Option<&'a Value> {
         let value = self.object.get(key);
         if value.is_none() {
-            said.push(errors::missing(&self.what, key, self.place, help));
+            diagnostics.push(errors::missing(&self.what, key, self.place, help));
         }
         value
     }
 
-    pub fn number(&self, key: &str, said: &mut Diagnostics) -> Option<Number> {
-        let value = self.required(key, &format!("`\"{key}\": …`, a number"), said)?;
+    pub fn number(&self, key: &str, diagnostics: &mut Diagnostics) -> Option<Number> {
+        let value = self.required(key, &format!("`\"{key}\": …`, a number"), diagnostics)?;
         let Kind::Number(number) = value.kind else {
-            said.push(errors::wrong_type(key, "a number", value));
+            diagnostics.push(errors::wrong_type(key, "a number", value));
             return None;
         };
         Some(Number { value: number, span: value.span })
@@ -57,22 +56,22 @@ impl<'a> Fields<'a> {
         &self,
         key: &str,
         (holds, wanted): (impl Fn(f64) -> bool, &str),
-        said: &mut Diagnostics,
+        diagnostics: &mut Diagnostics,
     ) -> Option<Number> {
-        let number = self.number(key, said)?;
+        let number = self.number(key, diagnostics)?;
         if !holds(number.value) {
             let message = format!("`{key}` must be {wanted}, it is {}", readable(number.value));
-            said.push(errors::fault(number.span, message, format!("expected {wanted}")));
+            diagnostics.push(errors::fault(number.span, message, format!("expected {wanted}")));
             return None;
         }
         Some(number)
     }
 
-    pub fn vector<const N: usize>(&self, key: &str, example: &str, said: &mut Diagnostics) -> Option<Vector<N>> {
-        let value = self.required(key, &format!("`\"{key}\": {example}`"), said)?;
+    pub fn vector<const N: usize>(&self, key: &str, example: &str, diagnostics: &mut Diagnostics) -> Option<Vector<N>> {
+        let value = self.required(key, &format!("`\"{key}\": {example}`"), diagnostics)?;
         let wanted = format!("a list of {N} numbers");
         let Kind::List(list) = &value.kind else {
-            said.push(errors::wrong_type(key, &wanted, value));
+            diagnostics.push(errors::wrong_type(key, &wanted, value));
             return None;
         };
         let mut sound = true;
@@ -82,7 +81,7 @@ impl<'a> Fields<'a> {
                 // −0 and 0 are one place
                 numbers.push(number + 0.0);
             } else {
-                said.push(errors::wrong_type(key, &wanted, item));
+                diagnostics.push(errors::wrong_type(key, &wanted, item));
                 sound = false;
             }
         }
@@ -92,13 +91,13 @@ impl<'a> Fields<'a> {
         let values = <[f64; N]>::try_from(numbers).ok();
         if values.is_none() {
             let message = format!("`{key}` must be {wanted}, found {}", list.len());
-            said.push(errors::fault(value.span, message, format!("expected {wanted}")));
+            diagnostics.push(errors::fault(value.span, message, format!("expected {wanted}")));
         }
         Some(Vector { values: values?, span: value.span })
     }
 
-    pub fn text(&self, key: &str, help: &str, said: &mut Diagnostics) -> Option<&'a Quoted> {
-        let value = self.required(key, help, said)?;
+    pub fn text(&self, key: &str, help: &str, diagnostics: &mut Diagnostics) -> Option<&'a Quoted> {
+        let value = self.required(key, help, diagnostics)?;
         if let Kind::Text(text) = &value.kind {
             return Some(text);
         }
@@ -106,33 +105,33 @@ impl<'a> Fields<'a> {
             Kind::Number(number) => Some(format!("write it in quotes: `\"{key}\": \"{number}\"`")),
             _ => None,
         };
-        said.push(errors::wrong_type(key, "a string", value).help_if(quoted));
+        diagnostics.push(errors::wrong_type(key, "a string", value).help_if(quoted));
         None
     }
 
     /// A list that has to be there.
-    pub fn list(&self, key: &str, said: &mut Diagnostics) -> Option<&'a [Value]> {
-        let value = self.required(key, &format!("`\"{key}\": […]`"), said)?;
+    pub fn list(&self, key: &str, diagnostics: &mut Diagnostics) -> Option<&'a [Value]> {
+        let value = self.required(key, &format!("`\"{key}\": […]`"), diagnostics)?;
         if let Kind::List(list) = &value.kind {
             return Some(list);
         }
-        said.push(errors::wrong_type(key, "a list", value));
+        diagnostics.push(errors::wrong_type(key, "a list", value));
         None
     }
 }
 
 /// A `name` that may be missing but not of another type.
-pub(super) fn name_of<'a>(object: &'a Value, said: &mut Diagnostics) -> Option<&'a Quoted> {
+pub(super) fn name_of<'a>(object: &'a Value, diagnostics: &mut Diagnostics) -> Option<&'a Quoted> {
     let value = object.get("name")?;
     if let Kind::Text(text) = &value.kind {
         return Some(text);
     }
-    said.push(errors::wrong_type("name", "a string", value));
+    diagnostics.push(errors::wrong_type("name", "a string", value));
     None
 }
 
 /// A word of an object to point at: its name, else its first key, else its opening brace.
-pub(super) fn place_of(object: &Value) -> Span {
+pub(super) fn location_of(object: &Value) -> Span {
     match &object.kind {
         Kind::Object(members) => {
             let name = members.iter().find(|(key, value)| key.text == "name" && matches!(value.kind, Kind::Text(_)));
@@ -144,9 +143,9 @@ pub(super) fn place_of(object: &Value) -> Span {
 }
 
 /// Says of a list's items that are no objects that they should be, and gives the others.
-pub(super) fn objects<'a>(key: &str, list: &'a [Value], said: &mut Diagnostics) -> Vec<&'a Value> {
+pub(super) fn objects<'a>(key: &str, list: &'a [Value], diagnostics: &mut Diagnostics) -> Vec<&'a Value> {
     let (objects, others): (Vec<_>, Vec<_>) = list.iter().partition(|item| matches!(item.kind, Kind::Object(_)));
     let faults = others.into_iter().map(|other| errors::wrong_type(key, "a list of objects", other));
-    said.extend(faults.collect::<Vec<Diagnostic>>());
+    diagnostics.extend(faults.collect::<Vec<Diagnostic>>());
     objects
 }

@@ -149,7 +149,7 @@ fn next_character(text: &str) -> Option<(char, usize)> {
     if first != '\\' {
         return Some((first, first.len_utf8()));
     }
-    let meant = match characters.next()? {
+    let character = match characters.next()? {
         'b' => '\u{8}',
         'f' => '\u{c}',
         'n' => '\n',
@@ -158,7 +158,7 @@ fn next_character(text: &str) -> Option<(char, usize)> {
         'u' => return Some(code_point(text)),
         other => other,
     };
-    Some((meant, 2))
+    Some((character, 2))
 }
 
 /// `\u0074`, or a pair of surrogates; half a pair stands for no character.

@@ -1,9 +1,8 @@
 //! MATLAB formulas of `t` to formulas of the language.
 //!
-//! All values are real scalars, so that `.*` is `*`, and a transposing `'` does nothing. Where MATLAB groups otherwise
-//! than the language (`2^3^2` is `(2^3)^2`), the tree says what MATLAB means; the parentheses come with its printing.
-//! What has no counterpart is refused with its place. Values are not computed here: that a constant is infinite is for
-//! `check` to find.
+//! All values are real scalars, so that `.*` is `*`, and a transposing `'` does nothing. Where MATLAB groups otherwise than the language (`2^3^2` is
+//! `(2^3)^2`), the tree says what MATLAB means; the parentheses come with its printing. What has no counterpart is refused with its place. Values are
+//! not computed here: that a constant is infinite is for `check` to find.
 
 mod functions;
 mod parser;
@@ -20,7 +19,7 @@ use mechc_text::source::Sources;
 /// A formula of the language, with the places of the MATLAB text that it comes from.
 pub(super) struct Formula {
     pub expression: Expr,
-    /// Whether `t` is in it.
+    /// True if it contains `t`.
     pub uses_time: bool,
 }
 
@@ -57,7 +56,7 @@ fn reads_back(expression: &Expr) -> bool {
     parse_expression(&sources, file).is_ok()
 }
 
-/// How large a formula is.
+/// Size of a formula.
 struct Size {
     parts: usize,
     height: usize,

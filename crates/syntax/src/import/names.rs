@@ -17,36 +17,35 @@ pub(super) struct Names {
 }
 
 /// Something of the model that needs a name.
-pub(super) struct Wanted<'a> {
-    /// What it is: "body".
+pub(super) struct NameRequest<'a> {
+    /// Kind of thing: "body".
     pub what: &'static str,
-    /// What it is called in the model.
+    /// Name in the model.
     pub name: Option<&'a Quoted>,
-    /// Where to say that it has no name.
+    /// Span for the message that it has no name.
     pub place: Span,
 }
 
-/// Names for all of these, in one space: who has a name of his own keeps it, also from one whose name has to be
-/// changed. Every change is told.
-pub(super) fn assign(wanted: &[Wanted<'_>], said: &mut Diagnostics) -> (Vec<String>, Names) {
+/// Assigns unique names in one namespace. Valid names are kept, and take precedence over changed ones. Reports every change.
+pub(super) fn assign(requests: &[NameRequest<'_>], diagnostics: &mut Diagnostics) -> (Vec<String>, Names) {
     let mut names = Names::default();
-    let kept: Vec<Option<String>> = wanted
+    let kept: Vec<Option<String>> = requests
         .iter()
         .map(|one| {
             let name = syntax::normalized(&one.name?.text);
             (why_not(&name).is_none() && names.used.insert(name.clone())).then_some(name)
         })
         .collect();
-    let list = wanted.iter().zip(kept).map(|(one, kept)| {
+    let list = requests.iter().zip(kept).map(|(one, kept)| {
         kept.unwrap_or_else(|| {
             let Some(old) = one.name else {
                 let new = names.free(&format!("{}_1", one.what));
-                said.push(errors::named(one.what, &new, one.place));
+                diagnostics.push(errors::named(one.what, &new, one.place));
                 return new;
             };
             let new = names.free(&valid(&old.text, &format!("{}_1", one.what)));
             let why = why_not(&syntax::normalized(&old.text)).unwrap_or("this name is taken");
-            said.push(errors::renamed(one.what, &old.text, &new, old.span, why));
+            diagnostics.push(errors::renamed(one.what, &old.text, &new, old.span, why));
             new
         })
     });
@@ -54,7 +53,7 @@ pub(super) fn assign(wanted: &[Wanted<'_>], said: &mut Diagnostics) -> (Vec<Stri
 }
 
 impl Names {
-    /// A name that nobody has: this one, or this one with a number.
+    /// Returns an unused name: this one, or this one with a number.
     pub fn free(&mut self, name: &str) -> String {
         if why_not(name).is_none() && self.used.insert(name.to_owned()) {
             return name.to_owned();
@@ -76,10 +75,10 @@ impl Names {
 }
 
 /// The name of the mechanism, which shares its space with nothing.
-pub(super) fn of_the_mechanism(name: Option<&Quoted>, place: Span, file: &str, said: &mut Diagnostics) -> String {
+pub(super) fn mechanism_name(name: Option<&Quoted>, place: Span, file: &str, diagnostics: &mut Diagnostics) -> String {
     let Some(old) = name else {
         let new = valid(file, "imported");
-        said.push(errors::named("model", &new, place));
+        diagnostics.push(errors::named("model", &new, place));
         return new;
     };
     let name = syntax::normalized(&old.text);
@@ -89,7 +88,7 @@ pub(super) fn of_the_mechanism(name: Option<&Quoted>, place: Span, file: &str, s
     let new = valid(&old.text, "imported");
     let new = if syntax::is_name(&new) { new } else { format!("{new}_1") };
     let why = why_not(&name).unwrap_or("this is no name");
-    said.push(errors::renamed("model", &old.text, &new, old.span, why));
+    diagnostics.push(errors::renamed("model", &old.text, &new, old.span, why));
     new
 }
 

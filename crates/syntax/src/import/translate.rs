@@ -9,28 +9,28 @@ use super::errors;
 use super::features::{Features, Line, Purpose};
 use super::fields::Vector;
 use super::matlab::Formula;
-use super::names::{self, Names, Wanted};
+use super::names::{self, NameRequest, Names};
 use crate::ast::{DrawnPose, Expr, ExprKind, Factor, Item, ItemKind, Mechanism, Sign};
 use mechc_text::diag::Diagnostics;
 use mechc_text::source::Span;
 use std::f64::consts::PI;
 
-/// How long a number may be to stand for the formula that it is the value of.
+/// Longest number that replaces the formula with its value.
 const SHORT: usize = 10;
 
-/// The mechanism that a model describes; `None` where a mistake stands in the way, which has been said.
-pub(super) fn mechanism(model: &Model<'_>, file: &str, said: &mut Diagnostics) -> Option<Mechanism> {
+/// Returns the mechanism that a model describes; `None` after a mistake, which has been reported.
+pub(super) fn mechanism(model: &Model<'_>, file: &str, diagnostics: &mut Diagnostics) -> Option<Mechanism> {
     let (stem, origin) = origin(file);
-    let name = names::of_the_mechanism(model.name, model.place, &stem, said);
-    let wanted: Vec<Wanted<'_>> = model
+    let name = names::mechanism_name(model.name, model.place, &stem, diagnostics);
+    let requests: Vec<NameRequest<'_>> = model
         .bodies
         .iter()
-        .map(|body| Wanted { what: "body", name: body.name, place: body.place })
-        .chain(model.constraints.iter().map(|one| Wanted { what: "constraint", name: one.name, place: one.place }))
+        .map(|body| NameRequest { what: "body", name: body.name, place: body.place })
+        .chain(model.constraints.iter().map(|one| NameRequest { what: "constraint", name: one.name, place: one.place }))
         .collect();
-    let (list, names) = names::assign(&wanted, said);
+    let (list, names) = names::assign(&requests, diagnostics);
     let (bodies, constraints) = list.split_at_checked(model.bodies.len())?;
-    if said.has_errors() {
+    if diagnostics.has_errors() {
         return None;
     }
     let features = bodies.iter().map(|_| Features::default()).collect();
@@ -39,9 +39,9 @@ pub(super) fn mechanism(model: &Model<'_>, file: &str, said: &mut Diagnostics) -
         .constraints
         .iter()
         .zip(constraints)
-        .filter_map(|(constraint, name)| translator.plan(&constraint.kind, name, said))
+        .filter_map(|(constraint, name)| translator.plan(&constraint.kind, name, diagnostics))
         .collect();
-    if said.has_errors() {
+    if diagnostics.has_errors() {
         return None;
     }
     for features in &mut translator.features {
@@ -79,7 +79,7 @@ struct Translator<'a> {
     bodies: &'a [String],
     /// For each body.
     features: Vec<Features>,
-    /// What is taken in the mechanism's space.
+    /// Names of the mechanism's space.
     names: Names,
 }
 
@@ -111,7 +111,7 @@ impl Translator<'_> {
     }
 
     /// Makes the features that a constraint of this name needs.
-    fn plan<'m>(&mut self, kind: &'m Kind, name: &str, said: &mut Diagnostics) -> Option<Plan<'m>> {
+    fn plan<'m>(&mut self, kind: &'m Kind, name: &str, diagnostics: &mut Diagnostics) -> Option<Plan<'m>> {
         Some(match kind {
             Kind::Angle { body, formula } => Plan::Angle { body: *body, formula },
             Kind::Point { coordinate, body, point, formula } => {
@@ -132,18 +132,18 @@ impl Translator<'_> {
                 }
                 Plan::Translational { bodies: *bodies, axes }
             }
-            Kind::RackPinion(parts) => self.plan_rack(parts, name, said)?,
+            Kind::RackPinion(parts) => self.plan_rack(parts, name, diagnostics)?,
         })
     }
 
-    fn plan_rack<'m>(&mut self, parts: &'m RackPinion, name: &str, said: &mut Diagnostics) -> Option<Plan<'m>> {
+    fn plan_rack<'m>(&mut self, parts: &'m RackPinion, name: &str, diagnostics: &mut Diagnostics) -> Option<Plan<'m>> {
         let (p, q) = (parts.p, parts.q);
         let [[px, py], [qx, qy]] = [p.values, q.values];
         let far = [2.0 * qx - px, 2.0 * qy - py];
         let [theta1, theta2] = parts.phases.map(|phase| phase.value);
         let offset = parts.radius.value * (theta1 - theta2 + 3.0 * PI / 2.0);
         if !(far.iter().all(|x| x.is_finite()) && offset.is_finite()) {
-            said.push(errors::fault(q.span, "the rack's measures are too large", "not finite"));
+            diagnostics.push(errors::fault(q.span, "the rack's measures are too large", "not finite"));
             return None;
         }
         let span = q.span;
@@ -237,8 +237,7 @@ fn equation(name: &str, left: Expr, formula: &Formula, unit: fn(f64, Span) -> Ex
     Item { docs: Vec::new(), span, ranges: Vec::new(), kind: ItemKind::Equation { driver, name, left, right } }
 }
 
-/// A coordinate of `2Q − P`, the point as far beyond Q as P is before it: as a number where that is exact, else as a
-/// formula.
+/// A coordinate of `2Q − P`, the point as far beyond Q as P is before it: as a number where that is exact, else as a formula.
 fn beyond(p: f64, q: f64, span: Span) -> Expr {
     let doubled = 2.0 * q;
     let far = doubled - p;

@@ -20,7 +20,7 @@ pub(super) struct Value {
     pub kind: Kind,
 }
 
-/// What a value is.
+/// Kinds of values.
 #[derive(Debug)]
 pub(super) enum Kind {
     Null,
@@ -35,7 +35,7 @@ pub(super) enum Kind {
 #[derive(Clone, Debug)]
 pub(super) struct Quoted {
     pub text: String,
-    /// With its quotes.
+    /// Span with its quotes.
     pub span: Span,
     /// For each byte of the text and its end, the offset in the file; empty where nothing was escaped.
     pub places: Vec<u32>,
@@ -66,7 +66,7 @@ impl Value {
         }
     }
 
-    /// What it is, in words.
+    /// Returns its kind in words.
     pub fn describe(&self) -> &'static str {
         match &self.kind {
             Kind::Null => "`null`",

@@ -1,44 +1,44 @@
-//! The catalogue: every code, declared once, by area. Its page is `explain/CODE.md`.
+//! Catalogue of diagnostic codes by area. The page of each code is `explain/CODE.md`.
 
 use super::Severity;
 
 macro_rules! catalogue {
     ($($area:literal { $($code:ident $severity:ident $title:literal)* })*) => {
-        /// A stable code; its number never changes its meaning.
+        /// A stable code; the meaning of a number never changes.
         #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
         pub enum Code {
             $($(#[doc = $title] $code,)*)*
         }
 
         impl Code {
-            /// The whole catalogue, in order.
+            /// All codes in order.
             pub const ALL: &'static [Code] = &[$($(Code::$code),*),*];
 
-            /// As printed: `E0201`.
+            /// Returns the code as printed: `E0201`.
             #[must_use]
             pub fn as_str(self) -> &'static str {
                 match self { $($(Code::$code => stringify!($code)),*),* }
             }
 
-            /// How grave it is.
+            /// Returns the severity.
             #[must_use]
             pub fn severity(self) -> Severity {
                 match self { $($(Code::$code => Severity::$severity),*),* }
             }
 
-            /// What it means, in a line.
+            /// Returns the meaning in one line.
             #[must_use]
             pub fn title(self) -> &'static str {
                 match self { $($(Code::$code => $title),*),* }
             }
 
-            /// The area of the catalogue that it stands in: `names`.
+            /// Returns the area of the catalogue: `names`.
             #[must_use]
             pub fn area(self) -> &'static str {
                 match self { $($(Code::$code => $area),*),* }
             }
 
-            /// Its page, in Markdown: what it means, an example that fails, why, the example mended.
+            /// Returns the page in Markdown: the meaning, a faulty example, the reason, and the corrected example.
             #[must_use]
             pub fn page(self) -> &'static str {
                 match self {
@@ -159,7 +159,7 @@ catalogue! {
 }
 
 impl Code {
-    /// The code of a name as a user types it: `E0203`, `e0203`.
+    /// Returns the code for a name as a user types it: `E0203`, `e0203`.
     #[must_use]
     pub fn named(name: &str) -> Option<Code> {
         Code::ALL.iter().copied().find(|code| code.as_str().eq_ignore_ascii_case(name))

@@ -1,82 +1,82 @@
-//! Mends as data: what to change in the text, beside the words that propose it.
+//! Fixes: edits of the text with a message that proposes them.
 
 use crate::source::{FileId, Sources, Span};
 
-/// Whether a fix can be made without asking.
+/// Confidence of a fix.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Applies {
-    /// It says what the text can only have meant.
+pub enum Applicability {
+    /// Correct in every case; tools may apply it without asking.
     Always,
-    /// It is what was probably meant; whoever wrote the text decides.
+    /// Probably what was intended; the author decides.
     Probably,
 }
 
-impl Applies {
-    /// As it stands in JSON.
+impl Applicability {
+    /// Returns the word for JSON.
     #[must_use]
     pub fn as_str(self) -> &'static str {
         match self {
-            Applies::Always => "always",
-            Applies::Probably => "probably",
+            Applicability::Always => "always",
+            Applicability::Probably => "probably",
         }
     }
 }
 
-/// A stretch of a text with what is to stand there instead.
+/// Replacement of a span.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Edit {
-    /// What goes; nothing, where something is put in.
+    /// Span to replace; empty for an insertion.
     pub span: Span,
-    /// What comes.
+    /// New text.
     pub text: String,
 }
 
-/// A change of the text that mends what a diagnostic speaks of.
+/// A set of edits that resolves a diagnostic.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Fix {
-    /// What it proposes, as a reader is told.
+    /// Message that proposes the fix.
     pub message: String,
-    /// None of them overlaps another one.
+    /// Edits, which do not overlap.
     pub edits: Vec<Edit>,
-    /// Whether it can be made without asking.
-    pub applies: Applies,
+    /// Confidence.
+    pub applies: Applicability,
 }
 
 impl Fix {
-    /// Writes something in the place of a span.
+    /// Creates a fix that replaces a span.
     #[must_use]
-    pub fn replace(span: Span, text: impl Into<String>, message: impl Into<String>, applies: Applies) -> Fix {
+    pub fn replace(span: Span, text: impl Into<String>, message: impl Into<String>, applies: Applicability) -> Fix {
         Fix { message: message.into(), edits: vec![Edit { span, text: text.into() }], applies }
     }
 
-    /// Writes something right before a span.
+    /// Creates a fix that inserts text before a span.
     #[must_use]
-    pub fn insert(before: Span, text: impl Into<String>, message: impl Into<String>, applies: Applies) -> Fix {
+    pub fn insert(before: Span, text: impl Into<String>, message: impl Into<String>, applies: Applicability) -> Fix {
         Fix::replace(Span { end: before.start, ..before }, text, message, applies)
     }
 
-    /// Writes something right behind a span.
+    /// Creates a fix that inserts text after a span.
     #[must_use]
-    pub fn append(behind: Span, text: impl Into<String>, message: impl Into<String>, applies: Applies) -> Fix {
-        Fix::replace(Span { start: behind.end, ..behind }, text, message, applies)
+    pub fn append(after: Span, text: impl Into<String>, message: impl Into<String>, applies: Applicability) -> Fix {
+        Fix::replace(Span { start: after.end, ..after }, text, message, applies)
     }
 
-    /// "was `NAME` meant?"
+    /// Creates the fix "was `NAME` meant?", which replaces a span.
     #[must_use]
     pub fn meant(span: Span, name: &str) -> Fix {
-        Fix::replace(span, name, format!("was `{name}` meant?"), Applies::Probably)
+        Fix::replace(span, name, format!("was `{name}` meant?"), Applicability::Probably)
     }
 }
 
-/// The text of a file with fixes made in it, and which of them were: of those that overlap, the first one.
+/// Applies fixes to the text of a file. Returns the text and the applied fixes; of overlapping fixes only the first one is applied.
 #[must_use]
 pub fn fixed<'f>(sources: &Sources, file: FileId, fixes: impl IntoIterator<Item = &'f Fix>) -> (String, Vec<&'f Fix>) {
-    let (mut made, mut edits): (Vec<&Fix>, Vec<&Edit>) = (Vec::new(), Vec::new());
+    let (mut applied, mut edits): (Vec<&Fix>, Vec<&Edit>) = (Vec::new(), Vec::new());
     for fix in fixes {
         let is_here = fix.edits.iter().all(|edit| edit.span.file == file);
         let is_free = fix.edits.iter().all(|edit| edits.iter().all(|other| !overlap(edit.span, other.span)));
         if is_here && is_free {
-            made.push(fix);
+            applied.push(fix);
             edits.extend(&fix.edits);
         }
     }
@@ -88,17 +88,17 @@ pub fn fixed<'f>(sources: &Sources, file: FileId, fixes: impl IntoIterator<Item 
         out += &edit.text;
         at = edit.span.end as usize;
     }
-    (out + &text[at..], made)
+    (out + &text[at..], applied)
 }
 
-/// Whether two spans share text, or a place where something would be put in.
+/// Returns whether two spans share text or a start.
 fn overlap(a: Span, b: Span) -> bool {
     a.start < b.end && b.start < a.end || a.start == b.start
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{Applies, Fix, fixed};
+    use super::{Applicability, Fix, fixed};
     use crate::source::{Sources, Span};
 
     #[test]
@@ -106,10 +106,10 @@ mod tests {
         let mut sources = Sources::default();
         let file = sources.add("a.mech", "a == b; c");
         let span = |start, end| Span { file, start, end };
-        let equals = Fix::replace(span(2, 4), "=", "one `=`", Applies::Always);
-        let other = Fix::replace(span(3, 6), "", "drop", Applies::Always);
-        let end = Fix::replace(span(6, 7), "", "no `;`", Applies::Always);
-        let (text, made) = fixed(&sources, file, [&equals, &other, &end]);
-        assert_eq!((text.as_str(), made.len()), ("a = b c", 2));
+        let equals = Fix::replace(span(2, 4), "=", "one `=`", Applicability::Always);
+        let other = Fix::replace(span(3, 6), "", "drop", Applicability::Always);
+        let end = Fix::replace(span(6, 7), "", "no `;`", Applicability::Always);
+        let (text, applied) = fixed(&sources, file, [&equals, &other, &end]);
+        assert_eq!((text.as_str(), applied.len()), ("a = b c", 2));
     }
 }

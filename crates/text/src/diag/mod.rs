@@ -1,72 +1,75 @@
-//! What the compiler says to its user.
+//! Diagnostics of the compiler.
 //!
-//! A diagnostic is data: a code of the catalogue, one sentence, places with a word each, and the mend. The words are
-//! written beside the phase that finds the fault; this module only holds them and renders them. It knows nothing of
-//! mechanisms.
+//! A diagnostic is data: a code of the catalogue, a message, labelled spans, and fixes. Each phase words its own faults; this module only
+//! stores and renders them, and does not depend on the language.
 
-mod blame;
 mod codes;
 mod fix;
 mod nearest;
 mod number;
+mod options;
 mod render;
+mod responsibility;
 
-pub use blame::Blame;
 pub use codes::Code;
-pub use fix::{Applies, Edit, Fix, fixed};
+pub use fix::{Applicability, Edit, Fix, fixed};
 pub use nearest::nearest;
 pub use number::readable;
-pub use render::{Color, Format, render, render_made, visible};
+pub use options::OptionText;
+pub use render::{Color, Format, render, render_applied, visible};
+pub use responsibility::Responsibility;
 
 use crate::source::Span;
 use rustc_hash::FxHashSet;
 use serde_json::{Map, Value};
 
-/// How grave a diagnostic is.
+/// Severity of a diagnostic.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub enum Severity {
-    /// Worth knowing; nothing to mend.
+    /// Information that needs no change.
     Note,
-    /// Probably not what was meant.
+    /// Probably not intended.
     Warning,
-    /// Nothing can be computed.
+    /// Prevents a result.
     Error,
 }
 
-/// A place in the text with what is to be said of it.
+/// A span with a remark.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Label {
-    /// Where.
+    /// Span.
     pub span: Span,
-    /// What is there; may be empty.
+    /// Remark; may be empty.
     pub text: String,
-    /// Whether this is the place of the fault, rather than one that helps to see it.
+    /// True for the location of the fault, false for related locations.
     pub primary: bool,
 }
 
-/// One thing to tell the user.
+/// A message to the user.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Diagnostic {
-    /// Its entry in the catalogue.
+    /// Entry of the catalogue.
     pub code: Code,
-    /// The headline: one fact, lower case, no full stop.
+    /// Headline: one fact, lower case, no full stop.
     pub message: String,
-    /// Places, the primary one first.
+    /// Labels, the primary one first.
     pub labels: Vec<Label>,
-    /// More facts.
+    /// Further facts.
     pub notes: Vec<String>,
-    /// What to write instead.
+    /// Suggestions as text.
     pub help: Vec<String>,
-    /// The changes of the text that the help proposes.
+    /// Suggestions as edits.
     pub fixes: Vec<Fix>,
-    /// What could be driven to mend it, each the left side of a driver's equation: `rotation(main)`.
+    /// Quantities that a new driver could prescribe to resolve the fault, each as the left side of an equation: `rotation(main)`.
     pub drives: Vec<String>,
-    /// The numbers of the message, for other programs.
+    /// Names of the declarations that are redundant, which pictures mark; empty if the labels show all that is at fault.
+    pub redundant: Vec<String>,
+    /// Values of the message for other programs.
     pub data: Map<String, Value>,
 }
 
 impl Diagnostic {
-    /// A diagnostic without a place yet.
+    /// Creates a diagnostic without labels.
     #[must_use]
     pub fn new(code: Code, message: impl Into<String>) -> Diagnostic {
         Diagnostic {
@@ -77,33 +80,34 @@ impl Diagnostic {
             help: Vec::new(),
             fixes: Vec::new(),
             drives: Vec::new(),
+            redundant: Vec::new(),
             data: Map::new(),
         }
     }
 
-    /// The place of the fault, and what is there.
+    /// Adds the location of the fault.
     #[must_use]
     pub fn at(mut self, span: Span, text: impl Into<String>) -> Diagnostic {
         self.labels.push(Label { span, text: text.into(), primary: true });
         self
     }
 
-    /// A place that helps to understand the fault.
+    /// Adds a related location.
     #[must_use]
     pub fn also(mut self, span: Span, text: impl Into<String>) -> Diagnostic {
         self.labels.push(Label { span, text: text.into(), primary: false });
         self
     }
 
-    /// Where a part is used whose text, or whose copy of it, is at fault.
+    /// Adds the location where the part at fault is used.
     #[must_use]
     pub fn in_part(self, path: &str, used_at: Span) -> Diagnostic {
         self.also(used_at, format!("in part `{path}`, used here"))
     }
 
-    /// Moves the blame to a place that brought the faulty one in.
+    /// Adds a primary label for the cause of the fault; the other labels become related locations.
     #[must_use]
-    pub fn raised_by(mut self, span: Span, text: impl Into<String>) -> Diagnostic {
+    pub fn caused_by(mut self, span: Span, text: impl Into<String>) -> Diagnostic {
         for label in &mut self.labels {
             label.primary = false;
         }
@@ -111,28 +115,28 @@ impl Diagnostic {
         self
     }
 
-    /// A further fact.
+    /// Adds a fact.
     #[must_use]
     pub fn note(mut self, text: impl Into<String>) -> Diagnostic {
         self.notes.push(text.into());
         self
     }
 
-    /// What to write instead.
+    /// Adds a suggestion.
     #[must_use]
     pub fn help(mut self, text: impl Into<String>) -> Diagnostic {
         self.help.push(text.into());
         self
     }
 
-    /// What could be driven, which the help says in words.
+    /// Sets the quantities that a driver could prescribe, which the help names.
     #[must_use]
     pub fn drives(mut self, quantities: Vec<String>) -> Diagnostic {
         self.drives = quantities;
         self
     }
 
-    /// The help, where there is one.
+    /// Adds a suggestion if there is one.
     #[must_use]
     pub fn help_if(self, text: Option<String>) -> Diagnostic {
         match text {
@@ -141,7 +145,7 @@ impl Diagnostic {
         }
     }
 
-    /// What to write instead, in words and as the change of the text that they propose.
+    /// Adds a fix and its message as a suggestion.
     #[must_use]
     pub fn fix(mut self, fix: Fix) -> Diagnostic {
         self.help.push(fix.message.clone());
@@ -149,14 +153,14 @@ impl Diagnostic {
         self
     }
 
-    /// The change of the text for what the help says already.
+    /// Adds the edits for a suggestion that is already in the help.
     #[must_use]
     pub fn change(mut self, fix: Option<Fix>) -> Diagnostic {
         self.fixes.extend(fix);
         self
     }
 
-    /// The fix, where there is one.
+    /// Adds a fix if there is one.
     #[must_use]
     pub fn fix_if(self, fix: Option<Fix>) -> Diagnostic {
         match fix {
@@ -165,7 +169,7 @@ impl Diagnostic {
         }
     }
 
-    /// The fix alone, whatever else was proposed.
+    /// Replaces all suggestions and fixes by one fix.
     #[must_use]
     pub fn instead(mut self, fix: Fix) -> Diagnostic {
         self.help.clear();
@@ -173,85 +177,92 @@ impl Diagnostic {
         self.fix(fix)
     }
 
-    /// A number of the message, for other programs.
+    /// Adds a value for other programs.
     #[must_use]
     pub fn datum(mut self, name: &str, value: impl Into<Value>) -> Diagnostic {
         self.data.insert(name.to_owned(), value.into());
         self
     }
 
-    /// How grave it is.
+    /// Names the declarations that are redundant, also for other programs.
+    #[must_use]
+    pub fn redundant(mut self, names: Vec<String>) -> Diagnostic {
+        self.redundant.clone_from(&names);
+        self.datum("redundant", names)
+    }
+
+    /// Returns the severity of the code.
     #[must_use]
     pub fn severity(&self) -> Severity {
         self.code.severity()
     }
 
-    /// Whether it is more than a remark.
+    /// Returns whether this is an error.
     #[must_use]
     pub fn is_error(&self) -> bool {
         self.severity() == Severity::Error
     }
 }
 
-/// What a pass found, in the order of finding.
+/// Diagnostics of a pass, in the order in which it found them.
 #[derive(Clone, PartialEq, Debug, Default)]
 pub struct Diagnostics {
     list: Vec<Diagnostic>,
-    said: FxHashSet<(Code, Option<Span>, String)>,
+    keys: FxHashSet<(Code, Option<Span>, String)>,
 }
 
 impl Diagnostics {
-    /// Adds one; the same code at the same place is said once.
+    /// Adds a diagnostic, unless one with the same code, primary span and message exists.
     pub fn push(&mut self, diagnostic: Diagnostic) {
-        let place = diagnostic.labels.first().map(|label| label.span);
-        if self.said.insert((diagnostic.code, place, diagnostic.message.clone())) {
+        let span = diagnostic.labels.first().map(|label| label.span);
+        if self.keys.insert((diagnostic.code, span, diagnostic.message.clone())) {
             self.list.push(diagnostic);
         }
     }
 
-    /// Whether anything forbids to go on.
+    /// Returns whether there is an error.
     #[must_use]
     pub fn has_errors(&self) -> bool {
         self.list.iter().any(Diagnostic::is_error)
     }
 
-    /// How many.
+    /// Returns the number of diagnostics.
     #[must_use]
     pub fn len(&self) -> usize {
         self.list.len()
     }
 
-    /// Whether there is nothing to say.
+    /// Returns whether there are no diagnostics.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.list.is_empty()
     }
 
-    /// In the order of finding.
+    /// Returns the diagnostics in order.
     pub fn iter(&self) -> impl Iterator<Item = &Diagnostic> {
         self.list.iter()
     }
 
-    /// Leaves of each code at each place the first: what is wrong in every copy of a declaration.
-    pub fn tell_once(&mut self) {
-        let mut told: FxHashSet<(Code, Span)> = FxHashSet::default();
-        self.list.retain(|d| d.labels.first().is_none_or(|label| told.insert((d.code, label.span))));
+    /// Keeps only the first diagnostic of each code and primary span: copies of a declaration repeat its faults.
+    pub fn dedup_by_span(&mut self) {
+        let mut keys: FxHashSet<(Code, Span)> = FxHashSet::default();
+        self.list.retain(|d| d.labels.first().is_none_or(|label| keys.insert((d.code, label.span))));
     }
 
-    /// Forgets those behind a number of them.
+    /// Keeps only the first `len` diagnostics.
     pub fn truncate(&mut self, len: usize) {
         self.list.truncate(len);
     }
 
-    /// Where a part is used that brought in all but the first ones.
-    pub fn in_part_from(&mut self, from: usize, path: &str, used_at: Span) {
-        let told = self.list.split_off(from.min(self.list.len()));
-        self.list.extend(told.into_iter().map(|diagnostic| diagnostic.in_part(path, used_at)));
+    /// Adds the location where a part is used to all diagnostics from index `from` on.
+    pub fn annotate_part(&mut self, from: usize, path: &str, used_at: Span) {
+        let moved = self.list.split_off(from.min(self.list.len()));
+        self.list.extend(moved.into_iter().map(|diagnostic| diagnostic.in_part(path, used_at)));
     }
 
-    /// By their place in the text, so that a reader meets them from top to bottom.
-    pub fn sort_by_place(&mut self) {
-        self.list.sort_by_key(|d| d.labels.first().map(|l| l.span));
+    /// Sorts the diagnostics by their primary span.
+    pub fn sort_by_span(&mut self) {
+        self.list.sort_by_key(|d| d.labels.first().map(|label| label.span));
     }
 }
 

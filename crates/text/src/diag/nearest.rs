@@ -1,21 +1,21 @@
-//! "Did you mean": the nearest of the names in scope.
+//! "Did you mean": the nearest name in scope.
 
-/// The name that `wanted` was probably meant to be, if any is near enough.
+/// Returns the name that `wanted` most probably stands for.
 ///
-/// Near enough is one mistake in three characters; a difference of case alone always is.
+/// It has at most one mistake per three characters, rounded up; a name that differs only in case always qualifies.
 #[must_use]
-pub fn nearest<'a>(wanted: &str, names: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
-    let lower = wanted.to_lowercase();
-    let limit = wanted.chars().count().div_ceil(3);
+pub fn nearest<'a>(misspelled: &str, names: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    let lower = misspelled.to_lowercase();
+    let limit = misspelled.chars().count().div_ceil(3);
     names
         .into_iter()
-        .filter(|name| *name != wanted)
+        .filter(|name| *name != misspelled)
         .map(|name| {
-            let same_but_case = name.to_lowercase() == lower;
-            let distance = if same_but_case { 0 } else { strsim::damerau_levenshtein(wanted, name) };
+            let differs_in_case = name.to_lowercase() == lower;
+            let distance = if differs_in_case { 0 } else { strsim::damerau_levenshtein(misspelled, name) };
             (distance, name)
         })
-        // one letter for another says nothing
+        // a replacement of every letter proves nothing
         .filter(|&(distance, name)| distance <= limit && (distance == 0 || distance < name.chars().count()))
         .min_by_key(|&(distance, _)| distance)
         .map(|(_, name)| name)

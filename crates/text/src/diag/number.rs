@@ -1,6 +1,6 @@
-//! Numbers as a reader wants them.
+//! Numbers in a form for readers.
 
-/// The shortest decimal that reads back to the same number, with an exponent where there would be more zeros than digits.
+/// Formats a number as the shortest decimal that reads back to the same value, with an exponent if it is very large or small.
 #[must_use]
 pub fn readable(value: f64) -> String {
     let size = value.abs();

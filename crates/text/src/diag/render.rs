@@ -1,6 +1,6 @@
-//! Diagnostics as text: for people through `codespan-reporting`, as one line each, or as JSON.
+//! Diagnostics as text: for readers through `codespan-reporting`, as one line each, or as JSON.
 //!
-//! The only file that knows the rendering library.
+//! No other file uses the rendering library.
 
 use super::{Diagnostic, Edit, Fix, Label, Severity};
 use crate::source::{FileId, Source, Sources, Span, is_control};
@@ -11,22 +11,22 @@ use serde_json::{Value, json};
 use std::borrow::Cow;
 use std::ops::Range;
 
-/// A line longer than this is not shown with its marker: it would flood the terminal.
+/// Length limit of a line that is shown with labels (bytes): a longer one would flood the terminal.
 const LONGEST_LINE: usize = 500;
 
-/// How diagnostics are written.
+/// Output format of diagnostics.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub enum Format {
-    /// With the lines they speak of.
+    /// With source lines.
     #[default]
     Human,
-    /// A line each: `file:line:column: error[E0201]: message`.
+    /// One line each: `file:line:column: error[E0201]: message`.
     Short,
-    /// A JSON object a line.
+    /// One JSON object per line.
     Json,
 }
 
-/// Whether the human format uses terminal colours.
+/// Use of terminal colours in the human format.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub enum Color {
     /// Plain text.
@@ -36,18 +36,18 @@ pub enum Color {
     Always,
 }
 
-/// One diagnostic as text, line ends included.
+/// Renders a diagnostic with its line ends.
 #[must_use]
 pub fn render(diagnostic: &Diagnostic, sources: &Sources, format: Format, color: Color) -> String {
     match format {
-        Format::Human if fits_a_terminal(diagnostic, sources) => human(&harmless(diagnostic), sources, color),
-        Format::Human => without_lines(&harmless(diagnostic), sources),
-        Format::Short => short(&harmless(diagnostic), sources),
-        Format::Json => format!("{}\n", escaped(as_json(diagnostic, sources).to_string())),
+        Format::Human if has_short_lines(diagnostic, sources) => human(&without_controls(diagnostic), sources, color),
+        Format::Human => without_lines(&without_controls(diagnostic), sources),
+        Format::Short => short(&without_controls(diagnostic), sources),
+        Format::Json => format!("{}\n", escape_controls(as_json(diagnostic, sources).to_string())),
     }
 }
 
-/// A text with pictures in the place of control characters, `␛` for the one that begins commands to a terminal.
+/// Replaces control characters by visible ones, for example the escape character by `␛`.
 #[must_use]
 pub fn visible(text: &str) -> Cow<'_, str> {
     if !text.contains(is_control) {
@@ -62,26 +62,26 @@ pub fn visible(text: &str) -> Cow<'_, str> {
     Cow::Owned(text.replace("\r\n", "\n").chars().map(picture).collect())
 }
 
-/// A text that is shown beside marks: with others of as many bytes in the place of control characters.
-fn in_place(text: &str) -> Cow<'_, str> {
+/// Replaces control characters by others of the same number of bytes, which keeps offsets of labels valid.
+fn mask_controls(text: &str) -> Cow<'_, str> {
     if !text.contains(is_control) {
         return Cow::Borrowed(text);
     }
     let other = |c: char| match c.len_utf8() {
-        // the line ends behind it
+        // the carriage return of a line end is handled below
         _ if !is_control(c) || c == '\r' => c,
         1 => '?',
         2 => '¿',
         _ => char::REPLACEMENT_CHARACTER,
     };
     let shown: String = text.chars().map(other).collect();
-    // one that no end of line follows goes back to the line's begin
+    // a carriage return without a line feed would overwrite its line
     let lines: Vec<&str> = shown.split("\r\n").collect();
     Cow::Owned(lines.into_iter().map(|line| line.replace('\r', "?")).collect::<Vec<_>>().join("\r\n"))
 }
 
-/// What is said, without control characters.
-fn harmless(diagnostic: &Diagnostic) -> Cow<'_, Diagnostic> {
+/// Replaces the control characters in all texts of a diagnostic.
+fn without_controls(diagnostic: &Diagnostic) -> Cow<'_, Diagnostic> {
     let texts = || {
         let labels = diagnostic.labels.iter().map(|label| &label.text);
         labels.chain(&diagnostic.notes).chain(&diagnostic.help).chain([&diagnostic.message])
@@ -97,8 +97,8 @@ fn harmless(diagnostic: &Diagnostic) -> Cow<'_, Diagnostic> {
     Cow::Owned(shown)
 }
 
-/// JSON in which no control character stands as it is.
-fn escaped(json: String) -> String {
+/// Escapes control characters in JSON.
+fn escape_controls(json: String) -> String {
     if !json.contains(is_control) {
         return json;
     }
@@ -106,21 +106,21 @@ fn escaped(json: String) -> String {
     json.chars().map(escape).collect()
 }
 
-/// A fix that was made, as a line of text: ``file:line:column: message: `**` → `^` ``.
+/// Renders a fix that was applied, as one line: ``file:line:column: message: `**` → `^` ``.
 #[must_use]
-pub fn render_made(fix: &Fix, sources: &Sources, format: Format) -> String {
+pub fn render_applied(fix: &Fix, sources: &Sources, format: Format) -> String {
     if format == Format::Json {
-        return format!("{}\n", escaped(json!({ "fixed": fix_as_json(fix, sources) }).to_string()));
+        return format!("{}\n", escape_controls(json!({ "fixed": fix_as_json(fix, sources) }).to_string()));
     }
-    let place = fix.edits.first().map_or(String::new(), |edit| format!("{}: ", place(edit.span, sources)));
-    let edits: Vec<String> = fix.edits.iter().map(|edit| edit_in_words(edit, sources)).collect();
-    format!("{place}{}: {}\n", visible(&fix.message), visible(&edits.join(", ")))
+    let location = fix.edits.first().map_or(String::new(), |edit| format!("{}: ", location(edit.span, sources)));
+    let edits: Vec<String> = fix.edits.iter().map(|edit| describe_edit(edit, sources)).collect();
+    format!("{location}{}: {}\n", visible(&fix.message), visible(&edits.join(", ")))
 }
 
-/// How much of a text that was changed is shown (in characters).
+/// Length limit of the changed text that is shown (characters).
 const LONGEST_EDIT: usize = 30;
 
-fn edit_in_words(edit: &Edit, sources: &Sources) -> String {
+fn describe_edit(edit: &Edit, sources: &Sources) -> String {
     let shown = |text: &str| {
         let text = text.trim();
         let line = text.lines().next().unwrap_or_default();
@@ -136,7 +136,7 @@ fn edit_in_words(edit: &Edit, sources: &Sources) -> String {
 }
 
 impl Severity {
-    /// In a word.
+    /// Returns the severity in a word.
     #[must_use]
     pub fn as_str(self) -> &'static str {
         match self {
@@ -168,7 +168,7 @@ fn human(diagnostic: &Diagnostic, sources: &Sources, color: Color) -> String {
     }
     match term::emit_to_write_style(&mut out, &config, sources, &rich) {
         Ok(()) => String::from_utf8_lossy(out.as_slice()).into_owned(),
-        // the text has no such place: say the rest
+        // the span is not in the text: render everything else
         Err(_) => without_lines(diagnostic, sources),
     }
 }
@@ -183,13 +183,13 @@ fn rich_label(label: &Label) -> rich::Label<FileId> {
     rich.with_message(&label.text)
 }
 
-/// `word: text`, further lines of the text indented below its first.
+/// Formats `word: text`, with further lines of the text indented below the first.
 fn aligned(word: &str, text: &str) -> String {
     let indent = format!("\n{}", " ".repeat(word.len() + 2));
     format!("{word}: {}", text.replace('\n', &indent))
 }
 
-fn fits_a_terminal(diagnostic: &Diagnostic, sources: &Sources) -> bool {
+fn has_short_lines(diagnostic: &Diagnostic, sources: &Sources) -> bool {
     diagnostic.labels.iter().all(|label| {
         let source = sources.get(label.span.file);
         let first = source.line_index(label.span.start as usize);
@@ -199,14 +199,15 @@ fn fits_a_terminal(diagnostic: &Diagnostic, sources: &Sources) -> bool {
 }
 
 fn short(diagnostic: &Diagnostic, sources: &Sources) -> String {
-    let place = diagnostic.labels.first().map_or(String::new(), |label| format!("{}: ", place(label.span, sources)));
-    format!("{place}{}[{}]: {}\n", diagnostic.severity().as_str(), diagnostic.code, diagnostic.message)
+    let location =
+        diagnostic.labels.first().map_or(String::new(), |label| format!("{}: ", location(label.span, sources)));
+    format!("{location}{}[{}]: {}\n", diagnostic.severity().as_str(), diagnostic.code, diagnostic.message)
 }
 
 fn without_lines(diagnostic: &Diagnostic, sources: &Sources) -> String {
     let mut text = short(diagnostic, sources);
     for label in diagnostic.labels.iter().filter(|label| !label.text.is_empty()) {
-        text += &format!("  {}: {}\n", place(label.span, sources), label.text);
+        text += &format!("  {}: {}\n", location(label.span, sources), label.text);
     }
     for note in &diagnostic.notes {
         text += &format!("  = {}\n", aligned("note", note));
@@ -217,7 +218,7 @@ fn without_lines(diagnostic: &Diagnostic, sources: &Sources) -> String {
     text + "\n"
 }
 
-fn place(span: Span, sources: &Sources) -> String {
+fn location(span: Span, sources: &Sources) -> String {
     let source = sources.get(span.file);
     let (line, column) = source.position(span.start);
     format!("{}:{line}:{column}", visible(&source.name))
@@ -284,7 +285,7 @@ impl<'a> Files<'a> for Sources {
 
     fn source(&'a self, id: FileId) -> Result<Cow<'a, str>, Error> {
         let source = self.get(id);
-        Ok(if source.has_controls { in_place(&source.text) } else { Cow::Borrowed(&source.text) })
+        Ok(if source.has_controls { mask_controls(&source.text) } else { Cow::Borrowed(&source.text) })
     }
 
     fn line_index(&'a self, id: FileId, byte_index: usize) -> Result<usize, Error> {

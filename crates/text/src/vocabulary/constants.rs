@@ -1,56 +1,56 @@
-//! The names that stand for the same in every mechanism.
+//! Constants: names with the same meaning in every mechanism.
 
 use super::{Category, Example, Word};
 use std::f64::consts::{PI, TAU};
 
-/// A name that is always there.
+/// A constant.
 #[derive(Debug)]
 pub struct Constant {
-    /// What is told of it.
+    /// Documentation.
     pub word: Word,
-    /// What it stands for.
-    pub stands_for: StandsFor,
+    /// Meaning.
+    pub stands_for: NamedConstant,
 }
 
-/// What a constant stands for.
+/// Meaning of a constant.
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub enum StandsFor {
-    /// Time, in seconds.
+pub enum NamedConstant {
+    /// Time (s).
     Time,
-    /// A pure number.
+    /// Pure number.
     Number(f64),
-    /// The body that does not move.
+    /// Body that does not move.
     Ground,
 }
 
-impl StandsFor {
-    /// As a noun.
+impl NamedConstant {
+    /// Returns a noun for messages.
     #[must_use]
     pub fn noun(self) -> &'static str {
         match self {
-            StandsFor::Time => "time",
-            StandsFor::Number(_) => "a constant",
-            StandsFor::Ground => "the body that does not move",
+            NamedConstant::Time => "time",
+            NamedConstant::Number(_) => "a constant",
+            NamedConstant::Ground => "the body that does not move",
         }
     }
 }
 
 impl Constant {
-    /// The constant of a name.
+    /// Returns the constant of a name.
     #[must_use]
     pub fn named(name: &str) -> Option<&'static Constant> {
         CONSTANTS.iter().find(|constant| constant.word.name == name)
     }
 
-    /// The names of those that stand in formulas.
+    /// Returns the names of the constants that formulas may contain.
     pub fn in_formulas() -> impl Iterator<Item = &'static str> {
-        CONSTANTS.iter().filter(|one| one.stands_for != StandsFor::Ground).map(|one| one.word.name)
+        CONSTANTS.iter().filter(|one| one.stands_for != NamedConstant::Ground).map(|one| one.word.name)
     }
 }
 
 const fn constant(
     name: &'static str,
-    stands_for: StandsFor,
+    stands_for: NamedConstant,
     form: &'static [&'static str],
     meaning: &'static str,
     more: &'static str,
@@ -63,11 +63,11 @@ const fn constant(
     }
 }
 
-/// All of them.
+/// All constants.
 pub static CONSTANTS: &[Constant] = &[
     constant(
         "t",
-        StandsFor::Time,
+        NamedConstant::Time,
         &["t"],
         "time, in seconds",
         "It may stand in drivers and measures, and in a `fn` that is used there; a constraint, a place and a length cannot depend \
@@ -76,7 +76,7 @@ pub static CONSTANTS: &[Constant] = &[
     ),
     constant(
         "pi",
-        StandsFor::Number(PI),
+        NamedConstant::Number(PI),
         &["pi"],
         "half a turn, 3.141592653589793",
         "",
@@ -84,7 +84,7 @@ pub static CONSTANTS: &[Constant] = &[
     ),
     constant(
         "tau",
-        StandsFor::Number(TAU),
+        NamedConstant::Number(TAU),
         &["tau"],
         "a whole turn, 2π = 6.283185307179586",
         "",
@@ -92,7 +92,7 @@ pub static CONSTANTS: &[Constant] = &[
     ),
     constant(
         "ground",
-        StandsFor::Ground,
+        NamedConstant::Ground,
         &["ground.P"],
         "the body that does not move",
         "It has no coordinates. Its points, axes, circles and curves are declared in `ground { … }`; a literal point `(x, y)` in a \

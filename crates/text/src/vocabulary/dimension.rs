@@ -1,6 +1,6 @@
 //! Dimensions: powers of length, time and mass. Angles are pure numbers.
 
-/// `lengthᵃ · timeᵇ · massᶜ`; the powers may be fractions, as under a root.
+/// Dimension `lengthᵃ · timeᵇ · massᶜ`. Powers may be fractions, as under a root.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Dimension {
     /// Power of length.
@@ -12,71 +12,71 @@ pub struct Dimension {
 }
 
 impl Dimension {
-    /// No dimension.
-    pub const PURE: Dimension = Dimension::of(0.0, 0.0, 0.0);
-    /// A length.
-    pub const LENGTH: Dimension = Dimension::of(1.0, 0.0, 0.0);
-    /// An area.
-    pub const AREA: Dimension = Dimension::of(2.0, 0.0, 0.0);
-    /// A time.
-    pub const TIME: Dimension = Dimension::of(0.0, 1.0, 0.0);
-    /// One over a time.
-    pub const RATE: Dimension = Dimension::of(0.0, -1.0, 0.0);
-    /// A speed.
-    pub const SPEED: Dimension = Dimension::of(1.0, -1.0, 0.0);
-    /// An acceleration.
-    pub const ACCELERATION: Dimension = Dimension::of(1.0, -2.0, 0.0);
-    /// The acceleration of an angle.
-    pub const ANGULAR_ACCELERATION: Dimension = Dimension::of(0.0, -2.0, 0.0);
-    /// A mass.
-    pub const MASS: Dimension = Dimension::of(0.0, 0.0, 1.0);
-    /// A moment of inertia.
-    pub const INERTIA: Dimension = Dimension::of(2.0, 0.0, 1.0);
-    /// A force.
-    pub const FORCE: Dimension = Dimension::of(1.0, -2.0, 1.0);
-    /// An energy; and a torque, which is an energy for each radian, and a radian is the number 1.
-    pub const ENERGY: Dimension = Dimension::of(2.0, -2.0, 1.0);
-    /// A power.
-    pub const POWER: Dimension = Dimension::of(2.0, -3.0, 1.0);
-    /// A pressure.
-    pub const PRESSURE: Dimension = Dimension::of(-1.0, -2.0, 1.0);
+    /// Pure number.
+    pub const PURE: Dimension = Dimension::new(0.0, 0.0, 0.0);
+    /// Length.
+    pub const LENGTH: Dimension = Dimension::new(1.0, 0.0, 0.0);
+    /// Area.
+    pub const AREA: Dimension = Dimension::new(2.0, 0.0, 0.0);
+    /// Time.
+    pub const TIME: Dimension = Dimension::new(0.0, 1.0, 0.0);
+    /// Inverse time.
+    pub const RATE: Dimension = Dimension::new(0.0, -1.0, 0.0);
+    /// Speed.
+    pub const SPEED: Dimension = Dimension::new(1.0, -1.0, 0.0);
+    /// Acceleration.
+    pub const ACCELERATION: Dimension = Dimension::new(1.0, -2.0, 0.0);
+    /// Angular acceleration.
+    pub const ANGULAR_ACCELERATION: Dimension = Dimension::new(0.0, -2.0, 0.0);
+    /// Mass.
+    pub const MASS: Dimension = Dimension::new(0.0, 0.0, 1.0);
+    /// Moment of inertia.
+    pub const INERTIA: Dimension = Dimension::new(2.0, 0.0, 1.0);
+    /// Force.
+    pub const FORCE: Dimension = Dimension::new(1.0, -2.0, 1.0);
+    /// Energy or torque: a torque is an energy per radian, and a radian is the number 1.
+    pub const ENERGY: Dimension = Dimension::new(2.0, -2.0, 1.0);
+    /// Power.
+    pub const POWER: Dimension = Dimension::new(2.0, -3.0, 1.0);
+    /// Pressure.
+    pub const PRESSURE: Dimension = Dimension::new(-1.0, -2.0, 1.0);
 
-    const fn of(length: f64, time: f64, mass: f64) -> Dimension {
+    const fn new(length: f64, time: f64, mass: f64) -> Dimension {
         Dimension { length, time, mass }
     }
 
-    /// Whether two are the same, fractions being only nearly equal.
+    /// Returns whether two dimensions are equal, fractions up to rounding.
     #[must_use]
     pub fn is(self, other: Dimension) -> bool {
         let near = |a: f64, b: f64| (a - b).abs() < 1e-9;
         near(self.length, other.length) && near(self.time, other.time) && near(self.mass, other.mass)
     }
 
-    /// Whether it is one.
+    /// Returns whether all powers are finite.
     #[must_use]
     pub fn is_finite(self) -> bool {
         [self.length, self.time, self.mass].into_iter().all(f64::is_finite)
     }
 
-    /// Of a product.
+    /// Returns the dimension of a product.
     #[must_use]
     pub fn times(self, other: Dimension) -> Dimension {
-        Dimension::of(self.length + other.length, self.time + other.time, self.mass + other.mass)
+        Dimension::new(self.length + other.length, self.time + other.time, self.mass + other.mass)
     }
 
-    /// Of a quotient.
+    /// Returns the dimension of a quotient.
     #[must_use]
     pub fn over(self, other: Dimension) -> Dimension {
         self.times(other.to_the(-1.0))
     }
 
-    /// Of a power.
+    /// Returns the dimension of a power.
     #[must_use]
     pub fn to_the(self, power: f64) -> Dimension {
-        Dimension::of(self.length * power, self.time * power, self.mass * power)
+        Dimension::new(self.length * power, self.time * power, self.mass * power)
     }
 
-    /// In words: `a length`, `a speed`, or the unit.
+    /// Returns the dimension in words: `a length`, `a speed`, or else the unit.
     #[must_use]
     pub fn in_words(self) -> String {
         const WORDS: &[(Dimension, &str)] = &[
@@ -101,23 +101,23 @@ impl Dimension {
             .map_or_else(|| format!("a quantity in {}", self.unit()), |(_, words)| (*words).to_owned())
     }
 
-    /// As a product of SI units: `m^2/s`; `1` for a pure number. Where there is mass it is said by the force, so that a torque is
-    /// `N*m` and a stiffness `N/m`; but for what is a mass, or a moment of one, and a power in watts.
+    /// Returns the unit as a product of SI units: `m^2/s`, or `1` for a pure number. Dimensions with mass and time use the newton, so that
+    /// a torque is `N*m` and a stiffness `N/m`; a power is `W`, a mass and a moment of inertia use the kilogram.
     #[must_use]
     pub fn unit(self) -> String {
         if self.is(Dimension::POWER) {
             return "W".to_owned();
         }
         let newtons = self.over(Dimension::FORCE.to_the(self.mass));
-        let is_of_force = self.mass.abs() > 1e-9 && self.time.abs() > 1e-9;
-        if is_of_force {
+        let has_force = self.mass.abs() > 1e-9 && self.time.abs() > 1e-9;
+        if has_force {
             product(&[("N", self.mass), ("m", newtons.length), ("s", newtons.time)])
         } else {
             product(&[("kg", self.mass), ("m", self.length), ("s", self.time)])
         }
     }
 
-    /// As [`Dimension::unit`], angles told from other pure numbers: `rad/s` for a turning speed.
+    /// Returns [`Dimension::unit`] with `rad` for angles: `rad/s` for an angular velocity.
     #[must_use]
     pub fn unit_of(self, is_angle: bool) -> String {
         let unit = self.unit();
@@ -128,7 +128,7 @@ impl Dimension {
     }
 }
 
-/// `m^2/s`; `1` where all powers are zero.
+/// Formats a product of units with powers as `m^2/s`, or `1` if all powers are zero.
 fn product(factors: &[(&str, f64)]) -> String {
     let part = |unit: &str, power: f64| match power {
         p if (p - 1.0).abs() < 1e-9 => unit.to_owned(),

@@ -1,54 +1,53 @@
-//! The functions of the language, those of motion among them.
+//! Functions of the language, including motion functions.
 
 use super::{Category, Example, Word};
 
-/// A function that is called with numbers.
+/// A function of numbers.
 #[derive(Debug)]
 pub struct Function {
-    /// What is told of it.
+    /// Documentation.
     pub word: Word,
-    /// The fewest arguments.
+    /// Least number of arguments.
     pub least: usize,
-    /// The most arguments.
+    /// Greatest number of arguments.
     pub most: usize,
-    /// What it asks of the dimensions of its arguments.
+    /// Rule for the dimensions of the arguments.
     pub group: Group,
-    /// Whether a function or table of the file that is called so means itself: texts that were written before there was this function
-    /// mean what they meant.
+    /// True if a function or table of the file with this name replaces it: older texts keep their meaning.
     pub gives_way: bool,
 }
 
-/// Functions that ask the same of the dimensions of their arguments.
+/// Rule for the dimensions of a function's arguments.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Group {
-    /// Takes and gives a pure number.
+    /// The argument and the result are pure numbers.
     Pure,
-    /// Takes arguments of one dimension.
+    /// All arguments have one dimension.
     Alike,
     /// `(u, u0, v0, u1, v1)`: u, u0, u1 of one dimension, v0, v1 of another.
     Motion,
     /// `(u, u0, c0, c1, …)`: `c_k` has the dimension of the result over that of `u^k`.
     Polynomial,
-    /// The time derivative.
+    /// Time derivative.
     Derivative,
-    /// Is a point, or a number of two points.
+    /// Function of points, or a point.
     Points,
 }
 
 impl Function {
-    /// The function of a name.
+    /// Returns the function of a name.
     #[must_use]
     pub fn named(name: &str) -> Option<&'static Function> {
         FUNCTIONS.iter().find(|function| function.word.name == name)
     }
 
-    /// Whether it goes from one value to another.
+    /// Returns whether it is a motion function.
     #[must_use]
     pub fn is_motion(&self) -> bool {
         self.word.category == Category::Motion
     }
 
-    /// What it is called with, in words: "two arguments".
+    /// Returns the number of arguments in words: "two arguments".
     #[must_use]
     pub fn takes(&self) -> String {
         match (self.least, self.most) {
@@ -71,7 +70,7 @@ const fn word(
     Word { name, category: Category::Function, forms, letters: "", meaning, more, example: Example::Arm(example) }
 }
 
-/// Of one pure number.
+/// Creates a function of one pure number.
 const fn pure(
     name: &'static str,
     forms: &'static [&'static str],
@@ -88,12 +87,12 @@ const fn pure(
     }
 }
 
-/// Of arguments of one dimension.
+/// Creates a function of arguments with one dimension.
 const fn alike(least: usize, most: usize, word: Word) -> Function {
     Function { word, least, most, group: Group::Alike, gives_way: false }
 }
 
-/// From `v0` at `u0` to `v1` at `u1`.
+/// Creates a motion from `v0` at `u0` to `v1` at `u1`.
 const fn motion(
     name: &'static str,
     forms: &'static [&'static str],
@@ -106,55 +105,55 @@ const fn motion(
     Function { word, least: 5, most: 5, group: Group::Motion, gives_way: false }
 }
 
-/// Of points, or a point.
-const fn of_points(word: Word) -> Function {
+/// Creates a function of points.
+const fn point_function(word: Word) -> Function {
     Function { word, least: 2, most: 2, group: Group::Points, gives_way: true }
 }
 
-/// What is said of all motions but `poly`.
-pub const OF_MOTIONS: &str = "With `s = (u − u0)/(u1 − u0)` it is `v0 + (v1 − v0) f(s)`, and flat outside: `v0` before `u0`, `v1` \
+/// Text for all motion functions except `poly`.
+pub const MOTION_NOTES: &str = "With `s = (u − u0)/(u1 − u0)` it is `v0 + (v1 − v0) f(s)`, and flat outside: `v0` before `u0`, `v1` \
                               behind `u1`, which is larger than `u0`. `u`, `u0` and `u1` have one dimension, and `v0` and `v1` \
                               that of the result. `u` may be any formula.";
 
-const OF_AN_ANGLE: &str = "The angle is in radians, or has a unit of its own: `30 deg`. Takes and gives a pure number.";
-const AN_ANGLE: &str = "Takes a pure number and gives an angle in radians.";
+const TAKES_ANGLE: &str = "The angle is in radians, or has a unit of its own: `30 deg`. Takes and gives a pure number.";
+const GIVES_ANGLE: &str = "Takes a pure number and gives an angle in radians.";
 const PURE: &str = "Takes and gives a pure number.";
 
-/// All of them.
+/// All functions.
 pub static FUNCTIONS: &[Function] = &[
     pure(
         "sin",
         &["sin(a)"],
         "the sine of an angle",
-        OF_AN_ANGLE,
+        TAKES_ANGLE,
         "driver motor: rotation(main) = 30 deg * sin(2 rad/s * t)",
     ),
     pure(
         "cos",
         &["cos(a)"],
         "the cosine of an angle",
-        OF_AN_ANGLE,
+        TAKES_ANGLE,
         "driver motor: rotation(main) = 30 deg * cos(2 rad/s * t)",
     ),
     pure(
         "tan",
         &["tan(a)"],
         "the tangent of an angle",
-        OF_AN_ANGLE,
+        TAKES_ANGLE,
         "param  slope  = tan(15 deg)\nmeasure height = y(arm.tip) - slope * x(arm.tip)",
     ),
     pure(
         "asin",
         &["asin(a)"],
         "the angle whose sine is a, from −π/2 to π/2",
-        AN_ANGLE,
+        GIVES_ANGLE,
         "measure lean = asin(y(arm.tip) / 200 mm)",
     ),
     pure(
         "acos",
         &["acos(a)"],
         "the angle whose cosine is a, from 0 to π",
-        AN_ANGLE,
+        GIVES_ANGLE,
         "measure lean = acos(x(arm.tip) / 200 mm)",
     ),
     pure(
@@ -292,28 +291,28 @@ pub static FUNCTIONS: &[Function] = &[
         group: Group::Derivative,
         gives_way: false,
     },
-    of_points(word(
+    point_function(word(
         "polar",
         &["polar(r, angle)"],
         "the point at a distance r from the origin, in the direction of an angle",
         "`(r * cos(angle), r * sin(angle))`. Added to a point it leads away from there: `A + polar(20 mm, 30 deg)`.",
         "param handle = polar(40 mm, 30 deg)\nmeasure reach = distance(handle, arm.tip)",
     )),
-    of_points(word(
+    point_function(word(
         "mid",
         &["mid(P, Q)"],
         "the point halfway between two points",
         "`(P + Q) / 2`.",
         "param A = (20 mm, 0)\nparam B = (60 mm, 40 mm)\nmeasure reach = distance(mid(A, B), arm.tip)",
     )),
-    of_points(word(
+    point_function(word(
         "length",
         &["length(P, Q)"],
         "how far two drawn points are from each other",
         "A length, and a constant: P and Q are formulas of points. Of points that move it is `distance(P, Q)`.",
         "param A = (20 mm, 0)\nparam B = (60 mm, 30 mm)\nmeasure beyond = x(arm.tip) - length(A, B)",
     )),
-    of_points(word(
+    point_function(word(
         "direction",
         &["direction(P, Q)"],
         "the angle of the way from one drawn point to another, in (−π, π]",

@@ -1,10 +1,10 @@
-//! The joints, with the equations that each brings.
+//! Joints, with the equations of each.
 
 use super::{Category, Example, Word};
 
-/// The kinds of joints.
+/// Kind of joint.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
-#[allow(missing_docs)] // `JOINTS` says what each is
+#[allow(missing_docs)] // the entries of `JOINTS` document them
 pub enum JointKind {
     Revolute,
     Translational,
@@ -20,7 +20,7 @@ pub enum JointKind {
 }
 
 impl JointKind {
-    /// The word of the language.
+    /// Returns the word of the language.
     #[must_use]
     pub const fn word(self) -> &'static str {
         match self {
@@ -38,7 +38,8 @@ impl JointKind {
         }
     }
 
-    /// Whether a quantity of joints speaks of it: `rotation`, `displacement`, and so on. What a joint exerts, each has, but for `torque`.
+    /// Returns whether a quantity such as `rotation` or `displacement` is defined for the joint. All quantities of reactions are, except
+    /// `torque`.
     #[must_use]
     pub fn has_quantity(self, quantity: &str) -> bool {
         match quantity {
@@ -50,7 +51,7 @@ impl JointKind {
         }
     }
 
-    /// Whether two outlines touch in it, or a point and an outline.
+    /// Returns whether the joint is a contact of two outlines, or of a point and an outline.
     #[must_use]
     pub const fn has_contact(self) -> bool {
         match self {
@@ -66,7 +67,7 @@ impl JointKind {
         }
     }
 
-    /// Whether it can exert a moment about the point that its force is reduced to; that of the others is zero.
+    /// Returns whether the joint's reaction can have a moment about its point of action; for the others it is zero.
     #[must_use]
     pub const fn has_torque(self) -> bool {
         match self {
@@ -85,35 +86,35 @@ impl JointKind {
     }
 }
 
-/// What is told of a kind of joint.
+/// A kind of joint in the language.
 #[derive(Debug)]
 pub struct JointWord {
-    /// Which it is.
+    /// Kind.
     pub kind: JointKind,
-    /// What is told of it.
+    /// Documentation.
     pub word: Word,
-    /// What it is called with, in words.
+    /// Arguments in words.
     pub takes: &'static str,
-    /// How many equations it brings.
+    /// Number of equations.
     pub equations: usize,
-    /// The coordinates of its own that it brings, with what they are.
+    /// Coordinates of the joint, with descriptions.
     pub coordinates: &'static [(&'static str, &'static str)],
 }
 
 impl JointWord {
-    /// The joint of a name.
+    /// Returns the joint of a name.
     #[must_use]
     pub fn named(name: &str) -> Option<&'static JointWord> {
         JOINTS.iter().find(|joint| joint.word.name == name)
     }
 }
 
-/// What the letters of the equations stand for.
+/// Notation of the equations.
 pub const NOTATION: &str = "Here i is the body of the first argument and j that of the second, `r` a place in the ground's frame, `d` \
                             from the first argument's point to the second's, `v` the unit direction of an axis, `v^⊥` that turned \
                             by +90°, `φ` a body's angle and `A` its rotation matrix.";
 
-/// All of them.
+/// All joints.
 pub static JOINTS: &[JointWord] = &[
     JointWord {
         kind: JointKind::Revolute,

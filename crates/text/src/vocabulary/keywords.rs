@@ -1,48 +1,48 @@
-//! Keywords, and the words that are such only in their places.
+//! Keywords, reserved everywhere or only in some positions.
 
 use super::{Category, Example, Word};
 use rustc_hash::FxHashMap;
 use std::sync::LazyLock;
 
-/// The longest keyword, in bytes.
+/// Length of the longest keyword (bytes).
 const LONGEST: usize = 10;
 
-/// Every word of a text is looked up here.
+/// Keywords by name; every word of a text is looked up here.
 static BY_NAME: LazyLock<FxHashMap<&str, &Keyword>> =
     LazyLock::new(|| KEYWORDS.iter().map(|keyword| (keyword.word.name, keyword)).collect());
 
-/// A word that makes a declaration or a formula.
+/// A keyword of declarations or formulas.
 #[derive(Debug)]
 pub struct Keyword {
-    /// What is told of it.
+    /// Documentation.
     pub word: Word,
-    /// Where it stands.
+    /// Position.
     pub role: Role,
 }
 
-/// Where a keyword stands.
+/// Position of a keyword.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Role {
-    /// Begins a declaration of a file or mechanism; cannot be a name.
+    /// Begins a declaration of a file or mechanism; reserved.
     Declaration,
-    /// Begins a declaration of a mechanism, where one can begin; a name elsewhere.
+    /// Begins a declaration of a mechanism where one can begin; a name elsewhere.
     Opener,
-    /// Begins a declaration in a body or the ground; cannot be a name.
+    /// Begins a declaration in a body or the ground; reserved.
     Feature,
-    /// Begins a declaration in a body, where one can begin; a name elsewhere.
+    /// Begins a declaration in a body where one can begin; a name elsewhere.
     FeatureOpener,
-    /// Joins parts of a formula; cannot be a name.
+    /// Joins parts of a formula; reserved.
     Formula,
-    /// Joins parts of a declaration, where a number may stand before it, whose unit it cannot be; a name elsewhere.
+    /// Joins parts of a declaration. After a number it is not a unit; a name elsewhere.
     Separator,
     /// Joins parts of a declaration; a name elsewhere.
     Place,
-    /// An argument of a joint; a name elsewhere.
+    /// Argument of a joint; a name elsewhere.
     Side,
 }
 
 impl Role {
-    /// Whether it begins a declaration where one can begin, and is a name elsewhere.
+    /// Returns whether it begins a declaration where one can begin, and is a name elsewhere.
     #[must_use]
     pub fn is_opener(self) -> bool {
         matches!(self, Role::Opener | Role::FeatureOpener)
@@ -50,50 +50,50 @@ impl Role {
 }
 
 impl Keyword {
-    /// The keyword of a name.
+    /// Returns the keyword of a name.
     #[must_use]
     pub fn named(name: &str) -> Option<&'static Keyword> {
-        // most words are none, and need no look
+        // most words need no lookup
         if name.len() > LONGEST || !name.starts_with(|c: char| c.is_ascii_lowercase()) {
             return None;
         }
         BY_NAME.get(name).copied()
     }
 
-    /// Whether nothing can have this name.
+    /// Returns whether the keyword cannot be a name.
     #[must_use]
     pub fn is_reserved(&self) -> bool {
         matches!(self.role, Role::Declaration | Role::Feature | Role::Formula)
     }
 
-    /// Whether it stands between the parts of a declaration or formula.
+    /// Returns whether it stands between the parts of a declaration or formula.
     #[must_use]
     pub fn is_joining(&self) -> bool {
         matches!(self.role, Role::Formula | Role::Separator | Role::Place)
     }
 
-    /// Whether it begins a declaration wherever it stands, so that every formula before it has ended.
+    /// Returns whether it begins a declaration in every position, and so ends any formula before it.
     #[must_use]
     pub fn begins_declaration(&self) -> bool {
         matches!(self.role, Role::Declaration | Role::Feature)
     }
 }
 
-/// Whether a word begins a declaration.
+/// Returns whether a reserved word begins a declaration.
 #[must_use]
 pub fn is_declaration(word: &str) -> bool {
     Keyword::named(word).is_some_and(Keyword::begins_declaration)
 }
 
-/// Whether a word begins a declaration in a body or the ground.
+/// Returns whether a word begins a declaration in a body or the ground.
 #[must_use]
 pub fn is_feature(word: &str) -> bool {
     Keyword::named(word).is_some_and(|keyword| matches!(keyword.role, Role::Feature | Role::FeatureOpener))
 }
 
-/// Whether what a word declares has a name, which stands behind it.
+/// Returns whether a name follows the keyword of a declaration.
 #[must_use]
-pub fn is_before_a_name(keyword: &str) -> bool {
+pub fn declares_name(keyword: &str) -> bool {
     !matches!(keyword, "ground" | "analysis" | "gravity" | "mass")
 }
 
@@ -109,11 +109,12 @@ const fn keyword(
     Keyword { word, role }
 }
 
-/// A lever that is used twice.
+/// Text for the words of windows.
 const WINDOW_WORDS: &str = "A window stands behind the formula of a reduction in a `result`: `max(e, from A to B)`, `max(e, from A)`, `max(e, to B)`. \
                             Elsewhere the word is a name, as it is in a call before an operator, a comma or a bracket that does not \
                             stand apart.";
 
+/// Example of a lever that is used twice.
 const TWO_LEVERS: Example = Example::Using(
     "\
 mechanism lever {
@@ -135,7 +136,7 @@ trace tip = back.arm.tip
 analysis from 0 s to 1 s every 0.1 s",
 );
 
-/// An arm that has weight.
+/// Example of an arm with a mass.
 const WEIGHING: Example = Example::Whole(
     "\
 ground { point O = (0, 0) }
@@ -149,7 +150,7 @@ driver motor: rotation(main) = 60 rpm * t
 measure torque = effort(motor)",
 );
 
-/// A rack and pinion of which no pose says on which side of the axis the pinion lies.
+/// Example of a rack and pinion whose poses do not decide on which side of the axis the pinion lies.
 const ON_THE_LEFT: Example = Example::Whole(
     "\
 ground {
@@ -169,7 +170,7 @@ joint mesh: rack_pinion(pinion.pitch, rack.way, 0 mm, left)
 driver motor: rotation(axle) = 30 deg/s * t",
 );
 
-/// The same on the other side.
+/// Example of a rack and pinion with the pinion on the right.
 const ON_THE_RIGHT: Example = Example::Whole(
     "\
 ground {
@@ -189,7 +190,7 @@ joint mesh: rack_pinion(pinion.pitch, rack.way, 0 mm, right)
 driver motor: rotation(axle) = 30 deg/s * t",
 );
 
-/// All of them, in the order of the grammar.
+/// All keywords, in the order of the grammar.
 pub static KEYWORDS: &[Keyword] = &[
     keyword(
         Role::Opener,

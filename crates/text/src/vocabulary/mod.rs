@@ -1,14 +1,14 @@
-//! The words of the language, one table for each kind: how a word is written, what it means, and an example.
+//! Words of the language, one table for each kind: spelling, meaning and an example of each.
 //!
-//! What the parser, the names of a mechanism, the messages, the formatter and the pages of `mechc explain` know of words
-//! they have from here. This module knows no tree and no text; what a word does stands in the crates that do it.
+//! The parser, the names of a mechanism, messages, the formatter and `mechc explain` all use these tables. This module does not depend on
+//! trees or texts; the effect of a word is in the crates that implement it.
 
 mod constants;
 mod dimension;
+mod free_names;
 mod functions;
 mod joints;
 mod keywords;
-mod other_names;
 mod page;
 mod quantities;
 mod reductions;
@@ -16,12 +16,12 @@ mod synonyms;
 mod topics;
 mod units;
 
-pub use constants::{CONSTANTS, Constant, StandsFor};
+pub use constants::{CONSTANTS, Constant, NamedConstant};
 pub use dimension::Dimension;
+pub use free_names::{SubstituteKind, substitute_name};
 pub use functions::{FUNCTIONS, Function, Group};
 pub use joints::{JOINTS, JointKind, JointWord};
-pub use keywords::{KEYWORDS, Keyword, Role, is_before_a_name, is_declaration, is_feature};
-pub use other_names::{KindOfName, another_name};
+pub use keywords::{KEYWORDS, Keyword, Role, declares_name, is_declaration, is_feature};
 pub use page::{OVERVIEWS, page};
 pub use quantities::{QUANTITIES, QuantityWord};
 pub use reductions::{REDUCTIONS, ReductionWord};
@@ -29,62 +29,62 @@ pub use synonyms::{Place, SYNONYMS, Synonym, is_ground};
 pub use topics::{topic, topics};
 pub use units::{CompoundUnit, UNITS, Unit};
 
-/// A word, as a reader is told of it.
+/// Documentation of a word.
 #[derive(Debug)]
 pub struct Word {
-    /// As it is written.
+    /// Spelling.
     pub name: &'static str,
-    /// What it is.
+    /// Category.
     pub category: Category,
-    /// How it is written with what belongs to it, several ways where something may be left out: `revolute(P, Q)`.
+    /// Forms of use, several where something may be left out: `revolute(P, Q)`.
     pub forms: &'static [&'static str],
-    /// What the letters of the forms are, where that has to be said: "c and d circles".
+    /// Meaning of the letters in the forms, where needed: "c and d circles".
     pub letters: &'static str,
-    /// What it means, in one line without a full stop.
+    /// Meaning, in one line without a full stop.
     pub meaning: &'static str,
-    /// What is to be known beyond that: equations, smoothness, dimensions. Markdown.
+    /// Further facts such as equations, smoothness and dimensions, in Markdown.
     pub more: &'static str,
-    /// A mechanism that shows it.
+    /// Example.
     pub example: Example,
 }
 
-/// What a word is.
+/// Category of a word.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Category {
     /// Begins or joins the parts of a declaration or formula.
     Keyword,
-    /// Is called with numbers.
+    /// Function of numbers.
     Function,
-    /// Is called with numbers, and goes from one value to another.
+    /// Function of numbers that goes from one value to another.
     Motion,
-    /// Is called with points, bodies or joints, and is a number.
+    /// Function of points, bodies or joints that is a number.
     Quantity,
-    /// Is called with a formula in a result, and is a number for the whole analysis.
+    /// Function of a formula in a result that is a number for the whole analysis.
     Reduction,
     /// Joins two bodies.
     Joint,
     /// Follows a number.
     Unit,
-    /// Has one value, or is always there.
+    /// Has one value, or is always defined.
     Constant,
 }
 
-/// The text of a mechanism that checks without a word of complaint.
+/// Text of a mechanism that checks without diagnostics.
 #[derive(Clone, Copy, Debug)]
 pub enum Example {
-    /// Declarations beside an arm that turns about `ground.O` and has a point `tip`; `main` is its joint. A driver among
-    /// them takes the place of the arm's own.
+    /// Declarations next to an arm that turns about `ground.O` and has a point `tip`; `main` is its joint. A `driver motor` among them
+    /// replaces the arm's driver.
     Arm(&'static str),
     /// All declarations.
     Whole(&'static str),
-    /// A mechanism, and the declarations of another one that uses it.
+    /// Declarations of a mechanism, and the text of another one that it uses.
     Using(&'static str, &'static str),
-    /// That of another word.
+    /// Example of another word.
     Of(&'static str),
 }
 
 impl Word {
-    /// How it is written, for a message: "`weld(P, Q)` or `weld(P, Q, angle)`".
+    /// Returns the forms for a message: "`weld(P, Q)` or `weld(P, Q, angle)`".
     #[must_use]
     pub fn written(&self) -> String {
         let quoted: Vec<String> = self.forms.iter().map(|form| format!("`{form}`")).collect();
@@ -97,7 +97,7 @@ impl Word {
     }
 }
 
-/// Every word; a name may stand for several.
+/// Returns all words; several may have one name.
 pub fn words() -> impl Iterator<Item = &'static Word> {
     let keywords = KEYWORDS.iter().map(|keyword| &keyword.word);
     let functions = FUNCTIONS.iter().map(|function| &function.word);
@@ -109,25 +109,25 @@ pub fn words() -> impl Iterator<Item = &'static Word> {
     keywords.chain(joints).chain(quantities).chain(functions).chain(reductions).chain(constants).chain(units)
 }
 
-/// Whether a name is that of a function or quantity, and so cannot be that of the user's unless it gives way; some quantities give way.
+/// Returns whether a name is reserved for a function or quantity. Some quantities give way to declarations of the user.
 #[must_use]
 pub fn is_called(name: &str) -> bool {
     Function::named(name).is_some() || QuantityWord::named(name).is_some_and(|quantity| !quantity.gives_way)
 }
 
-/// Whether a function or table of the file may have the name of this function, and then means itself.
+/// Returns whether a function or table of the user may replace the function of this name.
 #[must_use]
 pub fn gives_way(name: &str) -> bool {
     Function::named(name).is_some_and(|function| function.gives_way)
 }
 
-/// Whether a name of a mechanism's space is taken by a constant, the ground or a unit that does not give way.
+/// Returns whether a name is reserved for a constant, the ground or a unit. Some units give way to declarations of the user.
 #[must_use]
 pub fn is_taken(name: &str) -> bool {
     Constant::named(name).is_some() || Unit::named(name).is_some_and(|unit| !unit.gives_way)
 }
 
-/// Whether a name is that of a function or quantity of one argument, and says so: a letter alone may be anything.
+/// Returns whether a name of more than one letter is that of a function or quantity with one argument. A single letter may be anything.
 #[must_use]
 pub fn is_one_argument_function(name: &str) -> bool {
     let function = Function::named(name).is_some_and(|function| (function.least, function.most) == (1, 1));

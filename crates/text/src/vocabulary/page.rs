@@ -1,23 +1,23 @@
-//! The pages of `mechc explain`: one for each word, and one for each kind of words.
+//! Pages of `mechc explain`: one for each word, and an overview of each kind of words.
 
-use super::functions::OF_MOTIONS;
+use super::functions::MOTION_NOTES;
 use super::joints::NOTATION;
 use super::{
     Category, Example, FUNCTIONS, Function, JOINTS, JointWord, KEYWORDS, Keyword, QUANTITIES, QuantityWord, REDUCTIONS,
     Role, Synonym, UNITS, Unit, Word, topic, words,
 };
 
-/// Lines of prose are not longer (in characters).
+/// Length limit of lines of prose (characters).
 const WIDTH: usize = 100;
 
-/// The kinds of words that have a page, by their names.
+/// Names of the overviews.
 pub const OVERVIEWS: &[&str] =
     &["functions", "motions", "quantities", "reductions", "joints", "units", "keywords", "constants"];
 
-/// The page of a word, of a kind of words, or of what is more than a word; where a name stands for several words, their pages one behind the other.
+/// Returns the page of an overview, a topic or a word. A name of several words has all their pages, one after the other.
 #[must_use]
 pub fn page(name: &str) -> Option<String> {
-    let pages = || words().filter(|word| word.name == name).map(of_word).collect::<Vec<String>>();
+    let pages = || words().filter(|word| word.name == name).map(word_page).collect::<Vec<String>>();
     overview(name)
         .or_else(|| topic(name).map(str::to_owned))
         .or_else(|| Some(pages()).filter(|pages| !pages.is_empty()).map(|pages| pages.join("\n")))
@@ -39,14 +39,14 @@ impl Category {
 }
 
 impl Word {
-    /// The text of a mechanism that shows it.
+    /// Returns the text of a mechanism that shows the word.
     #[must_use]
     pub fn example(&self) -> String {
-        let mut used = "";
+        let mut other_mechanism = "";
         let inside = match self.example {
             Example::Whole(inside) => inside.to_owned(),
             Example::Using(other, inside) => {
-                used = other;
+                other_mechanism = other;
                 inside.to_owned()
             }
             Example::Of(other) => return words().find(|word| word.name == other).map_or(String::new(), Word::example),
@@ -60,11 +60,11 @@ impl Word {
             }
         };
         let lines: Vec<String> = inside.lines().map(|line| format!("    {line}")).collect();
-        format!("mechanism example {{\n{}\n}}\n{used}", lines.join("\n"))
+        format!("mechanism example {{\n{}\n}}\n{other_mechanism}", lines.join("\n"))
     }
 }
 
-fn of_word(word: &'static Word) -> String {
+fn word_page(word: &'static Word) -> String {
     let mut text = format!("# `{}`: {}\n\n", word.name, noun(word));
     for form in word.forms {
         text += &format!("    {form}\n");
@@ -92,7 +92,7 @@ fn noun(word: &Word) -> &'static str {
     }
 }
 
-/// The paragraphs below the meaning.
+/// Returns the paragraphs after the meaning.
 fn details(word: &Word) -> Vec<String> {
     let mut details = Vec::new();
     if let Some(joint) = JointWord::named(word.name).filter(|_| word.category == Category::Joint) {
@@ -125,23 +125,25 @@ fn details(word: &Word) -> Vec<String> {
         ));
     }
     if Function::named(word.name).is_some_and(|function| function.group == super::Group::Motion) {
-        details.push(OF_MOTIONS.to_owned());
+        details.push(MOTION_NOTES.to_owned());
     }
     details
 }
 
-/// `2 equations, and 1 coordinate of its own: theta, the direction of the line of centres`
+/// Describes the equations of a joint: `2 equations, and 1 coordinate of its own: theta, the direction of the line of centres`.
 fn equations(joint: &JointWord) -> String {
     let count = |n: usize, what: &str| format!("{n} {what}{}", if n == 1 { "" } else { "s" });
     let mut text = count(joint.equations, "equation");
     if !joint.coordinates.is_empty() {
-        let own: Vec<String> = joint.coordinates.iter().map(|(name, what)| format!("`{name}`, {what}")).collect();
-        text += &format!(", and {} of its own: {}", count(joint.coordinates.len(), "coordinate"), own.join("; "));
+        let coordinates: Vec<String> =
+            joint.coordinates.iter().map(|(name, what)| format!("`{name}`, {what}")).collect();
+        text +=
+            &format!(", and {} of its own: {}", count(joint.coordinates.len(), "coordinate"), coordinates.join("; "));
     }
     text + "."
 }
 
-/// One of a unit in SI: `0.001 m`.
+/// Returns the value of one unit in SI: `0.001 m`.
 fn in_si(unit: &Unit) -> String {
     let value = unit.to_si(1.0, 1);
     match unit.dimension.unit().as_str() {
@@ -151,10 +153,10 @@ fn in_si(unit: &Unit) -> String {
     }
 }
 
-// ---- kinds of words
+// ---- overviews
 
 fn overview(name: &str) -> Option<String> {
-    let of_category = |wanted: Category| words().filter(move |word| word.category == wanted).collect::<Vec<_>>();
+    let words_of = |category: Category| words().filter(move |word| word.category == category).collect::<Vec<_>>();
     Some(match name {
         "functions" => {
             let functions: Vec<&Word> = FUNCTIONS.iter().filter(|f| !f.is_motion()).map(|f| &f.word).collect();
@@ -162,7 +164,7 @@ fn overview(name: &str) -> Option<String> {
                          `mechc explain motions`; `fn` declares more.";
             list("Functions", intro, &functions)
         }
-        "motions" => list("Motion functions", OF_MOTIONS, &of_category(Category::Motion)),
+        "motions" => list("Motion functions", MOTION_NOTES, &words_of(Category::Motion)),
         "quantities" => {
             let quantities: Vec<&Word> = QUANTITIES.iter().map(|quantity| &quantity.word).collect();
             let intro = "Numbers that depend on where the bodies are. An equation between them is a `constraint`, one with time a \
@@ -184,7 +186,7 @@ fn overview(name: &str) -> Option<String> {
         }
         "units" => units(),
         "keywords" => keywords(),
-        "constants" => list("Constants", "Names that are always there.", &of_category(Category::Constant)),
+        "constants" => list("Constants", "Names that are always there.", &words_of(Category::Constant)),
         _ => return None,
     })
 }
@@ -227,7 +229,7 @@ fn keywords() -> String {
     text
 }
 
-/// Two columns, indented as code is.
+/// Formats two columns, indented as code.
 fn columns(rows: &[[String; 2]]) -> String {
     let width = rows.iter().map(|[first, _]| first.chars().count()).max().unwrap_or(0);
     rows.iter().fold(String::new(), |text, [first, second]| {
@@ -238,16 +240,16 @@ fn columns(rows: &[[String; 2]]) -> String {
 
 // ---- prose
 
-/// With a capital and a full stop.
+/// Adds a capital letter and a full stop.
 fn sentence(text: &str) -> String {
     let mut letters = text.chars();
-    // a letter alone is a name
+    // a single letter is a name
     let is_name = text.split(' ').next().is_some_and(|word| word.chars().count() == 1 && word != "a");
     let first = letters.next().map(|c| if is_name { c.to_string() } else { c.to_uppercase().collect() });
     format!("{}{}.", first.unwrap_or_default(), letters.as_str())
 }
 
-/// A paragraph behind a blank line, in lines that are not too long; code is not torn apart.
+/// Formats a paragraph after a blank line, in lines of limited length that do not break code.
 fn paragraph(text: &str) -> String {
     let mut lines = vec![String::new()];
     let mut in_code = false;

@@ -1,30 +1,30 @@
-//! The quantities: numbers that depend on where the bodies are, and on the forces that hold them there.
+//! Quantities: numbers that depend on the positions of bodies and on the forces between them.
 
 use super::{Category, Example, Word};
 
 /// A kinematic quantity.
 #[derive(Debug)]
 pub struct QuantityWord {
-    /// What is told of it.
+    /// Documentation.
     pub word: Word,
-    /// What it is called with, in words.
+    /// Arguments in words.
     pub takes: &'static str,
-    /// Whether a function or table of the mechanism that is called so means itself, as in texts that were written before there was
-    /// this quantity. All of these stand in measures, traces and results alone; forces in no trace.
+    /// True if a function or table of the mechanism with this name replaces it: older texts keep their meaning. Such quantities may be used
+    /// only in measures, traces and results, and those of forces not in traces.
     pub gives_way: bool,
-    /// Whether it is what comes out of forces, rather than of positions and their rates.
+    /// True if it depends on forces, not only on positions and their rates.
     pub is_force: bool,
 }
 
 impl QuantityWord {
-    /// The quantity of a name.
+    /// Returns the quantity of a name.
     #[must_use]
     pub fn named(name: &str) -> Option<&'static QuantityWord> {
         QUANTITIES.iter().find(|quantity| quantity.word.name == name)
     }
 }
 
-/// An eccentric that lifts a tappet.
+/// Example of an eccentric that lifts a tappet.
 const CAM: &str = "\
 ground {
     point O   = (0, 0)
@@ -45,7 +45,7 @@ driver motor: rotation(axle) = 60 rpm * t + 40 deg
 measure steep = pressure_angle(touch, tappet) in deg
 measure rub   = slip(touch) in mm/s";
 
-/// All of them.
+/// All quantities.
 pub static QUANTITIES: &[QuantityWord] = &[
     QuantityWord {
         word: Word {
@@ -296,7 +296,7 @@ const TORQUE: QuantityWord = force(
     "",
 );
 
-/// What comes out of forces.
+/// Creates a quantity of forces.
 const fn force(
     name: &'static str,
     forms: &'static [&'static str],

@@ -1,26 +1,26 @@
-//! The reductions: what a result asks of a formula over a whole analysis, or over a window of it.
+//! Reductions: what a result computes from a formula over the whole analysis, or over a window of it.
 
 use super::{Category, Example, Word};
 
 /// A reduction.
 #[derive(Debug)]
 pub struct ReductionWord {
-    /// What is told of it.
+    /// Documentation.
     pub word: Word,
-    /// What it is called with, in words.
+    /// Arguments in words.
     pub takes: &'static str,
-    /// How many arguments it takes.
+    /// Number of arguments.
     pub arguments: usize,
 }
 
 impl ReductionWord {
-    /// Whether it is the value at a time that is its last argument.
+    /// Returns whether the last argument is the time of evaluation.
     #[must_use]
     pub fn takes_time(&self) -> bool {
         self.arguments > 1
     }
 
-    /// The reduction of a name.
+    /// Returns the reduction of a name.
     #[must_use]
     pub fn named(name: &str) -> Option<&'static ReductionWord> {
         REDUCTIONS.iter().find(|reduction| reduction.word.name == name)
@@ -39,7 +39,7 @@ const fn reduction(
     ReductionWord { word, takes: "one argument", arguments: 1 }
 }
 
-/// All of them. But for `max` and `min`, a function or table of the mechanism that is called so is meant where it is called.
+/// All reductions. Apart from `max` and `min`, each gives way to a function or table of the mechanism with its name.
 pub static REDUCTIONS: &[ReductionWord] = &[
     reduction(
         "max",

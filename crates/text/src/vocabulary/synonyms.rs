@@ -1,51 +1,50 @@
-//! What others call it: words of other programs and of textbooks, with how the language says the same.
+//! Synonyms: words of other programs and of textbooks, with their equivalents in the language.
 
-/// Words of others that mean one thing.
+/// Foreign words with one meaning.
 #[derive(Debug)]
 pub struct Synonym {
-    /// Where they would stand.
+    /// Position in a text.
     pub place: Place,
-    /// The words, in small letters.
+    /// Words in lower case.
     pub names: &'static [&'static str],
-    /// The words of the language that it is said with.
+    /// Equivalent words of the language.
     pub means: &'static [&'static str],
-    /// Whether it is the same as that word, and does not take a formula of it.
+    /// True if the word is an exact equivalent, without a formula around it.
     pub is_same: bool,
-    /// How to say it. `{0 a}` stands for the first argument as it was written, or for `a` where there is none; `{0 (a)}` is the
-    /// same as an operand, with parentheses where it needs them, `{0 deg}` as a number of degrees, and `{2 ?}` as one more
-    /// argument, if it is there.
+    /// Message with the equivalent. `{0 a}` is the first argument as written, or `a` if there is none; `{0 (a)}` is the argument as an
+    /// operand, with parentheses where necessary, `{0 deg}` a number of degrees, and `{2 ?}` one more argument, if it exists.
     say: &'static str,
 }
 
-/// Where a word stands.
+/// Position of a word in a text.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Place {
-    /// At the beginning of a declaration.
+    /// Beginning of a declaration.
     Declaration,
-    /// As the kind of a joint.
+    /// Kind of a joint.
     Joint,
     /// Called in a formula.
     Call,
-    /// Behind a number.
+    /// After a number.
     Unit,
-    /// Alone, for a number.
+    /// Number in a formula.
     Number,
 }
 
-/// Whether others call the ground by a word.
+/// Returns whether a foreign word means the ground.
 #[must_use]
 pub fn is_ground(word: &str) -> bool {
     Synonym::of(Place::Declaration, word).is_some_and(|synonym| synonym.means == ["ground"])
 }
 
 impl Synonym {
-    /// What a word means in a place, whatever its capitals; `prismatic_joint` is `prismatic`.
+    /// Returns the synonym for a word in a position, in upper or lower case; `prismatic_joint` is `prismatic`.
     #[must_use]
     pub fn of(place: Place, word: &str) -> Option<&'static Synonym> {
         Synonym::all_of(word).find(|synonym| synonym.place == place)
     }
 
-    /// What a word means, in any place.
+    /// Returns the synonyms for a word in any position.
     pub fn all_of(word: &str) -> impl Iterator<Item = &'static Synonym> {
         let word = word.to_lowercase();
         SYNONYMS.iter().filter(move |synonym| {
@@ -57,7 +56,7 @@ impl Synonym {
         })
     }
 
-    /// The words of others that are the same as a word of the language.
+    /// Returns the foreign words that are exact equivalents of a word of the language.
     pub fn names_for(word: &str) -> impl Iterator<Item = &'static str> {
         SYNONYMS
             .iter()
@@ -66,29 +65,29 @@ impl Synonym {
             .copied()
     }
 
-    /// How to say it of some arguments, as they were written.
+    /// Returns the message for arguments as written.
     #[must_use]
     pub fn say(&self, arguments: &[&str]) -> String {
-        // what is long would hide what is said
+        // long arguments would hide the message
         let is_short = arguments.iter().all(|text| text.chars().count() <= LONGEST_ARGUMENT && !text.contains('\n'));
         let arguments = if is_short { arguments } else { &[] };
         let mut text = String::new();
         let mut rest = self.say;
         while let Some((before, after)) = rest.split_once('{') {
-            let (hole, behind) = after.split_once('}').unwrap_or((after, ""));
+            let (gap, after_gap) = after.split_once('}').unwrap_or((after, ""));
             text += before;
-            text += &filled(hole, arguments);
-            rest = behind;
+            text += &fill(gap, arguments);
+            rest = after_gap;
         }
         text + rest
     }
 }
 
-/// Longer arguments are not repeated (in characters).
+/// Length limit of arguments that a message repeats (characters).
 const LONGEST_ARGUMENT: usize = 30;
 
-fn filled(hole: &str, arguments: &[&str]) -> String {
-    let (number, name) = hole.split_once(' ').unwrap_or((hole, ""));
+fn fill(gap: &str, arguments: &[&str]) -> String {
+    let (number, name) = gap.split_once(' ').unwrap_or((gap, ""));
     let argument = number.parse().ok().and_then(|k: usize| arguments.get(k)).copied();
     let is_number = |text: &str| text.parse::<f64>().is_ok();
     let as_operand = |text: &str| {
@@ -116,13 +115,13 @@ const fn synonym(
 }
 
 impl Synonym {
-    /// What takes a formula, or more than one word.
-    const fn takes_a_formula(self) -> Synonym {
+    /// Marks a synonym that needs a formula or more than one word.
+    const fn with_formula(self) -> Synonym {
         Synonym { is_same: false, ..self }
     }
 }
 
-/// In a place where formulas call.
+/// Creates a synonym for a call in a formula.
 const fn call(names: &'static [&'static str], means: &'static [&'static str], say: &'static str) -> Synonym {
     synonym(Place::Call, names, means, say)
 }
@@ -143,7 +142,7 @@ const fn declaration(names: &'static [&'static str], means: &'static [&'static s
     synonym(Place::Declaration, names, means, say)
 }
 
-/// All of them.
+/// All synonyms.
 pub static SYNONYMS: &[Synonym] = &[
     // ---- joints
     joint(
@@ -205,70 +204,70 @@ pub static SYNONYMS: &[Synonym] = &[
         &["contact", "touch"],
         &["point_follower", "cam", "flat_follower"],
         "a contact is `point_follower(P, k)`, `cam(k, m)` or `flat_follower(k, a)`",
-    ).takes_a_formula(),
+    ).with_formula(),
     joint(
         &["belt", "chain", "pulley", "timing_belt", "coupler", "ratio", "transmission"],
         &["constraint"],
         "a belt or chain couples two rotations: `constraint belt: rotation(a) = 2 * rotation(b)`, a and b revolute joints",
-    ).takes_a_formula(),
+    ).with_formula(),
     joint(
         &["parallel"],
         &["constraint"],
         "bodies that stay parallel are an equation: `constraint parallel: angle(b, c) = 0`",
-    ).takes_a_formula(),
+    ).with_formula(),
     joint(
         &["perpendicular"],
         &["constraint"],
         "bodies that stay perpendicular are an equation: `constraint perpendicular: angle(b, c) = 90 deg`",
-    ).takes_a_formula(),
+    ).with_formula(),
     joint(
         &["motor", "actuator", "rotation", "displacement"],
         &["driver"],
         "what a motor prescribes is a driver: `driver motor: rotation(joint) = 60 rpm * t`",
-    ).takes_a_formula(),
+    ).with_formula(),
     // ---- quantities
     call(
         &["velocity", "vel"],
         &["der"],
         "a velocity is the time derivative of a place, in a measure: `der(x({0 P}))`, `der(y({0 P}))`",
-    ).takes_a_formula(),
+    ).with_formula(),
     call(
         &["acceleration", "acc", "accel"],
         &["der"],
         "an acceleration is the second time derivative of a place, in a measure: `der(der(x({0 P})))`, `der(der(y({0 P})))`",
-    ).takes_a_formula(),
+    ).with_formula(),
     call(
         &["vx", "v_x", "velx", "vel_x", "xdot", "x_dot"],
         &["der"],
         "the velocity of a point along x is `der(x({0 P}))`, in a measure",
-    ).takes_a_formula(),
+    ).with_formula(),
     call(
         &["vy", "v_y", "vely", "vel_y", "ydot", "y_dot"],
         &["der"],
         "the velocity of a point along y is `der(y({0 P}))`, in a measure",
-    ).takes_a_formula(),
+    ).with_formula(),
     call(
         &["ax", "a_x", "accx", "acc_x", "xddot"],
         &["der"],
         "the acceleration of a point along x is `der(der(x({0 P})))`, in a measure",
-    ).takes_a_formula(),
+    ).with_formula(),
     call(
         &["ay", "a_y", "accy", "acc_y", "yddot"],
         &["der"],
         "the acceleration of a point along y is `der(der(y({0 P})))`, in a measure",
-    ).takes_a_formula(),
-    call(&["jerk"], &["der"], "a jerk is a third time derivative, in a measure: `der(der(der(x({0 P}))))`").takes_a_formula(),
+    ).with_formula(),
+    call(&["jerk"], &["der"], "a jerk is a third time derivative, in a measure: `der(der(der(x({0 P}))))`").with_formula(),
     call(
         &["position", "pos", "location", "place", "coordinates"],
         &["x", "y"],
         "the place of a point is `x({0 P})` and `y({0 P})`",
-    ).takes_a_formula(),
+    ).with_formula(),
     call(
         &["reaction", "reaction_force", "joint_force", "bearing_force", "force"],
         &["force_x", "force_y"],
         "what a joint exerts is `force_x({0 J})` and `force_y({0 J})`",
     )
-    .takes_a_formula(),
+    .with_formula(),
     call(&["fx", "reaction_x"], &["force_x"], "what a joint exerts along x is `force_x({0 J})`"),
     call(&["fy", "reaction_y"], &["force_y"], "what a joint exerts along y is `force_y({0 J})`"),
     call(&["moment", "reaction_torque", "reaction_moment"], &["torque"], "the moment that a joint exerts is `torque({0 J})`"),
@@ -298,12 +297,12 @@ pub static SYNONYMS: &[Synonym] = &[
         &["omega", "angular_velocity", "angvel", "ang_vel", "turning_speed"],
         &["der"],
         "an angular velocity is the time derivative of an angle, in a measure: `der(angle({0 b}))`",
-    ).takes_a_formula(),
+    ).with_formula(),
     call(
         &["alpha", "angular_acceleration", "angacc"],
         &["der"],
         "an angular acceleration is the second time derivative of an angle, in a measure: `der(der(angle({0 b})))`",
-    ).takes_a_formula(),
+    ).with_formula(),
     call(
         &["translation", "travel", "stroke", "slide", "extension", "disp"],
         &["displacement"],
@@ -314,93 +313,93 @@ pub static SYNONYMS: &[Synonym] = &[
         &["der"],
         "the time derivative is `der({0 e})`, in a measure",
     ),
-    call(&["ddot", "der2", "diff2"], &["der"], "the second time derivative is `der(der({0 e}))`, in a measure").takes_a_formula(),
+    call(&["ddot", "der2", "diff2"], &["der"], "the second time derivative is `der(der({0 e}))`, in a measure").with_formula(),
     // ---- powers, roots, logarithms
-    call(&["sqr", "square"], &[], "a square is written `{0 (a)}^2`").takes_a_formula(),
-    call(&["cube"], &[], "a cube is written `{0 (a)}^3`").takes_a_formula(),
-    call(&["pow"], &[], "a power is written `{0 (a)} ^ {1 (b)}`").takes_a_formula(),
+    call(&["sqr", "square"], &[], "a square is written `{0 (a)}^2`").with_formula(),
+    call(&["cube"], &[], "a cube is written `{0 (a)}^3`").with_formula(),
+    call(&["pow"], &[], "a power is written `{0 (a)} ^ {1 (b)}`").with_formula(),
     call(&["power"], &[], "a power is written `{0 (a)} ^ {1 (b)}`; that of a driver is its `effort` times a `der`")
-        .takes_a_formula(),
-    call(&["cbrt", "curt", "cuberoot"], &[], "a cube root is `{0 (a)}^(1/3)`, where that is not negative").takes_a_formula(),
-    call(&["root", "nthroot"], &[], "a root is a power: `{0 (a)}^(1/{1 (n)})`, where the first is not negative").takes_a_formula(),
+        .with_formula(),
+    call(&["cbrt", "curt", "cuberoot"], &[], "a cube root is `{0 (a)}^(1/3)`, where that is not negative").with_formula(),
+    call(&["root", "nthroot"], &[], "a root is a power: `{0 (a)}^(1/{1 (n)})`, where the first is not negative").with_formula(),
     call(&["squareroot", "square_root"], &["sqrt"], "a square root is `sqrt({0 a})`"),
     call(&["log"], &["ln", "log10"], "was `ln` (natural) or `log10` meant?"),
     call(&["loge", "logn"], &["ln"], "the natural logarithm is `ln({0 a})`"),
     call(&["lg"], &["log10"], "the logarithm to the base 10 is `log10({0 a})`"),
-    call(&["log2", "ld"], &["ln"], "the logarithm to the base 2 is `ln({0 a}) / ln(2)`").takes_a_formula(),
-    call(&["log1p"], &["ln"], "it is written `ln(1 + {0 a})`").takes_a_formula(),
-    call(&["expm1"], &["exp"], "it is written `exp({0 a}) - 1`").takes_a_formula(),
-    call(&["exp10"], &[], "a power of ten is written `10^{0 (a)}`").takes_a_formula(),
-    call(&["exp2"], &[], "a power of two is written `2^{0 (a)}`").takes_a_formula(),
+    call(&["log2", "ld"], &["ln"], "the logarithm to the base 2 is `ln({0 a}) / ln(2)`").with_formula(),
+    call(&["log1p"], &["ln"], "it is written `ln(1 + {0 a})`").with_formula(),
+    call(&["expm1"], &["exp"], "it is written `exp({0 a}) - 1`").with_formula(),
+    call(&["exp10"], &[], "a power of ten is written `10^{0 (a)}`").with_formula(),
+    call(&["exp2"], &[], "a power of two is written `2^{0 (a)}`").with_formula(),
     // ---- angles
-    call(&["sind", "sindeg", "sin_deg"], &["sin"], "angles are in radians, or have a unit: `sin({0 deg})`").takes_a_formula(),
-    call(&["cosd", "cosdeg", "cos_deg"], &["cos"], "angles are in radians, or have a unit: `cos({0 deg})`").takes_a_formula(),
-    call(&["tand", "tandeg", "tan_deg"], &["tan"], "angles are in radians, or have a unit: `tan({0 deg})`").takes_a_formula(),
-    call(&["asind"], &["asin"], "`asin({0 a})` is an angle; its number of degrees is `asin({0 a}) / 1 deg`").takes_a_formula(),
-    call(&["acosd"], &["acos"], "`acos({0 a})` is an angle; its number of degrees is `acos({0 a}) / 1 deg`").takes_a_formula(),
-    call(&["atand"], &["atan"], "`atan({0 a})` is an angle; its number of degrees is `atan({0 a}) / 1 deg`").takes_a_formula(),
+    call(&["sind", "sindeg", "sin_deg"], &["sin"], "angles are in radians, or have a unit: `sin({0 deg})`").with_formula(),
+    call(&["cosd", "cosdeg", "cos_deg"], &["cos"], "angles are in radians, or have a unit: `cos({0 deg})`").with_formula(),
+    call(&["tand", "tandeg", "tan_deg"], &["tan"], "angles are in radians, or have a unit: `tan({0 deg})`").with_formula(),
+    call(&["asind"], &["asin"], "`asin({0 a})` is an angle; its number of degrees is `asin({0 a}) / 1 deg`").with_formula(),
+    call(&["acosd"], &["acos"], "`acos({0 a})` is an angle; its number of degrees is `acos({0 a}) / 1 deg`").with_formula(),
+    call(&["atand"], &["atan"], "`atan({0 a})` is an angle; its number of degrees is `atan({0 a}) / 1 deg`").with_formula(),
     call(
         &["atan2d"],
         &["atan2"],
         "`atan2({0 y}, {1 x})` is an angle; its number of degrees is `atan2({0 y}, {1 x}) / 1 deg`",
-    ).takes_a_formula(),
+    ).with_formula(),
     call(&["arcsin", "arsin"], &["asin"], "was `asin` meant?"),
     call(&["arccos", "arcos"], &["acos"], "was `acos` meant?"),
     call(&["arctan", "arctg", "artan"], &["atan"], "was `atan` meant?"),
     call(&["arctan2", "arctg2"], &["atan2"], "was `atan2` meant?"),
     call(&["tg"], &["tan"], "the tangent is `tan({0 a})`"),
-    call(&["cot", "ctg", "cotan"], &["tan"], "the cotangent is `1 / tan({0 a})`").takes_a_formula(),
-    call(&["sec"], &["cos"], "the secant is `1 / cos({0 a})`").takes_a_formula(),
-    call(&["csc", "cosec"], &["sin"], "the cosecant is `1 / sin({0 a})`").takes_a_formula(),
-    call(&["cotd"], &["tan"], "angles are in radians, or have a unit: `1 / tan({0 deg})`").takes_a_formula(),
-    call(&["secd"], &["cos"], "angles are in radians, or have a unit: `1 / cos({0 deg})`").takes_a_formula(),
-    call(&["cscd"], &["sin"], "angles are in radians, or have a unit: `1 / sin({0 deg})`").takes_a_formula(),
-    call(&["acot", "arccot"], &["atan2"], "the arc cotangent, from 0 to pi, is `atan2(1, {0 a})`").takes_a_formula(),
-    call(&["asec", "arcsec"], &["acos"], "the arc secant is `acos(1 / {0 (a)})`").takes_a_formula(),
-    call(&["acsc", "arccsc"], &["asin"], "the arc cosecant is `asin(1 / {0 (a)})`").takes_a_formula(),
-    call(&["coth"], &["tanh"], "the hyperbolic cotangent is `1 / tanh({0 a})`").takes_a_formula(),
-    call(&["sech"], &["cosh"], "the hyperbolic secant is `1 / cosh({0 a})`").takes_a_formula(),
-    call(&["csch"], &["sinh"], "the hyperbolic cosecant is `1 / sinh({0 a})`").takes_a_formula(),
+    call(&["cot", "ctg", "cotan"], &["tan"], "the cotangent is `1 / tan({0 a})`").with_formula(),
+    call(&["sec"], &["cos"], "the secant is `1 / cos({0 a})`").with_formula(),
+    call(&["csc", "cosec"], &["sin"], "the cosecant is `1 / sin({0 a})`").with_formula(),
+    call(&["cotd"], &["tan"], "angles are in radians, or have a unit: `1 / tan({0 deg})`").with_formula(),
+    call(&["secd"], &["cos"], "angles are in radians, or have a unit: `1 / cos({0 deg})`").with_formula(),
+    call(&["cscd"], &["sin"], "angles are in radians, or have a unit: `1 / sin({0 deg})`").with_formula(),
+    call(&["acot", "arccot"], &["atan2"], "the arc cotangent, from 0 to pi, is `atan2(1, {0 a})`").with_formula(),
+    call(&["asec", "arcsec"], &["acos"], "the arc secant is `acos(1 / {0 (a)})`").with_formula(),
+    call(&["acsc", "arccsc"], &["asin"], "the arc cosecant is `asin(1 / {0 (a)})`").with_formula(),
+    call(&["coth"], &["tanh"], "the hyperbolic cotangent is `1 / tanh({0 a})`").with_formula(),
+    call(&["sech"], &["cosh"], "the hyperbolic secant is `1 / cosh({0 a})`").with_formula(),
+    call(&["csch"], &["sinh"], "the hyperbolic cosecant is `1 / sinh({0 a})`").with_formula(),
     call(
         &["asinh", "arsinh", "arcsinh"],
         &["ln", "sqrt"],
         "the inverse of `sinh` is `ln({0 (a)} + sqrt({0 (a)}^2 + 1))`",
-    ).takes_a_formula(),
+    ).with_formula(),
     call(
         &["acosh", "arcosh", "arccosh"],
         &["ln", "sqrt"],
         "the inverse of `cosh` is `ln({0 (a)} + sqrt({0 (a)}^2 - 1))`",
-    ).takes_a_formula(),
-    call(&["atanh", "artanh", "arctanh"], &["ln"], "the inverse of `tanh` is `ln((1 + {0 (a)}) / (1 - {0 (a)})) / 2`").takes_a_formula(),
+    ).with_formula(),
+    call(&["atanh", "artanh", "arctanh"], &["ln"], "the inverse of `tanh` is `ln((1 + {0 (a)}) / (1 - {0 (a)})) / 2`").with_formula(),
     call(
         &["radians", "deg2rad", "torad", "to_rad", "to_radians"],
         &["deg"],
         "an angle in degrees is written with its unit: `{0 deg}`",
-    ).takes_a_formula(),
+    ).with_formula(),
     call(
         &["degrees", "rad2deg", "todeg", "to_deg", "to_degrees"],
         &["deg"],
         "the number of degrees of an angle is `{0 (a)} / 1 deg`",
-    ).takes_a_formula(),
+    ).with_formula(),
     // ---- whole numbers, signs, choices
-    call(&["floor"], &["mod"], "the language has no `floor`: use `{0 (a)} - mod({0 a}, 1)`").takes_a_formula(),
-    call(&["ceil", "ceiling"], &["mod"], "the language has no `ceil`: use `{0 (a)} + mod(-{0 (a)}, 1)`").takes_a_formula(),
+    call(&["floor"], &["mod"], "the language has no `floor`: use `{0 (a)} - mod({0 a}, 1)`").with_formula(),
+    call(&["ceil", "ceiling"], &["mod"], "the language has no `ceil`: use `{0 (a)} + mod(-{0 (a)}, 1)`").with_formula(),
     call(
         &["round", "rint", "nint"],
         &["mod"],
         "the language has no `round`: use `{0 (a)} + 0.5 - mod({0 (a)} + 0.5, 1)`",
-    ).takes_a_formula(),
+    ).with_formula(),
     call(
         &["trunc", "fix", "int", "integer"],
         &["mod"],
         "the language has no `trunc`: use `sign({0 a}) * (abs({0 a}) - mod(abs({0 a}), 1))`",
-    ).takes_a_formula(),
-    call(&["frac", "fract"], &["mod"], "what is behind the point is `mod({0 a}, 1)`").takes_a_formula(),
+    ).with_formula(),
+    call(&["frac", "fract"], &["mod"], "what is behind the point is `mod({0 a}, 1)`").with_formula(),
     call(
         &["rem", "fmod", "remainder"],
         &["mod"],
         "`mod({0 a}, {1 b})` has the sign of the second; with that of the first: `sign({0 a}) * mod(abs({0 a}), abs({1 b}))`",
-    ).takes_a_formula(),
+    ).with_formula(),
     call(&["modulo", "modulus"], &["mod"], "it is written `mod({0 a}, {1 b})`"),
     call(&["sgn", "signum", "copysign"], &["sign"], "the sign of a number is `sign({0 a})`"),
     call(&["fabs", "absolute", "magnitude", "mag"], &["abs"], "the absolute value is `abs({0 a})`"),
@@ -415,17 +414,17 @@ pub static SYNONYMS: &[Synonym] = &[
         &["std", "stdev", "stddev", "deviation"],
         &["rms", "mean"],
         "the standard deviation over the motion is `rms({0 (a)} - mean({0 a}))`, in a `result`",
-    ).takes_a_formula(),
+    ).with_formula(),
     call(
         &["clamp", "clip", "limit", "saturate", "sat"],
         &["min", "max"],
         "between two limits it is `max({1 low}, min({2 high}, {0 a}))`",
-    ).takes_a_formula(),
+    ).with_formula(),
     call(
         &["heaviside", "unitstep", "unit_step"],
         &["if"],
         "a jump is written `if {0 t} < 0 then 0 else 1`; a smooth rise is `step5(u, u0, v0, u1, v1)`",
-    ).takes_a_formula(),
+    ).with_formula(),
     call(
         &["iif", "ifelse", "select", "piecewise", "cond", "ite"],
         &["if"],
@@ -465,8 +464,8 @@ pub static SYNONYMS: &[Synonym] = &[
         "a curve through points is a table, called by its name: `table lift = spline [(0, 0), (1, 2)]`",
     ),
     // ---- units
-    unit(&["min", "minute", "minutes"], &["rpm"], "minutes are no unit; `rev/min` is `rpm`, `1 min` is `60 s`").takes_a_formula(),
-    unit(&["h", "hour", "hours", "hr"], &["s"], "hours are no unit; `1 h` is `3600 s`").takes_a_formula(),
+    unit(&["min", "minute", "minutes"], &["rpm"], "minutes are no unit; `rev/min` is `rpm`, `1 min` is `60 s`").with_formula(),
+    unit(&["h", "hour", "hours", "hr"], &["s"], "hours are no unit; `1 h` is `3600 s`").with_formula(),
     unit(&["degree", "degrees", "°"], &["deg"], "was `deg` meant?"),
     unit(&["radian", "radians"], &["rad"], "was `rad` meant?"),
     unit(&["rot", "rots", "turn", "turns", "revolution", "revolutions", "cycle", "cycles"], &["rev"], "was `rev` meant?"),
@@ -479,39 +478,39 @@ pub static SYNONYMS: &[Synonym] = &[
     unit(&["micron", "microns", "micrometer", "micrometre"], &["um"], "was `um` meant?"),
     unit(&["inch", "inches"], &["in"], "was `in` meant?"),
     unit(&["foot", "feet"], &["ft"], "was `ft` meant?"),
-    unit(&["rps"], &["rev"], "revolutions per second are `rev/s`").takes_a_formula(),
-    unit(&["khz", "kilohertz"], &["Hz"], "kilohertz are no unit; `1 kHz` is `1000 Hz`").takes_a_formula(),
-    unit(&["mhz"], &["Hz"], "neither megahertz nor millihertz are a unit; write `1e6 Hz` or `0.001 Hz`").takes_a_formula(),
+    unit(&["rps"], &["rev"], "revolutions per second are `rev/s`").with_formula(),
+    unit(&["khz", "kilohertz"], &["Hz"], "kilohertz are no unit; `1 kHz` is `1000 Hz`").with_formula(),
+    unit(&["mhz"], &["Hz"], "neither megahertz nor millihertz are a unit; write `1e6 Hz` or `0.001 Hz`").with_formula(),
     unit(&["hertz"], &["Hz"], "was `Hz` meant?"),
-    unit(&["urad", "µrad"], &["mrad"], "microradians are no unit; `1 urad` is `0.001 mrad`").takes_a_formula(),
+    unit(&["urad", "µrad"], &["mrad"], "microradians are no unit; `1 urad` is `0.001 mrad`").with_formula(),
     unit(&["u/min", "upm", "rev_min", "revpm"], &["rpm"], "was `rpm` meant?"),
-    unit(&["dm"], &["m"], "decimetres are no unit; `1 dm` is `0.1 m`").takes_a_formula(),
-    unit(&["nm"], &["N", "m"], "newton metres are `N*m`; `1 nm` is `1e-9 m`").takes_a_formula(),
-    unit(&["knm"], &["kN", "m"], "kilonewton metres are `kN*m`").takes_a_formula(),
-    unit(&["g", "gram", "grams", "gramme"], &["kg"], "grams are no unit; `1 g` is `0.001 kg`").takes_a_formula(),
-    unit(&["t", "tonne", "tonnes", "ton", "tons"], &["kg"], "tonnes are no unit; `1 t` is `1000 kg`").takes_a_formula(),
+    unit(&["dm"], &["m"], "decimetres are no unit; `1 dm` is `0.1 m`").with_formula(),
+    unit(&["nm"], &["N", "m"], "newton metres are `N*m`; `1 nm` is `1e-9 m`").with_formula(),
+    unit(&["knm"], &["kN", "m"], "kilonewton metres are `kN*m`").with_formula(),
+    unit(&["g", "gram", "grams", "gramme"], &["kg"], "grams are no unit; `1 g` is `0.001 kg`").with_formula(),
+    unit(&["t", "tonne", "tonnes", "ton", "tons"], &["kg"], "tonnes are no unit; `1 t` is `1000 kg`").with_formula(),
     unit(&["kilogram", "kilograms", "kilo", "kgs"], &["kg"], "was `kg` meant?"),
-    unit(&["lb", "lbs", "pound", "pounds"], &["lbm", "lbf"], "a mass is in `lbm`, a force in `lbf`").takes_a_formula(),
+    unit(&["lb", "lbs", "pound", "pounds"], &["lbm", "lbf"], "a mass is in `lbm`, a force in `lbf`").with_formula(),
     unit(&["newton", "newtons"], &["N"], "was `N` meant?"),
-    unit(&["kgf", "kp"], &["N"], "kilograms are no force; `1 kgf` is `9.80665 N`").takes_a_formula(),
-    unit(&["kgm2", "kgm²", "kg·m²", "kg·m2"], &["kg", "m"], "a moment of inertia is in `kg*m^2`").takes_a_formula(),
-    unit(&["kgmm2", "kgmm²", "kg·mm²", "kg·mm2"], &["kg", "mm"], "a moment of inertia is in `kg*mm^2`").takes_a_formula(),
+    unit(&["kgf", "kp"], &["N"], "kilograms are no force; `1 kgf` is `9.80665 N`").with_formula(),
+    unit(&["kgm2", "kgm²", "kg·m²", "kg·m2"], &["kg", "m"], "a moment of inertia is in `kg*m^2`").with_formula(),
+    unit(&["kgmm2", "kgmm²", "kg·mm²", "kg·mm2"], &["kg", "mm"], "a moment of inertia is in `kg*mm^2`").with_formula(),
     unit(&["joule", "joules"], &["J"], "was `J` meant?"),
-    unit(&["kj", "mj"], &["J"], "write `1000 J` for `1 kJ`").takes_a_formula(),
+    unit(&["kj", "mj"], &["J"], "write `1000 J` for `1 kJ`").with_formula(),
     unit(&["watt", "watts"], &["W"], "was `W` meant?"),
-    unit(&["mw"], &["kW"], "neither megawatts nor milliwatts are a unit; write `1000 kW` or `0.001 W`").takes_a_formula(),
-    unit(&["hp", "ps"], &["kW"], "horse powers are no unit; `1 hp` is `0.7457 kW`").takes_a_formula(),
+    unit(&["mw"], &["kW"], "neither megawatts nor milliwatts are a unit; write `1000 kW` or `0.001 W`").with_formula(),
+    unit(&["hp", "ps"], &["kW"], "horse powers are no unit; `1 hp` is `0.7457 kW`").with_formula(),
     unit(&["pascal", "pascals"], &["Pa"], "was `Pa` meant?"),
-    unit(&["gpa"], &["MPa"], "gigapascals are no unit; `1 GPa` is `1000 MPa`").takes_a_formula(),
-    unit(&["psi"], &["kPa"], "pounds per square inch are no unit; `1 psi` is `1 lbf/in^2`, `6.895 kPa`").takes_a_formula(),
-    unit(&["atm", "mbar"], &["bar"], "`1 atm` is `1.01325 bar`, `1 mbar` is `0.001 bar`").takes_a_formula(),
-    unit(&["mil", "thou"], &["in"], "thousandths of an inch are no unit; `1 mil` is `0.001 in`").takes_a_formula(),
-    unit(&["yd", "yard", "yards"], &["ft"], "yards are no unit; `1 yd` is `3 ft`").takes_a_formula(),
-    unit(&["gon", "grad"], &["deg"], "gons are no unit; `1 gon` is `0.9 deg`").takes_a_formula(),
-    unit(&["arcmin"], &["deg"], "minutes of arc are no unit; `1 deg` is 60 of them").takes_a_formula(),
-    unit(&["arcsec"], &["deg"], "seconds of arc are no unit; `1 deg` is 3600 of them").takes_a_formula(),
+    unit(&["gpa"], &["MPa"], "gigapascals are no unit; `1 GPa` is `1000 MPa`").with_formula(),
+    unit(&["psi"], &["kPa"], "pounds per square inch are no unit; `1 psi` is `1 lbf/in^2`, `6.895 kPa`").with_formula(),
+    unit(&["atm", "mbar"], &["bar"], "`1 atm` is `1.01325 bar`, `1 mbar` is `0.001 bar`").with_formula(),
+    unit(&["mil", "thou"], &["in"], "thousandths of an inch are no unit; `1 mil` is `0.001 in`").with_formula(),
+    unit(&["yd", "yard", "yards"], &["ft"], "yards are no unit; `1 yd` is `3 ft`").with_formula(),
+    unit(&["gon", "grad"], &["deg"], "gons are no unit; `1 gon` is `0.9 deg`").with_formula(),
+    unit(&["arcmin"], &["deg"], "minutes of arc are no unit; `1 deg` is 60 of them").with_formula(),
+    unit(&["arcsec"], &["deg"], "seconds of arc are no unit; `1 deg` is 3600 of them").with_formula(),
     // ---- names that stand for a number
-    number(&["dt"], &["der"], "the time derivative of a formula is `der(…)`, in a measure").takes_a_formula(),
+    number(&["dt"], &["der"], "the time derivative of a formula is `der(…)`, in a measure").with_formula(),
     number(&["time", "zeit", "temps", "tiempo"], &["t"], "was `t` meant?"),
     number(&["π", "𝜋"], &["pi"], "was `pi` meant?"),
     number(&["τ", "two_pi", "twopi"], &["tau"], "was `tau` meant?"),
@@ -535,10 +534,10 @@ pub static SYNONYMS: &[Synonym] = &[
         &["load"],
         "a force of which a formula is known is a `load`: `load spring: -k * K on K`",
     )
-    .takes_a_formula(),
+    .with_formula(),
     declaration(&["grav", "gravitation"], &["gravity"], "was `gravity` meant?"),
     declaration(&["weight", "point_mass", "pointmass", "mass_properties"], &["mass"], "what a body weighs is its `mass`, in its braces")
-        .takes_a_formula(),
+        .with_formula(),
     declaration(&["equation", "condition", "coupling"], &["constraint"], "was `constraint` meant?"),
     declaration(&["output", "plot", "print", "sensor", "request"], &["measure"], "was `measure` meant?"),
     declaration(&["simulate", "simulation", "solve", "run", "time"], &["analysis"], "was `analysis` meant?"),

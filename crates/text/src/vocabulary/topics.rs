@@ -1,6 +1,6 @@
-//! The pages of `mechc explain` on what is more than a word: what it is, an example, what to look at.
+//! Pages of `mechc explain` on topics beyond single words: an explanation, an example, and references.
 
-/// A page, by the names under which it is asked for.
+/// A page with its names.
 struct Topic {
     names: &'static [&'static str],
     page: &'static str,
@@ -23,12 +23,12 @@ const PAGES: [Topic; 11] = [
     Topic { names: &["view", "vary", "pictures", "vectors"], page: include_str!("topics/view.md") },
 ];
 
-/// What has a page, each by its first name.
+/// Returns the topics, each by its first name.
 pub fn topics() -> impl Iterator<Item = &'static str> {
     PAGES.iter().filter_map(|topic| topic.names.first().copied())
 }
 
-/// The page of a name.
+/// Returns the page of a name.
 #[must_use]
 pub fn topic(name: &str) -> Option<&'static str> {
     PAGES.iter().find(|topic| topic.names.contains(&name)).map(|topic| topic.page)

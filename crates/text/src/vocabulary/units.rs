@@ -1,20 +1,19 @@
-//! The units of the language.
+//! Units of the language.
 
 use super::{Category, Dimension, Example, Word};
 use std::f64::consts::{PI, TAU};
 
-/// A unit: `numerator / denominator · factor` in SI, so that `50 mm` is 50/1000 m rounded once, and `90 deg` half of π.
+/// A unit, whose value in SI is `numerator / denominator · factor`: `50 mm` is 50/1000 m rounded once, and `90 deg` is half of π.
 #[derive(Debug)]
 pub struct Unit {
-    /// What is told of it.
+    /// Documentation.
     pub word: Word,
     numerator: f64,
     denominator: f64,
     factor: f64,
-    /// Of a quantity in this unit.
+    /// Dimension of quantities in this unit.
     pub dimension: Dimension,
-    /// Whether a name of the mechanism, or an argument, that is called so means itself: texts that were written before there was this
-    /// unit mean what they meant.
+    /// True if a name of the mechanism or an argument with this name replaces it: older texts keep their meaning.
     pub gives_way: bool,
 }
 
@@ -52,12 +51,12 @@ const fn time(
     }
 }
 
-/// A unit of angle or rate: so many of `factor` in each `denominator`.
-const fn turning(word: Word, factor: f64, denominator: f64, dimension: Dimension) -> Unit {
+/// Creates a unit of angle or rate, `factor / denominator` in SI.
+const fn angular(word: Word, factor: f64, denominator: f64, dimension: Dimension) -> Unit {
     Unit { word, numerator: 1.0, denominator, factor, dimension, gives_way: false }
 }
 
-/// A unit of a quantity that has to do with mass.
+/// Creates a unit of a quantity with mass.
 const fn dynamic(
     name: &'static str,
     form: &'static [&'static str],
@@ -70,7 +69,7 @@ const fn dynamic(
     Unit { word, numerator, denominator, factor: 1.0, dimension, gives_way: true }
 }
 
-/// An arm with a mass, and a measure.
+/// Example of an arm with a mass, and a measure.
 macro_rules! weighing {
     ($mass:literal, $measure:literal) => {
         concat!(
@@ -92,7 +91,7 @@ measure ",
     };
 }
 
-/// A piston on which a pressure works.
+/// Example of a piston under pressure.
 macro_rules! pressed {
     ($pressure:literal) => {
         concat!(
@@ -112,7 +111,7 @@ measure push = effort(move) in N"
     };
 }
 
-/// All of them.
+/// All units.
 pub static UNITS: &[Unit] = &[
     length("m", &["1.5 m"], "the metre", 1.0, 1.0, "measure beyond = x(arm.tip) - 0.05 m"),
     length("mm", &["50 mm"], "the millimetre", 1.0, 1e3, "measure beyond = x(arm.tip) - 50 mm"),
@@ -129,7 +128,7 @@ pub static UNITS: &[Unit] = &[
     length("km", &["2 km"], "the kilometre", 1e3, 1.0, "measure beyond = x(arm.tip) - 0.001 km"),
     length("in", &["2 in"], "the inch, 25.4 mm", 254.0, 1e4, "measure beyond = x(arm.tip) - 2 in"),
     length("ft", &["3 ft"], "the foot, 12 inches", 3048.0, 1e4, "measure beyond = x(arm.tip) - 0.1 ft"),
-    turning(
+    angular(
         word("rad", &["2 rad"], "the radian, which is the pure number 1", "driver motor: rotation(main) = 2 rad/s * t"),
         1.0,
         1.0,
@@ -137,7 +136,7 @@ pub static UNITS: &[Unit] = &[
     ),
     Unit {
         gives_way: true,
-        ..turning(
+        ..angular(
             word(
                 "mrad",
                 &["5 mrad"],
@@ -149,7 +148,7 @@ pub static UNITS: &[Unit] = &[
             Dimension::PURE,
         )
     },
-    turning(
+    angular(
         word(
             "deg",
             &["30 deg"],
@@ -160,7 +159,7 @@ pub static UNITS: &[Unit] = &[
         180.0,
         Dimension::PURE,
     ),
-    turning(
+    angular(
         word(
             "rev",
             &["0.5 rev"],
@@ -183,7 +182,7 @@ pub static UNITS: &[Unit] = &[
     ),
     Unit {
         gives_way: true,
-        ..turning(
+        ..angular(
             word(
                 "Hz",
                 &["5 Hz"],
@@ -195,7 +194,7 @@ pub static UNITS: &[Unit] = &[
             Dimension::RATE,
         )
     },
-    turning(
+    angular(
         word(
             "rpm",
             &["60 rpm"],
@@ -276,7 +275,7 @@ pub static UNITS: &[Unit] = &[
     dynamic("bar", &["2 bar"], "the bar, 100 kPa", [1e5, 1.0], Dimension::PRESSURE, pressed!("2 bar")),
 ];
 
-/// Prefixes of decimal multiples, and what they stand for.
+/// Prefixes of decimal multiples, with their factors.
 const PREFIXES: [(&str, &str); 8] = [
     ("n", "1e-9"),
     ("u", "1e-6"),
@@ -288,38 +287,38 @@ const PREFIXES: [(&str, &str); 8] = [
     ("G", "1e9"),
 ];
 
-/// The units that take them elsewhere.
+/// Units that take prefixes elsewhere.
 const DIVIDED: [&str; 6] = ["s", "N", "J", "W", "Pa", "Hz"];
 
 impl Unit {
-    /// The unit of a name; the Greek letter mu serves for the micro sign.
+    /// Returns the unit of a name. The Greek letter mu counts as the micro sign.
     #[must_use]
     pub fn named(name: &str) -> Option<&'static Unit> {
         let name = name.replace('μ', "µ");
         UNITS.iter().find(|unit| unit.word.name == name)
     }
 
-    /// What one of a decimal multiple is that has no name of its own here, told in a unit that has one: of `mN`, `0.001 N`.
+    /// Returns the value of a prefixed unit that is not in the language, in its base unit: `0.001 N` for `mN`.
     #[must_use]
-    pub fn of_multiple(name: &str) -> Option<String> {
+    pub fn prefixed_value(name: &str) -> Option<String> {
         PREFIXES.iter().find_map(|(prefix, factor)| {
             let unit = Unit::named(name.strip_prefix(prefix)?)?;
             DIVIDED.contains(&unit.word.name).then(|| format!("{factor} {}", unit.word.name))
         })
     }
 
-    /// All names.
+    /// Returns all names.
     pub fn names() -> impl Iterator<Item = &'static str> {
         UNITS.iter().map(|unit| unit.word.name)
     }
 
-    /// Whether it measures angles or turning speeds, which are pure numbers and rates to the dimensions.
+    /// Returns whether the unit is for angles or angular velocities, whose dimensions are those of pure numbers and rates.
     #[must_use]
-    pub fn is_of_angle(&self) -> bool {
+    pub fn measures_angle(&self) -> bool {
         self.dimension.is(Dimension::PURE) || self.word.name == "rpm"
     }
 
-    /// `value` in this unit to a power, in SI.
+    /// Converts a value in a power of this unit to SI.
     #[must_use]
     pub fn to_si(&self, value: f64, power: i32) -> f64 {
         (0..power.abs()).fold(value, |v, _| {
@@ -335,47 +334,47 @@ impl Unit {
 /// Units with powers, joined by `*` and `/`: `mm/s^2`.
 #[derive(Clone, Debug)]
 pub struct CompoundUnit {
-    /// In the order in which they are written; those behind a `/` have negative powers.
+    /// Factors as written; those after a `/` have negative powers.
     factors: Vec<(&'static Unit, i32)>,
 }
 
 impl CompoundUnit {
-    /// The product of some units with their powers.
+    /// Creates a product of units with powers.
     #[must_use]
     pub fn new(factors: Vec<(&'static Unit, i32)>) -> CompoundUnit {
         CompoundUnit { factors }
     }
 
-    /// The units with their powers, in order.
+    /// Returns the units with their powers, in order.
     pub fn factors(&self) -> impl Iterator<Item = (&'static Unit, i32)> {
         self.factors.iter().copied()
     }
 
-    /// Of a quantity in this unit.
+    /// Returns the dimension of quantities in this unit.
     #[must_use]
     pub fn dimension(&self) -> Dimension {
         let powers = self.factors.iter().map(|(unit, power)| unit.dimension.to_the(f64::from(*power)));
         powers.fold(Dimension::PURE, Dimension::times)
     }
 
-    /// `value` in this unit, in SI.
+    /// Converts a value to SI.
     #[must_use]
     pub fn to_si(&self, value: f64) -> f64 {
         self.factors.iter().fold(value, |value, (unit, power)| unit.to_si(value, *power))
     }
 
-    /// What a value in SI is divided by, multiplied with and divided by, one after the other, to be in this unit: so 2π per second is
-    /// 60 rpm to the bit, and 25.4 mm one inch.
+    /// Returns the conversion from SI to this unit: a divisor, a factor and a divisor, in this order. So 2π per second is exactly 60 rpm,
+    /// and 25.4 mm is one inch.
     #[must_use]
     pub fn scale(&self) -> [f64; 3] {
         let mut scale = [1.0; 3];
         for (unit, power) in &self.factors {
             let numerator = unit.numerator * unit.factor;
-            // what is no whole number comes first
-            let divides = if numerator.fract() == 0.0 { 2 } else { 0 };
+            // a factor that is not an integer is divided first
+            let divisor = if numerator.fract() == 0.0 { 2 } else { 0 };
             for _ in 0..power.abs() {
                 if *power > 0 {
-                    scale[divides] *= numerator;
+                    scale[divisor] *= numerator;
                     scale[1] *= unit.denominator;
                 } else {
                     scale[1] *= numerator;
@@ -386,7 +385,7 @@ impl CompoundUnit {
         scale
     }
 
-    /// The text of this unit per second, so many times: `mm/s^2` for `mm/s`.
+    /// Returns this unit per second to the power `times`: `mm/s^2` for `mm/s`.
     #[must_use]
     pub fn per_second(&self, times: i32) -> String {
         let mut factors: Vec<(&str, i32)> = self.factors.iter().map(|(unit, power)| (unit.word.name, *power)).collect();
@@ -399,7 +398,7 @@ impl CompoundUnit {
     }
 }
 
-/// `mm/s^2`; `1` for no unit at all.
+/// Formats a product as `mm/s^2`, or `1` without factors.
 fn product(factors: &[(&str, i32)]) -> String {
     let to_the = |(unit, power): (&str, i32)| if power == 1 { unit.to_owned() } else { format!("{unit}^{power}") };
     let above: Vec<String> = factors.iter().filter(|(_, power)| *power > 0).map(|factor| to_the(*factor)).collect();

@@ -1,9 +1,9 @@
-//! Bytes as Base64.
+//! Base64 encoder.
 
 const LETTERS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
 
-/// With `=` at its end where it is not a multiple of three bytes.
-pub(super) fn written(bytes: &[u8]) -> String {
+/// Encodes bytes as Base64, with `=` as padding (RFC 4648, section 4).
+pub(super) fn encode(bytes: &[u8]) -> String {
     let mut text = String::with_capacity(bytes.len().div_ceil(3) * 4);
     for three in bytes.chunks(3) {
         let bits = (0..3).fold(0, |bits, k| bits << 8 | u32::from(three.get(k).copied().unwrap_or(0)));
@@ -17,7 +17,7 @@ pub(super) fn written(bytes: &[u8]) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::written;
+    use super::encode;
 
     #[test]
     fn as_in_rfc_4648() {
@@ -30,8 +30,8 @@ mod tests {
             ("fooba", "Zm9vYmE="),
             ("foobar", "Zm9vYmFy"),
         ] {
-            assert_eq!(written(bytes.as_bytes()), text);
+            assert_eq!(encode(bytes.as_bytes()), text);
         }
-        assert_eq!(written(&[0xfb, 0xff, 0xfe]), "+//+");
+        assert_eq!(encode(&[0xfb, 0xff, 0xfe]), "+//+");
     }
 }

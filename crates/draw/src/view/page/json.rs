@@ -1,44 +1,46 @@
-//! The data of a page as JSON.
+//! Data of a page as JSON.
 
-use super::places::Texts;
-use super::{Column, FORMAT, Page, Variant, columns};
-use crate::scene::{Anchor, Contact, ForceValue, ForceVector, Held, Node, Pen, Place, Scene, Torque, Touch, Trace};
-use crate::view::path::data;
+use super::utf16_offsets::{TextRange, Texts};
+use super::{Column, FORMAT, Page, Variant, table_compression};
+use crate::scene::{
+    Alignment, Anchor, Attachment, Contact, ForceValue, ForceVector, Node, Pen, Scene, Torque, Touch, Trace,
+};
+use crate::view::path::path_data;
 use mechc_text::diag::Diagnostic;
 use mechc_text::source::Source;
 use serde_json::{Map, Value, json};
 use std::path::Path;
 
-/// What is as large as a symbol is written with six digits, which are enough for what is drawn.
+/// Size of a symbol in units of the last decimal: six digits are enough for drawing.
 const LEAST_DIGITS: f64 = 1e5;
-/// Nothing is so small that it takes more decimals than this.
+/// Limit of decimals.
 const MOST_DECIMALS: usize = 30;
 
-/// The data, of whose tables every so-manyth row is there, and the last. Nothing in it ends the element that it stands in.
-pub(super) fn written(page: &Page, every: usize) -> String {
-    // an element of a script ends at `</script`, and `<!--` begins something else
-    value(page, every, Tables::Within).to_string().replace('<', "\\u003c")
+/// Writes the data with every `every`th row of the tables and the last one. It contains nothing that ends a script element.
+pub(super) fn write(page: &Page, every: usize) -> String {
+    // a script element ends at `</script`, and `<!--` has a meaning of its own
+    value(page, every, Tables::Embedded).to_string().replace('<', "\\u003c")
 }
 
-/// Where the numbers of tables are.
+/// Location of the numbers of tables.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Tables {
-    Within,
-    Beside,
+    Embedded,
+    Separate,
 }
 
-/// The data; null where there is no variant to show.
+/// Returns the data, or null if the page has no variant to show.
 pub(super) fn value(page: &Page, every: usize, tables: Tables) -> Value {
-    let texts = Texts::of(&page.texts);
+    let texts = Texts::new(&page.texts);
     let Some(first) = page.first() else { return Value::Null };
     let scene = scene(first.scene, &texts);
     let variants: Vec<Value> = page
         .variants
         .iter()
         .map(|variant| {
-            let table = if tables == Tables::Within { table(variant, every, page.columns.len()) } else { Vec::new() };
-            let packed = if table.is_empty() { String::new() } else { columns::written(&table) };
-            variant_with(variant, every, &packed, &texts, (first.scene, &scene))
+            let table = if tables == Tables::Embedded { table(variant, every, page.columns.len()) } else { Vec::new() };
+            let packed = if table.is_empty() { String::new() } else { table_compression::compress(&table) };
+            variant_object(variant, every, &packed, &texts, first.scene, &scene)
         })
         .collect();
     let mut all = json!({
@@ -49,25 +51,25 @@ pub(super) fn value(page: &Page, every: usize, tables: Tables) -> Value {
         "docs": first.scene.docs.join("\n"),
         "texts": page.texts.iter().map(|(_, source)| text(source)).collect::<Vec<_>>(),
         "scene": scene,
-        "columns": page.columns.iter().map(|column| Value::Object(column_of(column))).collect::<Vec<_>>(),
+        "columns": page.columns.iter().map(|column| Value::Object(column_object(column))).collect::<Vec<_>>(),
         "vary": page.vary.iter().map(|vary| {
             json!({ "name": vary.name, "unit": vary.unit, "values": vary.values, "nearest": vary.nearest, "own": vary.own })
         }).collect::<Vec<_>>(),
         "variants": variants,
     });
-    if let (Some(said), Some(object)) = (thinned(first, every), all.as_object_mut()) {
-        object.insert("thinned".to_owned(), said.into());
+    if let (Some(message), Some(object)) = (thinning_note(first, every), all.as_object_mut()) {
+        object.insert("thinned".to_owned(), message.into());
     }
     all
 }
 
-/// A text by the name of its file: where that lies is nobody's business.
+/// Returns a text with the name of its file; the folder is private.
 fn text(source: &Source) -> Value {
     let name = Path::new(&source.name).file_name().map_or(source.name.clone().into(), |name| name.to_string_lossy());
     json!({ "name": name, "text": source.text })
 }
 
-fn column_of(column: &Column) -> Map<String, Value> {
+fn column_object(column: &Column) -> Map<String, Value> {
     let mut object = Map::new();
     object.insert("name".to_owned(), column.name.into());
     object.insert("unit".to_owned(), column.unit.into());
@@ -80,41 +82,42 @@ fn column_of(column: &Column) -> Map<String, Value> {
     object
 }
 
-/// What is said of rows that are not there.
-fn thinned(variant: &Variant, every: usize) -> Option<String> {
-    let (all, kept) = (variant.all_rows, kept(variant.motion.rows().len(), every).count());
+/// Returns the note that rows were left out, if any were.
+fn thinning_note(variant: &Variant, every: usize) -> Option<String> {
+    let (all, kept) = (variant.all_rows, kept_rows(variant.motion.rows().len(), every).count());
     (kept < all).then(|| format!("This page has {kept} of the {all} rows of the motion, evenly spread."))
 }
 
-/// Every so-manyth row, and the last.
-fn kept(rows: usize, every: usize) -> impl Iterator<Item = usize> {
+/// Returns every `every`th row and the last one.
+fn kept_rows(rows: usize, every: usize) -> impl Iterator<Item = usize> {
     let last = rows.checked_sub(1);
     (0..rows).step_by(every).chain(last.filter(move |last| last % every != 0))
 }
 
-/// The columns of a table; none where there are no rows.
+/// Returns the columns of a table; without rows there are none.
 pub(super) fn table(variant: &Variant, every: usize, count: usize) -> Vec<Vec<f64>> {
     let table = variant.motion.rows();
-    let rows: Vec<usize> = kept(table.len(), every).collect();
-    let of_column = |column: usize| {
-        // what is infinite has no place in a table either
+    let rows: Vec<usize> = kept_rows(table.len(), every).collect();
+    let values_of = |column: usize| {
+        // infinite values are stored as NaN
         let finite = |value: f64| if value.is_finite() { value } else { f64::NAN };
         rows.iter().map(|row| finite(table[*row].get(column).copied().unwrap_or(f64::NAN))).collect()
     };
-    if rows.is_empty() { Vec::new() } else { (0..count).map(of_column).collect() }
+    if rows.is_empty() { Vec::new() } else { (0..count).map(values_of).collect() }
 }
 
-fn variant_with(
+fn variant_object(
     variant: &Variant,
     every: usize,
     packed: &str,
     texts: &Texts,
-    (first, shared): (&Scene, &Value),
+    first: &Scene,
+    shared: &Value,
 ) -> Value {
     let motion = variant.motion;
-    let rows = kept(motion.rows().len(), every).count();
+    let rows = kept_rows(motion.rows().len(), every).count();
     let results = variant.results.iter().map(|(column, value)| {
-        let mut object = column_of(column);
+        let mut object = column_object(column);
         object.insert("value".to_owned(), json!(value));
         Value::Object(object)
     });
@@ -122,7 +125,7 @@ fn variant_with(
         "rows": rows,
         "data": packed,
         "results": results.collect::<Vec<_>>(),
-        "messages": variant.messages.iter().map(|said| message(said, texts)).collect::<Vec<_>>(),
+        "messages": variant.messages.iter().map(|diagnostic| message(diagnostic, texts)).collect::<Vec<_>>(),
         "edges": motion.edges,
     });
     if let Some(object) = object.as_object_mut() {
@@ -134,16 +137,16 @@ fn variant_with(
             object.insert("named".to_owned(), json!(variant.scene.named));
         }
         let is_first = std::ptr::eq(first, variant.scene);
-        let own = if is_first { None } else { changes(shared, &scene(variant.scene, texts)) };
-        if let Some(changes) = own {
+        let scene_changes = if is_first { None } else { changes(shared, &scene(variant.scene, texts)) };
+        if let Some(changes) = scene_changes {
             object.insert("scene".to_owned(), changes);
         }
     }
     object
 }
 
-/// What makes one value of another; nothing where they are the same. What is another thing altogether stands in an array of one; of arrays of
-/// one length, and of objects with the same keys, only what differs is there, by its place or key.
+/// Returns what turns one value into another, or `None` if they are equal. A replaced value is an array of one element; for arrays of equal
+/// length and objects with equal keys it holds only the differences, by index or key.
 fn changes(from: &Value, to: &Value) -> Option<Value> {
     if from == to {
         return None;
@@ -151,7 +154,7 @@ fn changes(from: &Value, to: &Value) -> Option<Value> {
     let changed = match (from, to) {
         (Value::Array(from), Value::Array(to)) if from.len() == to.len() => {
             let pairs = from.iter().zip(to).enumerate();
-            pairs.filter_map(|(place, (from, to))| Some((place.to_string(), changes(from, to)?))).collect()
+            pairs.filter_map(|(index, (from, to))| Some((index.to_string(), changes(from, to)?))).collect()
         }
         (Value::Object(from), Value::Object(to)) if from.keys().eq(to.keys()) => {
             let pairs = from.iter().zip(to.values());
@@ -162,38 +165,38 @@ fn changes(from: &Value, to: &Value) -> Option<Value> {
     Some(Value::Object(changed))
 }
 
-fn message(said: &Diagnostic, texts: &Texts) -> Value {
+fn message(message: &Diagnostic, texts: &Texts) -> Value {
     let label = |label: &mechc_text::diag::Label| {
-        let (text, from, to) = texts.place(label.span)?;
-        Some(json!({ "text": text, "from": from, "to": to, "says": label.text }))
+        let TextRange { text, start, end } = texts.locate(label.span)?;
+        Some(json!({ "text": text, "from": start, "to": end, "says": label.text }))
     };
     let mut object = json!({
-        "severity": said.severity().as_str(),
-        "code": said.code.as_str(),
-        "text": said.message,
-        "labels": said.labels.iter().filter_map(label).collect::<Vec<_>>(),
-        "notes": said.notes,
-        "help": said.help,
+        "severity": message.severity().as_str(),
+        "code": message.code.as_str(),
+        "text": message.message,
+        "labels": message.labels.iter().filter_map(label).collect::<Vec<_>>(),
+        "notes": message.notes,
+        "help": message.help,
     });
-    if let (Some(time), Some(object)) = (said.data.get("t").and_then(Value::as_f64), object.as_object_mut()) {
+    if let (Some(time), Some(object)) = (message.data.get("t").and_then(Value::as_f64), object.as_object_mut()) {
         object.insert("time".to_owned(), time.into());
     }
     object
 }
 
-/// What there is to draw, with the places of declarations in the texts.
+/// Returns the scene with the spans of declarations in the texts.
 pub(super) fn scene(scene: &Scene, texts: &Texts) -> Value {
     let decimals = decimals(scene.unit);
     let declarations = scene.declarations.iter().map(|declaration| {
-        let (text, from, to) = texts.place(declaration.span).unwrap_or_default();
-        json!([declaration.name, declaration.kind, text, from, to])
+        let TextRange { text, start, end } = texts.locate(declaration.span).unwrap_or_default();
+        json!([declaration.name, declaration.kind, text, start, end])
     });
     let points = scene.points.iter().map(|point| {
         json!({
             "name": point.name, "declaration": point.declaration, "frame": point.frame, "at": point.at, "pin": point.is_pin,
         })
     });
-    // where nothing is finite the page makes an extent of its own
+    // without finite values the page computes an extent of its own
     let extent = if scene.extent.iter().flatten().all(|part| part.is_finite()) { scene.extent } else { [[0.0; 2]; 2] };
     let mut all = json!({
         "unit": scene.unit,
@@ -201,7 +204,7 @@ pub(super) fn scene(scene: &Scene, texts: &Texts) -> Value {
         "declarations": declarations.collect::<Vec<_>>(),
         "frames": scene.frames,
         "points": points.collect::<Vec<_>>(),
-        "nodes": scene.nodes.iter().map(|node| written_node(node, decimals)).collect::<Vec<_>>(),
+        "nodes": scene.nodes.iter().map(|node| node_value(node, decimals)).collect::<Vec<_>>(),
         "traces": scene.traces.iter().map(trace).collect::<Vec<_>>(),
         "profiles": scene.profiles.iter().map(|profile| {
             json!({ "declaration": profile.declaration, "frame": profile.frame })
@@ -220,9 +223,9 @@ pub(super) fn scene(scene: &Scene, texts: &Texts) -> Value {
     all
 }
 
-/// Decimals of metres that give what is as large as a symbol so many digits.
+/// Returns the decimals of metres that give a symbol's size [`LEAST_DIGITS`] units of the last decimal.
 fn decimals(unit: f64) -> usize {
-    // without logarithms, whose bits are not the same everywhere
+    // no logarithms: their bits differ between platforms
     let (mut decimals, mut size) = (0, unit * (1.0 + f64::EPSILON));
     while size < LEAST_DIGITS && decimals < MOST_DECIMALS {
         size *= 10.0;
@@ -231,17 +234,17 @@ fn decimals(unit: f64) -> usize {
     decimals
 }
 
-fn placed(anchor: &Anchor) -> Value {
+fn anchor_value(anchor: &Anchor) -> Value {
     json!([anchor.frame, anchor.at[0], anchor.at[1]])
 }
 
 fn force(force: &ForceVector) -> Value {
-    let mut all = json!({ "declaration": force.declaration, "kind": force.kind.word(), "at": placed(&force.at) });
+    let mut all = json!({ "declaration": force.declaration, "kind": force.kind.word(), "at": anchor_value(&force.at) });
     let (name, value) = match &force.value {
         ForceValue::Constant(force) => ("constant", json!(force)),
         ForceValue::Components(columns) => ("columns", json!(columns)),
         ForceValue::Along { column, frame, direction } => ("along", json!([column, frame, direction])),
-        ForceValue::Apart { column, from, to } => ("apart", json!([column, placed(from), placed(to)])),
+        ForceValue::Apart { column, from, to } => ("apart", json!([column, anchor_value(from), anchor_value(to)])),
     };
     if let Some(object) = all.as_object_mut() {
         object.insert(name.to_owned(), value);
@@ -250,25 +253,27 @@ fn force(force: &ForceVector) -> Value {
 }
 
 fn torque(Torque { declaration, kind, at, column, sign }: &Torque) -> Value {
-    json!({ "declaration": declaration, "kind": kind.word(), "at": placed(at), "column": column, "sign": sign })
+    json!({ "declaration": declaration, "kind": kind.word(), "at": anchor_value(at), "column": column, "sign": sign })
 }
 
-fn written_node(node: &Node, decimals: usize) -> Value {
-    let (name, place) = match &node.place {
-        Place::Fixed(frame) => ("fixed", json!(frame)),
-        Place::Upright(at) => ("upright", placed(at)),
-        Place::Between { from, to, held } => {
-            let held = match held {
-                Held::From => "from",
-                Held::To => "to",
-                Held::Stretched => "stretched",
+fn node_value(node: &Node, decimals: usize) -> Value {
+    let (name, attachment) = match &node.attachment {
+        Attachment::Fixed(frame) => ("fixed", json!(frame)),
+        Attachment::Upright(at) => ("upright", anchor_value(at)),
+        Attachment::Between { from, to, alignment } => {
+            let alignment = match alignment {
+                Alignment::Start => "from",
+                Alignment::End => "to",
+                Alignment::Stretch => "stretched",
             };
-            ("between", json!([placed(from), placed(to), held]))
+            ("between", json!([anchor_value(from), anchor_value(to), alignment]))
         }
     };
-    let shapes =
-        node.shapes.iter().map(|shape| json!({ "look": shape.look.word(), "d": data(&shape.path, 1.0, decimals) }));
-    json!({ "declaration": node.declaration, name: place, "shapes": shapes.collect::<Vec<_>>() })
+    let shapes = node
+        .shapes
+        .iter()
+        .map(|shape| json!({ "look": shape.look.word(), "d": path_data(&shape.path, 1.0, decimals) }));
+    json!({ "declaration": node.declaration, name: attachment, "shapes": shapes.collect::<Vec<_>>() })
 }
 
 fn contact(contact: &Contact) -> Value {
@@ -295,7 +300,7 @@ fn trace(trace: &Trace) -> Value {
 
 #[cfg(test)]
 mod tests {
-    use super::{changes, decimals, kept};
+    use super::{changes, decimals, kept_rows};
     use serde_json::json;
 
     #[test]
@@ -310,7 +315,7 @@ mod tests {
 
     #[test]
     fn the_last_row_is_kept() {
-        let kept = |rows, every| kept(rows, every).collect::<Vec<_>>();
+        let kept = |rows, every| kept_rows(rows, every).collect::<Vec<_>>();
         assert_eq!(kept(7, 3), [0, 3, 6]);
         assert_eq!(kept(6, 3), [0, 3, 5]);
         assert_eq!(kept(3, 1), [0, 1, 2]);
@@ -320,8 +325,8 @@ mod tests {
 
     #[test]
     fn shapes_have_six_digits_of_a_symbol() {
-        for (unit, wanted) in [(0.004, 8), (40.0, 4), (4e-8, 13), (1.0, 5)] {
-            assert_eq!(decimals(unit), wanted, "{unit}");
+        for (unit, expected) in [(0.004, 8), (40.0, 4), (4e-8, 13), (1.0, 5)] {
+            assert_eq!(decimals(unit), expected, "{unit}");
         }
     }
 }

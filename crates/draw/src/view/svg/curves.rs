@@ -1,34 +1,34 @@
-//! Traces: smooth curves along the motion, by places and velocities, in as few pieces as they need.
+//! Traces as smooth cubic curves through positions and velocities, with as few pieces as possible.
 
-use super::picture::{PER_METER, Picture};
+use super::picture::{PIXELS_PER_METER, Picture};
 use super::style::TRACE_COLORS;
 use crate::scene::{Motion, Pen, Stroke, Track, Vector, bounds, distance, is_finite, minus, plus, times};
-use crate::view::text::{escaped, number};
+use crate::view::text::{decimal, escape};
 
-/// What a curve may be off (px), and the same as a part of the picture's shorter side; where paper is cut, in metres of it.
-const OFF: f64 = 0.03;
-const OFF_OF_SIDE: f64 = 4e-5;
-const OFF_OF_PAPER: f64 = 0.4e-6;
-/// Pieces that one curve goes over at most, and how often one is halved.
-const LONGEST: usize = 64;
-const DEEPEST: u32 = 16;
-/// What moves no farther than this (px) rests.
+/// Tolerance of a curve (px), the same as a part of the picture's shorter side, and for cutting (m of paper).
+const TOLERANCE: f64 = 0.03;
+const TOLERANCE_OF_SIDE: f64 = 4e-5;
+const TOLERANCE_OF_PAPER: f64 = 0.4e-6;
+/// Limit of nodes that one curve replaces, and of halvings of a piece.
+const MOST_NODES: usize = 64;
+const MOST_HALVINGS: u32 = 16;
+/// Size below which a trace is at rest (px).
 const AT_REST: f64 = 0.15;
 
 impl Picture<'_> {
-    /// The paths that the text asks for, and those that the picture does.
+    /// Adds the traces of the text and those of the options.
     pub fn add_traces(&mut self, motion: &Motion) {
         let scene = self.scene;
         let mut color = 0;
         for trace in &scene.traces {
             let name = self.name(trace.declaration);
-            let d = self.path_of(&trace.pen, motion);
+            let d = self.path_data(&trace.pen, motion);
             self.add_trace(name, &d, &mut color);
         }
         for (name, anchor) in &self.options.traces {
-            let is_known = scene.traces.iter().any(|trace| trace.pen == Pen::Point(*anchor));
-            if !is_known {
-                let d = self.path_of(&Pen::Point(*anchor), motion);
+            let is_traced = scene.traces.iter().any(|trace| trace.pen == Pen::Point(*anchor));
+            if !is_traced {
+                let d = self.path_data(&Pen::Point(*anchor), motion);
                 self.add_trace(name, &d, &mut color);
             }
         }
@@ -40,57 +40,57 @@ impl Picture<'_> {
         }
         let number = *color % TRACE_COLORS;
         *color += 1;
-        self.used.traces.insert(number);
-        self.body += &format!("<path class=\"trace t{number}\" data-name=\"{}\" d=\"{d}\"/>\n", escaped(name));
+        self.styles.traces.insert(number);
+        self.body += &format!("<path class=\"trace t{number}\" data-name=\"{}\" d=\"{d}\"/>\n", escape(name));
     }
 
-    /// The path of a pen.
-    fn path_of(&self, pen: &Pen, motion: &Motion) -> String {
+    /// Writes the path of a pen.
+    fn path_data(&self, pen: &Pen, motion: &Motion) -> String {
         let track = motion.track(pen);
         let stretches = motion.strokes(pen);
-        stretches.iter().map(|stretch| self.curve_of(&track, stretch, motion)).collect()
+        stretches.iter().map(|stretch| self.stroke_data(&track, stretch, motion)).collect()
     }
 
-    fn curve_of(&self, track: &Track, stretch: &Stroke, motion: &Motion) -> String {
-        let [width, height] = self.room();
-        let (mut off, mut decimals) = (OFF.min(OFF_OF_SIDE * width.min(height)), self.pixels);
+    fn stroke_data(&self, track: &Track, stretch: &Stroke, motion: &Motion) -> String {
+        let [width, height] = self.drawing_size();
+        let (mut off, mut decimals) = (TOLERANCE.min(TOLERANCE_OF_SIDE * width.min(height)), self.pixels);
         if self.options.scale.is_some() {
-            off = OFF_OF_PAPER * PER_METER;
+            off = TOLERANCE_OF_PAPER * PIXELS_PER_METER;
         }
-        while decimals < 9 && number_step(decimals) > 0.5 * off {
+        while decimals < 9 && last_decimal(decimals) > 0.5 * off {
             decimals += 1;
         }
         let node = |t: f64| {
             let [at, velocity] = track.at(motion, t);
             let [x, y] = if is_finite(velocity) { velocity } else { [0.0; 2] };
-            Node { t, at: self.placed(at), velocity: [self.scale * x, -self.scale * y] }
+            CurvePoint { t, at: self.to_pixels(at), velocity: [self.scale * x, -self.scale * y] }
         };
         let text = curve(&stretch.pieces, &node, off, decimals);
         if stretch.is_closed && !text.is_empty() { text + "Z" } else { text }
     }
 }
 
-/// The last decimal of a number.
-fn number_step(decimals: usize) -> f64 {
+/// Returns the value of the last decimal.
+fn last_decimal(decimals: usize) -> f64 {
     (0..decimals).fold(1.0, |step, _| 0.1 * step)
 }
 
-/// A place of a curve (px) at a time (s), with its velocity (px/s).
+/// A position of a curve (px) at a time (s), with its velocity (px/s).
 #[derive(Clone, Copy, Debug)]
-struct Node {
+struct CurvePoint {
     t: f64,
     at: Vector,
     velocity: Vector,
 }
 
-/// The handles of the cubic from one node to another.
-fn handles(from: &Node, to: &Node) -> [Vector; 2] {
+/// Returns the inner control points of the cubic from one node to another.
+fn handles(from: &CurvePoint, to: &CurvePoint) -> [Vector; 2] {
     let third = (to.t - from.t) / 3.0;
     [plus(from.at, times(third, from.velocity)), minus(to.at, times(third, to.velocity))]
 }
 
-/// Whether the cubic between two nodes is so near (px) to a third one at its time.
-fn holds([from, to]: [&Node; 2], node: &Node, off: f64) -> bool {
+/// Returns whether the cubic between two nodes is within a tolerance (px) of a third node at its time.
+fn is_near([from, to]: [&CurvePoint; 2], node: &CurvePoint, off: f64) -> bool {
     let [b, c] = handles(from, to);
     let s = (node.t - from.t) / (to.t - from.t);
     let r = 1.0 - s;
@@ -101,32 +101,38 @@ fn holds([from, to]: [&Node; 2], node: &Node, off: f64) -> bool {
     distance([mix(0), mix(1)], node.at) <= off
 }
 
-/// The nodes of a piece behind its first: so many that cubics between them are no more off (px) than they may be.
-fn add_nodes(of: &dyn Fn(f64) -> Node, [from, to]: [Node; 2], (off, depth): (f64, u32), nodes: &mut Vec<Node>) {
+/// Adds the nodes of a piece, without the first one, such that the cubics between them keep the tolerance (px).
+fn add_nodes(
+    of: &dyn Fn(f64) -> CurvePoint,
+    [from, to]: [CurvePoint; 2],
+    off: f64,
+    depth: u32,
+    nodes: &mut Vec<CurvePoint>,
+) {
     let time = |part: f64| from.t + part * (to.t - from.t);
-    let is_met = [0.25, 0.5, 0.75].into_iter().all(|part| holds([&from, &to], &of(time(part)), off));
-    if is_met || depth >= DEEPEST {
+    let is_within_tolerance = [0.25, 0.5, 0.75].into_iter().all(|part| is_near([&from, &to], &of(time(part)), off));
+    if is_within_tolerance || depth >= MOST_HALVINGS {
         nodes.push(to);
         return;
     }
     let middle = of(time(0.5));
-    add_nodes(of, [from, middle], (off, depth + 1), nodes);
-    add_nodes(of, [middle, to], (off, depth + 1), nodes);
+    add_nodes(of, [from, middle], off, depth + 1, nodes);
+    add_nodes(of, [middle, to], off, depth + 1, nodes);
 }
 
-/// A smooth curve along pieces of time (s), in as few cubics as it takes.
-fn curve(pieces: &[[f64; 2]], of: &dyn Fn(f64) -> Node, off: f64, decimals: usize) -> String {
-    let pair = |place| pair(place, decimals);
+/// Writes a smooth curve along intervals of time (s) with as few cubics as possible.
+fn curve(pieces: &[[f64; 2]], of: &dyn Fn(f64) -> CurvePoint, off: f64, decimals: usize) -> String {
+    let pair = |position| pair(position, decimals);
     let Some([begin, _]) = pieces.first() else { return String::new() };
-    // times go on from piece to piece, though the motion may begin anew in between
-    let mut parts: Vec<Vec<Node>> = vec![vec![of(*begin)]];
+    // times continue from piece to piece, though the motion may begin anew between them
+    let mut parts: Vec<Vec<CurvePoint>> = vec![vec![of(*begin)]];
     for ends @ [from, _] in pieces {
         let is_new = parts.last().and_then(|part| part.last()).is_none_or(|last| (last.t - from).abs() > 0.0);
         if is_new {
             parts.push(vec![of(*from)]);
         }
         if let Some(part) = parts.last_mut() {
-            add_nodes(of, ends.map(of), (0.5 * off, 0), part);
+            add_nodes(of, ends.map(of), 0.5 * off, 0, part);
         }
     }
     let all = || parts.iter().flatten();
@@ -138,13 +144,13 @@ fn curve(pieces: &[[f64; 2]], of: &dyn Fn(f64) -> Node, off: f64, decimals: usiz
     for nodes in &parts {
         let (mut from, last) = (0, nodes.len() - 1);
         while from < last {
-            let goes = |to: usize| {
+            let is_within_tolerance = |to: usize| {
                 let between = nodes[from + 1..to].iter().copied();
                 let middles = nodes[from..=to].windows(2).map(|ends| of(0.5 * (ends[0].t + ends[1].t)));
-                between.chain(middles).all(|node| holds([&nodes[from], &nodes[to]], &node, off))
+                between.chain(middles).all(|node| is_near([&nodes[from], &nodes[to]], &node, off))
             };
             let mut to = from + 1;
-            while to < last && to - from < LONGEST && goes(to + 1) {
+            while to < last && to - from < MOST_NODES && is_within_tolerance(to + 1) {
                 to += 1;
             }
             let [b, c] = handles(&nodes[from], &nodes[to]);
@@ -156,26 +162,27 @@ fn curve(pieces: &[[f64; 2]], of: &dyn Fn(f64) -> Node, off: f64, decimals: usiz
 }
 
 fn pair([x, y]: Vector, decimals: usize) -> String {
-    format!("{} {}", number(x, decimals), number(y, decimals))
+    format!("{} {}", decimal(x, decimals), decimal(y, decimals))
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{Node, curve};
+    use super::{CurvePoint, curve};
     use crate::scene::polar;
     use std::f64::consts::PI;
 
     #[test]
     fn a_circle_takes_few_pieces() {
         let turn = |t: f64| 2.0 * PI * t;
-        let node = |t: f64| Node { t, at: polar(100.0, turn(t)), velocity: polar(200.0 * PI, turn(t) + 0.5 * PI) };
+        let node =
+            |t: f64| CurvePoint { t, at: polar(100.0, turn(t)), velocity: polar(200.0 * PI, turn(t) + 0.5 * PI) };
         let pieces: Vec<[f64; 2]> = (0..100).map(|k| [f64::from(k), f64::from(k + 1)].map(|t| 0.01 * t)).collect();
         for pieces in [&pieces[..], &[[0.0, 1.0]]] {
             let d = curve(pieces, &node, 0.02, 2);
             let count = d.matches('C').count();
             assert!((8..=20).contains(&count), "{count} pieces: {d}");
         }
-        let rest = |t: f64| Node { t, at: [1.0; 2], velocity: [0.0; 2] };
+        let rest = |t: f64| CurvePoint { t, at: [1.0; 2], velocity: [0.0; 2] };
         assert!(curve(&pieces, &rest, 0.02, 2).is_empty(), "what rests has no path");
     }
 }

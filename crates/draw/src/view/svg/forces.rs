@@ -1,62 +1,62 @@
-//! Forces as arrows, all to one scale.
+//! Forces as arrows in one scale.
 
 use super::picture::Picture;
-use super::vectors::LOOKED_AT;
+use super::vectors::SAMPLED_ROWS;
 use crate::scene::{ForceKind, ForceVector, Motion, Vector, length, times};
 
-/// How long the longest arrow is, as a part of that of a velocity: forces may point away from all that is drawn.
+/// Length of the longest arrow as a part of that of a velocity: forces may point away from everything else.
 const LONGEST: f64 = 0.8;
-/// From this force on it is told in kilonewtons (N).
+/// Force from which on the legend has kilonewtons (N).
 const KILO: f64 = 1e4;
 
 impl Picture<'_> {
-    /// At the last of some moments.
+    /// Adds the forces of the last moment.
     pub fn add_forces(&mut self, moments: &Motion, motion: &Motion) {
-        let mut line = self.lines_of_vectors();
-        if let Some(scale) = self.scaled_forces([moments, motion], &mut line) {
+        let mut line = self.legend_lines();
+        if let Some(scale) = self.force_scale([moments, motion], &mut line) {
             let (scene, row) = (self.scene, moments.len() - 1);
             for force in &scene.forces {
-                let [from, way] = self.arrow(force, moments, row, scale);
-                self.add_vector(force.kind.word(), &scene.declarations[force.declaration].name, from, way);
+                let [from, vector] = self.arrow(force, moments, row, scale);
+                self.add_vector(force.kind.word(), &scene.declarations[force.declaration].name, from, vector);
             }
         }
         self.add_torques(moments, motion, line);
     }
 
-    /// At all times.
+    /// Adds the forces of the whole motion.
     pub fn add_moving_forces(&mut self, motion: &Motion) {
-        let mut line = self.lines_of_vectors();
-        if let Some(scale) = self.scaled_forces([motion, motion], &mut line) {
+        let mut line = self.legend_lines();
+        if let Some(scale) = self.force_scale([motion, motion], &mut line) {
             let scene = self.scene;
             for force in &scene.forces {
-                let ways: Vec<[Vector; 2]> =
+                let arrows: Vec<[Vector; 2]> =
                     (0..motion.len()).map(|row| self.arrow(force, motion, row, scale)).collect();
                 let name = &scene.declarations[force.declaration].name;
-                self.add_moving_vector(force.kind.word(), name, &ways, &motion.times);
+                self.add_moving_vector(force.kind.word(), name, &arrows, &motion.times);
             }
         }
         self.add_moving_torques(motion, line);
     }
 
-    /// What the legend of velocities and accelerations takes.
-    fn lines_of_vectors(&self) -> f64 {
+    /// Returns the number of lines in the legend of velocities and accelerations.
+    fn legend_lines(&self) -> f64 {
         if self.options.vectors { 2.0 } else { 0.0 }
     }
 
-    /// Where an arrow begins, and its way (px); none where the table does not tell the force.
+    /// Returns the start and the vector of an arrow (px); the vector is zero if the table has no value.
     fn arrow(&self, force: &ForceVector, motion: &Motion, row: usize, scale: f64) -> [Vector; 2] {
         let [x, y] = times(scale, force.value(motion, row));
-        let way = if x.is_finite() && y.is_finite() { [x, -y] } else { [0.0; 2] };
-        [self.placed(force.at.placed(motion.poses(row))), way]
+        let vector = if x.is_finite() && y.is_finite() { [x, -y] } else { [0.0; 2] };
+        [self.to_pixels(force.at.position(motion.poses(row))), vector]
     }
 
-    /// Pixels of a newton, by the largest force of two motions; the legend tells how large those of each kind are. Nothing where there are
-    /// none. It goes on above a line, which is moved on.
-    fn scaled_forces(&mut self, motions: [&Motion; 2], line: &mut f64) -> Option<f64> {
+    /// Returns the pixels per newton, from the largest force of two motions, and adds the legend with the largest force of each kind at
+    /// `line`, which it advances. Returns `None` if all forces are zero.
+    fn force_scale(&mut self, motions: [&Motion; 2], line: &mut f64) -> Option<f64> {
         let scene = self.scene;
         let largest = |kind: ForceKind| {
             let rows =
-                || motions.into_iter().flat_map(|motion| motion.sampled(LOOKED_AT).map(move |row| (motion, row)));
+                || motions.into_iter().flat_map(|motion| motion.sampled(SAMPLED_ROWS).map(move |row| (motion, row)));
             let forces = scene.forces.iter().filter(|force| force.kind == kind);
             let sizes = forces.flat_map(|force| rows().map(|(motion, row)| length(force.value(motion, row))));
             sizes.filter(|size| size.is_finite()).fold(0.0, f64::max)

@@ -1,29 +1,28 @@
-//! The motion as keyframes: each frame that moves has a track, with no more keys than it takes to keep all its places where they belong,
-//! between the keys too.
+//! Motion as keyframes: each moving frame has a track, with as few keys as keep all its positions within a tolerance, between the keys too.
 
 use super::nodes::degrees;
 use super::picture::Picture;
 use super::picture::{DEGREES, PIXELS};
-use crate::scene::{Motion, Node, Place, Pose, Vector, distance, times};
-use crate::view::text::number;
+use crate::scene::{Attachment, Motion, Node, Pose, Vector, distance, times};
+use crate::view::text::decimal;
 use rustc_hash::FxHashMap;
 
-/// How long one run takes at first (s).
+/// Duration of one run (s).
 const SECONDS: f64 = 6.0;
-/// What a place may be off (px), the rounding of what is written included.
-const OFF: f64 = 0.36;
-/// Rows and moments between them at which places are looked at.
-const LOOKED_AT: usize = 2400;
-/// Moments from row to row at most.
+/// Tolerance of positions (px), rounding included.
+const TOLERANCE: f64 = 0.36;
+/// Number of moments at which positions are checked, as far as rows allow.
+const CHECKED_MOMENTS: usize = 2400;
+/// Limit of moments from row to row.
 const MOST_BETWEEN: usize = 16;
-/// The motion ends as it begins if nothing is farther away than this (px).
-const CLOSES: f64 = 1.5;
-/// Moments at which labels must not lie on each other.
-const LABELLED_AT: usize = 48;
+/// Distance of all positions within which the motion ends as it begins (px).
+const CLOSING_DISTANCE: f64 = 1.5;
+/// Number of moments at which labels must not overlap.
+const LABELLED_MOMENTS: usize = 48;
 /// Decimals of a percentage of the run.
 const PERCENT: usize = 3;
 
-/// Where a group is, in pixels and degrees, and what it is stretched by along x and y.
+/// Transform of a group: position (px), rotation (degrees) and scale along x and y.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Key {
     pub at: Vector,
@@ -31,18 +30,18 @@ pub(super) struct Key {
     pub stretch: Vector,
 }
 
-/// What may be kept out of transforms, as nothing of a group ever needs it.
+/// Parts of a transform that a group needs.
 #[derive(Clone, Copy, Debug)]
-struct Needs {
+struct TransformParts {
     turns: bool,
     stretches: bool,
 }
 
-impl Needs {
-    fn of<'k>(keys: impl Iterator<Item = &'k Key>) -> Needs {
-        keys.fold(Needs { turns: false, stretches: false }, |needs, key| Needs {
-            turns: needs.turns || key.rounded().turn != 0.0,
-            stretches: needs.stretches || key.stretch.iter().any(|part| (part - 1.0).abs() > 0.0),
+impl TransformParts {
+    fn new<'k>(keys: impl Iterator<Item = &'k Key>) -> TransformParts {
+        keys.fold(TransformParts { turns: false, stretches: false }, |parts, key| TransformParts {
+            turns: parts.turns || key.rounded().turn != 0.0,
+            stretches: parts.stretches || key.stretch.iter().any(|part| (part - 1.0).abs() > 0.0),
         })
     }
 }
@@ -57,8 +56,8 @@ impl Key {
         }
     }
 
-    /// Puts places of a group where it is.
-    fn placing(&self) -> impl Fn(Vector) -> Vector + use<> {
+    /// Returns the function that applies the transform.
+    fn transform(&self) -> impl Fn(Vector) -> Vector + use<> {
         let (sin, cos) = mechc_expr::math::sin_cos(self.turn.to_radians());
         let Key { at, stretch, .. } = *self;
         move |[x, y]| {
@@ -67,7 +66,7 @@ impl Key {
         }
     }
 
-    /// As it is written.
+    /// Returns the key as it is written.
     fn rounded(&self) -> Key {
         let round = |value: f64, steps: f64| mechc_expr::math::floor(value * steps + 0.5) / steps;
         let [cent, mille] = [100.0, 1000.0];
@@ -79,23 +78,23 @@ impl Key {
     }
 }
 
-/// What moves together, with the place (m) that its transforms are about.
+/// Shapes that move together, with the origin (m) of their transforms.
 #[derive(Clone, Copy, PartialEq, Debug)]
 struct Mover {
-    place: Place,
+    attachment: Attachment,
     origin: Vector,
 }
 
-/// The moments at which places are looked at: times (s), and the poses of all frames at each.
+/// Moments at which positions are checked: times (s), and the poses of all frames at each.
 struct Moments {
     times: Vec<f64>,
     poses: Vec<Vec<Pose>>,
 }
 
 impl Moments {
-    fn of(motion: &Motion) -> Moments {
+    fn new(motion: &Motion) -> Moments {
         let steps = motion.len() - 1;
-        let between = (LOOKED_AT / steps.max(1)).clamp(1, MOST_BETWEEN);
+        let between = (CHECKED_MOMENTS / steps.max(1)).clamp(1, MOST_BETWEEN);
         let mut times = Vec::with_capacity(steps * between + 1);
         for pair in motion.times.windows(2) {
             times.extend((0..between).map(|k| pair[0] + (pair[1] - pair[0]) * k as f64 / between as f64));
@@ -112,33 +111,33 @@ impl Moments {
 }
 
 impl Picture<'_> {
-    /// All nodes, moving.
+    /// Adds all nodes, moving.
     pub fn add_motion(&mut self, motion: &Motion) {
-        let moments = Moments::of(motion);
+        let moments = Moments::new(motion);
         let direction = if self.closes(motion) { "" } else { " alternate" };
-        self.rules += &format!(".m{{animation:{}s linear infinite{direction}}}\n", number(SECONDS, 1));
-        let mut known: Vec<(Mover, String)> = Vec::new();
+        self.rules += &format!(".m{{animation:{}s linear infinite{direction}}}\n", decimal(SECONDS, 1));
+        let mut animations: Vec<(Mover, String)> = Vec::new();
         let mut by_frame: FxHashMap<usize, usize> = FxHashMap::default();
         let scene = self.scene;
         for node in &scene.nodes {
-            if node.place == Place::Fixed(0) {
+            if node.attachment == Attachment::Fixed(0) {
                 self.add_group(node, [0.0; 2], "", true);
                 continue;
             }
-            let found = match node.place {
-                Place::Fixed(frame) => by_frame.get(&frame).copied(),
-                _ => known.iter().position(|(mover, _)| mover.place == node.place),
+            let index = match node.attachment {
+                Attachment::Fixed(frame) => by_frame.get(&frame).copied(),
+                _ => animations.iter().position(|(mover, _)| mover.attachment == node.attachment),
             };
-            let number = found.unwrap_or_else(|| {
+            let number = index.unwrap_or_else(|| {
                 let mover = self.mover(node, motion);
-                let track = self.track(&mover, &moments);
-                known.push((mover, self.add_track(&track)));
-                if let Place::Fixed(frame) = node.place {
-                    by_frame.insert(frame, known.len() - 1);
+                let animation = self.animation(&mover, &moments);
+                animations.push((mover, self.add_animation(&animation)));
+                if let Attachment::Fixed(frame) = node.attachment {
+                    by_frame.insert(frame, animations.len() - 1);
                 }
-                known.len() - 1
+                animations.len() - 1
             });
-            let (mover, attributes) = &known[number];
+            let (mover, attributes) = &animations[number];
             self.add_group(node, mover.origin, attributes, true);
         }
         self.add_traces(motion);
@@ -149,144 +148,148 @@ impl Picture<'_> {
             self.add_moving_forces(motion);
         }
         if self.options.labels {
-            let some: Vec<&[Pose]> = motion.sampled(LABELLED_AT).map(|row| motion.poses(row)).collect();
-            for label in self.labels(&some) {
-                let mover = Mover { place: Place::Upright(label.anchor), origin: [0.0; 2] };
-                let track = self.track(&mover, &moments);
-                let attributes = self.add_track(&track);
+            let sampled: Vec<&[Pose]> = motion.sampled(LABELLED_MOMENTS).map(|row| motion.poses(row)).collect();
+            for label in self.labels(&sampled) {
+                let mover = Mover { attachment: Attachment::Upright(label.anchor), origin: [0.0; 2] };
+                let animation = self.animation(&mover, &moments);
+                let attributes = self.add_animation(&animation);
                 self.add_label(&label, [0.0; 2], Some(&attributes));
             }
         }
         self.rules += "@media (prefers-reduced-motion:reduce){.m{animation:none}}\n";
     }
 
-    /// Whether the mechanism ends as it begins.
+    /// Returns whether the mechanism ends as it begins.
     fn closes(&self, motion: &Motion) -> bool {
         let (first, last) = (motion.poses(0), motion.poses(motion.len() - 1));
         self.scene.nodes.iter().all(|node| {
-            let [(from, stretch), (to, other)] = [first, last].map(|poses| node.place.pose(poses));
-            let places = node.shapes.iter().flat_map(|shape| shape.path.places());
-            places.take(64).all(|[x, y]| {
-                let way = distance(from.placed([stretch * x, y]), to.placed([other * x, y]));
-                way * self.scale <= CLOSES
+            let [(from, stretch), (to, other)] = [first, last].map(|poses| node.attachment.pose(poses));
+            let positions = node.shapes.iter().flat_map(|shape| shape.path.positions());
+            positions.take(64).all(|[x, y]| {
+                let distance = distance(from.transform([stretch * x, y]), to.transform([other * x, y]));
+                distance * self.scale <= CLOSING_DISTANCE
             })
         })
     }
 
-    /// About which place a node's transforms are: of those that it shows in its frame, the one that moves least.
+    /// Returns the mover of a node. Its origin is the circle centre of its frame that moves least.
     fn mover(&self, node: &Node, motion: &Motion) -> Mover {
-        let Place::Fixed(frame) = node.place else { return Mover { place: node.place, origin: [0.0; 2] } };
-        let own = self.scene.nodes.iter().filter(|other| other.place == node.place);
-        let centers = own.flat_map(|other| &other.shapes).filter_map(|shape| match &shape.path {
+        let Attachment::Fixed(frame) = node.attachment else {
+            return Mover { attachment: node.attachment, origin: [0.0; 2] };
+        };
+        let nodes = self.scene.nodes.iter().filter(|other| other.attachment == node.attachment);
+        let centers = nodes.flat_map(|other| &other.shapes).filter_map(|shape| match &shape.path {
             crate::scene::Path::Circle { at, .. } => Some(*at),
             crate::scene::Path::Lines(_) => None,
         });
-        let way = |place: Vector| -> f64 {
-            let path: Vec<Vector> = motion.sampled(100).map(|row| motion.poses(row)[frame].placed(place)).collect();
+        let travel = |position: Vector| -> f64 {
+            let path: Vec<Vector> =
+                motion.sampled(100).map(|row| motion.poses(row)[frame].transform(position)).collect();
             path.windows(2).map(|pair| distance(pair[0], pair[1])).sum()
         };
-        let least = centers.take(12).map(|place| (way(place), place)).min_by(|a, b| a.0.total_cmp(&b.0));
-        Mover { place: node.place, origin: least.map_or([0.0; 2], |(_, place)| place) }
+        let least = centers.take(12).map(|position| (travel(position), position)).min_by(|a, b| a.0.total_cmp(&b.0));
+        Mover { attachment: node.attachment, origin: least.map_or([0.0; 2], |(_, position)| position) }
     }
 
-    /// Where a mover is at a moment.
+    /// Returns the key of a mover at a moment.
     fn key(&self, mover: &Mover, poses: &[Pose]) -> Key {
-        let (pose, stretch) = mover.place.pose(poses);
-        let at = self.placed(pose.placed(mover.origin));
-        let is_stretched = mover.place.is_stretched();
+        let (pose, stretch) = mover.attachment.pose(poses);
+        let at = self.to_pixels(pose.transform(mover.origin));
+        let is_stretched = mover.attachment.is_stretched();
         Key { at, turn: degrees(pose.phi), stretch: if is_stretched { [stretch * self.scale, 1.0] } else { [1.0; 2] } }
     }
 
-    /// Places that a mover shows, before its transform (px).
-    fn shown_by(&self, mover: &Mover) -> Vec<Vector> {
-        let is_stretched = mover.place.is_stretched();
-        let own = self.scene.nodes.iter().filter(|node| node.place == mover.place);
-        let places = own.flat_map(|node| &node.shapes).flat_map(|shape| shape.path.places());
-        let local = places.map(|[x, y]| {
+    /// Returns the positions that a mover shows, before its transform (px).
+    fn shown_positions(&self, mover: &Mover) -> Vec<Vector> {
+        let is_stretched = mover.attachment.is_stretched();
+        let nodes = self.scene.nodes.iter().filter(|node| node.attachment == mover.attachment);
+        let positions = nodes.flat_map(|node| &node.shapes).flat_map(|shape| shape.path.positions());
+        let local = positions.map(|[x, y]| {
             if is_stretched {
                 return [x, -self.scale * y];
             }
             let [x, y] = times(self.scale, [x - mover.origin[0], y - mover.origin[1]]);
             [x, -y]
         });
-        // the corners of the hull tell how far all else is off
+        // the corners of the hull bound the deviation of all others
         crate::scene::hull(&local.collect::<Vec<_>>(), 0.5)
     }
 
-    /// The track of a mover.
-    fn track(&self, mover: &Mover, moments: &Moments) -> Track {
+    /// Returns the track of a mover.
+    fn animation(&self, mover: &Mover, moments: &Moments) -> Animation {
         let keys: Vec<Key> = moments.poses.iter().map(|poses| self.key(mover, poses)).collect();
-        let is_fixed = matches!(mover.place, Place::Fixed(_));
-        Track::of(keys, &self.shown_by(mover), &moments.times, is_fixed)
+        let is_fixed = matches!(mover.attachment, Attachment::Fixed(_));
+        Animation::new(keys, &self.shown_positions(mover), &moments.times, is_fixed)
     }
 
-    /// Adds a track to the style sheet, and gives the attributes of the groups that go on it.
-    pub(super) fn add_track(&mut self, track: &Track) -> String {
-        let first = format!(" transform=\"{}\"", track.first);
-        let Some(keyframes) = &track.keyframes else { return first };
+    /// Adds a track to the style sheet and returns the attributes of the groups that follow it.
+    pub(super) fn add_animation(&mut self, animation: &Animation) -> String {
+        let first = format!(" transform=\"{}\"", animation.first);
+        let Some(keyframes) = &animation.keyframes else { return first };
         let number = self.tracks;
         self.tracks += 1;
         self.rules += &format!(".m{number}{{animation-name:k{number}}}\n@keyframes k{number}{{{keyframes}}}\n");
-        // where nothing may move, all stay where they begin
+        // a reader who prefers reduced motion sees the first key
         format!("{first} class=\"m m{number}\"")
     }
 }
 
-/// How a group moves.
+/// Animation of a group.
 #[derive(Clone, Debug)]
-pub(super) struct Track {
-    /// None if it stays where it begins.
+pub(super) struct Animation {
+    /// Keyframes, or `None` if the group stays where it begins.
     keyframes: Option<String>,
-    /// The attribute that puts it there.
+    /// Transform attribute of the first key.
     first: String,
 }
 
-impl Track {
-    /// One with keys at some times (s), of a group that shows some places; its directions may be those of ways, which jump by a turn.
-    pub(super) fn of(mut keys: Vec<Key>, shown: &[Vector], times: &[f64], has_turns: bool) -> Track {
+impl Animation {
+    /// Creates a track with keys at some times (s), for a group that shows some positions. Without `has_turns` the angles are directions,
+    /// which may jump by a turn.
+    pub(super) fn new(mut keys: Vec<Key>, shown: &[Vector], times: &[f64], has_turns: bool) -> Animation {
         if !has_turns {
             unwrap(&mut keys);
         }
-        let needs = Needs::of(keys.iter());
-        let first = attribute(&keys[0], needs);
-        let chosen = chosen(&keys, shown, times);
+        let parts = TransformParts::new(keys.iter());
+        let first = attribute(&keys[0], parts);
+        let chosen = choose_keys(&keys, shown, times);
         if chosen.iter().all(|&k| keys[k].rounded() == keys[0].rounded()) {
-            return Track { keyframes: None, first };
+            return Animation { keyframes: None, first };
         }
         let (begin, end) = (times[0], times[times.len() - 1]);
         let mut text = String::new();
         for &k in &chosen {
             let Key { at: [x, y], turn, stretch } = keys[k];
-            let percent = number(100.0 * (times[k] - begin) / (end - begin), PERCENT);
-            text += &format!("{percent}%{{transform:translate({}px,{}px)", number(x, PIXELS), number(y, PIXELS));
-            if needs.turns {
-                text += &format!(" rotate({}deg)", number(turn, DEGREES));
+            let percent = decimal(100.0 * (times[k] - begin) / (end - begin), PERCENT);
+            text += &format!("{percent}%{{transform:translate({}px,{}px)", decimal(x, PIXELS), decimal(y, PIXELS));
+            if parts.turns {
+                text += &format!(" rotate({}deg)", decimal(turn, DEGREES));
             }
-            if needs.stretches {
-                let [x, y] = stretch.map(|part| number(part, PIXELS));
+            if parts.stretches {
+                let [x, y] = stretch.map(|part| decimal(part, PIXELS));
                 text += &format!(" scale({x},{y})");
             }
             text += "}";
         }
-        Track { keyframes: Some(text), first }
+        Animation { keyframes: Some(text), first }
     }
 }
 
-/// The attribute that puts a group where a key is.
-fn attribute(key: &Key, needs: Needs) -> String {
+/// Returns the transform attribute of a key.
+fn attribute(key: &Key, parts: TransformParts) -> String {
     let Key { at: [x, y], turn, stretch } = *key;
-    let mut text = format!("translate({} {})", number(x, PIXELS), number(y, PIXELS));
-    if needs.turns && key.rounded().turn != 0.0 {
-        text += &format!(" rotate({})", number(turn, DEGREES));
+    let mut text = format!("translate({} {})", decimal(x, PIXELS), decimal(y, PIXELS));
+    if parts.turns && key.rounded().turn != 0.0 {
+        text += &format!(" rotate({})", decimal(turn, DEGREES));
     }
-    if needs.stretches {
-        let [x, y] = stretch.map(|part| number(part, PIXELS));
+    if parts.stretches {
+        let [x, y] = stretch.map(|part| decimal(part, PIXELS));
         text += &format!(" scale({x} {y})");
     }
     text
 }
 
-/// Directions that come from places jump by a turn; here none does.
+/// Removes jumps by a full turn, which directions have.
 fn unwrap(keys: &mut [Key]) {
     for k in 1..keys.len() {
         let turns = mechc_expr::math::floor((keys[k].turn - keys[k - 1].turn) / 360.0 + 0.5);
@@ -294,28 +297,29 @@ fn unwrap(keys: &mut [Key]) {
     }
 }
 
-/// Which moments are keys: so few that all places are where they belong at each other one.
-fn chosen(keys: &[Key], shown: &[Vector], times: &[f64]) -> Vec<usize> {
+/// Chooses the moments that become keys: as few as keep all positions within the tolerance at the other moments.
+fn choose_keys(keys: &[Key], shown: &[Vector], times: &[f64]) -> Vec<usize> {
     let last = keys.len() - 1;
-    let wanted: Vec<Vector> = keys.iter().flat_map(|key| shown.iter().copied().map(key.placing())).collect();
-    let held = |from: usize, to: usize| {
+    let expected: Vec<Vector> = keys.iter().flat_map(|key| shown.iter().copied().map(key.transform())).collect();
+    let is_within_tolerance = |from: usize, to: usize| {
         let (a, b) = (keys[from].rounded(), keys[to].rounded());
         let length = times[to] - times[from];
         (from + 1..to).all(|k| {
             let part = if length > 0.0 { (times[k] - times[from]) / length } else { 0.0 };
             let guess = a.between(&b, part);
-            let wanted = wanted[k * shown.len()..].iter();
-            let mut places = shown.iter().copied().map(guess.placing()).zip(wanted);
-            distance(guess.at, keys[k].at) <= OFF && places.all(|(found, wanted)| distance(found, *wanted) <= OFF)
+            let expected = expected[k * shown.len()..].iter();
+            let mut positions = shown.iter().copied().map(guess.transform()).zip(expected);
+            distance(guess.at, keys[k].at) <= TOLERANCE
+                && positions.all(|(actual, expected)| distance(actual, *expected) <= TOLERANCE)
         })
     };
     let (mut chosen, mut from) = (vec![0], 0);
     while from < last {
         let (mut good, mut step) = (from + 1, 1);
-        // as far as it goes by doubling, then by halves
+        // doubling steps, then bisection
         while good < last {
             let next = (good + step).min(last);
-            if !held(from, next) {
+            if !is_within_tolerance(from, next) {
                 break;
             }
             (good, step) = (next, 2 * step);
@@ -323,7 +327,7 @@ fn chosen(keys: &[Key], shown: &[Vector], times: &[f64]) -> Vec<usize> {
         while step > 1 {
             step /= 2;
             let next = (good + step).min(last);
-            if next > good && held(from, next) {
+            if next > good && is_within_tolerance(from, next) {
                 good = next;
             }
         }

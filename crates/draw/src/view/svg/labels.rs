@@ -1,213 +1,219 @@
-//! The names of bodies and pins, and what messages say of places, beside what they name: no label lies on another at any moment that is
-//! shown, and on lines and on other bodies only where there is no room beside them. One that might be taken for the name of something else
-//! has a line to what it names. One that finds no place is left out; bodies tell their names as titles too.
+//! Labels of bodies and pins, and texts of messages at positions. Labels never overlap at any shown moment, and cover lines and other
+//! bodies only where there is no other room. A label that could be mistaken for another name has a leader. A label without a position is
+//! left out; bodies have their names as titles, too.
 
-use super::letters::{COLUMN, columns, letters};
 use super::picture::{PIXELS, Picture};
-use crate::scene::{Anchor, Look, Node, Path, Place, Pose, Vector, bounds, distance, dot, hull, minus, plus, times};
-use crate::view::text::{escaped, number};
+use super::style::{COLUMN_WIDTH, letter_size, text_columns};
+use crate::scene::{
+    Anchor, Attachment, Look, Node, Path, Pose, Vector, bounds, distance, distance_to_segment, dot, hull, minus, plus,
+    times,
+};
+use crate::view::text::{decimal, escape};
 
-/// Longer names are cut.
-const LONGEST: usize = 32;
-/// More names than this are not looked at.
-const MOST: usize = 400;
+/// Length limit of names (characters).
+const LONGEST_NAME: usize = 32;
+/// Limit of labels.
+const MOST_LABELS: usize = 400;
 
-/// From a pin and from the middle of a body to the label beside it, in sizes of symbols.
-const BESIDE_PIN: f64 = 0.42;
-const BESIDE_BODY: f64 = 0.66;
-/// How much of a pin is not to be covered, in sizes of symbols.
+/// Distance of a label from a pin, and from the middle of a body (symbol units).
+const TO_PIN: f64 = 0.42;
+const TO_BODY: f64 = 0.66;
+/// Radius around a pin that labels avoid (symbol units).
 const PIN: f64 = 0.34;
-/// Rings of places around what is named: how far away, in half heights of a label, and what that costs.
+/// Rings of candidate positions: their distance in half heights of a label, and its cost.
 const RINGS: [[f64; 2]; 5] = [[0.0, 0.0], [0.5, 0.2], [1.0, 0.5], [2.6, 1.2], [5.0, 1.9]];
-/// What each direction costs more than the one before it.
+/// Cost of each direction over the one before it.
 const NEXT_DIRECTION: f64 = 0.03;
-/// What a label costs that covers a pin; one full of lines; one full of lines that are looked at.
+/// Costs of a label that covers a pin, that is full of lines, and that is full of highlighted lines.
 const ON_PIN: f64 = 1.0;
 const ON_LINES: f64 = 1.0;
-const ON_STRONG_LINES: f64 = 1.5;
-/// What it costs to be taken for the name of something else.
-const MISTAKEN: f64 = 0.8;
-/// What is farther away than this, in half heights of a label, has a line to it.
-const FAR: f64 = 2.5;
-/// The part of a label's width that letters take up at least.
-const LETTERS: f64 = 0.85;
-/// A line that is so near to a label (px) is on it: names between the two sides of a bar are better beside it.
+const ON_HIGHLIGHTED_LINES: f64 = 1.5;
+/// Cost of a label that is mistaken for another name.
+const AMBIGUOUS: f64 = 0.8;
+/// Distance from which on a label has a leader, in half heights of a label.
+const LEADER_DISTANCE: f64 = 2.5;
+/// Least part of a label's width that its letters fill.
+const LETTER_WIDTH: f64 = 0.85;
+/// Distance of a line that counts as covered (px): between the two sides of a bar there is no room for a name.
 const NEAR_LINE: f64 = 3.0;
-/// A label is full of a line that is so many times as long as it is high.
-const FULL: f64 = 2.0;
-/// How far places on lines are apart (px), and how many of them are looked at, all moments together.
+/// Length of lines that fills a label, in heights of the label.
+const FULL_LENGTH: f64 = 2.0;
+/// Distance of positions on lines (px), and the limit of positions of all moments together.
 const STEP: f64 = 4.0;
-const MOST_PLACES: usize = 200_000;
+const MOST_POSITIONS: usize = 200_000;
 
-/// What is thin or pale, or lies on something that has lines of its own.
-const NO_LINES: [Look; 6] = [Look::Pin, Look::Dot, Look::Hatching, Look::Pitch, Look::Cross, Look::Weld];
-/// Lines that are looked at.
-const STRONG: [Look; 7] =
+/// Looks without lines: thin, pale, or on a shape that has lines.
+const LOOKS_WITHOUT_LINES: [Look; 6] = [Look::Pin, Look::Dot, Look::Hatching, Look::Pitch, Look::Cross, Look::Weld];
+/// Looks with highlighted lines.
+const HIGHLIGHTED: [Look; 7] =
     [Look::Arrow, Look::ArrowHead, Look::Free, Look::FreeHead, Look::Gap, Look::GapEnd, Look::Named];
 
-/// What is filled, so that a name on it is its own.
+/// Filled looks, which may have their body's name on them.
 const FILLED: [Look; 6] = [Look::Link, Look::Gear, Look::Rack, Look::Cam, Look::Roller, Look::Block];
 
-/// What a label is.
+/// Kind of label.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-enum Kind {
-    /// What a message says.
+enum LabelKind {
+    /// Text of a message.
     Remark,
     Body,
     Point,
 }
 
-/// A name in its place.
+/// The text of a label, before it has a position.
+struct LabelText {
+    anchor: Anchor,
+    text: String,
+    kind: LabelKind,
+}
+
+/// A label at its position.
 #[derive(Clone, Debug)]
 pub(super) struct Label {
     pub text: String,
-    /// What it names.
+    /// Anchor of what it names.
     pub anchor: Anchor,
-    /// From there to the middle of the text (px).
+    /// Vector from the anchor to the middle of the text (px).
     pub offset: Vector,
-    /// Half the width and the height of its box (px).
+    /// Half the width and half the height of its box (px).
     pub half: Vector,
-    kind: Kind,
-    /// Whether a line leads from it to what it names.
+    kind: LabelKind,
+    /// True if a line connects it with its anchor.
     has_leader: bool,
 }
 
 impl Label {
-    /// Its corners, where what it names is there.
+    /// Returns the corners of the box for an anchor at a position (px).
     pub fn bounds(&self, at: Vector) -> [Vector; 2] {
         let middle = plus(at, self.offset);
         [[middle[0] - self.half[0], middle[1] - self.half[1]], [middle[0] + self.half[0], middle[1] + self.half[1]]]
     }
 
-    /// The element that shows it, around its anchor.
+    /// Writes the element of the label, for an anchor at a position (px).
     fn element(&self, at: Vector, size: f64) -> String {
         let [x, y] = plus(at, self.offset);
         let class = match self.kind {
-            Kind::Remark => "remark",
-            Kind::Body => "body-name",
-            Kind::Point => "point-name",
+            LabelKind::Remark => "remark",
+            LabelKind::Body => "body-name",
+            LabelKind::Point => "point-name",
         };
         let leader = if self.has_leader { self.leader(at) } else { String::new() };
-        let (x, y) = (number(x, PIXELS), number(y + 0.35 * size, PIXELS));
-        format!("{leader}<text class=\"{class}\" x=\"{x}\" y=\"{y}\">{}</text>", escaped(&self.text))
+        let (x, y) = (decimal(x, PIXELS), decimal(y + 0.35 * size, PIXELS));
+        format!("{leader}<text class=\"{class}\" x=\"{x}\" y=\"{y}\">{}</text>", escape(&self.text))
     }
 }
 
 impl Label {
-    /// Whether it is too far away at one of some moments to be seen to belong to what it names.
+    /// Returns whether the label is too far from what it names at some moment.
     fn is_far(&self, at: &[Vector], field: &Field) -> bool {
-        let most = FAR * self.half[1];
+        let most = LEADER_DISTANCE * self.half[1];
         at.iter().zip(&field.moments).any(|(at, obstacles)| {
-            let own = obstacles.regions.iter().filter(|region| region.frame == self.anchor.frame);
+            let regions = obstacles.regions.iter().filter(|region| region.frame == self.anchor.frame);
             let here @ [low, high] = self.bounds(*at);
-            let to_place = distance([0, 1].map(|part| at[part].clamp(low[part], high[part])), *at);
+            let to_position = distance([0, 1].map(|part| at[part].clamp(low[part], high[part])), *at);
             match self.kind {
-                Kind::Remark => false,
-                Kind::Point => to_place > most,
-                Kind::Body => own.map(|region| region.distance(here)).fold(to_place, f64::min) > most,
+                LabelKind::Remark => false,
+                LabelKind::Point => to_position > most,
+                LabelKind::Body => regions.map(|region| region.distance(here)).fold(to_position, f64::min) > most,
             }
         })
     }
 
-    /// For which part of some moments it might be taken for the name of something else: a body's on another one, or nearer to that; a
-    /// point's nearer to another pin.
-    fn mistaken(&self, at: &[Vector], field: &Field) -> f64 {
-        let is_mistaken = |at: &Vector, obstacles: &Obstacles| {
+    /// Returns the part of the moments at which the label could be mistaken: that of a body lies on another body or nearer to it, that of a
+    /// point nearer to another pin.
+    fn ambiguity(&self, at: &[Vector], field: &Field) -> f64 {
+        let is_ambiguous = |at: &Vector, obstacles: &Obstacles| {
             let here @ [low, high] = self.bounds(*at);
-            let away = |place: &Vector| distance([0, 1].map(|part| place[part].clamp(low[part], high[part])), *place);
+            let away =
+                |position: &Vector| distance([0, 1].map(|part| position[part].clamp(low[part], high[part])), *position);
             match self.kind {
-                Kind::Remark => false,
-                Kind::Point => {
-                    let own = away(at);
-                    obstacles.pins.iter().any(|pin| distance(*pin, *at) > 1.0 && away(pin) < own)
+                LabelKind::Remark => false,
+                LabelKind::Point => {
+                    let to_anchor = away(at);
+                    obstacles.pins.iter().any(|pin| distance(*pin, *at) > 1.0 && away(pin) < to_anchor)
                 }
-                Kind::Body => {
-                    let nearest = |is_own: bool| {
+                LabelKind::Body => {
+                    let nearest = |is_of_body: bool| {
                         let regions = obstacles.regions.iter();
-                        let regions = regions.filter(|region| (region.frame == self.anchor.frame) == is_own);
+                        let regions = regions.filter(|region| (region.frame == self.anchor.frame) == is_of_body);
                         regions.map(|region| region.distance(here)).fold(f64::INFINITY, f64::min)
                     };
-                    let (own, other) = (nearest(true).min(away(at)), nearest(false));
-                    other <= 0.0 || other < own
+                    let (to_body, to_others) = (nearest(true).min(away(at)), nearest(false));
+                    to_others <= 0.0 || to_others < to_body
                 }
             }
         };
-        let count = at.iter().zip(&field.moments).filter(|(at, obstacles)| is_mistaken(at, obstacles)).count();
+        let count = at.iter().zip(&field.moments).filter(|(at, obstacles)| is_ambiguous(at, obstacles)).count();
         count as f64 / at.len().max(1) as f64
     }
 
-    /// The line from what it names to the nearest place of its box, if that is not there.
+    /// Writes the line from the anchor to the nearest position of the box, unless the anchor lies in it.
     fn leader(&self, at: Vector) -> String {
         let middle = plus(at, self.offset);
         // letters are narrower than their box
-        let half = [LETTERS * self.half[0], self.half[1]];
+        let half = [LETTER_WIDTH * self.half[0], self.half[1]];
         let end = [0, 1].map(|part| at[part].clamp(middle[part] - half[part], middle[part] + half[part]));
         if distance(end, at) <= 0.0 {
             return String::new();
         }
-        let [x, y, to_x, to_y] = [at[0], at[1], end[0], end[1]].map(|part| number(part, PIXELS));
+        let [x, y, to_x, to_y] = [at[0], at[1], end[0], end[1]].map(|part| decimal(part, PIXELS));
         format!("<path class=\"leader\" d=\"M{x} {y}L{to_x} {to_y}\"/>")
     }
 }
 
-/// What a body fills, by its corners (px); it is taken to be convex.
+/// Convex hull of a body's filled shapes (px).
 struct Region {
     frame: usize,
     corners: Vec<Vector>,
 }
 
 impl Region {
-    /// How far a box is away from it, 0 if they meet.
+    /// Returns the distance of a box, 0 if they meet.
     fn distance(&self, [low, high]: [Vector; 2]) -> f64 {
         let corners = [low, [high[0], low[1]], high, [low[0], high[1]]];
-        let sides = |places: &[Vector]| -> Vec<[Vector; 2]> {
-            (0..places.len()).map(|k| [places[k], places[(k + 1) % places.len()]]).collect()
+        let sides = |positions: &[Vector]| -> Vec<[Vector; 2]> {
+            (0..positions.len()).map(|k| [positions[k], positions[(k + 1) % positions.len()]]).collect()
         };
-        let (own, of_box) = (sides(&self.corners), sides(&corners));
-        // two convex shapes are apart if a side of one has all of the other beyond it
-        let is_apart = |sides: &[[Vector; 2]], others: &[Vector], places: &[Vector]| {
+        let (region_sides, box_sides) = (sides(&self.corners), sides(&corners));
+        // separating axis theorem: one side of two disjoint convex shapes separates them
+        let is_apart = |sides: &[[Vector; 2]], others: &[Vector], positions: &[Vector]| {
             sides.iter().any(|[from, to]| {
                 let across = crate::scene::left(minus(*to, *from));
-                let height = |place: &Vector| dot(across, minus(*place, *from));
+                let height = |position: &Vector| dot(across, minus(*position, *from));
                 let [least, most] =
-                    places.iter().map(height).fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], height| {
+                    positions.iter().map(height).fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], height| {
                         [low.min(height), high.max(height)]
                     });
-                others.iter().all(|place| height(place) > most) || others.iter().all(|place| height(place) < least)
+                others.iter().all(|position| height(position) > most)
+                    || others.iter().all(|position| height(position) < least)
             })
         };
-        if !is_apart(&own, &corners, &self.corners) && !is_apart(&of_box, &self.corners, &corners) {
+        if !is_apart(&region_sides, &corners, &self.corners) && !is_apart(&box_sides, &self.corners, &corners) {
             return 0.0;
         }
-        let to_own = corners.iter().flat_map(|place| own.iter().map(|side| from_side(*place, *side)));
-        let to_box = self.corners.iter().flat_map(|place| of_box.iter().map(|side| from_side(*place, *side)));
-        to_own.chain(to_box).fold(f64::INFINITY, f64::min)
+        let to_region =
+            corners.iter().flat_map(|position| region_sides.iter().map(|side| distance_to_segment(*position, *side)));
+        let to_box =
+            self.corners.iter().flat_map(|position| box_sides.iter().map(|side| distance_to_segment(*position, *side)));
+        to_region.chain(to_box).fold(f64::INFINITY, f64::min)
     }
 }
 
-/// How far a place is from a side.
-fn from_side(place: Vector, [from, to]: [Vector; 2]) -> f64 {
-    let way = minus(to, from);
-    let square = dot(way, way);
-    let part = if square > 0.0 { (dot(minus(place, from), way) / square).clamp(0.0, 1.0) } else { 0.0 };
-    distance(place, plus(from, times(part, way)))
-}
-
-/// What labels are not to lie on, at one moment (px).
+/// Obstacles for labels at one moment (px).
 #[derive(Default)]
 struct Obstacles {
     pins: Vec<Vector>,
     regions: Vec<Region>,
-    /// Places on lines, evenly spread.
+    /// Positions on lines, evenly spaced.
     lines: Vec<Vector>,
-    strong_lines: Vec<Vector>,
+    highlighted_lines: Vec<Vector>,
 }
 
 impl Obstacles {
-    /// Those in a box.
+    /// Returns the obstacles in a box.
     fn within(&self, [low, high]: [Vector; 2]) -> Obstacles {
-        let inside = |places: &[Vector]| -> Vec<Vector> {
-            places.iter().copied().filter(|place| is_within(*place, [low, high])).collect()
+        let inside = |positions: &[Vector]| -> Vec<Vector> {
+            positions.iter().copied().filter(|position| is_within(*position, [low, high])).collect()
         };
         let meets = |region: &&Region| {
             bounds(region.corners.iter().copied())
@@ -222,7 +228,7 @@ impl Obstacles {
             pins: inside(&self.pins),
             regions: regions.collect(),
             lines: inside(&self.lines),
-            strong_lines: inside(&self.strong_lines),
+            highlighted_lines: inside(&self.highlighted_lines),
         }
     }
 }
@@ -231,31 +237,31 @@ fn is_within([x, y]: Vector, [low, high]: [Vector; 2]) -> bool {
     low[0] <= x && x <= high[0] && low[1] <= y && y <= high[1]
 }
 
-/// Obstacles at all moments that are looked at, and how long the line is that a place stands for (px).
+/// Obstacles at all moments, and the length of line that a position stands for (px).
 struct Field {
     moments: Vec<Obstacles>,
     step: f64,
 }
 
 impl Picture<'_> {
-    /// The size of letters (px).
+    /// Returns the size of letters (px).
     pub fn letters(&self) -> f64 {
-        letters(self.room())
+        letter_size(self.drawing_size())
     }
 
-    /// Writes the labels of a moment.
+    /// Adds the labels of a moment.
     pub fn add_labels(&mut self, poses: &[Pose]) {
         for label in self.labels(&[poses]) {
-            let at = self.anchored(&label.anchor, poses);
+            let at = self.anchor_to_pixels(&label.anchor, poses);
             self.add_label(&label, at, None);
         }
     }
 
-    /// Writes one, in a group with attributes if there are any.
+    /// Adds a label, in a group if there are attributes.
     pub fn add_label(&mut self, label: &Label, at: Vector, attributes: Option<&str>) {
-        self.used.labels = Some(self.letters());
-        self.used.has_remarks |= label.kind == Kind::Remark;
-        self.used.has_leaders |= label.has_leader;
+        self.styles.labels = Some(self.letters());
+        self.styles.has_remarks |= label.kind == LabelKind::Remark;
+        self.styles.has_leaders |= label.has_leader;
         let size = self.letters();
         self.body += &match attributes {
             None => format!("{}\n", label.element(at, size)),
@@ -263,48 +269,48 @@ impl Picture<'_> {
         };
     }
 
-    /// The labels with their places, which hold at all of some moments.
+    /// Returns the labels with positions that hold at all moments.
     pub fn labels(&self, moments: &[&[Pose]]) -> Vec<Label> {
-        let named = self.named();
-        if named.is_empty() {
+        let texts = self.label_texts();
+        if texts.is_empty() {
             return Vec::new();
         }
         let size = self.letters();
         let field = self.field(moments);
-        let mut found: Vec<(Label, Vec<Vector>)> = Vec::new();
-        for (anchor, text, kind) in named {
-            let wide = (COLUMN * columns(&text) as f64).max(1.0);
+        let mut labels: Vec<(Label, Vec<Vector>)> = Vec::new();
+        for LabelText { anchor, text, kind } in texts {
+            let wide = (COLUMN_WIDTH * text_columns(&text) as f64).max(1.0);
             let half = [0.5 * size * wide + 2.0, 0.6 * size + 1.0];
-            let at: Vec<Vector> = moments.iter().map(|poses| self.anchored(&anchor, poses)).collect();
-            // the same name at the same place is that of a pin that bodies share
-            let is_told = |(known, places): &(Label, Vec<Vector>)| {
-                known.kind == kind && places.iter().zip(&at).all(|(a, b)| distance(*a, *b) < 1.0)
+            let at: Vec<Vector> = moments.iter().map(|poses| self.anchor_to_pixels(&anchor, poses)).collect();
+            // bodies that share a pin share its name
+            let is_labelled = |(label, positions): &(Label, Vec<Vector>)| {
+                label.kind == kind && positions.iter().zip(&at).all(|(a, b)| distance(*a, *b) < 1.0)
             };
-            if kind == Kind::Point && found.iter().any(is_told) {
+            if kind == LabelKind::Point && labels.iter().any(is_labelled) {
                 continue;
             }
-            let beside = if kind == Kind::Point { BESIDE_PIN } else { BESIDE_BODY };
-            let reach = beside * self.unit() + 2.0;
+            let distance_to_label = if kind == LabelKind::Point { TO_PIN } else { TO_BODY };
+            let reach = distance_to_label * self.unit() + 2.0;
             let near = self.near(&field, &at, half, reach);
             let mut best: Option<(f64, Label)> = None;
-            for (own, offset) in offsets(half, reach, kind != Kind::Point) {
+            for (offset_cost, offset) in offsets(half, reach, kind != LabelKind::Point) {
                 let mut label = Label { text: text.clone(), anchor, offset, half, kind, has_leader: false };
-                let Some(cost) = self.cost(&label, &at, &found, &near) else { continue };
-                let mistaken = label.mistaken(&at, &near);
-                label.has_leader = mistaken > 0.0 || label.is_far(&at, &near);
-                let cost = cost + own + MISTAKEN * mistaken;
+                let Some(cost) = self.cost(&label, &at, &labels, &near) else { continue };
+                let ambiguity = label.ambiguity(&at, &near);
+                label.has_leader = ambiguity > 0.0 || label.is_far(&at, &near);
+                let cost = cost + offset_cost + AMBIGUOUS * ambiguity;
                 if best.as_ref().is_none_or(|(least, _)| cost < *least) {
                     best = Some((cost, label));
                 }
             }
             if let Some((_, label)) = best {
-                found.push((label, at));
+                labels.push((label, at));
             }
         }
-        found.into_iter().map(|(label, _)| label).collect()
+        labels.into_iter().map(|(label, _)| label).collect()
     }
 
-    /// What there is around some places, one for each moment, as far as a label beside them can be.
+    /// Returns the obstacles that a label near some positions, one for each moment, can meet.
     fn near(&self, field: &Field, at: &[Vector], half: Vector, reach: f64) -> Field {
         let farthest = RINGS[RINGS.len() - 1][0] * half[1] + reach + PIN * self.unit() + NEAR_LINE;
         let around = half.map(|half| 2.0 * half + farthest);
@@ -314,99 +320,107 @@ impl Picture<'_> {
         Field { moments: moments.collect(), step: field.step }
     }
 
-    /// What is wrong with a label's place; nothing where it cannot be there.
-    fn cost(&self, label: &Label, at: &[Vector], found: &[(Label, Vec<Vector>)], field: &Field) -> Option<f64> {
+    /// Returns the cost of a label's position, or `None` if it is not possible.
+    fn cost(&self, label: &Label, at: &[Vector], labels: &[(Label, Vec<Vector>)], field: &Field) -> Option<f64> {
         let reach = PIN * self.unit();
         let mut cost = 0.0;
         for (moment, (at, obstacles)) in at.iter().zip(&field.moments).enumerate() {
             let [low, high] = label.bounds(*at);
-            let [width, height] = self.room();
+            let [width, height] = self.drawing_size();
             if low[0] < 0.0 || low[1] < 0.0 || high[0] > width || high[1] > height {
                 return None;
             }
             let meets = |[other_low, other_high]: [Vector; 2]| {
                 low[0] < other_high[0] && other_low[0] < high[0] && low[1] < other_high[1] && other_low[1] < high[1]
             };
-            if found.iter().any(|(other, places)| meets(other.bounds(places[moment]))) {
+            if labels.iter().any(|(other, positions)| meets(other.bounds(positions[moment]))) {
                 return None;
             }
             let covered =
                 obstacles.pins.iter().filter(|[x, y]| meets([[x - reach, y - reach], [x + reach, y + reach]]));
             let around = [low.map(|part| part - NEAR_LINE), high.map(|part| part + NEAR_LINE)];
-            let full = |places: &[Vector]| {
-                let long = field.step * places.iter().filter(|place| is_within(**place, around)).count() as f64;
-                (long / (FULL * 2.0 * label.half[1])).min(1.0)
+            let full = |positions: &[Vector]| {
+                let long =
+                    field.step * positions.iter().filter(|position| is_within(**position, around)).count() as f64;
+                (long / (FULL_LENGTH * 2.0 * label.half[1])).min(1.0)
             };
             cost += ON_PIN * covered.count() as f64;
-            cost += ON_LINES * full(&obstacles.lines) + ON_STRONG_LINES * full(&obstacles.strong_lines);
+            cost += ON_LINES * full(&obstacles.lines) + ON_HIGHLIGHTED_LINES * full(&obstacles.highlighted_lines);
         }
         Some(cost / at.len().max(1) as f64)
     }
 
-    /// What has a label: what messages say, then bodies, then points.
-    fn named(&self) -> Vec<(Anchor, String, Kind)> {
+    /// Returns what has a label: messages, then bodies, then points.
+    fn label_texts(&self) -> Vec<LabelText> {
         let scene = self.scene;
         let on_ground = |at| Anchor { frame: 0, at };
-        let remarks = scene.remarks.iter().map(|remark| (on_ground(remark.at), cut(&remark.text), Kind::Remark));
-        let mut named: Vec<(Anchor, String, Kind)> = remarks.collect();
+        let remarks = scene.remarks.iter().map(|remark| LabelText {
+            anchor: on_ground(remark.at),
+            text: cut(&remark.text),
+            kind: LabelKind::Remark,
+        });
+        let mut texts: Vec<LabelText> = remarks.collect();
         if self.options.labels {
-            named.extend(self.bodies());
-            let shown =
+            texts.extend(self.bodies());
+            let points =
                 scene.nodes.iter().flat_map(|node| &node.shapes).filter_map(|shape| scene.points.get(shape.point?));
-            for point in shown {
-                let own = point.name.rsplit('.').next().unwrap_or(&point.name);
-                named.push((Anchor { frame: point.frame, at: point.at }, cut(own), Kind::Point));
+            for point in points {
+                let name = point.name.rsplit('.').next().unwrap_or(&point.name);
+                let anchor = Anchor { frame: point.frame, at: point.at };
+                texts.push(LabelText { anchor, text: cut(name), kind: LabelKind::Point });
             }
         }
-        named.truncate(MOST);
-        named
+        texts.truncate(MOST_LABELS);
+        texts
     }
 
-    /// Bodies with the middles of what is drawn of them first.
-    fn bodies(&self) -> Vec<(Anchor, String, Kind)> {
+    /// Returns the bodies, each with the middle of its first shapes.
+    fn bodies(&self) -> Vec<LabelText> {
         let scene = self.scene;
-        let mut named = Vec::new();
+        let mut texts: Vec<LabelText> = Vec::new();
         for node in &scene.nodes {
-            let Place::Fixed(frame) = node.place else { continue };
-            let is_own = scene.declarations.get(node.declaration).is_some_and(|declaration| declaration.kind == "body");
-            let is_told = named.iter().any(|(anchor, _, _): &(Anchor, String, Kind)| anchor.frame == frame);
-            if frame == 0 || !is_own || is_told {
+            let Attachment::Fixed(frame) = node.attachment else { continue };
+            let is_body =
+                scene.declarations.get(node.declaration).is_some_and(|declaration| declaration.kind == "body");
+            let is_labelled = texts.iter().any(|label| label.anchor.frame == frame);
+            if frame == 0 || !is_body || is_labelled {
                 continue;
             }
-            let places: Vec<Vector> = node.shapes.iter().flat_map(|shape| shape.path.places()).collect();
-            let corners = hull(&places, 1.0 / self.scale);
+            let positions: Vec<Vector> = node.shapes.iter().flat_map(|shape| shape.path.positions()).collect();
+            let corners = hull(&positions, 1.0 / self.scale);
             if !corners.is_empty() {
-                // on the body, though that be thin and slanting
+                // the middle lies on the body, even on a thin and slanting one
                 let sum = corners.iter().copied().fold([0.0; 2], plus);
                 let at = times(1.0 / corners.len() as f64, sum);
-                named.push((Anchor { frame, at }, cut(self.name(node.declaration)), Kind::Body));
+                let text = cut(self.name(node.declaration));
+                texts.push(LabelText { anchor: Anchor { frame, at }, text, kind: LabelKind::Body });
             }
         }
-        named
+        texts
     }
 
-    /// What labels are not to lie on.
+    /// Returns the obstacles for labels.
     fn field(&self, moments: &[&[Pose]]) -> Field {
-        let shapes: Vec<Shown> = self.scene.nodes.iter().flat_map(|node| self.shown(node)).collect();
+        let shapes: Vec<ShapeSamples> = self.scene.nodes.iter().flat_map(|node| self.samples(node)).collect();
         let filled: Vec<(usize, Vec<Vector>)> = self.scene.nodes.iter().flat_map(|node| self.filled(node)).collect();
-        let count: usize = shapes.iter().map(|shown| shown.places.len()).sum();
-        let every = (count * moments.len()).div_ceil(MOST_PLACES).max(1);
+        let count: usize = shapes.iter().map(|samples| samples.positions.len()).sum();
+        let every = (count * moments.len()).div_ceil(MOST_POSITIONS).max(1);
         let at = |poses: &&[Pose]| {
             let mut obstacles = Obstacles::default();
-            for Shown { place, look, places } in &shapes {
-                let (pose, stretch) = place.pose(poses);
-                let placed = |[x, y]: Vector| self.placed(pose.placed([stretch * x, y]));
+            for ShapeSamples { attachment, look, positions } in &shapes {
+                let (pose, stretch) = attachment.pose(poses);
+                let to_picture = |[x, y]: Vector| self.to_pixels(pose.transform([stretch * x, y]));
                 match look {
-                    Look::Pin | Look::Dot => obstacles.pins.extend(places.iter().copied().map(placed)),
-                    look if STRONG.contains(look) => {
-                        obstacles.strong_lines.extend(places.iter().step_by(every).copied().map(placed));
+                    Look::Pin | Look::Dot => obstacles.pins.extend(positions.iter().copied().map(to_picture)),
+                    look if HIGHLIGHTED.contains(look) => {
+                        obstacles.highlighted_lines.extend(positions.iter().step_by(every).copied().map(to_picture));
                     }
-                    _ => obstacles.lines.extend(places.iter().step_by(every).copied().map(placed)),
+                    _ => obstacles.lines.extend(positions.iter().step_by(every).copied().map(to_picture)),
                 }
             }
             let corners = |(frame, corners): &(usize, Vec<Vector>)| Region {
                 frame: *frame,
-                corners: corners.iter().map(|corner| self.placed(poses[*frame].placed(*corner))).collect(),
+                corners: corners.iter().map(|corner| self.to_pixels(poses[*frame].transform(*corner))).collect(),
             };
             obstacles.regions = filled.iter().map(corners).collect();
             obstacles
@@ -414,38 +428,39 @@ impl Picture<'_> {
         Field { moments: moments.iter().map(at).collect(), step: STEP * every as f64 }
     }
 
-    /// What of a body is filled, by its corners in its frame (m). A ring is not: there is room in it.
+    /// Returns the filled parts of a body by their corners in its frame (m). A ring is not filled: there is room in it.
     fn filled(&self, node: &Node) -> Vec<(usize, Vec<Vector>)> {
-        let Place::Fixed(frame) = node.place else { return Vec::new() };
+        let Attachment::Fixed(frame) = node.attachment else { return Vec::new() };
         let is_filled = |path: &Path| !matches!(path, Path::Lines(contours) if contours.len() != 1);
         let shapes = node.shapes.iter().filter(|shape| FILLED.contains(&shape.look) && is_filled(&shape.path));
-        let corners = shapes.map(|shape| (frame, hull(&shape.path.places(), 1.0 / self.scale)));
+        let corners = shapes.map(|shape| (frame, hull(&shape.path.positions(), 1.0 / self.scale)));
         corners.filter(|(frame, corners)| *frame > 0 && corners.len() > 2).collect()
     }
 
-    /// The pins of a node by their middles, and its lines by places on them.
-    fn shown(&self, node: &Node) -> Vec<Shown> {
-        let is_stretched = node.place.is_stretched();
-        let shown = |(path, look): (&Path, Look)| {
-            let places = match (path, look) {
+    /// Returns the pins of a node by their centres, and its lines by positions on them.
+    fn samples(&self, node: &Node) -> Vec<ShapeSamples> {
+        let is_stretched = node.attachment.is_stretched();
+        let sampled = |(path, look): (&Path, Look)| {
+            let positions = match (path, look) {
                 (Path::Circle { at, .. }, Look::Pin | Look::Dot) => vec![*at],
-                (_, look) if NO_LINES.contains(&look) || is_stretched => return None,
+                (_, look) if LOOKS_WITHOUT_LINES.contains(&look) || is_stretched => return None,
                 (path, _) => path.sampled(STEP / self.scale),
             };
-            Some(Shown { place: node.place, look, places })
+            Some(ShapeSamples { attachment: node.attachment, look, positions })
         };
-        node.shapes.iter().filter_map(|shape| shown((&shape.path, shape.look))).collect()
+        node.shapes.iter().filter_map(|shape| sampled((&shape.path, shape.look))).collect()
     }
 }
 
-/// A pin or a line, by places (m).
-struct Shown {
-    place: Place,
+/// A pin or a line by its positions (m).
+struct ShapeSamples {
+    attachment: Attachment,
     look: Look,
-    places: Vec<Vector>,
+    positions: Vec<Vector>,
 }
 
-/// Places around what is named, from its middle to that of the text, with what each costs; some things have room for their names inside.
+/// Returns candidate offsets from the middle of what is named to the middle of the text, with their costs. With `has_inside` the middle
+/// itself is the first.
 fn offsets(half: Vector, reach: f64, has_inside: bool) -> impl Iterator<Item = (f64, Vector)> {
     let [x, y] = half;
     let around = RINGS.into_iter().flat_map(move |[farther, cost]| {
@@ -458,8 +473,8 @@ fn offsets(half: Vector, reach: f64, has_inside: bool) -> impl Iterator<Item = (
 }
 
 fn cut(name: &str) -> String {
-    if name.chars().count() <= LONGEST {
+    if name.chars().count() <= LONGEST_NAME {
         return name.to_owned();
     }
-    name.chars().take(LONGEST - 1).chain(['…']).collect()
+    name.chars().take(LONGEST_NAME - 1).chain(['…']).collect()
 }

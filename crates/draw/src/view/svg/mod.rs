@@ -1,17 +1,16 @@
-//! SVG without a script: one moment, several as a strobe, or the whole motion by keyframes; and columns over time.
+//! SVG without scripts: one moment, several as a strobe, or the whole motion as keyframes; and plots of columns over time.
 //!
-//! Bodies and joints are groups, which carry `data-body` and `data-joint`; what shows a point carries `data-point`. One style sheet says how
+//! Bodies and joints are groups with `data-body` and `data-joint`; shapes of points have `data-point`. One style sheet decides how
 //! everything looks, in light and in dark. Coordinates are pixels.
 
 mod curves;
 mod forces;
 mod keyframes;
 mod labels;
-mod letters;
+mod message_block;
 mod nodes;
 mod picture;
 mod plots;
-mod said;
 mod style;
 mod torques;
 mod vectors;
@@ -22,10 +21,10 @@ use picture::Picture;
 pub use plots::{Plot, plots};
 pub use vectors::has_vectors;
 
-/// Which colours are used.
+/// Colour theme.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub enum Theme {
-    /// As the reader's machine is set.
+    /// The reader's setting decides.
     #[default]
     Auto,
     /// Dark on light.
@@ -34,30 +33,31 @@ pub enum Theme {
     Dark,
 }
 
-/// What a picture shows beside the mechanism.
+/// Options of a picture.
 #[derive(Clone, Debug, Default)]
 pub struct Options {
-    /// Width and height in pixels; by the mechanism's extent if not given.
+    /// Width and height (px); without them the mechanism's extent decides.
     pub size: Option<[f64; 2]>,
-    /// True to scale, if given: what a length of 1 is on paper. Then all is in millimetres of paper, and the size follows.
+    /// Length on paper of a length of 1. With it the picture is true to scale, in millimetres of paper, and its size follows from the
+    /// extent.
     pub scale: Option<f64>,
-    /// Which colours.
+    /// Colours.
     pub theme: Theme,
-    /// Points whose paths are drawn beside those that the text asks for, with their names.
+    /// Named points whose paths are drawn in addition to the traces of the text.
     pub traces: Vec<(String, Anchor)>,
-    /// Velocities and accelerations at pins and traced points; of a body that has none of these at its points that have a name.
+    /// True to draw velocities and accelerations, at pins and traced points, or at the other named points of a body that has neither.
     pub vectors: bool,
-    /// What joints exert, loads and weights, where the motion's table tells of them.
+    /// True to draw reactions, loads and weights whose values are in the motion's table.
     pub forces: bool,
-    /// The names of bodies and pins.
+    /// True to draw the names of bodies and pins.
     pub labels: bool,
-    /// Words below places (m).
+    /// Captions below positions (m).
     pub captions: Vec<(Vector, String)>,
-    /// What is wrong with it, below it.
+    /// Messages below the picture.
     pub said: Vec<String>,
 }
 
-/// The mechanism at some moments, the rows of `moments`; of several the last one stands out. Traces are those of the whole motion.
+/// Writes the mechanism at the rows of `moments`, the last one in full and the others pale, with the traces of the whole motion.
 #[must_use]
 pub fn still(scene: &Scene, motion: &Motion, moments: &Motion, options: &Options) -> String {
     let mut picture = Picture::new(scene, [motion, moments], options);
@@ -78,7 +78,7 @@ pub fn still(scene: &Scene, motion: &Motion, moments: &Motion, options: &Options
     picture.finish()
 }
 
-/// The whole motion, over and over; to and fro where it does not end as it begins.
+/// Writes the whole motion as an endless animation, to and fro if it does not end as it begins.
 #[must_use]
 pub fn animated(scene: &Scene, motion: &Motion, options: &Options) -> String {
     if motion.len() < 2 {

@@ -1,53 +1,71 @@
-//! The style sheet: how everything looks, in light and in dark. Colours are written out, for not every renderer knows variables.
+//! Style sheet in light and in dark. Colours are written out, since not every renderer supports variables.
 
 use super::Theme;
 use crate::scene::Look;
-use crate::view::text::number;
+use crate::view::text::decimal;
 use std::collections::BTreeSet;
+use unicode_width::UnicodeWidthChar;
 
-/// How many tints of bodies there are.
+/// Size of letters of the smallest and the largest pictures (px).
+const LETTER_SIZES: [f64; 2] = [13.0, 18.0];
+/// Size of letters as a part of the picture's shorter side.
+const LETTER_SIZE: f64 = 1.0 / 42.0;
+/// Width of a column as a part of the size of letters: on average, wide fonts are no wider.
+pub(super) const COLUMN_WIDTH: f64 = 0.66;
+
+/// Number of tints of bodies.
 pub(super) const TINTS: usize = 8;
-/// How many colours of traces there are.
+/// Number of colours of traces.
 pub(super) const TRACE_COLORS: usize = 4;
 
-/// What a picture holds, for which there have to be rules.
+/// Returns the size of letters (px) for a picture of a size (px).
+pub(super) fn letter_size(size: [f64; 2]) -> f64 {
+    (LETTER_SIZE * size[0].min(size[1])).clamp(LETTER_SIZES[0], LETTER_SIZES[1])
+}
+
+/// Returns the number of columns of a text on a screen.
+pub(super) fn text_columns(text: &str) -> usize {
+    text.chars().map(|c| c.width().unwrap_or(0)).sum()
+}
+
+/// Contents of a picture that need rules.
 #[derive(Default)]
 #[allow(clippy::struct_excessive_bools)] // each has rules of its own
-pub(super) struct Used {
+pub(super) struct StyleUsage {
     pub looks: BTreeSet<Look>,
     pub tints: BTreeSet<usize>,
     pub traces: BTreeSet<usize>,
-    /// The size of letters (px), if there are any.
+    /// Size of letters (px), if there are any.
     pub labels: Option<f64>,
     pub has_ghosts: bool,
-    /// Whether something that is filled is on the ground.
+    /// True if a filled shape is on the ground.
     pub is_ground_filled: bool,
     pub vectors: BTreeSet<&'static str>,
-    /// Whether a message names something.
+    /// True if a message names a declaration.
     pub is_named: bool,
-    /// Whether a message says something of a place.
+    /// True if a message has a position.
     pub has_remarks: bool,
-    /// Whether a line leads from a name to what it names.
+    /// True if a label has a leader.
     pub has_leaders: bool,
-    /// The size of letters of what is said below (px), if anything is.
-    pub said: Option<f64>,
+    /// Size of letters of the messages below (px), if there are any.
+    pub messages: Option<f64>,
 }
 
-/// Colours.
+/// Colours of a theme.
 struct Palette {
     paper: &'static str,
     ink: &'static str,
-    /// Of what is there, but is not looked at.
+    /// Colour of secondary lines.
     quiet: &'static str,
-    /// Of what is a part of the ground.
+    /// Fill of parts of the ground.
     ground: &'static str,
-    /// Of what a driver does.
+    /// Colour of drivers.
     driven: &'static str,
     tints: [&'static str; TINTS],
     traces: [&'static str; TRACE_COLORS],
-    /// Of what nothing holds.
+    /// Colour of free motions.
     free: &'static str,
-    /// Of what a message names.
+    /// Colour of what a message names.
     wrong: &'static str,
     velocity: &'static str,
     acceleration: &'static str,
@@ -90,13 +108,13 @@ const DARK: Palette = Palette {
     weight: "#a9b6c2",
 };
 
-/// The rules for all that is used; `unit` is the size of symbols in pixels.
-pub(super) fn sheet(used: &Used, theme: Theme, unit: f64) -> String {
+/// Returns the rules for everything that is used; `unit` is the symbol unit (px).
+pub(super) fn sheet(usage: &StyleUsage, theme: Theme, unit: f64) -> String {
     let strong = (0.1 * unit).clamp(0.5, 2.0);
-    themed(shapes(used, strong), theme, |palette| colors(used, palette))
+    themed(shapes(usage, strong), theme, |palette| colors(usage, palette))
 }
 
-/// The rules for plots, with so many colours of curves and letters so large (px).
+/// Returns the rules for plots, with a number of curves and a size of letters (px).
 pub(super) fn plot_sheet(curves: usize, theme: Theme, letters: f64) -> String {
     let colors = |palette: &Palette| {
         let &Palette { paper, ink, quiet, .. } = palette;
@@ -111,12 +129,12 @@ pub(super) fn plot_sheet(curves: usize, theme: Theme, letters: f64) -> String {
         "text{{font:{}px system-ui,sans-serif}}\n.name{{font-weight:600}}\n.beside{{text-anchor:end}}\n.below{{text-anchor:middle}}\n\
          path{{fill:none;stroke-linecap:round;stroke-linejoin:round}}\n.grid{{stroke-width:.5;stroke-opacity:.5}}\n\
          .axes{{stroke-width:1}}\n.curve{{stroke-width:1.8}}\n",
-        number(letters, 1)
+        decimal(letters, 1)
     );
     themed(shared, theme, colors)
 }
 
-/// A sheet with the colours of a theme.
+/// Appends the colours of a theme to a sheet.
 fn themed(mut sheet: String, theme: Theme, colors: impl Fn(&Palette) -> String) -> String {
     match theme {
         Theme::Light => sheet += &colors(&LIGHT),
@@ -129,11 +147,11 @@ fn themed(mut sheet: String, theme: Theme, colors: impl Fn(&Palette) -> String) 
     sheet
 }
 
-/// Widths and dashes, which both themes share.
-fn shapes(used: &Used, strong: f64) -> String {
-    let width = |part: f64| number(part * strong, 2);
+/// Returns widths and dashes, which both themes share.
+fn shapes(usage: &StyleUsage, strong: f64) -> String {
+    let width = |part: f64| decimal(part * strong, 2);
     let mut rules = format!("path,circle{{stroke-width:{};stroke-linecap:round;stroke-linejoin:round}}\n", width(1.0));
-    for look in &used.looks {
+    for look in &usage.looks {
         let rule = match look {
             Look::Hatching => format!("stroke-width:{}", width(0.6)),
             Look::GroundLine | Look::Guide | Look::Track => format!("stroke-width:{}", width(1.25)),
@@ -153,20 +171,20 @@ fn shapes(used: &Used, strong: f64) -> String {
         };
         rules += &format!(".{}{{{rule}}}\n", look.word());
     }
-    if !used.traces.is_empty() {
+    if !usage.traces.is_empty() {
         rules += &format!(".trace{{fill:none;stroke-width:{}}}\n", width(1.1));
     }
-    if let Some(size) = used.labels {
+    if let Some(size) = usage.labels {
         rules += &format!(
             "text{{font:{}px system-ui,sans-serif;text-anchor:middle;stroke-width:3;stroke-linejoin:round;paint-order:stroke}}\n\
              .body-name{{font-weight:600}}\n.point-name{{font-style:italic}}\n.legend{{text-anchor:start}}\n",
-            number(size, 1)
+            decimal(size, 1)
         );
     }
-    if used.has_ghosts {
+    if usage.has_ghosts {
         rules += ".ghost{opacity:.3}\n";
     }
-    if used.is_named {
+    if usage.is_named {
         rules += &format!(
             ".named path,.named circle{{stroke-width:{}}}\n.named .link{{stroke-dasharray:{} {}}}\n",
             width(1.7),
@@ -174,11 +192,11 @@ fn shapes(used: &Used, strong: f64) -> String {
             width(2.6)
         );
     }
-    if let Some(size) = used.said {
-        rules += &format!(".said{{font:{}px system-ui,sans-serif;text-anchor:start;stroke:none}}\n", number(size, 1));
+    if let Some(size) = usage.messages {
+        rules += &format!(".said{{font:{}px system-ui,sans-serif;text-anchor:start;stroke:none}}\n", decimal(size, 1));
     }
-    if !used.vectors.is_empty() {
-        // accelerations, which are drawn above, leave velocities seen where both go the same way
+    if !usage.vectors.is_empty() {
+        // a velocity stays visible below an acceleration of the same direction
         rules += &format!(
             ".vector{{stroke-width:{};vector-effect:non-scaling-stroke}}\n.velocity{{stroke-width:{}}}\n",
             width(0.9),
@@ -188,17 +206,17 @@ fn shapes(used: &Used, strong: f64) -> String {
     rules
 }
 
-fn colors(used: &Used, palette: &Palette) -> String {
+fn colors(usage: &StyleUsage, palette: &Palette) -> String {
     let &Palette { paper, ink, quiet, driven, free, wrong, .. } = palette;
     let mut rules = format!(".paper{{fill:{paper}}}\n");
     let mut group = |looks: &[Look], rule: &str| {
         let words: Vec<String> =
-            looks.iter().filter(|look| used.looks.contains(look)).map(|look| format!(".{}", look.word())).collect();
+            looks.iter().filter(|look| usage.looks.contains(look)).map(|look| format!(".{}", look.word())).collect();
         if !words.is_empty() {
             rules += &format!("{}{{{rule}}}\n", words.join(","));
         }
     };
-    // what is filled with its body's tint has it from its group
+    // the tint of a body comes from its group
     group(&[Look::Link, Look::Cam, Look::Gear, Look::Rack], &format!("stroke:{ink};fill-opacity:.82"));
     group(&[Look::Block], &format!("stroke:{ink}"));
     group(&[Look::Pin, Look::Roller, Look::Slot, Look::Sleeve, Look::Support], &format!("fill:{paper};stroke:{ink}"));
@@ -215,13 +233,13 @@ fn colors(used: &Used, palette: &Palette) -> String {
     group(&[Look::FreeHead], &format!("fill:{paper};stroke:{free}"));
     group(&[Look::Gap, Look::GapEnd], &format!("fill:none;stroke:{ink}"));
     group(&[Look::Named], &format!("fill:none;stroke:{wrong}"));
-    if used.is_ground_filled {
+    if usage.is_ground_filled {
         rules += &format!(".b-ground{{fill:{}}}\n", palette.ground);
     }
-    for tint in &used.tints {
+    for tint in &usage.tints {
         rules += &format!(".b{tint}{{fill:{}}}\n", palette.tints[tint % TINTS]);
     }
-    for trace in &used.traces {
+    for trace in &usage.traces {
         rules += &format!(".t{trace}{{stroke:{}}}\n", palette.traces[trace % TRACE_COLORS]);
     }
     for (word, color) in [
@@ -231,25 +249,25 @@ fn colors(used: &Used, palette: &Palette) -> String {
         ("load", palette.load),
         ("weight", palette.weight),
     ] {
-        if used.vectors.contains(word) {
+        if usage.vectors.contains(word) {
             rules += &format!(".{word}{{stroke:{color};fill:{color}}}\n");
         }
     }
-    if used.is_named {
+    if usage.is_named {
         rules += &format!(
             ".named path,.named circle{{stroke:{wrong}}}\n.named .arrow-head,.named .dot,.named .weld{{fill:{wrong}}}\n"
         );
     }
-    if used.labels.is_some() {
+    if usage.labels.is_some() {
         rules += &format!("text{{fill:{ink};stroke:{paper}}}\n");
     }
-    if used.has_leaders {
+    if usage.has_leaders {
         rules += &format!(".leader{{fill:none;stroke:{ink};stroke-width:1}}\n");
     }
-    if used.has_remarks {
+    if usage.has_remarks {
         rules += &format!(".remark{{fill:{wrong}}}\n");
     }
-    if used.said.is_some() {
+    if usage.messages.is_some() {
         rules += &format!(".said{{fill:{wrong}}}\n");
     }
     rules

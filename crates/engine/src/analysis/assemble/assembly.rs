@@ -4,14 +4,13 @@
 //! positions, from the estimates and then from perturbed ones. What comes out is assembled, or nothing does.
 
 use super::search::{Noise, levenberg_marquardt};
-use crate::analysis::explain::{errors, open_loop, singular};
+use crate::analysis::explain::{Stop, StopCause, open_loop, singular};
 use crate::analysis::state::{Fault, Horizon, Kinematics, State, behind_start};
 use mechc_ir::tolerances::assembly::newton::{
     AGREES, BESIDE, EXPLICIT_STEPS, LARGEST_DENSE, LARGEST_STEP, MOVED, NEARBY, NEWTON_STEPS, OPEN_NEARBY,
     PERTURBATIONS, SETTLED, SINGULAR_START, SMALLEST_DAMPING, VANISHING_TANGENT, WITHOUT_SLOPE,
 };
-use mechc_ir::{BodyId, ConstraintSystem, CoordinateKind, WatchKind};
-use mechc_text::diag::Diagnostic;
+use mechc_ir::{BodyId, ConstraintSystem, CoordinateKind, MonitorKind};
 use std::f64::consts::PI;
 
 /// How far assembly moved the bodies from their estimates.
@@ -38,14 +37,14 @@ pub struct Assembled {
 }
 
 /// Assembles at time `t`, from the estimates or from a position that is known to be near.
-pub fn assemble(kinematics: &mut Kinematics, t: f64, near: Option<&[f64]>) -> Result<Assembled, Box<Diagnostic>> {
+pub fn assemble(kinematics: &mut Kinematics, t: f64, near: Option<&[f64]>) -> Result<Assembled, Box<Stop>> {
     let determined = kinematics.determined();
     let system = determined.system();
     let estimates = kinematics.estimates();
     let from = near.unwrap_or(&estimates);
     set_start(kinematics, t);
     if let Err(fault @ (Fault::NotFinite { .. } | Fault::Condition { .. })) = kinematics.set_position(from) {
-        return Err(Box::new(errors::no_value(system, fault, t)));
+        return Err(singular::without_value(system, fault).at(t));
     }
     let start = explicit_first(kinematics, from);
     let (q, is_perturbed) = match assembled(kinematics, &start) {
@@ -233,11 +232,7 @@ fn newton(kinematics: &mut Kinematics, start: &[f64]) -> Option<Vec<f64>> {
 }
 
 /// The assembled position, and whether the estimates had to be perturbed to find it.
-fn by_least_squares(
-    kinematics: &mut Kinematics,
-    estimates: &[f64],
-    t: f64,
-) -> Result<(Vec<f64>, bool), Box<Diagnostic>> {
+fn by_least_squares(kinematics: &mut Kinematics, estimates: &[f64], t: f64) -> Result<(Vec<f64>, bool), Box<Stop>> {
     let mut nearest = None;
     let mut noise = Noise::new();
     let mut start = estimates.to_vec();
@@ -272,55 +267,55 @@ fn by_least_squares(
         nearest.get_or_insert(q);
     }
     let q = nearest.unwrap_or_else(|| estimates.to_vec());
-    Err(Box::new(explain(kinematics, &q, t)))
+    Err(find_stop(kinematics, &q, t))
 }
 
-/// Which loop stays open.
-fn explain(kinematics: &mut Kinematics, q: &[f64], t: f64) -> Diagnostic {
+/// Returns the stop where `q` is as near to an assembled position as it comes: the loop that stays open.
+fn find_stop(kinematics: &mut Kinematics, q: &[f64], t: f64) -> Box<Stop> {
     if let Err(fault) = kinematics.set_position(q) {
-        return errors::no_value(kinematics.system(), fault, t);
+        return singular::without_value(kinematics.system(), fault).at(t);
     }
     if let Some(open) = open_loop::found(&kinematics.determined(), q, t) {
-        return errors::open_loop(kinematics.system(), &open, t);
+        return StopCause::OpenLoop(Box::new(open)).at(t);
     }
     let _ = kinematics.factor();
     if kinematics.violated().is_none()
         && let Some(index) = kinematics.broken_check()
     {
-        return errors::does_not_hold(kinematics.system(), index, t);
+        return StopCause::RedundantRowAtStart { check: index }.at(t);
     }
     let open = |row: usize| kinematics.residual(row);
     let worst = (0..q.len()).max_by(|&a, &b| open(a).total_cmp(&open(b))).unwrap_or(0);
-    errors::cannot_assemble(kinematics.system(), worst, open(worst), t)
+    StopCause::NotAssembled { row: worst, residual: open(worst) }.at(t)
 }
 
 /// Where a tangent vanishes the condition that tangents are parallel says nothing: a spurious root.
-fn refuse_vanishing_tangents(kinematics: &mut Kinematics, q: &[f64], t: f64) -> Result<(), Box<Diagnostic>> {
+fn refuse_vanishing_tangents(kinematics: &mut Kinematics, q: &[f64], t: f64) -> Result<(), Box<Stop>> {
     let determined = kinematics.determined();
     let system = determined.system();
     if kinematics.set_position(q).is_err() {
         return Ok(());
     }
     let vanishes = |k: &usize| {
-        system.watches()[*k].kind == WatchKind::Tangents && kinematics.watched(*k).abs() < VANISHING_TANGENT
+        system.monitors()[*k].kind == MonitorKind::Tangents && kinematics.watched(*k).abs() < VANISHING_TANGENT
     };
-    match (0..system.watches().len()).find(vanishes) {
-        Some(index) => Err(Box::new(errors::no_contact(system, index, t))),
+    match (0..system.monitors().len()).find(vanishes) {
+        Some(watch) => Err(StopCause::NoContact { watch }.at(t)),
         None => Ok(()),
     }
 }
 
 /// The equations must be independent where the motion starts.
-fn refuse_singular(kinematics: &mut Kinematics, q: &[f64], t: f64) -> Result<(), Box<Diagnostic>> {
+fn refuse_singular(kinematics: &mut Kinematics, q: &[f64], t: f64) -> Result<(), Box<Stop>> {
     let determined = kinematics.determined();
     let system = determined.system();
     kinematics.measure_slopes(q);
     let factored = kinematics.set_position(q).and_then(|()| kinematics.factor());
     if let Err(fault @ (Fault::NotFinite { .. } | Fault::Condition { .. })) = factored {
-        return Err(Box::new(errors::no_value(system, fault, t)));
+        return Err(singular::without_value(system, fault).at(t));
     }
     if let Some(row) = kinematics.row_without_slope(WITHOUT_SLOPE) {
-        return Err(Box::new(errors::without_effect(system, row, t)));
+        return Err(StopCause::WithoutEffect { row }.at(t));
     }
     if factored.is_ok() && kinematics.nearness(SINGULAR_START) > SINGULAR_START {
         return Ok(());
@@ -328,12 +323,7 @@ fn refuse_singular(kinematics: &mut Kinematics, q: &[f64], t: f64) -> Result<(),
     let vectors = kinematics.worst();
     let elsewhere = independent_elsewhere(kinematics, q, &vectors.right, t)
         .or_else(|| independent_without(kinematics, q, singular::driver_in(system, &vectors.left)?, &vectors.right, t));
-    Err(Box::new(singular::name_start(
-        system,
-        (&vectors.left, &vectors.right),
-        elsewhere,
-        Horizon { from: t, span: kinematics.span() },
-    )))
+    Err(singular::singular_start(system, &vectors, elsewhere, Horizon { from: t, span: kinematics.span() }))
 }
 
 /// Whether the equations are independent in a position nearby; none if there is no other one.

@@ -5,7 +5,7 @@ use super::branches::{Doubt, FarBody, Off};
 use crate::analysis::explain::errors::{at, degrees, length};
 use mechc_ir::tolerances::determinacy::fits::{LARGEST_MISFIT, MOVED, NOTHING};
 use mechc_ir::{ConstraintSystem, DeclarationKind, Fit, JointKind};
-use mechc_text::diag::{Applies, Code, Diagnostic, Fix, readable};
+use mechc_text::diag::{Applicability, Code, Diagnostic, Fix, readable};
 
 /// A remark on what leaves in doubt that the position taken is the one meant.
 ///
@@ -78,13 +78,13 @@ fn assembled_poses(system: &ConstraintSystem, from: &[f64], to: &[f64]) -> Optio
         let phi = if to[phi].abs() < NOTHING { 0.0 } else { nine(to[phi].to_degrees()) };
         let pose = format!("({x} mm, {y} mm, {phi} deg)");
         let written = match body.pose_span {
-            Some(span) => Fix::replace(span, pose, "", Applies::Probably),
-            None => Fix::append(body.span, format!(" at {pose}"), "", Applies::Probably),
+            Some(span) => Fix::replace(span, pose, "", Applicability::Probably),
+            None => Fix::append(body.span, format!(" at {pose}"), "", Applicability::Probably),
         };
         edits.extend(written.edits);
     }
     let message = "write the assembled position into `at`".to_owned();
-    (!edits.is_empty()).then_some(Fix { message, edits, applies: Applies::Probably })
+    (!edits.is_empty()).then_some(Fix { message, edits, applies: Applicability::Probably })
 }
 
 /// A warning where the centres of gears, or of a pinion and its rack, are not as far apart as the radii have it.

@@ -3,6 +3,7 @@
 use super::assembly::{self, Assembled, Moved};
 use super::branches::{self, Doubt};
 use super::errors::{far_estimates, misfit};
+use crate::analysis::explain::Stop;
 use crate::analysis::state::{Horizon, Kinematics, State};
 use crate::solver::Solver;
 use mechc_expr::math::Vectors;
@@ -10,7 +11,7 @@ use mechc_ir::ConstraintSystem;
 use mechc_ir::program::Program;
 use mechc_ir::structure::Determined;
 use mechc_text::cancel::Cancel;
-use mechc_text::diag::{Diagnostic, Diagnostics};
+use mechc_text::diag::Diagnostics;
 use std::sync::Arc;
 
 /// A mechanism that is assembled at its first time, in a position of full rank.
@@ -56,7 +57,7 @@ impl Unassembled {
     ///
     /// # Errors
     /// It cannot be assembled, starts in a singular position, or a formula has no value there.
-    pub fn close(&self, estimates: Option<&[f64]>, solving: Solving) -> Result<Started, Box<Diagnostic>> {
+    pub fn close(&self, estimates: Option<&[f64]>, solving: Solving) -> Result<Started, Box<Stop>> {
         self.close_with(self.kinematics(estimates), solving)
     }
 
@@ -64,7 +65,7 @@ impl Unassembled {
     ///
     /// # Errors
     /// As [`Unassembled::close`].
-    pub fn close_with(&self, mut kinematics: Kinematics, solving: Solving) -> Result<Started, Box<Diagnostic>> {
+    pub fn close_with(&self, mut kinematics: Kinematics, solving: Solving) -> Result<Started, Box<Stop>> {
         let Assembled { state, moved, is_perturbed } = assembly::assemble(&mut kinematics, self.horizon.from, None)?;
         let mut started = Started::of(kinematics, (state, moved), solving);
         started.doubt = if is_perturbed {
@@ -81,7 +82,7 @@ impl Unassembled {
     ///
     /// # Errors
     /// As [`Unassembled::close`].
-    pub fn assemble_at(&self, q: &[f64], solving: Solving) -> Result<Started, Box<Diagnostic>> {
+    pub fn assemble_at(&self, q: &[f64], solving: Solving) -> Result<Started, Box<Stop>> {
         self.assemble_at_with(self.kinematics(Some(q)), q, solving)
     }
 
@@ -94,7 +95,7 @@ impl Unassembled {
         mut kinematics: Kinematics,
         q: &[f64],
         solving: Solving,
-    ) -> Result<Started, Box<Diagnostic>> {
+    ) -> Result<Started, Box<Stop>> {
         let Assembled { state, moved, .. } = assembly::assemble(&mut kinematics, self.horizon.from, Some(q))?;
         Ok(Started::of(kinematics, (state, moved), solving))
     }

@@ -182,7 +182,7 @@ fn surplus(evaluator: &mut Evaluator<'_>, mut part: Subsystem, times: [f64; 2]) 
             DeclarationKind::Constraint => 1,
             DeclarationKind::Driver => 2,
         };
-        (kind, !declaration.is_spoken_of)
+        (kind, !declaration.is_referenced)
     };
     part.rows.sort_by_key(rank);
     let mut found = Vec::new();

@@ -21,7 +21,7 @@ impl<'s> Evaluator<'s> {
     /// At the estimates.
     pub fn new(system: &'s ConstraintSystem) -> Evaluator<'s> {
         let program = Program::new(system);
-        let params = system.values_of_params();
+        let params = system.param_values();
         let registers = program.start(&params);
         let q = program.outputs.estimates.iter().map(|&register| registers.get(register)).collect();
         Evaluator { system, q, program, registers }

@@ -11,6 +11,9 @@ mod proposals;
 mod redundancy;
 mod sharing;
 pub mod singular;
+mod stop;
 
 pub use determine::{determine, free_motions};
 pub use freedom::FreeMotion;
+pub use open_loop::{Link, LinkOf, OpenLoop};
+pub use stop::{SingularPosition, Stop, StopCause, Warning, WarningCause};

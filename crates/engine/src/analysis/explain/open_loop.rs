@@ -15,6 +15,7 @@ use mechc_ir::tolerances::determinacy::open_loop::{
 use mechc_ir::{BodyId, ConstraintSystem, CoordinateKind, DeclarationId, DeclarationKind, JointKind, PointId};
 
 /// A loop that does not close.
+#[derive(Clone, Debug)]
 pub struct OpenLoop {
     /// The declaration at which it is told to be open.
     pub at: DeclarationId,
@@ -30,7 +31,22 @@ pub struct OpenLoop {
     pub residual: f64,
 }
 
+impl OpenLoop {
+    /// Returns whether the gap has another order of magnitude than the mechanism.
+    pub fn is_far(&self, system: &ConstraintSystem) -> bool {
+        let far = if self.kind == CoordinateKind::Length { 100.0 * system.length() } else { std::f64::consts::TAU };
+        self.by > far
+    }
+
+    /// Returns whether no motion brings the two sides of the gap nearer to each other.
+    pub fn is_unreachable(&self, system: &ConstraintSystem) -> bool {
+        let is_joint = matches!(system.declarations()[self.at].kind, DeclarationKind::Joint(_));
+        self.is_far(system) && !(is_joint && self.by.is_finite())
+    }
+}
+
 /// A length that is too short or too long.
+#[derive(Clone, Debug)]
 pub struct Link {
     /// What it is of.
     pub of: LinkOf,

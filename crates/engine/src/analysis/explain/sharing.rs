@@ -11,7 +11,7 @@ use crate::analysis::state::{Horizon, Linear, aslant};
 use mechc_expr::{Dependence, ExprId, Graph, Node, Symbol};
 use mechc_ir::ConstraintSystem;
 use mechc_ir::structure::Subsystem;
-use mechc_ir::tolerances::UNTOLD_SPAN;
+use mechc_ir::tolerances::DEFAULT_SPAN;
 use mechc_ir::tolerances::determinacy::redundancy::{OPEN, TAKES_PART};
 use mechc_ir::tolerances::determinacy::sharing::{
     APART, FIRST_STEP, FRESH, LARGEST_STEP, LONGEST_STEP, MOST_STEPS, MOST_WORK,
@@ -259,7 +259,7 @@ pub(super) fn along_motion(
         let there = evaluator.linear(&part.rows, &part.columns, None, t);
         there.filter(|_| is_met)
     };
-    let span = if span > 0.0 { span } else { UNTOLD_SPAN };
+    let span = if span > 0.0 { span } else { DEFAULT_SPAN };
     let Some(start) = assembled(evaluator, from) else {
         return 0;
     };

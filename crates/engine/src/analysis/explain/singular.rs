@@ -1,82 +1,101 @@
-//! Why an analysis cannot go on: which formula, which lock-up, which bifurcation.
+//! Finds the reason why an analysis stops: which formula, which lock-up, which bifurcation.
 
-use super::determine::explain_dependent;
 use super::errors::{self, StartVerdict};
-use super::free_motion::motion_in_words;
+use super::stop::{SingularPosition, Stop, StopCause, Warning, WarningCause};
 use crate::analysis::state::{Fault, Horizon, Kinematics, Singular, State};
-use mechc_ir::program::PlacedRim;
+use mechc_ir::program::BoundaryRegisters;
 use mechc_ir::tolerances::singular::reasons::{
-    AT_HAND, CUSP, FLAT, NEAR, NEAR_FOLD, PARABOLA, STEPS_AHEAD, TAKES_PART, TOLD, WEIGHTS,
+    CUSP, FLAT, NEAR, NEAR_FOLD, PARABOLA, STEPS_AHEAD, TAKES_PART, TOLD, VANISHED, WEIGHTS,
 };
-use mechc_ir::{ConstraintSystem, DeclarationId, DeclarationKind, JointKind, Watch, WatchKind};
-use mechc_text::diag::Diagnostic;
+use mechc_ir::{ConstraintSystem, DeclarationId, DeclarationKind, JointKind, Monitor, MonitorKind};
 
-/// The diagnosis at the last good state, where even a step as small as `h` (s) towards `target` (s) failed.
-pub fn explain(kinematics: &mut Kinematics, state: &State, fault: Fault, h: f64, target: f64) -> Diagnostic {
-    explain_fold(kinematics, state, fault, [h, target], None)
+/// Returns why no step leads on from the last accepted state, where even one as small as `h` (s) towards `target` (s) failed.
+pub fn find_stop(kinematics: &mut Kinematics, state: &State, fault: Fault, [h, target]: [f64; 2]) -> Box<Stop> {
+    find_stop_near_fold(kinematics, state, fault, [h, target], None)
 }
 
-/// The same, where it may be known when the mechanism comes to the end of its reach, `fold` (s).
-pub fn explain_fold(
+/// Returns why no step leads on, as [`find_stop`] does, where the mechanism comes to the end of its reach at the time `fold` (s).
+pub fn find_stop_near_fold(
     kinematics: &mut Kinematics,
     state: &State,
     fault: Fault,
     [h, target]: [f64; 2],
     fold: Option<f64>,
-) -> Diagnostic {
+) -> Box<Stop> {
     let determined = kinematics.determined();
     let system = determined.system();
     if let Fault::NotFinite { .. } | Fault::Condition { .. } = fault {
-        return errors::no_value(system, fault, state.t + h);
+        return without_value(system, fault).at(state.t + h);
     }
     if let Fault::Check { index } = fault {
-        return errors::ceases_to_hold(system, index, state.t);
+        return StopCause::RedundantRow { check: index }.at(state.t);
     }
     // a formula that ends just ahead, or at the end of the step, explains more than the equations do
     let just_ahead = f64::min(state.t + STEPS_AHEAD * h, target);
-    if let Some(fault) = without_value(kinematics, state, just_ahead) {
-        return errors::no_value(system, fault, state.t);
+    if let Some(fault) = fault_at(kinematics, state, just_ahead) {
+        return without_value(system, fault).at(state.t);
     }
     kinematics.restore(state);
     let residual = kinematics.largest_residual();
     let singular = kinematics.worst();
     if let Some(index) = contact_that_ends(kinematics, fault, singular.sigma) {
-        return explain_contact_that_ends(kinematics, index, state.t);
+        return end_of_contact(kinematics, index, state.t);
     }
-    let diagnostic = if singular.sigma < NEAR {
-        explain_position(kinematics, state, &singular, fold)
-    } else if let Some(fault) = without_value(kinematics, state, target) {
-        errors::no_value(system, fault, target)
+    let stop = if singular.sigma < NEAR {
+        singular_position(kinematics, state, &singular, fold)
+    } else if let Some(fault) = fault_at(kinematics, state, target) {
+        without_value(system, fault).at(target)
     } else if let Some(at_rim) = rim_at_hand(kinematics, state) {
         at_rim
     } else {
-        errors::cannot_follow(system, state.t, fastest_driver(kinematics, state, just_ahead))
+        StopCause::NoStep { driver: fastest_driver(kinematics, state, just_ahead) }.at(state.t)
     };
-    diagnostic.datum("residual", residual)
+    Box::new(Stop { residual: Some(residual), ..*stop })
+}
+
+/// Returns the cause of a formula that has no value, or not one that it may have.
+pub fn without_value(system: &ConstraintSystem, fault: Fault) -> StopCause {
+    match fault {
+        Fault::NotFinite { row } => StopCause::NotFinite { declarations: vec![system.rows()[row].declaration] },
+        Fault::Condition { index } => StopCause::Condition { index },
+        Fault::Monitor { index } => StopCause::NoContact { watch: index },
+        Fault::Check { index } => StopCause::RedundantRow { check: index },
+        Fault::Singular
+        | Fault::Uncertain
+        | Fault::TooFar
+        | Fault::Choice
+        | Fault::DomainBoundary
+        | Fault::Edge { .. } => StopCause::NoStep { driver: None },
+    }
 }
 
 /// The watch over a contact that ends where the position was set.
 fn contact_that_ends(kinematics: &Kinematics, fault: Fault, sigma: f64) -> Option<usize> {
-    let watches = kinematics.system().watches();
+    let watches = kinematics.system().monitors();
     match fault {
         // a curvature that comes to zero makes the position singular, one that jumps over it does not
-        Fault::Watch { index } if watches[index].kind != WatchKind::Curvature || sigma > NEAR => Some(index),
-        _ => centers_that_meet(kinematics).or_else(|| vanishing(kinematics, WatchKind::Tangents)),
+        Fault::Monitor { index } if watches[index].kind != MonitorKind::Curvature || sigma > NEAR => Some(index),
+        _ => centers_that_meet(kinematics).or_else(|| vanishing(kinematics, MonitorKind::Tangents)),
     }
 }
 
-/// What is said of a singular position that was set, where it may be known when the mechanism comes to the end of its reach (s).
-fn explain_position(kinematics: &Kinematics, state: &State, singular: &Singular, fold: Option<f64>) -> Diagnostic {
+/// Returns the stop at the singular position that was set; `fold` is when the mechanism comes to the end of its reach (s).
+fn singular_position(kinematics: &Kinematics, state: &State, singular: &Singular, fold: Option<f64>) -> Box<Stop> {
     let system = kinematics.system();
     let (left, right) = (&singular.left, &singular.right);
-    // beside a bifurcation that just fails to be one the driver's share is small
-    let named = match fold.zip(heaviest_driver(system, left)) {
-        Some((t, row)) => errors::lock_up(system, row, &joints_in(system, left), &columns_in(right), t),
-        None => name_singular(system, left, right, time_of_fold(kinematics.span(), state, right)),
+    // near a bifurcation that is missed by little the driver's share is small
+    let (driver, t) = match fold.zip(heaviest_driver(system, left)) {
+        Some((t, row)) => (Some(row), t),
+        None => (driver_in(system, left), time_of_fold(kinematics.span(), state, right)),
     };
-    match flat_contact(kinematics) {
-        Some(joint) => errors::equal_curvatures(named, system, joint),
-        None => named,
+    let singular = SingularPosition {
+        joints: joints_in(system, left),
+        columns: columns_in(right),
+        flat_contact: flat_contact(kinematics),
+    };
+    match driver {
+        Some(driver) => StopCause::LockUp { driver, singular }.at(t),
+        None => StopCause::Bifurcation { singular }.at(t),
     }
 }
 
@@ -88,98 +107,110 @@ fn time_of_fold(span: f64, state: &State, right: &[f64]) -> f64 {
     if left > 0.0 && left < NEAR_FOLD * span { state.t + left } else { state.t }
 }
 
-/// What is said of a contact that ends at a time (s), by the watch over it, at the position that was set or just behind it.
-pub fn explain_contact_that_ends(kinematics: &Kinematics, index: usize, t: f64) -> Diagnostic {
+/// Returns the stop at a contact that ends at a time (s), by the watch over it, at the position that was set or just behind it.
+pub fn end_of_contact(kinematics: &Kinematics, index: usize, t: f64) -> Box<Stop> {
     let system = kinematics.system();
-    let watches = system.watches();
-    let Watch { kind, declaration, .. } = watches[index];
+    let watches = system.monitors();
+    let Monitor { kind, declaration, .. } = watches[index];
     let is_flat = system.declarations()[declaration].kind == DeclarationKind::Joint(JointKind::FlatFollower);
-    let of_contact = |k: &usize| watches[*k].kind == WatchKind::Curvature && watches[*k].declaration == declaration;
+    let of_contact = |k: &usize| watches[*k].kind == MonitorKind::Curvature && watches[*k].declaration == declaration;
     let curvature = (0..watches.len()).find(of_contact).map_or(0.0, |k| kinematics.watched(k).abs());
     // with `T` the tangent and `B` its derivative the radius is T²/B across; where the argument alone rests it is no less than usual
     let tangent = kinematics.watched(index);
-    if kind == WatchKind::Tangents && is_flat && tangent * tangent < CUSP * curvature {
-        errors::undercut(system, index, t)
+    if kind == MonitorKind::Tangents && is_flat && tangent * tangent < CUSP * curvature {
+        StopCause::Undercut { watch: index }.at(t)
     } else {
-        errors::no_contact(system, index, t)
+        StopCause::NoContact { watch: index }.at(t)
     }
 }
 
-/// What is said of a singular position beyond which the motion goes on; `passed` is whether it does.
-pub fn explain_contact(kinematics: &mut Kinematics, state: &State, passed: bool) -> Diagnostic {
+/// Returns the stop at a bifurcation that is not passed.
+pub fn stop_at_bifurcation(kinematics: &mut Kinematics, state: &State) -> Box<Stop> {
     kinematics.restore(state);
     let singular = kinematics.worst();
     let system = kinematics.system();
-    let (joints, columns) = (joints_in(system, &singular.left), columns_in(&singular.right));
-    match driver_in(system, &singular.left) {
-        Some(row) => errors::driver_rests(system, row, &joints, state.t, passed),
-        None if passed => errors::passed(system, &joints, &columns, state.t),
-        None => errors::bifurcation(system, &joints, &columns, state.t),
-    }
+    let joints = joints_in(system, &singular.left);
+    let cause = match driver_in(system, &singular.left) {
+        Some(driver) => StopCause::RestInDeadPoint { driver, joints },
+        None => StopCause::Bifurcation {
+            singular: SingularPosition { joints, columns: columns_in(&singular.right), flat_contact: None },
+        },
+    };
+    cause.at(state.t)
 }
 
-/// What is said of a singular position that the motion has missed by a part of the lengths; at the state that is nearest to it. Nothing where no
-/// body could have gone another way: a contact may run fast along its curve.
-pub fn explain_miss(kinematics: &mut Kinematics, state: &State, within: f64, t: f64) -> Option<Diagnostic> {
+/// Returns the warning of a bifurcation that is passed.
+pub fn warn_of_passage(kinematics: &mut Kinematics, state: &State) -> Warning {
+    kinematics.restore(state);
+    let singular = kinematics.worst();
+    let system = kinematics.system();
+    let driver = driver_in(system, &singular.left);
+    let (joints, columns) = (joints_in(system, &singular.left), columns_in(&singular.right));
+    Warning { t: state.t, cause: WarningCause::Passed { driver, joints, columns } }
+}
+
+/// Returns the warning of a singular position that the motion has missed by a part of the lengths, at the state that is nearest to it; `None`
+/// if no body could have gone another way: a contact may run fast along its curve.
+pub fn warn_of_miss(kinematics: &mut Kinematics, state: &State, within: f64, t: f64) -> Option<Warning> {
     kinematics.restore(state);
     let singular = kinematics.worst();
     let system = kinematics.system();
     let (joints, columns) = (joints_in(system, &singular.left), columns_in(&singular.right));
     let moves_bodies = columns.iter().any(|&column| system.body_of(column).is_some());
-    moves_bodies.then(|| errors::near_change_point(system, &joints, &columns, within, t))
+    moves_bodies.then_some(Warning { t, cause: WarningCause::NearChangePoint { joints, columns, within } })
 }
 
 /// The watch over a line of centres that vanishes, or nearly so, where the position was set.
 pub fn centers_that_meet(kinematics: &Kinematics) -> Option<usize> {
-    vanishing(kinematics, WatchKind::LineOfCenters)
+    vanishing(kinematics, MonitorKind::LineOfCenters)
 }
 
 /// The watch of a kind over what vanishes, or nearly so, where the position was set.
-fn vanishing(kinematics: &Kinematics, kind: WatchKind) -> Option<usize> {
-    let watches = kinematics.system().watches();
+fn vanishing(kinematics: &Kinematics, kind: MonitorKind) -> Option<usize> {
+    let watches = kinematics.system().monitors();
     (0..watches.len()).find(|&k| watches[k].kind == kind && kinematics.watched(k).abs() < FLAT)
 }
 
 /// The joint at whose contact the relative curvature vanishes, or nearly so, where the position was set.
 fn flat_contact(kinematics: &Kinematics) -> Option<DeclarationId> {
-    vanishing(kinematics, WatchKind::Curvature).map(|k| kinematics.system().watches()[k].declaration)
+    vanishing(kinematics, MonitorKind::Curvature).map(|k| kinematics.system().monitors()[k].declaration)
 }
 
-/// The diagnosis where so many steps did not get to `target`.
-pub fn explain_haste(kinematics: &mut Kinematics, state: &State, steps: u64, target: f64) -> Diagnostic {
+/// Returns the stop where so many steps did not get to `target` (s).
+pub fn find_stop_of_haste(kinematics: &mut Kinematics, state: &State, steps: u64, target: f64) -> Box<Stop> {
     let determined = kinematics.determined();
     let system = determined.system();
-    match without_value(kinematics, state, target) {
-        Some(fault) => errors::no_value(system, fault, target),
-        None => errors::too_fast(system, state.t, target, steps, fastest_driver(kinematics, state, target)),
+    match fault_at(kinematics, state, target) {
+        Some(fault) => without_value(system, fault).at(target),
+        None => StopCause::TooFast { driver: fastest_driver(kinematics, state, target), target, steps }.at(state.t),
     }
 }
 
 /// The rim that a state has come to, or so near to it that no step leads on.
-fn rim_at_hand(kinematics: &mut Kinematics, state: &State) -> Option<Diagnostic> {
+fn rim_at_hand(kinematics: &mut Kinematics, state: &State) -> Option<Box<Stop>> {
     kinematics.restore(state);
     let span = kinematics.span();
     let rims = kinematics.rims().to_vec();
-    let mut left = |rim: &PlacedRim| {
+    let mut left = |rim: &BoundaryRegisters| {
         let [gauge, slope] = gauge_at(kinematics, rim, state, 0.0);
-        f64::min(gauge.abs() / kinematics.largest_term(rim), AT_HAND / NEAR_FOLD * (gauge / slope).abs() / span)
+        f64::min(gauge.abs() / kinematics.largest_term(rim), VANISHED / NEAR_FOLD * (gauge / slope).abs() / span)
     };
     // where time alone leads to one its driver is the fastest
     let of_motion = rims.iter().enumerate().filter(|(_, rim)| !rim.on_time);
     let nearest = of_motion.map(|(index, rim)| (index, left(rim))).min_by(|a, b| a.1.total_cmp(&b.1));
-    let index = nearest.filter(|(_, left)| *left < AT_HAND).map(|(rim, _)| rim)?;
+    let index = nearest.filter(|(_, left)| *left < VANISHED).map(|(rim, _)| rim)?;
     let corner = corner_ahead(kinematics, &rims[index], state);
     let system = kinematics.system();
-    let declarations = &system.rims()[index].declarations;
+    let declarations = system.domain_boundaries()[index].declarations.clone();
     let has_tangent = declarations.iter().any(|&declaration| errors::has_tangent(system, declaration));
     Some(match corner.filter(|_| has_tangent) {
-        Some(left) => errors::position_jump(system, declarations, true, (0, 0.0), state.t + left),
-        None => errors::formula_not_finite(system, declarations, state.t),
+        Some(left) => StopCause::PositionJump { declarations, jump: None, is_corner: true }.at(state.t + left),
+        None => StopCause::NotFinite { declarations }.at(state.t),
     })
 }
 
 /// How soon a gauge touches zero (s), behind which its formula goes on with a corner; none where it goes through zero.
-fn corner_ahead(kinematics: &mut Kinematics, rim: &PlacedRim, state: &State) -> Option<f64> {
+fn corner_ahead(kinematics: &mut Kinematics, rim: &BoundaryRegisters, state: &State) -> Option<f64> {
     let [gauge, slope] = gauge_at(kinematics, rim, state, 0.0);
     let left = -2.0 * gauge / slope;
     let [before, _] = gauge_at(kinematics, rim, state, -left);
@@ -188,7 +219,7 @@ fn corner_ahead(kinematics: &mut Kinematics, rim: &PlacedRim, state: &State) -> 
 }
 
 /// A gauge and its slope where the motion goes on evenly from a state for a time (s).
-fn gauge_at(kinematics: &mut Kinematics, rim: &PlacedRim, state: &State, after: f64) -> [f64; 2] {
+fn gauge_at(kinematics: &mut Kinematics, rim: &BoundaryRegisters, state: &State, after: f64) -> [f64; 2] {
     let q: Vec<f64> = state.q.iter().zip(&state.qd).map(|(q, qd)| q + after * qd).collect();
     kinematics.set_time(state.t + after);
     // what is wrong with the position shows in the gauge
@@ -197,50 +228,35 @@ fn gauge_at(kinematics: &mut Kinematics, rim: &PlacedRim, state: &State, after: 
     kinematics.gauge(rim)
 }
 
-/// Why a formula has no value at a time, the position being as it is.
-fn without_value(kinematics: &mut Kinematics, state: &State, t: f64) -> Option<Fault> {
+/// Returns why a formula has no value at a time, the position being as it is.
+fn fault_at(kinematics: &mut Kinematics, state: &State, t: f64) -> Option<Fault> {
     kinematics.set_time(t);
     kinematics.set_position(&state.q).err()
 }
 
-/// A lock-up where a driver takes part in the dependency of the equations, a bifurcation where none does.
-fn name_singular(system: &ConstraintSystem, left: &[f64], right: &[f64], t: f64) -> Diagnostic {
-    let (joints, columns) = (joints_in(system, left), columns_in(right));
-    match driver_in(system, left) {
-        Some(row) => errors::lock_up(system, row, &joints, &columns, t),
-        None => errors::bifurcation(system, &joints, &columns, t),
-    }
+/// Returns the stop at a position so near to a singular one that its derivatives are not known.
+pub fn uncertain(system: &ConstraintSystem, left: &[f64], t: f64) -> Box<Stop> {
+    StopCause::Uncertain { declarations: declarations_in(system, left) }.at(t)
 }
 
-/// A position so near to a singular one that its derivatives are not known.
-pub fn name_uncertain(system: &ConstraintSystem, left: &[f64], t: f64) -> Diagnostic {
-    errors::uncertain(system, &declarations_in(system, left), t)
-}
-
-/// A start that is in such a position already.
+/// Returns the stop of a start in a singular position.
 ///
 /// `elsewhere` is whether the equations are independent at a time nearby, where that is known.
-pub fn name_start(
+pub fn singular_start(
     system: &ConstraintSystem,
-    (left, right): (&[f64], &[f64]),
+    singular: &Singular,
     elsewhere: Option<bool>,
     horizon: Horizon,
-) -> Diagnostic {
-    let t = horizon.from;
-    let declarations = declarations_in(system, left);
+) -> Box<Stop> {
+    let Singular { left, right, .. } = singular;
     let verdict = match (elsewhere, driver_in(system, left)) {
         (Some(false), _) => StartVerdict::Always,
         (Some(true), Some(row)) => StartVerdict::LockUp(row),
         (Some(true), None) => StartVerdict::Bifurcation,
         (None, _) => StartVerdict::Unknown,
     };
-    if verdict == StartVerdict::Always
-        && let Some(diagnostic) = explain_dependent(system, horizon)
-    {
-        return diagnostic;
-    }
-    let free = motion_in_words(system, right);
-    errors::singular_start(system, &declarations, &columns_in(right), verdict, t).note(free)
+    let (declarations, columns) = (declarations_in(system, left), columns_in(right));
+    StopCause::SingularStart { verdict, declarations, free: right.clone(), columns, horizon }.at(horizon.from)
 }
 
 /// The driver's row that weighs most in a dependency, if one takes part.

@@ -3,9 +3,9 @@
 //! The branch of a motion is decided once, by the drawing: the equations are closed with the drivers where the drawing has them, and
 //! then the drivers are led to where they begin, along that branch. To any other first time the motion is followed from there.
 
-use super::lead::{LeadOptions, Leader, WAY, Way};
+use super::continuation::{Continuation, ContinuationOptions, PathOutcome, WAY};
 use crate::analysis::assemble::{Doubt, Solving, Started, Unassembled, close_without_drivers, driver_residuals};
-use crate::analysis::explain::errors::{at, cannot_follow, short};
+use crate::analysis::explain::{Stop, StopCause, Warning, WarningCause};
 use crate::analysis::state::{Horizon, Times};
 use mechc_expr::math;
 use mechc_ir::layout::RowLayout;
@@ -14,7 +14,6 @@ use mechc_ir::structure::Determined;
 use mechc_ir::tolerances::assembly::drive::{AS_DRAWN, CLEARLY, MOST_TURNS};
 use mechc_ir::{Homotopy, RowUnit};
 use mechc_text::cancel::Cancel;
-use mechc_text::diag::{Code, Diagnostic, Diagnostics, Label};
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
@@ -28,7 +27,7 @@ pub fn start(
     horizon: Horizon,
     tolerance: f64,
     cancel: &Cancel,
-) -> Result<Started, Box<Diagnostic>> {
+) -> Result<Started, Box<Stop>> {
     let cancel = cancel.clone();
     let whole = Unassembled { determined, program, horizon, tolerance, pass_bifurcations: false, cancel };
     start_from(&whole, None, Solving::New)
@@ -38,15 +37,11 @@ pub fn start(
 ///
 /// Where the drawing closes clearly better with the drivers where they begin, as of a crank that is not drawn, it means that. Where it closes
 /// neither way, or no way leads on, it is closed with its drivers left out, and driven from there; else it is closed from the estimates with
-/// the drivers where they begin. Both leave the branch in doubt, which [`Started::remarks`] tells.
+/// the drivers where they begin. Both leave the branch in doubt, which [`Started::warnings`] tells.
 ///
 /// # Errors
 /// It cannot be assembled, starts in a singular position, or a formula has no value there.
-pub fn start_from(
-    whole: &Unassembled,
-    estimates: Option<&[f64]>,
-    solving: Solving,
-) -> Result<Started, Box<Diagnostic>> {
+pub fn start_from(whole: &Unassembled, estimates: Option<&[f64]>, solving: Solving) -> Result<Started, Box<Stop>> {
     let (mut kinematics, t) = (whole.kinematics(estimates), whole.horizon.from);
     let Some(residuals) = driver_residuals(&mut kinematics, t) else { return whole.close_with(kinematics, solving) };
     let drawn = kinematics.estimates();
@@ -87,9 +82,9 @@ pub fn lead(
     program: &Arc<Program>,
     stands: Option<&[f64]>,
     parts: &[f64],
-    options: &LeadOptions,
-) -> Result<Way, Box<Diagnostic>> {
-    let leader = Leader::new(determined, program, Solving::New, options);
+    options: &ContinuationOptions,
+) -> Result<PathOutcome, Box<Stop>> {
+    let leader = Continuation::new(determined, program, Solving::New, options);
     let started = match stands {
         Some(q) => leader.whole(WAY).assemble_at(q, Solving::New)?,
         None => start_from(&leader.whole(WAY), None, Solving::New)?,
@@ -138,8 +133,8 @@ fn close_and_lead(
     let t = whole.horizon.from;
     let lines = residuals.iter().map(|residual| (residual.0, [residual.1, TAU * turns(residual)])).collect();
     let way = along(whole, &Homotopy::Residuals { t, lines }).ok()?;
-    let options = LeadOptions::of(&way, t);
-    let leader = Leader::new(&way.determined, &way.program, Solving::With(None), &options);
+    let options = ContinuationOptions::of(&way, t);
+    let leader = Continuation::new(&way.determined, &way.program, Solving::With(None), &options);
     let closed = way.close(Some(drawn), Solving::With(None)).ok()?;
     let (doubt, moved) = (closed.doubt(), closed.moved_in_loops());
     if doubt == Some(Doubt::Perturbed) {
@@ -155,10 +150,7 @@ fn close_and_lead(
 ///
 /// # Errors
 /// The motion does not get there, or cannot begin there.
-pub fn follow_to(
-    whole: &Unassembled,
-    (started, own): (Started, f64),
-) -> Result<(Started, Diagnostics), Box<Diagnostic>> {
+pub fn follow_to(whole: &Unassembled, (started, own): (Started, f64)) -> Result<(Started, Vec<Warning>), Box<Stop>> {
     let to = whole.horizon.from;
     let solver = started.shared_solver();
     let (q, passed) = if to < own {
@@ -170,40 +162,36 @@ pub fn follow_to(
             motion.pass_bifurcations();
         }
         let q = match motion.next_row() {
-            Some(row) => row.map(|row| layout.position(row).to_vec()).map_err(|why| on_the_way(*why, own))?,
-            None => return Err(Box::new(cannot_follow(whole.determined.system(), own, None))),
+            Some(row) => row.map(|row| layout.position(row).to_vec()).map_err(|stop| stop.before_start(own))?,
+            None => return Err(StopCause::NoStep { driver: None }.at(own)),
         };
-        let passed = motion.take_remarks().into_iter().filter(|remark| remark.code == Code::W0602);
-        (q, passed.map(|remark| *on_the_way(remark, own)).collect())
+        let passed = motion.take_warnings().into_iter().filter(Warning::is_passage);
+        (q, passed.map(|warning| warning.before_start(own)).collect())
     };
-    let mut said = Diagnostics::default();
-    said.extend(passed);
-    Ok((whole.assemble_at(&q, Solving::With(solver))?, said))
+    Ok((whole.assemble_at(&q, Solving::With(solver))?, passed))
 }
 
 /// Where a motion comes from [m, rad], at a time before its start: it is followed back, along a straight line of time.
-fn follow_back(
-    whole: &Unassembled,
-    started: &Started,
-    own: f64,
-) -> Result<(Vec<f64>, Vec<Diagnostic>), Box<Diagnostic>> {
+fn follow_back(whole: &Unassembled, started: &Started, own: f64) -> Result<(Vec<f64>, Vec<Warning>), Box<Stop>> {
     let to = whole.horizon.from;
     let back = along(whole, &Homotopy::Time([own, to]))?;
-    let options = LeadOptions::of(&back, own);
-    let leader = Leader::new(&back.determined, &back.program, Solving::With(None), &options);
+    let options = ContinuationOptions::of(&back, own);
+    let leader = Continuation::new(&back.determined, &back.program, Solving::With(None), &options);
     let mut way = leader.lead(back.assemble_at(started.q(), Solving::With(None))?, &[1.0]);
-    // its words and numbers speak of the part of the way that is gone
-    let told = |part: f64, what: Diagnostic| {
-        let t = own + (to - own) * part;
-        let message = format!("there is {} at {}", what.code.title(), at(t));
-        let word = |is_primary: bool| if is_primary { "here" } else { "" }.to_owned();
-        let labels = what.labels.into_iter().map(|label| Label { text: word(label.primary), ..label }).collect();
-        *on_the_way(Diagnostic { labels, ..Diagnostic::new(what.code, message).datum("t", t) }, own)
-    };
+    let time_of = |fraction: f64| own + (to - own) * fraction;
     match (way.reached.pop(), way.stopped) {
-        (Some(q), _) => Ok((q, way.passed.into_iter().map(|(part, what)| told(part, what)).collect())),
-        (None, Some((part, why))) => Err(Box::new(told(part, *why))),
-        (None, None) => Err(Box::new(cannot_follow(whole.determined.system(), own, None))),
+        (Some(q), _) => {
+            let passed = way.passed.into_iter().map(|warning| Warning {
+                t: time_of(warning.t),
+                cause: WarningCause::PassedBeforeStart { from: own, is_backward: true, warning: Box::new(warning) },
+            });
+            Ok((q, passed.collect()))
+        }
+        (None, Some(stop)) => {
+            let t = time_of(stop.t);
+            Err(StopCause::BeforeStart { from: own, is_backward: true, stop }.at(t))
+        }
+        (None, None) => Err(StopCause::NoStep { driver: None }.at(own)),
     }
 }
 
@@ -211,13 +199,11 @@ fn follow_back(
 ///
 /// # Errors
 /// These equations do not determine it.
-fn along(whole: &Unassembled, homotopy: &Homotopy) -> Result<Unassembled, Box<Diagnostic>> {
-    let determined = whole.determined.along(homotopy).map_err(|refused| refused.diagnostic)?;
+fn along(whole: &Unassembled, homotopy: &Homotopy) -> Result<Unassembled, Box<Stop>> {
+    let determined = whole
+        .determined
+        .along(homotopy)
+        .map_err(|refused| StopCause::Undetermined(Box::new(refused.diagnostic)).at(whole.horizon.from))?;
     let program = Arc::new(Program::new(determined.system()));
     Ok(Unassembled { determined: Arc::new(determined), program, horizon: WAY, ..whole.clone() })
-}
-
-/// What happens before the first time that is asked for, on the way there from the time (s) at which the mechanism starts.
-fn on_the_way(what: Diagnostic, own: f64) -> Box<Diagnostic> {
-    Box::new(Diagnostic { message: format!("on the way from {} s: {}", short(own), what.message), ..what })
 }

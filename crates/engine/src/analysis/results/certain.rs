@@ -1,10 +1,10 @@
 //! Whether numbers found near a singular position are worth as much as rows are: where a row would be refused, no result is told.
 
-use super::Asked;
+use super::ResultQuery;
 use super::curve::Found;
 use super::probe::Trouble;
 use super::reduced::Reduced;
-use crate::analysis::follow::{Follower, Stretch};
+use crate::analysis::follow::{Follower, SmoothSegment};
 use crate::analysis::state::Times;
 use mechc_ir::ReductionKind;
 
@@ -21,7 +21,7 @@ impl Near {
     }
 
     /// Takes note of a stretch that the motion has just gone over.
-    pub fn take_note(&mut self, stretch: &Stretch, motion: &Follower) {
+    pub fn take_note(&mut self, stretch: &SmoothSegment, motion: &Follower) {
         let is_clear = motion.was_clear_here();
         if !(is_clear && self.was_clear && stretch.bridge.is_none()) {
             self.stretches.push([stretch.from.t, stretch.to.t]);
@@ -47,7 +47,7 @@ impl Near {
     }
 }
 
-impl Asked {
+impl ResultQuery {
     /// What was found of a formula, or why that is nothing, where it can be trusted as the rows at the times that it is of.
     pub(super) fn certain(
         &self,

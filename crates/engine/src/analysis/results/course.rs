@@ -4,7 +4,7 @@
 //! The course is known at steps, with its slope and its second derivative. In a cell between two of them the second derivative stays near the
 //! straight line between its ends, as far as the quintic through both tells; so it is known where the slope may pass zero.
 
-use mechc_expr::math::{along, between, integral_of_quintic, quintic, value_and_slopes};
+use mechc_expr::math::{along, between, integral_of_quintic, quintic, value_and_derivatives};
 use mechc_ir::tolerances::solving::course::{AWAY, CERTAIN, ITERATIONS, MARGIN, RESTS, SAFETY, STEEP, STEPS_TO_KINK};
 
 /// Value, slope and second derivative at a time.
@@ -164,10 +164,10 @@ fn look_into([a, b]: [Tower; 2], [from, to]: [f64; 2]) -> Cell {
     let curve = quintic(a, b, h);
     let mut x = s / (s - r);
     for _ in 0..ITERATIONS {
-        let [_, slope, bend] = value_and_slopes(&curve, x);
+        let [_, slope, bend] = value_and_derivatives(&curve, x);
         x = (x - slope / bend).clamp(0.0, 1.0);
     }
-    let [_, _, bend] = value_and_slopes(&curve, x);
+    let [_, _, bend] = value_and_derivatives(&curve, x);
     Cell::Turn { t: from + x * h, value: along(&curve, x), off, bend: bend / (h * h) }
 }
 

@@ -13,7 +13,7 @@ use mechc_expr::{Dependence, ExprId, Graph, Node, Symbol, Unary};
 use mechc_ir::program::{Inputs, Op, Program, Range, Ranges, Register, Registers, Stage};
 use mechc_ir::tolerances::results::curve::{EVERY, KNOWN, LESS, NOTHING, ON_BRIDGE, ROUNDING, SAFETY};
 use mechc_ir::tolerances::results::guards::NEAR;
-use mechc_ir::tolerances::results::loads::UNTOLD;
+use mechc_ir::tolerances::results::loads::MAX_AMPLIFICATION;
 use mechc_ir::tolerances::results::stretches::MOST_DIGITS;
 use mechc_ir::{ConstraintSystem, CoordinateKind};
 use rustc_hash::FxHashMap;
@@ -306,8 +306,8 @@ impl Curve {
         // as many places for them as there are coordinates, which are no fewer than the rows
         let multipliers = if system.forces().is_some() { coordinates_and_more } else { 0 };
         let counts = [system.params().len(), coordinates_and_more, variations, multipliers];
-        let (program, places, nodes) = Program::of_formulas_and_nodes(&graph, counts, &formulas);
-        let params = system.values_of_params();
+        let (program, places, nodes) = Program::from_formulas_with_nodes(&graph, counts, &formulas);
+        let params = system.param_values();
         let registers = program.start(&params);
         let values = &places[..found.len()];
         let guards = guards((&mut graph, &program), values, &nodes, &witnesses);
@@ -539,7 +539,7 @@ impl Curve {
                 }
             }
         }
-        self.program.run_only(&self.operations, &mut self.registers);
+        self.program.run_operations(&self.operations, &mut self.registers);
     }
 
     /// Of what moves and is never below zero: at which order it stands.
@@ -639,7 +639,7 @@ impl Curve {
         let up_to = |most: f64| Range { low: -most, high: most, is_resolved: false, ..range };
         match loads.hidden((program, registers), ranges, told) {
             Hidden::Anything => up_to(f64::INFINITY),
-            Hidden::Something(beyond) => up_to(f64::min(UNTOLD * beyond, f64::MAX)),
+            Hidden::Something(beyond) => up_to(f64::min(MAX_AMPLIFICATION * beyond, f64::MAX)),
             Hidden::Nothing if is_resolved => by_values(),
             Hidden::Nothing => range,
         }

@@ -6,7 +6,7 @@
 
 use mechc_expr::{Binary, Comparison, ExprId, Graph, Node, Unary};
 use mechc_ir::ConstraintSystem;
-use mechc_ir::program::{Hold, Op, Program, Ranges, Register, Registers, Stage};
+use mechc_ir::program::{Op, Program, Ranges, Register, Registers, Restriction, Stage};
 use mechc_ir::tolerances::results::guards::{NEAR, NOISE};
 use rustc_hash::FxHashMap;
 use std::f64::consts::PI;
@@ -216,14 +216,14 @@ impl Guard {
     pub fn hold(&self, side: f64, ranges: &mut Ranges) {
         match self.kind {
             Kind::Comparison { to, .. } | Kind::Step { to, .. } | Kind::Piece { to, .. } => {
-                ranges.hold(to, Hold::At(side));
+                ranges.hold(to, Restriction::At(side));
             }
             Kind::Zero { a } if side != 0.0 => {
-                ranges.hold(a, if side > 0.0 { Hold::Above } else { Hold::Below });
+                ranges.hold(a, if side > 0.0 { Restriction::Above } else { Restriction::Below });
             }
             Kind::Choice { .. } if side != 0.0 => {
                 for &(to, true_on) in &self.comparisons {
-                    ranges.hold(to, Hold::At(f64::from(u8::from(true_on * side > 0.0))));
+                    ranges.hold(to, Restriction::At(f64::from(u8::from(true_on * side > 0.0))));
                 }
             }
             // at its ends it is not held: a slope without an end is one
@@ -256,7 +256,7 @@ impl Guard {
     /// Keeps the argument at a value, in ranges.
     pub fn hold_at(&self, value: f64, ranges: &mut Ranges) {
         if let Kind::Zero { a } | Kind::Unit { a } = self.kind {
-            ranges.hold(a, Hold::At(value));
+            ranges.hold(a, Restriction::At(value));
         }
     }
 }

@@ -27,7 +27,8 @@ mod turn;
 mod varying;
 
 use crate::analysis::assemble::Started;
-use crate::analysis::follow::{Follower, Stretch};
+use crate::analysis::explain::Stop;
+use crate::analysis::follow::{Follower, SmoothSegment};
 use crate::analysis::state::{Kinematics, State, Times};
 use crate::solver::Solver;
 use certain::Near;
@@ -67,7 +68,7 @@ pub fn refused_results(system: &ConstraintSystem, interval @ [from, to]: [f64; 2
 }
 
 /// What results are computed from: an assembled mechanism and the times of its analysis.
-pub struct Asked {
+pub struct ResultQuery {
     kinematics: Kinematics,
     state: State,
     solver: Option<Arc<Solver>>,
@@ -102,22 +103,22 @@ impl Started {
     /// What is needed to compute the results of an analysis from one time to another (s), the first of which it is assembled
     /// at; `pass` goes on beyond bifurcations. The flag ends the work.
     #[must_use]
-    pub fn asked(&self, interval: [f64; 2], pass: bool, cancel: &Cancel) -> Asked {
+    pub fn asked(&self, interval: [f64; 2], pass: bool, cancel: &Cancel) -> ResultQuery {
         let (kinematics, state, solver) = self.parts();
-        Asked { kinematics, state, solver, interval, pass, cancel: cancel.clone() }
+        ResultQuery { kinematics, state, solver, interval, pass, cancel: cancel.clone() }
     }
 }
 
 /// The motion in some chunks of its stretches, and what follows from it.
 struct Analysis {
-    asked: Asked,
+    asked: ResultQuery,
     determined: Arc<Determined>,
     /// By reduction: its number, or why there is none.
     found: Vec<Option<Result<Found, Trouble>>>,
     /// By reduction: the first time (s) that it leaves out, where its formula has no value.
     missing: Vec<Option<f64>>,
     /// The steps of the motion, once they are known and are not too many to be kept.
-    steps: Option<Vec<Stretch>>,
+    steps: Option<Vec<SmoothSegment>>,
     /// What solves for states between these.
     places: Option<Places>,
     near: Near,
@@ -125,7 +126,7 @@ struct Analysis {
     largest: Largest,
 }
 
-impl Asked {
+impl ResultQuery {
     /// The results, by following the motion once more; nothing where that is cancelled.
     #[must_use]
     pub fn answer(self) -> Option<Answers> {
@@ -189,7 +190,7 @@ impl Analysis {
     }
 
     /// Looks at the motion for some reductions.
-    fn follow(&mut self, level: &[usize]) -> Result<(), Box<Diagnostic>> {
+    fn follow(&mut self, level: &[usize]) -> Result<(), Box<Stop>> {
         let determined = Arc::clone(&self.determined);
         let system = determined.system();
         let mut asked: Vec<(usize, Reduction, [f64; 2])> = Vec::with_capacity(level.len());
@@ -238,7 +239,7 @@ impl Analysis {
     }
 
     /// Looks at formulas along the whole motion, which is followed once if its steps can be kept.
-    fn look(&mut self, all: &mut [Reduced], places: &mut Places) -> Result<(), Box<Diagnostic>> {
+    fn look(&mut self, all: &mut [Reduced], places: &mut Places) -> Result<(), Box<Stop>> {
         let [from, to] = self.asked.interval;
         let span = to - from;
         if let Some(steps) = &self.steps {
@@ -252,7 +253,7 @@ impl Analysis {
         self.near = Near::new();
         let determined = Arc::clone(&self.determined);
         while !self.asked.cancel.is_cancelled() {
-            let next = motion.next_stretch()?;
+            let next = motion.next_segment()?;
             let is_end = next.is_none();
             if let Some(step) = next {
                 self.near.take_note(&step, &motion);
@@ -287,9 +288,11 @@ impl Analysis {
     }
 
     /// No results: the motion ends before the analysis does.
-    fn without_motion(&self, why: &Diagnostic) -> Answers {
+    fn without_motion(&self, stop: &Stop) -> Answers {
         let outcomes = &self.system().results().outcomes;
-        let notes = outcomes.first().map(|first| errors::results_without_motion(first, outcomes.len(), why));
+        let notes = outcomes
+            .first()
+            .map(|first| errors::results_without_motion(first, outcomes.len(), &stop.explain(self.system())));
         Answers {
             values: vec![None; outcomes.len()],
             digits: vec![0; outcomes.len()],
@@ -364,7 +367,7 @@ impl Analysis {
 }
 
 /// Adds a step to others. One over a singular position stands for those too that have come near to that: it begins where the motion was clear.
-fn push_step(steps: &mut Vec<Stretch>, mut step: Stretch) {
+fn push_step(steps: &mut Vec<SmoothSegment>, mut step: SmoothSegment) {
     if let Some(bridge) = &step.bridge {
         let clear = &bridge.from;
         while let Some(last) = steps.pop_if(|last| last.from.t >= clear.t) {
@@ -382,7 +385,7 @@ fn push_step(steps: &mut Vec<Stretch>, mut step: Stretch) {
 }
 
 /// Cuts steps in which the motion is not what the states at both ends tell: a driver may come and go within one.
-fn cut_where_unlike(steps: Vec<Stretch>, places: &mut Places) -> Vec<Stretch> {
+fn cut_where_unlike(steps: Vec<SmoothSegment>, places: &mut Places) -> Vec<SmoothSegment> {
     if !places.has_signals() {
         return steps;
     }
@@ -448,7 +451,7 @@ fn value_of(
         // most results are a reduction and nothing else
         Node::Symbol(symbol) => value(symbol),
         _ if unknown_is_false => graph.value(formula, value),
-        _ => graph.known_value(formula, value),
+        _ => graph.value_if_known(formula, value),
     }
 }
 

@@ -1,7 +1,7 @@
 //! States within a stretch of the motion, solved for where they are asked for.
 
 use super::varying::Varying;
-use crate::analysis::follow::{Alone, Chosen, Stretch, quintic_between, state_of_row};
+use crate::analysis::follow::{SelectedRows, SingleRow, SmoothSegment, quintic_between, state_of_row};
 use crate::analysis::state::{Kinematics, State};
 use crate::solver::{Batch, Solver};
 use mechc_expr::math::along;
@@ -15,10 +15,10 @@ use std::sync::Arc;
 pub(super) struct Places {
     kinematics: Kinematics,
     /// The equations that are solved, if they are others than those at the start.
-    chosen: Option<Arc<Chosen>>,
+    chosen: Option<Arc<SelectedRows>>,
     /// Those at the start, with what solves them.
     first: (Kinematics, Option<Arc<Solver>>),
-    solver: Option<(Arc<Solver>, Alone)>,
+    solver: Option<(Arc<Solver>, SingleRow)>,
     curve: Vec<[f64; 6]>,
     delta: Vec<f64>,
     /// By row of Φ, one over what may be left of it; of the stretch, once that has been asked for.
@@ -54,7 +54,7 @@ impl Places {
         let signals = Ranges::new(program, values, &registers, Stage::Time, true);
         let first = (kinematics.clone(), solver.clone());
         let solver = solver.map(|solver| {
-            let alone = Alone::new(&kinematics, &solver);
+            let alone = SingleRow::new(&kinematics, &solver);
             (solver, alone)
         });
         Places {
@@ -83,7 +83,7 @@ impl Places {
     }
 
     /// Goes over to a stretch.
-    pub fn enter(&mut self, stretch: &Stretch) {
+    pub fn enter(&mut self, stretch: &SmoothSegment) {
         self.change_equations(stretch);
         self.kinematics.freeze(true, true);
         self.kinematics.set_switches(&stretch.switches);
@@ -94,7 +94,7 @@ impl Places {
     }
 
     /// Goes over to the equations that are solved in a stretch.
-    fn change_equations(&mut self, stretch: &Stretch) {
+    fn change_equations(&mut self, stretch: &SmoothSegment) {
         let is_same = match (&self.chosen, &stretch.chosen) {
             (Some(own), Some(other)) => Arc::ptr_eq(own, other),
             (None, None) => true,
@@ -191,8 +191,8 @@ impl Places {
     }
 
     /// A state within a stretch that is not what both its ends tell; none if it is.
-    pub fn unlike(&mut self, stretch: &Stretch) -> Option<State> {
-        let Stretch { from, to, bridge: None, .. } = stretch else { return None };
+    pub fn unlike(&mut self, stretch: &SmoothSegment) -> Option<State> {
+        let SmoothSegment { from, to, bridge: None, .. } = stretch else { return None };
         let h = to.t - from.t;
         self.enter(stretch);
         let within = self.solve(stretch, [from, to], from.t + WITHIN * h)?;
@@ -209,7 +209,7 @@ impl Places {
     }
 
     /// The state at a time (s) between two states of a stretch; none where it cannot be solved for.
-    pub fn solve(&mut self, stretch: &Stretch, [a, b]: [&State; 2], t: f64) -> Option<State> {
+    pub fn solve(&mut self, stretch: &SmoothSegment, [a, b]: [&State; 2], t: f64) -> Option<State> {
         if let Some(bridge) = stretch.bridge.as_ref().filter(|bridge| t > bridge.from.t) {
             let on_bridge = bridge.best_state_at(t);
             return self.solve_from(on_bridge.clone(), Some(SOLVABLE)).or(Some(on_bridge));
@@ -227,7 +227,7 @@ impl Places {
     }
 
     /// As [`Places::solve`], with the bits that rows have there; none where that cannot be had.
-    pub fn solve_exactly(&mut self, stretch: &Stretch, [a, b]: [&State; 2], t: f64) -> Option<State> {
+    pub fn solve_exactly(&mut self, stretch: &SmoothSegment, [a, b]: [&State; 2], t: f64) -> Option<State> {
         let key = self.key(t);
         if let Some(known) = self.solved.get(&key) {
             return Some(known.state.clone());
@@ -251,7 +251,7 @@ impl Places {
 
     /// The state at a time (s) that is a little beside that of a state of the stretch, as rows have it: its bits depend on the time alone, and
     /// not on the way that led there. None where the equations are not smooth everywhere, or where it cannot be had.
-    pub fn settled(&mut self, stretch: &Stretch, near: &State, t: f64) -> Option<State> {
+    pub fn settled(&mut self, stretch: &SmoothSegment, near: &State, t: f64) -> Option<State> {
         if !self.is_plain || stretch.bridge.is_some() {
             return None;
         }
@@ -264,7 +264,7 @@ impl Places {
     }
 
     /// The state at a time (s) of the stretch, from the curve that leads on from one in a time `h` (s); none where it does not hold.
-    fn solve_by_lanes(&mut self, stretch: &Stretch, from: &State, (t, h): (f64, f64)) -> Option<State> {
+    fn solve_by_lanes(&mut self, stretch: &SmoothSegment, from: &State, (t, h): (f64, f64)) -> Option<State> {
         if !self.has_bounds {
             self.kinematics.restore(&stretch.from);
             self.kinematics.write_bounds(&mut self.bounds);

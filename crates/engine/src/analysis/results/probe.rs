@@ -2,9 +2,9 @@
 
 use super::curve::{Cell, Curve, Found, Point, Shift, Verdict};
 use super::places::Places;
-use crate::analysis::follow::Stretch;
+use crate::analysis::follow::SmoothSegment;
 use crate::analysis::state::State;
-use mechc_expr::math::{close_in, power_of_two_below};
+use mechc_expr::math::{enclose_root, power_of_two_below};
 use mechc_ir::program::Range;
 use mechc_ir::tolerances::results::extremum::TIMES;
 use mechc_ir::tolerances::results::probe::{
@@ -102,7 +102,7 @@ impl Notes {
 pub(super) struct Probe<'r> {
     pub curve: &'r mut Curve,
     places: &'r mut Places,
-    pub steps: &'r [Stretch],
+    pub steps: &'r [SmoothSegment],
     /// From one time to another (s): the formula is looked at nowhere else.
     pub window: [f64; 2],
     entered: Option<usize>,
@@ -123,7 +123,7 @@ impl<'r> Probe<'r> {
     pub fn new(
         (curve, notes): (&'r mut Curve, &'r mut Notes),
         places: &'r mut Places,
-        steps: &'r [Stretch],
+        steps: &'r [SmoothSegment],
         (window, span): ([f64; 2], f64),
     ) -> Probe<'r> {
         curve.set_short(SHORT * span);
@@ -197,7 +197,7 @@ impl<'r> Probe<'r> {
         while step + 1 < steps.len() && t > steps[step].to.t && !steps[step].ends_at_edge {
             step += 1;
         }
-        let ([from, to], Stretch { from: a, to: b, .. }) = (self.window, &steps[step]);
+        let ([from, to], SmoothSegment { from: a, to: b, .. }) = (self.window, &steps[step]);
         let is_within = from.max(a.t) <= t && t <= to.min(b.t);
         if is_within { self.point_of_step(step, t) } else { None }
     }
@@ -335,7 +335,7 @@ impl<'r> Probe<'r> {
         let offs = self.curve.distances(guard, [&before, &behind]);
         let ends = [[before.state.t, offs[0].abs()], [behind.state.t, offs[1].abs()]];
         // on a grid, so that formulas that share a guard share what is solved for
-        close_in(ends, power_of_two_below(self.shortest), |t| {
+        enclose_root(ends, power_of_two_below(self.shortest), |t| {
             let point = self.between(cell.step, [&before.state, &behind.state], t)?;
             let is_behind = point.side(guard).total_cmp(&side).is_ne();
             *if is_behind { &mut behind } else { &mut before } = point;

@@ -5,7 +5,7 @@ use super::curve::{Cell, Found, Point, Verdict};
 use super::probe::{Probe, Scale, Trouble};
 use mechc_expr::math::{integral_of_quintic, log10, pow};
 use mechc_ir::tolerances::results::quadrature::{
-    ACCURACY, ALIKE, BESIDE_POLE, DIVERGES, FARTHER, LEAST_GROWTH, LOOKS, NOTHING, PART_OF_POLE, ROUNDING, SAFETY,
+    ACCURACY, ALIKE, DIVERGES, FARTHER, LEAST_GROWTH, LOOKS, NOTHING, PART_OF_POLE, POLE_DISTANCE, ROUNDING, SAFETY,
     STEEPEST, SURER,
 };
 use std::cmp::Ordering;
@@ -185,7 +185,7 @@ impl Probe<'_> {
                 self.integrate_shortest(&cell, integral);
                 continue;
             }
-            if h <= BESIDE_POLE * integral.span
+            if h <= POLE_DISTANCE * integral.span
                 && let Some([sum, off]) = self.integrate_beside_pole(&cell)
             {
                 integral.add(sum, off, h);

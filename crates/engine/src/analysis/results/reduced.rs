@@ -6,7 +6,7 @@ use super::places::Places;
 use super::probe::{Notes, Probe, Scale, Trouble};
 use super::quadrature::Integral;
 use super::sizes::Largest;
-use crate::analysis::follow::Stretch;
+use crate::analysis::follow::SmoothSegment;
 use crate::analysis::state::{State, shortly_after};
 use mechc_expr::math::median;
 use mechc_ir::ReductionKind;
@@ -26,7 +26,7 @@ pub(super) struct Reduced {
     /// What came up while these were looked for, in this order.
     notes: [Notes; 3],
     /// Times (s) at which its value is asked for, and the values.
-    times: Vec<Asked>,
+    times: Vec<ResultQuery>,
     /// Its values at the ends of steps.
     samples: Vec<Found>,
     /// As the extremum's search has left it, by which one.
@@ -34,7 +34,7 @@ pub(super) struct Reduced {
 }
 
 /// A time (s) at which the value of a formula is asked for.
-struct Asked {
+struct ResultQuery {
     t: f64,
     /// The formula there, once the motion has come there.
     point: Option<Rc<Point>>,
@@ -60,7 +60,7 @@ impl Reduced {
         let ([from, to], is_moment) = (self.window, self.is_moment());
         let mut time = |t: f64| {
             if self.times.iter().all(|known| known.t.total_cmp(&t).is_ne()) {
-                self.times.push(Asked { t, point: None, found: Found::NOTHING });
+                self.times.push(ResultQuery { t, point: None, found: Found::NOTHING });
             }
         };
         match kind {
@@ -217,7 +217,7 @@ impl Reduced {
     }
 
     /// Takes in the values at times that lie in a step.
-    fn take_times(&mut self, stretch: &Stretch, places: &mut Places) {
+    fn take_times(&mut self, stretch: &SmoothSegment, places: &mut Places) {
         for k in 0..self.times.len() {
             let t = self.times[k].t;
             let behind = shortly_after(t);
@@ -237,14 +237,14 @@ impl Reduced {
     }
 
     /// An end of a step, or a time (s) that is as good as that, with the bits that rows have there where nothing is in doubt.
-    fn end(&self, state: &State, t: f64, stretch: &Stretch, places: &mut Places) -> State {
+    fn end(&self, state: &State, t: f64, stretch: &SmoothSegment, places: &mut Places) -> State {
         let settled = self.curve.settles().then(|| places.settled(stretch, state, t));
         settled.flatten().unwrap_or_else(|| state.clone())
     }
 
     /// The formula at a state of a time (s) in a step. Where rounding alone decides on which side of a jump an end of the window is, it is that of
     /// within.
-    fn edge(&mut self, state: State, t: f64, stretch: &Stretch, places: &mut Places) -> Rc<Point> {
+    fn edge(&mut self, state: State, t: f64, stretch: &SmoothSegment, places: &mut Places) -> Rc<Point> {
         let point = self.curve.at(state, places);
         let [from, to] = self.window;
         let inward = [(t <= from, 1.0), (t >= to, -1.0)].into_iter().find(|(is_end, _)| *is_end);
@@ -272,11 +272,11 @@ impl Reduced {
     }
 
     /// Looks at some steps of a mechanism whose coordinates are so large.
-    pub fn look(&mut self, (steps, largest): (&[Stretch], Largest), places: &mut Places, span: f64) {
+    pub fn look(&mut self, (steps, largest): (&[SmoothSegment], Largest), places: &mut Places, span: f64) {
         self.curve.note_all(largest);
         let mut cells: Vec<Cell> = (0..steps.len()).filter_map(|step| self.cell(step, steps, places)).collect();
         // rounding goes by the largest that was seen
-        for Asked { point, found, .. } in &mut self.times {
+        for ResultQuery { point, found, .. } in &mut self.times {
             if let Some(point) = point {
                 *found = self.curve.found(point);
             }
@@ -335,7 +335,7 @@ impl Reduced {
     }
 
     /// A step, with the formula at both ends; none where only values at some times are asked for.
-    fn cell(&mut self, number: usize, steps: &[Stretch], places: &mut Places) -> Option<Cell> {
+    fn cell(&mut self, number: usize, steps: &[SmoothSegment], places: &mut Places) -> Option<Cell> {
         let step = &steps[number];
         places.enter(step);
         self.take_times(step, places);
@@ -371,7 +371,7 @@ impl Reduced {
     }
 
     /// Takes note of the values at the ends of steps.
-    fn take_samples(&mut self, cells: &[Cell], steps: &[Stretch]) {
+    fn take_samples(&mut self, cells: &[Cell], steps: &[SmoothSegment]) {
         for cell in cells {
             // but for edges, a step begins where the one before has ended
             let [is_begin, _] = edges(&steps[cell.step], [cell.a.state.t, cell.b.state.t], self.window);
@@ -389,7 +389,7 @@ impl Reduced {
 }
 
 /// Whether the formula differs before and behind a part of a step, from one time to another (s), or is not looked at there: beyond its window.
-fn edges(step: &Stretch, [from, to]: [f64; 2], window: [f64; 2]) -> [bool; 2] {
+fn edges(step: &SmoothSegment, [from, to]: [f64; 2], window: [f64; 2]) -> [bool; 2] {
     [
         step.begins_at_edge && from <= step.from.t || from <= window[0],
         step.ends_at_edge && to >= step.to.t || to >= window[1],

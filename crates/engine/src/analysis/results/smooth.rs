@@ -94,7 +94,7 @@ impl Smooth {
             Program::of_formulas(graph, [system.params().len(), system.coordinates().len(), 0, 0], &formulas);
         let mut roots = all.iter().copied();
         let towers = towers.iter().map(|tower| tower.map(|formula| formula.and_then(|_| roots.next()))).collect();
-        let params = system.values_of_params();
+        let params = system.param_values();
         let registers = program.start(&params);
         let symbols = graph.symbols_of_all(&formulas);
         let mut coordinates: Vec<usize> = symbols.iter().filter_map(|&symbol| coordinate_of(symbol)).collect();

@@ -23,10 +23,10 @@ struct Beside {
 
 impl Beside {
     fn of(system: &ConstraintSystem, variations: usize) -> Option<Beside> {
-        let (numbers, formulas): (Vec<u32>, Vec<_>) = system.results().varied_where.iter().copied().unzip();
+        let (numbers, formulas): (Vec<u32>, Vec<_>) = system.results().variation_conditions.iter().copied().unzip();
         let counts = [system.params().len(), system.coordinates().len(), variations, 0];
         let (program, roots) = Program::of_formulas(system.graph(), counts, &formulas);
-        let params = system.values_of_params();
+        let params = system.param_values();
         let registers = program.start(&params);
         let hold: Vec<(u32, Register)> = numbers.into_iter().zip(roots).collect();
         (!hold.is_empty()).then_some(Beside { program, registers, hold, broken: Vec::new() })

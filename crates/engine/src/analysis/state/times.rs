@@ -1,7 +1,7 @@
 //! Which times are printed.
 
 use mechc_expr::math::neighbours;
-use mechc_ir::tolerances::UNTOLD_SPAN;
+use mechc_ir::tolerances::DEFAULT_SPAN;
 use mechc_ir::tolerances::steps::edges::{AHEAD, LONGEST_AHEAD, SLACK};
 use mechc_ir::tolerances::steps::times::{AT_THE_LAST, MOST};
 
@@ -179,13 +179,13 @@ impl Horizon {
     #[must_use]
     pub fn of(times: &Times) -> Horizon {
         let span = times.span();
-        Horizon { from: times.from(), span: if span > 0.0 { span } else { UNTOLD_SPAN } }
+        Horizon { from: times.from(), span: if span > 0.0 { span } else { DEFAULT_SPAN } }
     }
 
     /// That of an analysis: first time, last time, step (s); else from 0 on.
     #[must_use]
     pub fn of_analysis(analysis: Option<[f64; 3]>) -> Horizon {
-        let [from, to, _] = analysis.unwrap_or([0.0, UNTOLD_SPAN, 0.0]);
+        let [from, to, _] = analysis.unwrap_or([0.0, DEFAULT_SPAN, 0.0]);
         Horizon { from, span: to - from }
     }
 

@@ -1,12 +1,12 @@
-//! What the client tells: texts that it opens, changes and closes, its folders and files, requests that it takes back.
+//! Notifications of the client: texts that it opens, edits and closes, changes of folders and files, cancelled requests.
 
 use super::{Server, State, Task};
 use crate as ide;
 use crate::lsp::capabilities::Ability;
 use crate::lsp::documents::Document;
 use crate::lsp::lines::Position;
-use crate::lsp::pool::{Kind, caught};
-use crate::lsp::stages::Shown;
+use crate::lsp::pool::{TaskKind, catch_panic};
+use crate::lsp::published::PublishedDiagnostics;
 use crate::lsp::uri;
 use lsp_server::{ErrorCode, Notification, RequestId};
 use serde_json::{Value, json};
@@ -14,60 +14,60 @@ use std::path::Path;
 use std::sync::Arc;
 
 impl Server {
-    pub(super) fn notification(&mut self, notification: Notification) {
+    pub(super) fn handle_notification(&mut self, notification: Notification) {
         let Notification { method, params } = notification;
         if self.state != State::Running {
             return;
         }
         let done = match method.as_str() {
             "initialized" => {
-                self.began();
+                self.initialized();
                 Some(())
             }
-            "textDocument/didOpen" => self.opened(&params),
-            "textDocument/didChange" => self.changed(&params),
-            "textDocument/didClose" => self.closed(&params),
+            "textDocument/didOpen" => self.text_opened(&params),
+            "textDocument/didChange" => self.text_changed(&params),
+            "textDocument/didClose" => self.text_closed(&params),
             "workspace/didChangeWorkspaceFolders" => {
-                self.changed_folders(&params);
+                self.folders_changed(&params);
                 Some(())
             }
-            "workspace/didChangeWatchedFiles" => self.changed_behind(&params),
-            "$/cancelRequest" => self.cancelled(&params),
-            "mechc/cursor" => self.pointed(&params),
-            "mechc/view/close" => self.left(&params),
+            "workspace/didChangeWatchedFiles" => self.files_changed(&params),
+            "$/cancelRequest" => self.cancel_request(&params),
+            "mechc/cursor" => self.cursor_moved(&params),
+            "mechc/view/close" => self.panel_closed(&params),
             _ => Some(()),
         };
         if done.is_none() {
-            self.log.did(|| format!("`{method}` is not as the protocol says: {params}"));
+            self.log.action(|| format!("`{method}` is not as the protocol says: {params}"));
         }
     }
 
-    fn opened(&mut self, params: &Value) -> Option<()> {
+    fn text_opened(&mut self, params: &Value) -> Option<()> {
         let given = params.get("textDocument")?;
         let (uri, text) = (given.get("uri")?.as_str()?, given.get("text")?.as_str()?);
         let version = version_of(given);
         let path = self.file_of(uri);
         let mut document = Document::new(uri.to_owned(), version, text);
         if let Some(open) = self.documents.get(&path) {
-            // what is shown of it is still shown
+            // published diagnostics of an open text stay
             document = Document::clone(open);
             (document.uri, document.version) = (uri.to_owned(), version);
             self.edit(&path, &mut document, None, text);
         }
         self.documents.set(Arc::clone(&path), document);
         let opening = self.revision;
-        self.shown.entry(Arc::clone(&path)).or_insert_with(|| Shown::of_opening(opening));
+        self.published.entry(Arc::clone(&path)).or_insert_with(|| PublishedDiagnostics::new(opening));
         self.replace(&path);
         Some(())
     }
 
-    fn changed(&mut self, params: &Value) -> Option<()> {
+    fn text_changed(&mut self, params: &Value) -> Option<()> {
         let given = params.get("textDocument")?;
         let path = self.file_of(given.get("uri")?.as_str()?);
         let mut document = Document::clone(self.documents.get(&path)?);
         document.version = version_of(given);
         let changes = params.get("contentChanges")?.as_array()?;
-        // all of them or none
+        // a malformed change rejects all of them
         for (range, text) in changes.iter().map(change).collect::<Option<Vec<_>>>()? {
             self.edit(&path, &mut document, range, text);
         }
@@ -76,54 +76,55 @@ impl Server {
         Some(())
     }
 
-    /// Edits a text, and moves along what is shown of it.
+    /// Edits a text and shifts the published diagnostics.
     fn edit(&mut self, path: &Path, document: &mut Document, range: Option<[Position; 2]>, text: &str) {
-        let moved = document.edit(range, text, self.client.encoding);
-        for (other, shown) in &mut self.shown {
+        let splice = document.edit(range, text, self.client.encoding);
+        for (other, published) in &mut self.published {
             if **other == *path {
-                shown.edit(path, &moved);
+                published.edit(path, &splice);
             } else {
-                shown.edit_elsewhere(path, &moved);
+                published.edit_elsewhere(path, &splice);
             }
         }
     }
 
-    fn closed(&mut self, params: &Value) -> Option<()> {
+    fn text_closed(&mut self, params: &Value) -> Option<()> {
         let uri = params.get("textDocument")?.get("uri")?.as_str()?;
         let path = self.documents.close(uri)?;
-        self.shown.remove(&path)?;
+        self.published.remove(&path)?;
         self.answer_pulls(Some(&path));
         if !self.client.pulls_diagnostics {
-            self.tell(uri, Value::Null, &[]);
+            self.publish(uri, Value::Null, &[]);
         }
         self.replace(&path);
         Some(())
     }
 
-    /// The session has begun: the files of the client's folders are looked for.
-    fn began(&mut self) {
+    /// Starts the session: registers for changes of files and searches the client's folders.
+    fn initialized(&mut self) {
         if self.client.can(Ability::WatchedFiles) {
             let watchers = json!([{ "globPattern": "**/*.mech" }, { "globPattern": "**/*.csv" }]);
             let method = "workspace/didChangeWatchedFiles";
             let registration = json!({ "id": "files", "method": method, "registerOptions": { "watchers": watchers } });
-            self.ask_with("client/registerCapability", json!({ "registrations": [registration] }));
+            self.send_request("client/registerCapability", json!({ "registrations": [registration] }));
         }
-        self.look_for_files();
+        self.search_files();
     }
 
-    fn look_for_files(&mut self) {
-        let (folders, world, done) = (self.folders.clone(), Arc::clone(self.snapshot.buffers()), self.done.clone());
+    fn search_files(&mut self) {
+        let (folders, world) = (self.folders.clone(), Arc::clone(self.snapshot.buffers()));
+        let task_sender = self.task_sender.clone();
         std::mem::take(&mut self.search).cancel();
         let cancel = self.search.clone();
-        self.pool.begin(Kind::Files, move || {
-            let files = caught(|| ide::files_in(&folders, &*world, &cancel)).unwrap_or_default();
+        self.pool.start(TaskKind::Files, move || {
+            let files = catch_panic(|| ide::files_in(&folders, &*world, &cancel)).unwrap_or_default();
             if !cancel.is_cancelled() {
-                let _ = done.send(Task::Files(files));
+                let _ = task_sender.send(Task::Files(files));
             }
         });
     }
 
-    fn changed_folders(&mut self, params: &Value) {
+    fn folders_changed(&mut self, params: &Value) {
         let paths = |name: &str| {
             let list = params.pointer(&format!("/event/{name}")).and_then(Value::as_array);
             let uris = list.into_iter().flatten().filter_map(|folder| folder.get("uri")?.as_str());
@@ -132,11 +133,11 @@ impl Server {
         let removed = paths("removed");
         self.folders.retain(|folder| !removed.contains(folder));
         self.folders.extend(paths("added"));
-        self.look_for_files();
+        self.search_files();
     }
 
-    /// Files on the disk are others, or gone, or new.
-    fn changed_behind(&mut self, params: &Value) -> Option<()> {
+    /// Handles changes of files on disk.
+    fn files_changed(&mut self, params: &Value) -> Option<()> {
         for change in params.get("changes")?.as_array()? {
             let path = self.file_of(change.get("uri")?.as_str()?);
             if self.documents.get(&path).is_none() {
@@ -146,7 +147,7 @@ impl Server {
         Some(())
     }
 
-    fn cancelled(&mut self, params: &Value) -> Option<()> {
+    fn cancel_request(&mut self, params: &Value) -> Option<()> {
         let id: RequestId = serde_json::from_value(params.get("id")?.clone()).ok()?;
         let pull = self.pulls.iter().position(|pull| pull.id == id);
         let is_pending = self.pending.remove(&id).is_some() || pull.map(|at| self.pulls.remove(at)).is_some();
@@ -157,7 +158,7 @@ impl Server {
     }
 }
 
-/// A change of a text: where, and to what.
+/// Parses a change of a text: its range, or `None` for the whole text, and the new text.
 fn change(given: &Value) -> Option<(Option<[Position; 2]>, &str)> {
     let range = match given.get("range").filter(|range| !range.is_null()) {
         None => None,

@@ -1,16 +1,16 @@
-//! What is said of dimensions, units and values.
+//! Diagnostics of dimensions, units and values.
 
-use crate::check::mends::{is_bare_number, with_factors, with_unit};
-use crate::check::rates::{Part, polar, rate_mended};
+use crate::check::suggest::edits::{is_bare_number, with_factors, with_unit};
+use crate::check::suggest::lost_rate::{Part, polar, suggest_rate_unit};
 use crate::model::Dimension;
 use mechc_syntax::ast::Name;
-use mechc_text::diag::{Applies, Code, Diagnostic, Fix, readable};
+use mechc_text::diag::{Applicability, Code, Diagnostic, Fix, readable};
 use mechc_text::source::Span;
 
-/// Places of one kind that are shown beside the first one, at most.
+/// The largest number of locations of one kind after the first one.
 pub(super) const MOST_PLACES: usize = 4;
 
-/// The text of a part is told where it is a bare number; a factor is proposed where the second one may take it.
+/// The text of a term is shown if it is a bare number. A factor is suggested if the second term can take it.
 pub fn unlike(
     what: &str,
     [first, second]: [Part; 2],
@@ -29,14 +29,14 @@ pub fn unlike(
         let words = "a rate times a time is a pure number, as an angle is: `… * t`";
         other.dimension.is(Dimension::RATE).then(|| with_factors(other.span, other_text, ["", " * t"], words))
     });
-    let mended =
-        rate_mended(first.dimension, second, texts[1]).or_else(|| rate_mended(second.dimension, first, texts[0]));
+    let mended = suggest_rate_unit(first.dimension, second, texts[1])
+        .or_else(|| suggest_rate_unit(second.dimension, first, texts[0]));
     let upside_down =
         || unit_above(first.dimension, second, texts[1]).or_else(|| unit_above(second.dimension, first, texts[0]));
     let fix = mended.filter(|_| has_time).or_else(upside_down).or(fix);
     let fix = fix.or_else(|| scaled(first.dimension, second, texts[1]).filter(|_| takes_factor));
     let polar = polar(first, second, texts).filter(|_| what.starts_with("the coordinates"));
-    // where time may not stand it is no more than an explanation
+    // The fix is only an explanation if time is not allowed.
     let is_factor = fix.as_ref().is_some_and(|fix| fix.message.ends_with("t`"));
     let (fix, help) = if is_factor && !has_time { (None, fix.map(|fix| fix.message)) } else { (fix, None) };
     Diagnostic::new(Code::E0401, format!("{what} {} and {}", first.dimension.in_words(), second.dimension.in_words()))
@@ -47,7 +47,7 @@ pub fn unlike(
         .help_if(polar)
 }
 
-/// `1/3 s` that is to be like a time: a unit binds more tightly than what divides.
+/// Suggests a unit for `1/3 s` where a time is expected: the unit binds tighter than the division.
 fn unit_above(like: Dimension, term: Part, text: &str) -> Option<Fix> {
     let (above, below) = text.split_once('/')?;
     let (number, unit) = below.trim().split_once(' ')?;
@@ -55,13 +55,13 @@ fn unit_above(like: Dimension, term: Part, text: &str) -> Option<Fix> {
     let is_so = is_number(above) && is_number(number) && like.times(term.dimension).is(Dimension::PURE);
     let mended = format!("{} {} / {number}", above.trim(), unit.trim());
     let message = format!("a unit belongs to the number before it: `{mended}`");
-    is_so.then(|| Fix::replace(term.span, &mended, message, Applies::Probably))
+    is_so.then(|| Fix::replace(term.span, &mended, message, Applicability::Probably))
 }
 
-/// Texts of more characters than this are left out of a message.
+/// The largest number of characters of a text in a message.
 const LONGEST_SHOWN: usize = 40;
 
-/// A term with the factor that makes it like another one.
+/// Suggests a factor that gives a term the dimension of another one.
 fn scaled(like: Dimension, term: Part, text: &str) -> Option<Fix> {
     let factor = like.over(term.dimension);
     let is_whole = [factor.length, factor.time, factor.mass].iter().all(|power| (power - power.round()).abs() < 1e-9);
@@ -79,19 +79,19 @@ fn scaled(like: Dimension, term: Part, text: &str) -> Option<Fix> {
     is_whole.then(|| with_factors(term.span, text, [&before, &behind], &words))
 }
 
-/// The unit of a factor; a rate is one of an angle.
+/// Returns the usual unit of a factor. A rate is that of an angle.
 fn usual_factor(factor: Dimension) -> String {
     let unit = factor.unit();
     if factor.is(Dimension::RATE) { "rad/s".to_owned() } else { unit }
 }
 
-/// What a quantity is usually written in.
+/// Returns the usual unit of a quantity.
 pub(super) fn usual_unit(dimension: Dimension) -> String {
     if dimension.is(Dimension::LENGTH) { "mm".to_owned() } else { dimension.unit().replace("1/s", "rad/s") }
 }
 
-/// A value (SI) as a reader wants it, without the rounding of its last digits.
-pub fn told(value: f64, dimension: Dimension) -> String {
+/// Returns a value (SI) for readers, without rounding in its last digits.
+pub fn format_value(value: f64, dimension: Dimension) -> String {
     let (value, unit) = if dimension.is(Dimension::LENGTH) && value.abs() < 1.0 {
         (value * 1e3, "mm".to_owned())
     } else if dimension.is(Dimension::PURE) {
@@ -103,8 +103,8 @@ pub fn told(value: f64, dimension: Dimension) -> String {
     format!("{} {unit}", readable(rounded)).trim_end().to_owned()
 }
 
-/// The text is that of the part.
-pub fn wrong_dimension(place: &str, wanted: Dimension, found: Part, text: &str) -> Diagnostic {
+/// `text` is that of the term.
+pub fn wrong_dimension(place: &str, expected: Dimension, found: Part, text: &str) -> Diagnostic {
     let units = |d: Dimension| {
         if d.is(Dimension::LENGTH) {
             Some("`mm`, `m`")
@@ -118,35 +118,38 @@ pub fn wrong_dimension(place: &str, wanted: Dimension, found: Part, text: &str) 
         place.contains("angle") || place.contains("`sin`") || place.contains("`cos`") || place.contains("`tan`");
     let factors = |factors: [&str; 2], words: &str| Some(with_factors(found.span, text, factors, words));
     let mut fix = None;
-    let help = if wanted.is(Dimension::PURE) && is_angle && found.dimension.is(Dimension::TIME) {
+    let help = if expected.is(Dimension::PURE) && is_angle && found.dimension.is(Dimension::TIME) {
         let words = "an angular speed makes an angle of a time: `1 rad/s * t`";
         fix = factors(["1 rad/s * ", ""], words);
         Some(words.to_owned())
-    } else if wanted.is(Dimension::PURE) && is_angle {
+    } else if expected.is(Dimension::PURE) && is_angle {
         Some("units of angle: `deg`, `rad`".to_owned())
-    } else if wanted.is(Dimension::PURE) {
+    } else if expected.is(Dimension::PURE) {
         let words = format!("divide it by {} to get a pure number", one(found.dimension));
         let unit = one(found.dimension).trim_matches('`').to_owned();
         let unit = if unit.contains('/') { format!("({unit})") } else { unit };
-        // an exponent binds more tightly than what divides it
+        // An exponent binds tighter than a division.
         let [open, close] = if place.contains("exponent") { ["(", ")"] } else { ["", ""] };
         fix = factors([open, &format!(" / {unit}{close}")], &words);
         Some(words)
     } else if place.contains("phase") {
         Some("it is measured along the pitch circles: an angle times a radius, as `30 deg * 20 mm`".to_owned())
     } else {
-        if found.dimension.is(Dimension::PURE) && units(wanted).is_some() {
-            fix = with_unit(found.span, text, &usual_unit(wanted));
+        if found.dimension.is(Dimension::PURE) && units(expected).is_some() {
+            fix = with_unit(found.span, text, &usual_unit(expected));
         }
-        units(wanted).map(|units| format!("units of {}: {units}", wanted.in_words().trim_start_matches("a ")))
+        units(expected).map(|units| format!("units of {}: {units}", expected.in_words().trim_start_matches("a ")))
     };
-    Diagnostic::new(Code::E0402, format!("{place} must be {}, found {}", wanted.in_words(), found.dimension.in_words()))
-        .at(found.span, found.dimension.in_words())
-        .help_if(help)
-        .change(fix)
+    Diagnostic::new(
+        Code::E0402,
+        format!("{place} must be {}, found {}", expected.in_words(), found.dimension.in_words()),
+    )
+    .at(found.span, found.dimension.in_words())
+    .help_if(help)
+    .change(fix)
 }
 
-/// `1 s`, `1 m`, `1 m/s`.
+/// Returns a unit value such as `1 s`, `1 m` or `1 m/s`.
 fn one(dimension: Dimension) -> String {
     let unit = dimension.unit();
     if unit.starts_with('1') { format!("`{unit}`") } else { format!("`1 {unit}`") }
@@ -166,7 +169,7 @@ pub fn not_finite(span: Span, value: f64) -> Diagnostic {
         .help("look for a division by zero, a root or logarithm of what is not positive, or a number beyond 1.8e308")
 }
 
-/// `acos` of what is beyond 1.
+/// Returns the diagnostic of `acos` or `asin` of a value beyond 1.
 pub fn no_such_angle(argument: Span, function: &str, value: f64) -> Diagnostic {
     let number = readable(value);
     let which = if function == "acos" { "cosine" } else { "sine" };
@@ -182,7 +185,7 @@ pub fn zero_direction(span: Span) -> Diagnostic {
 }
 
 pub fn not_positive_length(what: &str, span: Span, value: f64) -> Diagnostic {
-    let value = told(value, Dimension::LENGTH);
+    let value = format_value(value, Dimension::LENGTH);
     Diagnostic::new(Code::E0406, format!("{what} must be positive, it is {value}"))
         .at(span, value)
         .help("a direction is given by the order of points, or by an angle; a length has no sign")

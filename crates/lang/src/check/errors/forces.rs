@@ -1,24 +1,24 @@
-//! What is said of masses, gravity, loads and what comes out of them.
+//! Diagnostics of masses, gravity, loads and computed forces.
 
-use super::told;
-use crate::check::mends::with_unit;
-use crate::check::rates::Part;
+use super::format_value;
+use crate::check::suggest::edits::with_unit;
+use crate::check::suggest::lost_rate::Part;
 use crate::model::Dimension;
 use mechc_syntax::ast::Name;
 use mechc_text::diag::{Code, Diagnostic};
 use mechc_text::source::Span;
 
-/// What a load works on instead of one quantity of positions.
-pub enum NoLoad<'n> {
-    /// Several of them.
+/// The reason why a load does not work on one quantity of positions.
+pub enum LoadTargetError<'n> {
+    /// A sum of several.
     Sum,
-    /// What moves, with the quantities that say how, as formulas.
-    Meant(Vec<String>),
-    /// Something else, which is none.
+    /// A joint, body or point, with suitable quantities as formulas.
+    Suggested(Vec<String>),
+    /// Not a quantity.
     Other,
     /// `der(…)`
     Rate,
-    /// A quantity that measures alone may hold, by its word.
+    /// A quantity that only measures may hold, by its word.
     OfMeasures(&'n str),
 }
 
@@ -32,7 +32,7 @@ pub fn mass_of_the_ground(span: Span) -> Diagnostic {
 
 pub fn negative_mass(span: Span, value: f64, dimension: Dimension) -> Diagnostic {
     Diagnostic::new(Code::E0418, format!("{} is below zero", dimension.in_words().trim_end_matches(" (kg*m^2)")))
-        .at(span, format!("this is {}", told(value, dimension)))
+        .at(span, format!("this is {}", format_value(value, dimension)))
         .help("what is cut out of a body is not declared: give the body the mass, centre and inertia that are left")
 }
 
@@ -41,7 +41,7 @@ pub fn gravity_of_one_number(span: Span, found: &str) -> Diagnostic {
         .help("where y points up it is `gravity (0, -9.81 m/s^2)`")
 }
 
-/// At the part in the text of the user.
+/// Reported at the part in the enclosing text.
 pub fn gravity_of_a_part(part: &Name, mechanism: &str, gravity: Span) -> Diagnostic {
     Diagnostic::new(Code::W0403, format!("the gravity of `{mechanism}` does not count here"))
         .at(part.span, "a part of a mechanism without `gravity`")
@@ -55,24 +55,24 @@ pub fn load_of_a_pair(name: &Name, span: Span) -> Diagnostic {
         .help("a force on a point is two loads: `FX on x(P)` and `FY on y(P)`")
 }
 
-pub fn load_on_no_quantity(name: &Name, span: Span, fault: &NoLoad<'_>) -> Diagnostic {
-    let meant: String;
+pub fn load_on_no_quantity(name: &Name, span: Span, fault: &LoadTargetError<'_>) -> Diagnostic {
+    let suggestion: String;
     let (label, help) = match fault {
-        NoLoad::Meant(quantities) => {
+        LoadTargetError::Suggested(quantities) => {
             let each: Vec<String> = quantities.iter().map(|quantity| format!("`… on {quantity}`")).collect();
-            meant = format!("say what of it moves: {}", each.join(" or "));
-            ("this is none", meant.as_str())
+            suggestion = format!("say what of it moves: {}", each.join(" or "));
+            ("this is none", suggestion.as_str())
         }
-        NoLoad::Sum => ("a sum", "a force on a sum of quantities is a load on each of them"),
-        NoLoad::Other => ("this is none", QUANTITIES),
-        NoLoad::Rate => {
+        LoadTargetError::Sum => ("a sum", "a force on a sum of quantities is a load on each of them"),
+        LoadTargetError::Other => ("this is none", QUANTITIES),
+        LoadTargetError::Rate => {
             ("a rate", "a damper is a load on the quantity whose rate is in its formula: `load d: -c * der(K) on K`")
         }
-        NoLoad::OfMeasures(_) => ("for measures alone", QUANTITIES),
+        LoadTargetError::OfMeasures(_) => ("for measures alone", QUANTITIES),
     };
     let what = match fault {
-        NoLoad::OfMeasures("angle") => format!("load `{}` cannot work on `angle(P, Q, R)`", name.text),
-        NoLoad::OfMeasures(word) => format!("load `{}` cannot work on `{word}`", name.text),
+        LoadTargetError::OfMeasures("angle") => format!("load `{}` cannot work on `angle(P, Q, R)`", name.text),
+        LoadTargetError::OfMeasures(word) => format!("load `{}` cannot work on `{word}`", name.text),
         _ => format!("load `{}` works on one kinematic quantity", name.text),
     };
     Diagnostic::new(Code::E0313, what).at(span, label).help(help)
@@ -84,11 +84,12 @@ pub fn load_on_no_body(name: &Name, span: Span) -> Diagnostic {
         .help("say what it moves: `on rotation(joint)`, `on x(body.point)`")
 }
 
-/// The text is that of the force.
-pub fn load_of_no_energy(name: &Name, [force, on]: [Part; 2], wanted: Dimension, text: &str) -> Diagnostic {
-    let fix = force.dimension.is(Dimension::PURE).then(|| with_unit(force.span, text, unit_of_force(wanted))).flatten();
+/// `text` is that of the force.
+pub fn load_of_no_energy(name: &Name, [force, on]: [Part; 2], expected: Dimension, text: &str) -> Diagnostic {
+    let fix =
+        force.dimension.is(Dimension::PURE).then(|| with_unit(force.span, text, unit_of_force(expected))).flatten();
     let headline =
-        format!("load `{}` on {} must be {}", name.text, words_of_place(on.dimension), words_of_force(wanted));
+        format!("load `{}` on {} must be {}", name.text, words_of_place(on.dimension), words_of_force(expected));
     Diagnostic::new(Code::E0419, headline)
         .at(force.span, force.dimension.in_words())
         .also(on.span, words_of_place(on.dimension))
@@ -96,15 +97,15 @@ pub fn load_of_no_energy(name: &Name, [force, on]: [Part; 2], wanted: Dimension,
         .change(fix)
 }
 
-/// The text is that of the force.
-pub fn plain_load(name: &Name, span: Span, text: &str, on: Part, wanted: Dimension) -> Diagnostic {
+/// `text` is that of the force.
+pub fn plain_load(name: &Name, span: Span, text: &str, on: Part, expected: Dimension) -> Diagnostic {
     let help =
         "a number without a unit is a torque where it works on an angle; a force says its unit: `20 N`, `1800 N/m`";
     Diagnostic::new(Code::E0419, format!("load `{}` on {} holds no unit", name.text, words_of_place(on.dimension)))
         .at(span, "no unit in it")
         .also(on.span, words_of_place(on.dimension))
         .help(help)
-        .change(with_unit(span, text, unit_of_force(wanted)))
+        .change(with_unit(span, text, unit_of_force(expected)))
 }
 
 /// Angles are pure numbers.
@@ -112,12 +113,12 @@ fn words_of_place(dimension: Dimension) -> &'static str {
     if dimension.is(Dimension::PURE) { "an angle" } else { "a length" }
 }
 
-fn unit_of_force(wanted: Dimension) -> &'static str {
-    if wanted.is(Dimension::FORCE) { "N" } else { "N*m" }
+fn unit_of_force(expected: Dimension) -> &'static str {
+    if expected.is(Dimension::FORCE) { "N" } else { "N*m" }
 }
 
-fn words_of_force(wanted: Dimension) -> &'static str {
-    if wanted.is(Dimension::FORCE) { "a force (N)" } else { "a torque (N*m)" }
+fn words_of_force(expected: Dimension) -> &'static str {
+    if expected.is(Dimension::FORCE) { "a force (N)" } else { "a torque (N*m)" }
 }
 
 pub fn force_in(place: &str, what: &str, span: Span) -> Diagnostic {
@@ -132,7 +133,7 @@ pub fn derivative_of_force(span: Span) -> Diagnostic {
         .help("`der(e, NAME)`, by an input or parameter, has a value")
 }
 
-/// With the joint, where one is named, and the driver that speaks of it.
+/// `joint` is the joint of that name, and `driver` the driver that refers to it.
 pub fn effort_of_no_equation(name: &Name, found: &str, joint: Option<&str>, driver: Option<&str>) -> Diagnostic {
     let help = match (joint, driver) {
         (_, Some(driver)) => Some(format!("what drives it supplies `effort({driver})`")),
@@ -145,7 +146,7 @@ pub fn effort_of_no_equation(name: &Name, found: &str, joint: Option<&str>, driv
     super::wrong_kind(name.span, "a driver or constraint", found).help_if(help)
 }
 
-/// With the driver that speaks of the joint, where there is one.
+/// `driver` is the driver that refers to the joint.
 pub fn no_torque(joint: &str, kind: &str, span: Span, declared: Span, driver: Option<&str>) -> Diagnostic {
     let help = match driver {
         Some(driver) => format!("what the driver supplies is `effort({driver})`"),

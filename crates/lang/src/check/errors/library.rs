@@ -1,19 +1,19 @@
-//! What is said of files that use each other.
+//! Diagnostics of files that use each other.
 
 use mechc_syntax::ast::Name;
-use mechc_text::diag::{Applies, Code, Diagnostic, Fix, nearest};
+use mechc_text::diag::{Applicability, Code, Diagnostic, Fix, nearest};
 use mechc_text::source::Span;
 
-/// How many names of a list are told.
-const TOLD: usize = 5;
+/// The largest number of listed names.
+const MOST_LISTED: usize = 5;
 
-/// A name before a `.` that no `use` gives.
-pub fn no_prefix(prefix: &Name, known: &[&Name]) -> Diagnostic {
-    let names: Vec<&str> = known.iter().map(|name| name.text.as_str()).collect();
-    let meant = nearest(&prefix.text, names.iter().copied()).map(|name| Fix::meant(prefix.span, name));
+/// A name before a `.` that is not a prefix of a `use`.
+pub fn no_prefix(prefix: &Name, candidates: &[&Name]) -> Diagnostic {
+    let names: Vec<&str> = candidates.iter().map(|name| name.text.as_str()).collect();
+    let suggestion = nearest(&prefix.text, names.iter().copied()).map(|name| Fix::meant(prefix.span, name));
     let diagnostic = Diagnostic::new(Code::E0201, format!("no file is used as `{}`", prefix.text))
         .at(prefix.span, "not the prefix of a `use`");
-    match (meant, names.is_empty()) {
+    match (suggestion, names.is_empty()) {
         (Some(fix), _) => diagnostic.fix(fix),
         (None, true) => {
             diagnostic.help(format!("say so at the top of the file: `use \"FILE.mech\" as {}`", prefix.text))
@@ -22,13 +22,13 @@ pub fn no_prefix(prefix: &Name, known: &[&Name]) -> Diagnostic {
     }
 }
 
-/// A name that no mechanism has which may be named there: with those that have, and those that cannot be reached so. `elsewhere` is what
-/// to write for the one of that name in a file that is used, `further` the file that holds it and is not, with its path from here.
+/// An unknown mechanism, with those that exist. `elsewhere` is the name to write for one of a used file, `further` the file that holds it
+/// but is not used, with its path.
 pub fn no_mechanism(
     prefix: Option<&Name>,
     name: &Name,
-    known: &[&str],
-    meant: Option<&str>,
+    candidates: &[&str],
+    suggestion: Option<&str>,
     elsewhere: Option<&str>,
     further: Option<(&str, String)>,
 ) -> Diagnostic {
@@ -38,34 +38,34 @@ pub fn no_mechanism(
     if let Some(path) = elsewhere {
         let span = prefix.map_or(name.span, |prefix| prefix.span.to(name.span));
         let message = format!("it is there as `{path}`");
-        return diagnostic.fix(Fix::replace(span, path, message, Applies::Probably));
+        return diagnostic.fix(Fix::replace(span, path, message, Applicability::Probably));
     }
     if let Some((file, path)) = further {
         return diagnostic.help(format!("`{file}` holds it: `use \"{path}\"` at the top of the file"));
     }
-    match (meant, known) {
-        (Some(meant), _) => diagnostic.fix(Fix::meant(name.span, meant)),
+    match (suggestion, candidates) {
+        (Some(suggestion), _) => diagnostic.fix(Fix::meant(name.span, suggestion)),
         (None, []) => diagnostic,
         (None, names) => diagnostic.help(format!("the mechanisms are {}", listed(names))),
     }
 }
 
-/// Mechanisms of one name in two files, with the places at which each comes in, and a prefix that is free.
-pub fn names_twice(names: &[&str], files: [&str; 2], [first, again]: [Span; 2], prefix: &str) -> Diagnostic {
+/// Mechanisms of one name in two files, with the locations of their `use`s, and a free prefix.
+pub fn names_twice(names: &[&str], files: [&str; 2], [first, second]: [Span; 2], prefix: &str) -> Diagnostic {
     let which = if names.len() == 1 { "a mechanism" } else { "mechanisms" };
     let quoted: Vec<String> = names.iter().map(|name| format!("`{name}`")).collect();
     let quoted: Vec<&str> = quoted.iter().map(String::as_str).collect();
     let message = format!("`{}` and `{}` both hold {which} {}", files[0], files[1], listed(&quoted));
     let help = format!("give it a prefix, ` as {prefix}`, and write `{prefix}.{}`", names.first().unwrap_or(&"NAME"));
-    Diagnostic::new(Code::E0205, message).at(again, "the second one").also(first, "the first one").fix(Fix::append(
-        again,
+    Diagnostic::new(Code::E0205, message).at(second, "the second one").also(first, "the first one").fix(Fix::append(
+        second,
         format!(" as {prefix}"),
         help,
-        Applies::Probably,
+        Applicability::Probably,
     ))
 }
 
-/// A prefix that two `use`s give.
+/// A prefix of two `use`s.
 pub fn second_prefix(prefix: &Name, first: Span) -> Diagnostic {
     Diagnostic::new(Code::E0203, format!("two files are used as `{}`", prefix.text))
         .at(prefix.span, "the second one")
@@ -73,13 +73,13 @@ pub fn second_prefix(prefix: &Name, first: Span) -> Diagnostic {
         .help("give one of them another prefix")
 }
 
-/// Files, each with the place at which it uses the next one, the last one the first.
-pub fn circle_of_files(links: &[(&str, Span)]) -> Diagnostic {
+/// Files with the locations at which each uses the next one; the last one uses the first.
+pub fn cycle_of_files(links: &[(&str, Span)]) -> Diagnostic {
     let message = match links {
         [(file, _)] => format!("`{file}` uses itself"),
         [(first, _), ..] => {
-            let way: Vec<String> = links.iter().map(|(file, _)| format!("`{file}`")).collect();
-            format!("files use each other in a circle: {} → `{first}`", way.join(" → "))
+            let path: Vec<String> = links.iter().map(|(file, _)| format!("`{file}`")).collect();
+            format!("files use each other in a circle: {} → `{first}`", path.join(" → "))
         }
         [] => String::new(),
     };
@@ -93,9 +93,9 @@ pub fn circle_of_files(links: &[(&str, Span)]) -> Diagnostic {
 }
 
 fn listed(names: &[&str]) -> String {
-    let told = names.iter().take(TOLD).copied().collect::<Vec<_>>().join(", ");
-    match names.len().saturating_sub(TOLD) {
-        0 => told,
-        more => format!("{told} and {more} more"),
+    let text = names.iter().take(MOST_LISTED).copied().collect::<Vec<_>>().join(", ");
+    match names.len().saturating_sub(MOST_LISTED) {
+        0 => text,
+        more => format!("{text} and {more} more"),
     }
 }

@@ -1,16 +1,16 @@
-//! What is said of words that mean something, but not where they stand.
+//! Diagnostics of words that are not allowed where they stand.
 
 use super::some_of;
 use crate::check::entity::Entity;
 use mechc_syntax::ast::Name;
-use mechc_text::diag::{Applies, Code, Diagnostic, Fix};
+use mechc_text::diag::{Applicability, Code, Diagnostic, Fix};
 use mechc_text::source::Span;
 use mechc_text::vocabulary::JointKind;
 
 pub fn not_callable(name: &Name, entity: Entity) -> Diagnostic {
     Diagnostic::new(Code::E0302, format!("`{}` is {}, and cannot be called", name.text, entity.noun()))
         .at(name.span, "called here")
-        .fix(Fix::append(name.span, " * ", "a product is written with `*`", Applies::Probably))
+        .fix(Fix::append(name.span, " * ", "a product is written with `*`", Applicability::Probably))
 }
 
 pub fn joint_with_itself(joint: &Name, frame: &str, spans: [Span; 2]) -> Diagnostic {
@@ -22,7 +22,7 @@ pub fn joint_with_itself(joint: &Name, frame: &str, spans: [Span; 2]) -> Diagnos
 
 pub fn joint_without(
     quantity: &str,
-    wanted: &str,
+    expected: &str,
     joint: &str,
     kind: JointKind,
     span: Span,
@@ -30,15 +30,15 @@ pub fn joint_without(
 ) -> Diagnostic {
     let motions = ["rotation", "displacement"];
     let other = motions.into_iter().filter(|_| motions.contains(&quantity)).find(|other| kind.has_quantity(other));
-    Diagnostic::new(Code::E0304, format!("only {wanted} joints have a `{quantity}`"))
+    Diagnostic::new(Code::E0304, format!("only {expected} joints have a `{quantity}`"))
         .at(span, format!("`{joint}` is `{}`", kind.word()))
         .also(declared, "declared here")
         .help_if(other.map(|other| format!("was `{other}({joint})` meant?")))
 }
 
-pub fn axes_elsewhere(joint: &str, axis: &str, span: Span, wanted: &str) -> Diagnostic {
-    Diagnostic::new(Code::E0305, format!("axis `{axis}` is not on `{wanted}`, which joint `{joint}` asks for here"))
-        .at(span, format!("an axis of `{wanted}` is wanted"))
+pub fn axes_elsewhere(joint: &str, axis: &str, span: Span, expected: &str) -> Diagnostic {
+    Diagnostic::new(Code::E0305, format!("axis `{axis}` is not on `{expected}`, which joint `{joint}` asks for here"))
+        .at(span, format!("an axis of `{expected}` is wanted"))
         .help(format!("the first axis is of the first body of `{joint}`, the second of its second"))
 }
 
@@ -59,7 +59,7 @@ pub fn time_in(place: &str, span: Span, through: Option<(&str, Span)>) -> Diagno
     }
 }
 
-/// Time may stand where an input may not only in the formula of an input.
+/// Time is allowed where an input is not only in the formula of an input.
 pub fn input_in(place: &str, name: &Name, in_an_input: bool) -> Diagnostic {
     let diagnostic = Diagnostic::new(Code::E0306, format!("the input `{}` may not stand in {place}", name.text))
         .at(name.span, "changes with time");
@@ -70,24 +70,30 @@ pub fn input_in(place: &str, name: &Name, in_an_input: bool) -> Diagnostic {
     }
 }
 
-/// A param or input that is told from outside.
-pub fn no_such_name(noun: &str, mechanism: &str, name: &str, known: &[&str], meant: Option<&str>) -> Diagnostic {
-    let listed = match known {
+/// An override of an unknown param or input.
+pub fn no_such_name(
+    noun: &str,
+    mechanism: &str,
+    name: &str,
+    candidates: &[&str],
+    suggestion: Option<&str>,
+) -> Diagnostic {
+    let listed = match candidates {
         [] => format!("it has no {noun}s"),
-        _ => format!("its {noun}s are {}", some_of(known)),
+        _ => format!("its {noun}s are {}", some_of(candidates)),
     };
     Diagnostic::new(Code::E0703, format!("mechanism `{mechanism}` has no {noun} `{name}`"))
-        .help(meant.map_or(listed, |name| format!("was `{name}` meant?")))
+        .help(suggestion.map_or(listed, |name| format!("was `{name}` meant?")))
 }
 
-/// A column of samples whose header is no input, and was meant to be one with a unit.
-pub fn column_of_no_input(mechanism: &str, header: &str, span: Span, meant: &str) -> Diagnostic {
+/// A column of samples whose header is not an input, but was probably intended as one with a unit.
+pub fn column_of_no_input(mechanism: &str, header: &str, span: Span, suggestion: &str) -> Diagnostic {
     Diagnostic::new(Code::E0703, format!("mechanism `{mechanism}` has no input `{header}`"))
         .at(span, "the header of a column")
-        .help(meant)
+        .help(suggestion)
 }
 
-pub fn input_told_twice(name: &str, places: [Span; 2]) -> Diagnostic {
+pub fn duplicate_override(name: &str, places: [Span; 2]) -> Diagnostic {
     Diagnostic::new(Code::E0706, format!("the input `{name}` is told twice"))
         .at(places[0], "told here")
         .also(places[1], "and here")
@@ -100,7 +106,7 @@ pub fn quantity_in(place: &str, name: &str, span: Span) -> Diagnostic {
         .help("kinematic quantities stand in constraints, drivers, loads and measures")
 }
 
-/// A quantity that measures and traces alone may hold.
+/// A quantity that only measures and traces may hold.
 pub fn quantity_of_measures(place: &str, name: &str, span: Span) -> Diagnostic {
     let what = if name == "angle" { "angle(P, Q, R)" } else { name };
     Diagnostic::new(Code::E0307, format!("the kinematic quantity `{what}` may not stand in {place}"))
@@ -118,7 +124,7 @@ pub fn no_quantity(driver: bool, name: &Name, span: Span) -> Diagnostic {
         .help("say what it is about: `rotation(joint) = …`, `x(body.point) = …`")
 }
 
-pub fn nobody_moves(driver: bool, name: &Name, span: Span) -> Diagnostic {
+pub fn no_moving_body(driver: bool, name: &Name, span: Span) -> Diagnostic {
     let what = if driver { "driver" } else { "constraint" };
     Diagnostic::new(Code::E0311, format!("no body takes part in {what} `{}`", name.text))
         .at(span, "nothing in it moves, or all that moves cancels")

@@ -1,29 +1,29 @@
-//! What is said of names that stand for nothing, or for something else.
+//! Diagnostics of unknown names, and of names of another kind.
 
-use super::{list, meant, wrong_kind};
-use crate::check::mends::renamed;
+use super::{list, nearest_name, wrong_kind};
+use crate::check::suggest::edits::suggest_rename;
 use mechc_syntax::ast::Name;
-use mechc_text::diag::{Applies, Code, Diagnostic, Fix};
+use mechc_text::diag::{Applicability, Code, Diagnostic, Fix};
 use mechc_text::source::Span;
 use mechc_text::vocabulary::{Constant, FUNCTIONS, JOINTS, JointWord, Place, QUANTITIES, QuantityWord, Synonym, Unit};
 
-pub fn unknown(what: &str, name: &Name, known: &[&str]) -> Diagnostic {
+pub fn unknown(what: &str, name: &Name, candidates: &[&str]) -> Diagnostic {
     Diagnostic::new(Code::E0201, format!("there is no {what} `{}`", name.text))
         .at(name.span, "not declared")
-        .fix_if(meant(name, known))
+        .fix_if(nearest_name(name, candidates))
 }
 
-/// A name in a formula that stands for no number; one letter is rather a name that was forgotten than a unit.
-pub fn unknown_number(what: &str, name: &Name, known: &[&str]) -> Diagnostic {
-    let diagnostic = unknown(what, name, known);
-    // the middle dot is a letter of names
+/// A name that is not a number. One letter is more likely an undeclared name than a unit.
+pub fn unknown_number(what: &str, name: &Name, candidates: &[&str]) -> Diagnostic {
+    let diagnostic = unknown(what, name, candidates);
+    // The middle dot is a letter of names.
     if let [a, b] = name.text.split('·').collect::<Vec<_>>().as_slice()
         && !a.is_empty()
         && !b.is_empty()
     {
         let written = format!("{a} * {b}");
         let message = format!("a product is written with `*`: `{written}`");
-        return diagnostic.instead(Fix::replace(name.span, written, message, Applies::Probably));
+        return diagnostic.instead(Fix::replace(name.span, written, message, Applicability::Probably));
     }
     if let (Some(power), true) = (power_of_a_unit(&name.text), diagnostic.help.is_empty()) {
         return diagnostic.instead(Fix::meant(name.span, &power));
@@ -36,7 +36,7 @@ pub fn unknown_number(what: &str, name: &Name, known: &[&str]) -> Diagnostic {
     }
     match Synonym::of(Place::Unit, &name.text).filter(|_| name.text.len() > 1 && diagnostic.help.is_empty()) {
         Some(synonym) => match synonym.means {
-            // `turn` is rather an input that was forgotten than a unit
+            // `turn` is more likely an undeclared input than a unit.
             [unit @ "rev"] => diagnostic
                 .help(format!("the unit is `{unit}`; a number of that name is declared: `param {} = …`", name.text)),
             _ => diagnostic.help(synonym.say(&[])),
@@ -63,7 +63,8 @@ pub fn names_in_option(name: &Name) -> Diagnostic {
 
 /// A name in a formula of time that stands alone.
 pub fn names_in_formula(name: &Name) -> Diagnostic {
-    let nearest = meant(name, &Constant::in_formulas().collect::<Vec<_>>()).filter(|_| name.text.chars().count() > 1);
+    let nearest =
+        nearest_name(name, &Constant::in_formulas().collect::<Vec<_>>()).filter(|_| name.text.chars().count() > 1);
     let diagnostic =
         Diagnostic::new(Code::E0706, format!("a formula from outside the file cannot name `{}`", name.text))
             .at(name.span, "not known here");
@@ -78,34 +79,34 @@ pub fn names_in_formula(name: &Name) -> Diagnostic {
     }
 }
 
-pub fn unknown_feature(what: &str, owner: &str, name: &Name, known: &[&str]) -> Diagnostic {
-    let listed = match known {
+pub fn unknown_feature(what: &str, owner: &str, name: &Name, candidates: &[&str]) -> Diagnostic {
+    let listed = match candidates {
         [] => format!("`{owner}` has none"),
-        _ => format!("`{owner}` has {}", list(known)),
+        _ => format!("`{owner}` has {}", list(candidates)),
     };
     let diagnostic = Diagnostic::new(Code::E0201, format!("`{owner}` has no {what} `{}`", name.text))
         .at(name.span, "not declared there");
-    match meant(name, known) {
+    match nearest_name(name, candidates) {
         Some(fix) => diagnostic.fix(fix),
         None => diagnostic.help(listed),
     }
 }
 
-/// With the arguments as they were written.
-pub fn unknown_function(name: &Name, own: &[&str], arguments: &[&str]) -> Diagnostic {
+/// Takes the texts of the arguments.
+pub fn unknown_function(name: &Name, local_names: &[&str], arguments: &[&str]) -> Diagnostic {
     let diagnostic =
         Diagnostic::new(Code::E0201, format!("there is no function `{}`", name.text)).at(name.span, "not known");
-    if let Some(said) = said_otherwise(&name.text, arguments) {
-        return diagnostic.help(said).fix_if(meant(name, own));
+    if let Some(help) = suggest_other_form(&name.text, arguments) {
+        return diagnostic.help(help).fix_if(nearest_name(name, local_names));
     }
-    let mut known: Vec<&str> = own.to_vec();
-    known.extend(FUNCTIONS.iter().map(|function| function.word.name));
-    known.extend(QUANTITIES.iter().map(|quantity| quantity.word.name));
-    diagnostic.fix_if(meant(name, &known))
+    let mut candidates: Vec<&str> = local_names.to_vec();
+    candidates.extend(FUNCTIONS.iter().map(|function| function.word.name));
+    candidates.extend(QUANTITIES.iter().map(|quantity| quantity.word.name));
+    diagnostic.fix_if(nearest_name(name, &candidates))
 }
 
-/// How to say what is called as a function, if it is something else here.
-fn said_otherwise(name: &str, arguments: &[&str]) -> Option<String> {
+/// Suggests how to write an entity that is called like a function.
+fn suggest_other_form(name: &str, arguments: &[&str]) -> Option<String> {
     if let Some(synonym) = Synonym::of(Place::Call, name) {
         return Some(synonym.say(arguments));
     }
@@ -120,48 +121,48 @@ fn said_otherwise(name: &str, arguments: &[&str]) -> Option<String> {
 }
 
 pub fn unknown_joint(kind: &Name, arguments: &[&str]) -> Diagnostic {
-    let known: Vec<&str> = JOINTS.iter().map(|joint| joint.word.name).collect();
+    let candidates: Vec<&str> = JOINTS.iter().map(|joint| joint.word.name).collect();
     let diagnostic = Diagnostic::new(Code::E0201, format!("there is no kind of joint `{}`", kind.text))
         .at(kind.span, "not declared");
-    match (Synonym::of(Place::Joint, &kind.text), meant(kind, &known)) {
+    match (Synonym::of(Place::Joint, &kind.text), nearest_name(kind, &candidates)) {
         (Some(synonym), _) => diagnostic.help(synonym.say(arguments)),
         (None, Some(fix)) => diagnostic.fix(fix),
-        (None, None) => diagnostic.help(format!("the joints are {}", list(&known))),
+        (None, None) => diagnostic.help(format!("the joints are {}", list(&candidates))),
     }
 }
 
-/// A word after a number that is no unit, with that and what stands behind the word.
+/// A word after a number that is not a unit, with the number and the power after the word.
 pub fn not_a_unit(name: &Name, [number, power]: [&str; 2], is_a_name: bool) -> Diagnostic {
     let diagnostic = Diagnostic::new(Code::E0202, format!("`{}` is not a unit", name.text))
         .at(name.span, "only a unit may follow a number");
     if is_a_name {
         let words = format!("was `{number} * {}{power}` meant?", name.text);
-        let diagnostic = diagnostic.fix(Fix::insert(name.span, "* ", words, Applies::Probably));
-        // what is a unit elsewhere, and a name here
+        let diagnostic = diagnostic.fix(Fix::insert(name.span, "* ", words, Applicability::Probably));
+        // A unit in other formulas, and a name here.
         return match Synonym::of(Place::Unit, &name.text) {
             Some(synonym) if name.text == "g" => diagnostic.help(synonym.say(&[])),
             _ => diagnostic,
         };
     }
-    meant_unit(diagnostic, name)
+    suggest_unit(diagnostic, name)
 }
 
-/// `mm2`, as it is written.
+/// Returns the power that is intended by `mm2`, such as `mm^2`.
 pub(super) fn power_of_a_unit(name: &str) -> Option<String> {
     let unit = name.trim_end_matches(|c: char| c.is_ascii_digit());
     let power = &name[unit.len()..];
     (!power.is_empty() && Unit::named(unit).is_some()).then(|| format!("{unit}^{power}"))
 }
 
-/// Which unit was meant, or all of them.
-pub(super) fn meant_unit(diagnostic: Diagnostic, name: &Name) -> Diagnostic {
+/// Adds the probable unit to a diagnostic, or lists all units.
+pub(super) fn suggest_unit(diagnostic: Diagnostic, name: &Name) -> Diagnostic {
     if let Some(power) = power_of_a_unit(&name.text) {
         return diagnostic.fix(Fix::meant(name.span, &power));
     }
     let units: Vec<&str> = Unit::names().collect();
-    match (Synonym::of(Place::Unit, &name.text), Unit::of_multiple(&name.text), meant(name, &units)) {
+    match (Synonym::of(Place::Unit, &name.text), Unit::prefixed_value(&name.text), nearest_name(name, &units)) {
         (Some(synonym), ..) => diagnostic.help(synonym.say(&[])),
-        (None, Some(told), _) => diagnostic.help(format!("`1 {}` is written `{told}`", name.text)),
+        (None, Some(text), _) => diagnostic.help(format!("`1 {}` is written `{text}`", name.text)),
         (None, None, Some(fix)) => diagnostic.fix(fix),
         (None, None, None) => diagnostic.help(format!("the units are {}", units.join(" "))),
     }
@@ -174,7 +175,7 @@ pub fn declared_twice(name: &Name, first: Span) -> Diagnostic {
         .help("give one of the two another name")
 }
 
-/// With a name that is free instead, and where the name stands besides.
+/// Takes a free name instead, and the uses of the name.
 pub fn reserved(name: &Name, instead: Option<&str>, uses: &[Span]) -> Diagnostic {
     let what = match Constant::named(&name.text) {
         Some(constant) => constant.stands_for.noun(),
@@ -184,7 +185,7 @@ pub fn reserved(name: &Name, instead: Option<&str>, uses: &[Span]) -> Diagnostic
     };
     Diagnostic::new(Code::E0204, format!("`{}` cannot be declared: it is {what}", name.text))
         .at(name.span, "reserved")
-        .fix_if(instead.map(|free| renamed(name, uses, free, format!("choose another name, `{free}` say"))))
+        .fix_if(instead.map(|free| suggest_rename(name, uses, free, format!("choose another name, `{free}` say"))))
 }
 
 pub fn second(word: &str, span: Span, first: Span) -> Diagnostic {
@@ -223,5 +224,5 @@ pub fn hidden_name(argument: &Name, declared: Span, free: Option<&str>, uses: &[
     Diagnostic::new(Code::E0207, format!("the argument `{}` hides a name of the mechanism", argument.text))
         .at(argument.span, "this argument")
         .also(declared, "declared here")
-        .fix_if(free.map(|free| renamed(argument, uses, free, format!("rename the argument: `{free}`, say"))))
+        .fix_if(free.map(|free| suggest_rename(argument, uses, free, format!("rename the argument: `{free}`, say"))))
 }

@@ -1,31 +1,31 @@
-//! What is said of parts, and of what is told of their params and inputs.
+//! Diagnostics of parts, and of the bindings and overrides of their params and inputs.
 
-use super::meant;
+use super::nearest_name;
 use mechc_syntax::ast::{Binding, ItemKind, Mechanism, MechanismName, Name};
 use mechc_text::diag::{Code, Diagnostic};
 use mechc_text::source::Span;
 
-pub fn contains_itself(wanted: &MechanismName, circle: &[&str]) -> Diagnostic {
-    let name = &wanted.name.text;
-    let mut way: Vec<String> = circle.iter().map(|name| format!("`{name}`")).collect();
-    way.push(format!("`{name}`"));
+pub fn contains_itself(expected: &MechanismName, circle: &[&str]) -> Diagnostic {
+    let name = &expected.name.text;
+    let mut cycle: Vec<String> = circle.iter().map(|name| format!("`{name}`")).collect();
+    cycle.push(format!("`{name}`"));
     let diagnostic = Diagnostic::new(Code::E0206, format!("the mechanism `{name}` contains itself"));
-    diagnostic.at(wanted.span(), "a part of itself").note(format!("the way round: {}", way.join(" → ")))
+    diagnostic.at(expected.span(), "a part of itself").note(format!("the way round: {}", cycle.join(" → ")))
 }
 
-pub fn too_many_levels(wanted: &MechanismName, most: usize) -> Diagnostic {
+pub fn too_many_levels(expected: &MechanismName, most: usize) -> Diagnostic {
     Diagnostic::new(Code::E0209, format!("parts stand in parts on more than {most} levels"))
-        .at(wanted.span(), "too deep")
+        .at(expected.span(), "too deep")
 }
 
 /// `front.foo`
-pub fn nothing_in_part(path: &str, mechanism: &str, name: &Name, known: &[&str]) -> Diagnostic {
+pub fn unknown_in_part(path: &str, mechanism: &str, name: &Name, candidates: &[&str]) -> Diagnostic {
     Diagnostic::new(Code::E0201, format!("there is no `{}` in the part `{path}`", name.text))
         .at(name.span, format!("`{mechanism}` declares nothing of that name"))
-        .fix_if(meant(name, known))
+        .fix_if(nearest_name(name, candidates))
 }
 
-/// A bound of a range is made of a param of a part: its path as it is written, and where.
+/// A bound of a range that depends on a param of a part; `path` as it is written, and its location.
 pub fn decided_by_a_part(place: &str, path: &str, span: Span, written: Span) -> Diagnostic {
     let diagnostic = Diagnostic::new(Code::E0208, format!("{place} cannot be made of `{path}`, which is in a part"));
     let diagnostic = diagnostic.at(span, "decides which declarations there are");
@@ -34,9 +34,9 @@ pub fn decided_by_a_part(place: &str, path: &str, span: Span, written: Span) -> 
     diagnostic.help("parts are there when all ranges are known: make both of a param, and bind that of the part to it")
 }
 
-/// `b.arm.tip`, where nothing is called `b`.
+/// `b.arm.tip` without a `b`.
 pub fn unknown_owner(name: &Name, tree: &Mechanism) -> Diagnostic {
-    let known: Vec<&str> = tree
+    let candidates: Vec<&str> = tree
         .items
         .iter()
         .filter_map(|item| match &item.kind {
@@ -45,13 +45,13 @@ pub fn unknown_owner(name: &Name, tree: &Mechanism) -> Diagnostic {
             _ => None,
         })
         .collect();
-    super::unknown("part or body", name, &known)
+    super::unknown("part or body", name, &candidates)
 }
 
-/// A trace in the place of a number or point; `point` is what it is of, as it is written.
-pub fn trace_in_a_formula(span: Span, wanted: &str, name: &Name, point: Option<&str>) -> Diagnostic {
-    let diagnostic = super::wrong_kind(span, wanted, "a trace");
-    match (wanted, point) {
+/// A trace where a number or point is expected; `point` is the text of its point.
+pub fn trace_in_a_formula(span: Span, expected: &str, name: &Name, point: Option<&str>) -> Diagnostic {
+    let diagnostic = super::wrong_kind(span, expected, "a trace");
+    match (expected, point) {
         ("a number", Some(point)) => diagnostic.help(format!(
             "`{0}.x` and `{0}.y` are columns; in a formula the place of the point is `x({point})` and `y({point})`",
             name.text
@@ -61,7 +61,7 @@ pub fn trace_in_a_formula(span: Span, wanted: &str, name: &Name, point: Option<&
     }
 }
 
-pub fn path_goes_on(span: Span) -> Diagnostic {
+pub fn path_too_long(span: Span) -> Diagnostic {
     Diagnostic::new(Code::E0208, "a path ends with a body and a feature of it, or with another declaration of a part")
         .at(span, "goes on")
 }
@@ -72,11 +72,11 @@ pub fn bound_twice(binding: &Binding, first: Span) -> Diagnostic {
         .also(first, "first bound here")
 }
 
-pub fn nothing_to_bind(
+pub fn no_name_to_bind(
     mechanism: &str,
     binding: &Binding,
     found: Option<&str>,
-    known: &[&str],
+    candidates: &[&str],
     nearest: Option<&str>,
 ) -> Diagnostic {
     let name = &binding.name.text;
@@ -84,14 +84,14 @@ pub fn nothing_to_bind(
         Some(found) => format!("this is {found}"),
         None => "not declared there".to_owned(),
     };
-    let listed = match known {
+    let listed = match candidates {
         [] => format!("`{mechanism}` has no params and no inputs"),
-        _ => format!("its params and inputs are {}", super::list(known)),
+        _ => format!("its params and inputs are {}", super::list(candidates)),
     };
     let diagnostic = Diagnostic::new(Code::E0209, format!("`{mechanism}` has no param or input `{name}`"));
     let diagnostic = diagnostic.at(binding.name.span, label);
     match nearest {
-        Some(_) => diagnostic.fix_if(meant(&binding.name, known)),
+        Some(_) => diagnostic.fix_if(nearest_name(&binding.name, candidates)),
         None => diagnostic.help(listed),
     }
 }
@@ -112,7 +112,7 @@ pub fn number_for_point(binding: &Binding) -> Diagnostic {
         .help("a point is written `(x, y)`")
 }
 
-/// Parts that stand on each other, or one on itself: each with the place of its `on`, and whether that names a ground.
+/// Parts that carry each other, or one itself: each with the location of its `on`, and whether that names a ground.
 pub fn carries_itself(parts: &[(&Name, Span, bool)]) -> Diagnostic {
     let Some((&(first, on, is_ground), rest)) = parts.split_first() else {
         return Diagnostic::new(Code::E0209, "parts are carried by themselves");
@@ -121,16 +121,16 @@ pub fn carries_itself(parts: &[(&Name, Span, bool)]) -> Diagnostic {
         let label = if is_ground { "this stands on its own ground" } else { "this is a body of the part itself" };
         return Diagnostic::new(Code::E0209, format!("the part `{}` is carried by itself", first.text)).at(on, label);
     }
-    let way: Vec<String> = rest.iter().chain([&parts[0]]).map(|(part, ..)| format!("`{}`", part.text)).collect();
-    let message = format!("parts carry each other: `{}` stands on {}", first.text, way.join(", which stands on "));
+    let cycle: Vec<String> = rest.iter().chain([&parts[0]]).map(|(part, ..)| format!("`{}`", part.text)).collect();
+    let message = format!("parts carry each other: `{}` stands on {}", first.text, cycle.join(", which stands on "));
     let diagnostic = Diagnostic::new(Code::E0209, message).at(on, "on the circle");
     rest.iter().fold(diagnostic, |diagnostic, (_, on, _)| diagnostic.also(*on, "on the circle"))
 }
 
-/// `--set front.reach=…`, where `front: lever(reach = …)`.
-pub fn bound_from_outside(noun: &str, path: &str, told: Span, binding: Span) -> Diagnostic {
+/// `--set front.reach=…` with `front: lever(reach = …)`.
+pub fn bound_from_outside(noun: &str, path: &str, at: Span, binding: Span) -> Diagnostic {
     Diagnostic::new(Code::E0708, format!("the {noun} `{path}` is bound where its mechanism is used"))
-        .at(told, "told from outside")
+        .at(at, "told from outside")
         .also(binding, "bound here")
         .help("tell what the binding is made of, or take the binding away")
 }

@@ -1,11 +1,11 @@
-//! What is said of what is repeated, and of its copies.
+//! Diagnostics of repeated declarations and of their copies.
 
 use mechc_syntax::ast::{Name, PathSegment};
 use mechc_syntax::format::expression;
-use mechc_text::diag::{Applies, Code, Diagnostic, Fix, readable};
+use mechc_text::diag::{Applicability, Code, Diagnostic, Fix, readable};
 use mechc_text::source::Span;
 
-/// `for k = 2`, of the copy in which something is wrong.
+/// Adds `for k = 2`, the copy in which the error is.
 fn of_copy(diagnostic: Diagnostic, numbers: &[(&str, i64)]) -> Diagnostic {
     if numbers.is_empty() {
         return diagnostic;
@@ -21,11 +21,11 @@ pub fn not_whole(place: &str, span: Span, value: f64, numbers: &[(&str, i64)]) -
 }
 
 pub fn no_such_copy(copy: &str, span: Span, ends: [Option<String>; 2], numbers: &[(&str, i64)]) -> Diagnostic {
-    let known = match ends {
+    let candidates = match ends {
         [Some(first), Some(last)] => format!("they go from `{first}` to `{last}`"),
         _ => "its range is empty".to_owned(),
     };
-    of_copy(Diagnostic::new(Code::E0208, format!("there is no `{copy}`")).at(span, known), numbers)
+    of_copy(Diagnostic::new(Code::E0208, format!("there is no `{copy}`")).at(span, candidates), numbers)
 }
 
 pub fn which_copy(name: &Name, first: Option<&str>) -> Diagnostic {
@@ -40,8 +40,8 @@ pub fn not_repeated(name: &Name) -> Diagnostic {
         .help("what is repeated is declared with a range: `body link[k in 0..3] …`")
 }
 
-/// `arm.tip.x`, or a number behind what is not repeated, the first name being known or not.
-pub fn path_of_nothing(span: Span, segments: &[PathSegment], is_known: bool) -> Diagnostic {
+/// `arm.tip.x`, or an index after a declaration that is not repeated; `is_declared` if the first name is declared.
+pub fn invalid_path(span: Span, segments: &[PathSegment], is_declared: bool) -> Diagnostic {
     match segments {
         [owner, point, coordinate] if ["x", "y"].contains(&coordinate.name.text.as_str()) => {
             let indices: Vec<String> = owner.indices.iter().map(expression).collect();
@@ -50,7 +50,7 @@ pub fn path_of_nothing(span: Span, segments: &[PathSegment], is_known: bool) -> 
             let message = format!("a coordinate of a point is written `{text}`");
             Diagnostic::new(Code::E0302, "expected a number, found a path that goes on behind a point")
                 .at(span, "a body has points, and they have nothing of their own")
-                .fix(Fix::replace(span, text, message, Applies::Probably))
+                .fix(Fix::replace(span, text, message, Applicability::Probably))
         }
         [_, _, _, ..] => Diagnostic::new(Code::E0208, "a path is a body, and a feature of it")
             .at(span, "goes on")
@@ -60,7 +60,7 @@ pub fn path_of_nothing(span: Span, segments: &[PathSegment], is_known: bool) -> 
                 .at(feature.name.span, "takes no number in brackets")
                 .help("a body is repeated with all its features, and the number stands behind it: `link[2].pin`")
         }
-        [owner, ..] if is_known => not_repeated(&owner.name),
+        [owner, ..] if is_declared => not_repeated(&owner.name),
         _ => Diagnostic::new(Code::E0208, "nothing of this name is repeated")
             .at(span, "this takes one of several")
             .help("what is repeated is declared with a range: `body link[k in 0..3] …`"),

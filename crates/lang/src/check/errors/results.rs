@@ -1,14 +1,14 @@
-//! What is said of results and reductions.
+//! Diagnostics of results and reductions.
 
 use mechc_syntax::ast::Name;
 use mechc_text::diag::{Code, Diagnostic, readable};
 use mechc_text::source::Span;
 use mechc_text::vocabulary::ReductionWord;
 
-/// Of `max` and `min`, beside what is wrong with the number of their arguments.
+/// The explanation of `max` and `min` with a wrong number of arguments.
 pub const REDUCES: &str = "with one argument it takes the whole analysis, in a `result`";
 
-/// A reduction where there is no whole analysis to take together.
+/// A reduction outside results.
 pub fn reduction_in(place: &str, word: &ReductionWord, span: Span) -> Diagnostic {
     let name = word.word.name;
     Diagnostic::new(Code::E0322, format!("the reduction `{name}` may not stand in {place}"))
@@ -16,21 +16,21 @@ pub fn reduction_in(place: &str, word: &ReductionWord, span: Span) -> Diagnostic
         .help(format!("reductions stand in results: `result NAME = {}`", word.word.forms.first().unwrap_or(&name)))
 }
 
-/// A result where it is not known yet.
+/// A result where results are not allowed.
 pub fn result_in(place: &str, name: &Name) -> Diagnostic {
     Diagnostic::new(Code::E0322, format!("the result `{}` may not stand in {place}", name.text))
         .at(name.span, "known only when the motion is over")
         .help("results stand in other results")
 }
 
-/// What changes with time, in a result but in no reduction.
+/// A value that varies with time in a result, but outside a reduction.
 pub fn outside_reduction(what: &str, span: Span, text: &str) -> Diagnostic {
     Diagnostic::new(Code::E0322, format!("{what} stands outside a reduction"))
         .at(span, "changes with time, and a result is one number")
         .help(format!("say which number of it is meant: `max({text})`, `mean({text})`, `last({text})`"))
 }
 
-/// A part of the analysis for a call that does not take the analysis together.
+/// A window of a call that is not a reduction.
 pub fn window_of_no_reduction(called: &Name, span: Span) -> Diagnostic {
     let name = &called.text;
     let (why, help) = match name.as_str() {
@@ -43,26 +43,26 @@ pub fn window_of_no_reduction(called: &Name, span: Span) -> Diagnostic {
     Diagnostic::new(Code::E0322, format!("`{name}` {why} no window")).at(span, "a part of the analysis").help(help)
 }
 
-/// What `from` and `to` lack where they are read as names, before an operator.
+/// The help for `from` and `to` that are read as names before an operator.
 pub fn signed_bound(word: &str) -> String {
     format!("a time of a window that begins with a sign stands in parentheses: `{word} (-1 s)`")
 }
 
-/// A window whose end is before its beginning (s).
+/// A window that ends before it starts (s).
 pub fn window_ends_early(word: &ReductionWord, span: Span, [from, to]: [f64; 2]) -> Diagnostic {
     Diagnostic::new(Code::E0422, format!("the window of `{}` ends before it begins", word.word.name))
         .at(span, format!("from {} s to {} s", readable(from), readable(to)))
         .help("a window goes from the earlier to the later time")
 }
 
-/// `der` of something that is one number.
+/// `der` of a number of the whole analysis.
 pub fn derivative_of_result(span: Span) -> Diagnostic {
     Diagnostic::new(Code::E0310, "a result has no time derivative")
         .at(span, "one number for the whole analysis")
         .help("take the derivative inside: `max(der(e))`")
 }
 
-/// `der` by an input or parameter of what holds a number of the whole analysis.
+/// `der` by an input or parameter of a formula with such a number.
 pub fn variation_of_result(span: Span) -> Diagnostic {
     Diagnostic::new(Code::E0310, "a result has no derivative by an input or parameter")
         .at(span, "holds a number of the whole analysis")

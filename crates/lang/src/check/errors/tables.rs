@@ -1,30 +1,30 @@
-//! What is said of tables and their columns.
+//! Diagnostics of tables and their columns.
 
-use super::dimensions::{told, usual_unit};
+use super::dimensions::{format_value, usual_unit};
 use super::list;
-use super::names::meant_unit;
+use super::names::suggest_unit;
 use crate::model::Dimension;
 use mechc_syntax::ast::{ColumnName, ColumnWord, Name};
-use mechc_text::diag::{Applies, Code, Diagnostic, Fix, nearest, readable};
+use mechc_text::diag::{Applicability, Code, Diagnostic, Fix, nearest, readable};
 use mechc_text::source::Span;
 
 pub fn not_a_unit_of_a_column(name: &Name) -> Diagnostic {
     let diagnostic =
         Diagnostic::new(Code::E0202, format!("`{}` is not a unit", name.text)).at(name.span, "the unit of a column");
-    meant_unit(diagnostic, name)
+    suggest_unit(diagnostic, name)
 }
 
 pub fn not_a_unit_to_print_in(name: &Name) -> Diagnostic {
     let diagnostic = Diagnostic::new(Code::E0202, format!("`{}` is not a unit", name.text))
         .at(name.span, "only units, `*`, `/` and powers may stand behind `in`");
-    meant_unit(diagnostic, name)
+    suggest_unit(diagnostic, name)
 }
 
-/// A unit behind `in` that is of another dimension than the formula: with the places and dimensions of the two.
-pub fn not_printed_in(unit: &str, [at, formula]: [Span; 2], [own, found]: [Dimension; 2]) -> Diagnostic {
-    let wanted = if own.is(Dimension::PURE) { "an angle".to_owned() } else { own.in_words() };
-    Diagnostic::new(Code::E0402, format!("what is printed in `{unit}` must be {wanted}, found {}", found.in_words()))
-        .at(at, wanted)
+/// A unit after `in` of another dimension than the formula, with the locations and dimensions of both.
+pub fn not_printed_in(unit: &str, [at, formula]: [Span; 2], [unit_dimension, found]: [Dimension; 2]) -> Diagnostic {
+    let expected = if unit_dimension.is(Dimension::PURE) { "an angle".to_owned() } else { unit_dimension.in_words() };
+    Diagnostic::new(Code::E0402, format!("what is printed in `{unit}` must be {expected}, found {}", found.in_words()))
+        .at(at, expected)
         .also(formula, found.in_words())
         .help(if found.is(Dimension::PURE) {
             "leave `in` out, or name a unit of angle: `in deg`".to_owned()
@@ -33,7 +33,7 @@ pub fn not_printed_in(unit: &str, [at, formula]: [Span; 2], [own, found]: [Dimen
         })
 }
 
-/// A turning speed in hertz.
+/// An angular velocity in hertz.
 pub fn turning_in_hertz(at: Span, formula: Span) -> Diagnostic {
     Diagnostic::new(Code::E0402, "a turning speed is not printed in `Hz`")
         .at(at, "1 per second")
@@ -43,29 +43,29 @@ pub fn turning_in_hertz(at: Span, formula: Span) -> Diagnostic {
 
 /// A column that a file does not have.
 pub fn no_column(path: &Name, column: &ColumnName, header: &[&str]) -> Diagnostic {
-    let (message, wanted) = match &column.kind {
+    let (message, expected) = match &column.kind {
         ColumnWord::Number(number) => (format!("`{}` has no column {number}", path.text), None),
         ColumnWord::Named(name) => (format!("`{}` has no column `{name}`", path.text), Some(name)),
     };
     let diagnostic = Diagnostic::new(Code::E0201, message).at(column.span, "not in its first line");
-    let Some(name) = wanted else {
+    let Some(name) = expected else {
         return diagnostic.help(match header.len() {
             1 => "it has 1 column; columns are separated by commas".to_owned(),
             count => format!("it has {count} columns"),
         });
     };
     match nearest(name, header.iter().copied()) {
-        Some(meant) => diagnostic.fix(Fix::replace(
+        Some(suggestion) => diagnostic.fix(Fix::replace(
             column.span,
-            format!("\"{meant}\""),
-            format!("did you mean `{meant}`?"),
-            Applies::Probably,
+            format!("\"{suggestion}\""),
+            format!("did you mean `{suggestion}`?"),
+            Applicability::Probably,
         )),
         None => diagnostic.help(format!("its first line has {}", list(header))),
     }
 }
 
-/// A name of a column that stands twice in a file's first line.
+/// A duplicate name of a column in a file's header.
 pub fn column_twice(path: &Name, span: Span, name: &str, [first, second]: [usize; 2]) -> Diagnostic {
     Diagnostic::new(Code::E0203, format!("`{}` has two columns `{name}`", path.text))
         .at(span, "which of them?")
@@ -78,7 +78,7 @@ pub fn row_of(span: Span, found: usize) -> Diagnostic {
         .help("a row is written `(argument, value)`")
 }
 
-/// A file that nobody has tried to read: the mechanism was checked without its files.
+/// A file that was not read, as the mechanism was checked without its files.
 pub fn no_table_file(path: &Name) -> Diagnostic {
     Diagnostic::new(Code::E0701, format!("cannot read `{}`: there is no such file", path.text))
         .at(path.span, "named here")
@@ -107,14 +107,14 @@ pub fn not_rising(name: &Name, [here, before]: [f64; 2], rows: [Span; 2]) -> Dia
 }
 
 pub fn ends_differ(name: &Name, ends: [Span; 2], [last, first]: [f64; 2], dimension: Dimension) -> Diagnostic {
-    let [last, first] = [last, first].map(|value| told(value, dimension));
+    let [last, first] = [last, first].map(|value| format_value(value, dimension));
     let message = format!("periodic table `{}` ends with {last}, and begins with {first}", name.text);
     let diagnostic = Diagnostic::new(Code::E0415, message).at(ends[0], "the last row");
     diagnostic.also(ends[1], "the first row").help("its last row repeats the first value, one period on")
 }
 
 pub fn out_of_table(name: &Name, value: f64, ends: [f64; 2], dimension: Dimension, span: Span) -> Diagnostic {
-    let [value, first, last] = [value, ends[0], ends[1]].map(|value| told(value, dimension));
+    let [value, first, last] = [value, ends[0], ends[1]].map(|value| format_value(value, dimension));
     let message = format!("{value} is not in the range of table `{}`, {first} to {last}", name.text);
     Diagnostic::new(Code::E0417, message).at(span, "out of range").help("a `periodic spline` repeats; a spline ends")
 }

@@ -1,4 +1,4 @@
-//! What is said of derivatives by inputs and parameters.
+//! Diagnostics of derivatives by inputs and parameters.
 
 use crate::model::Declared;
 use mechc_syntax::ast::Name;
@@ -17,7 +17,7 @@ pub fn derivative_of_jerk(span: Span) -> Diagnostic {
         .help("the derivative of an acceleration is the last that is computed")
 }
 
-/// Of a force, where a load holds a third time derivative.
+/// A derivative of a force if a load holds a third time derivative.
 pub fn derivative_through_a_jerk(span: Span, load: &Declared) -> Diagnostic {
     Diagnostic::new(
         Code::E0310,
@@ -49,33 +49,33 @@ pub fn by_deciding(name: &Name) -> Diagnostic {
         .help("run it with another value: `--set`")
 }
 
-/// `--by` names a parameter that decides what is repeated.
+/// `--by` with a parameter that determines repetitions.
 pub fn column_by_deciding(name: &str) -> Diagnostic {
     Diagnostic::new(Code::E0706, format!("there is no derivative by `{name}`, which decides what is repeated"))
         .help("run it with another value: `--set`")
 }
 
-/// `--by` names nothing that derivatives are taken by: `found` is what it is, `meant` what it may mean, `known` what there is.
+/// `--by` without a variable: `found` is the kind of the name, `suggestion` a suggestion, `candidates` the variables.
 pub fn no_column_by(
     mechanism: &str,
     name: &str,
     found: Option<&str>,
-    meant: Option<&str>,
-    known: &[&str],
+    suggestion: Option<&str>,
+    candidates: &[&str],
 ) -> Diagnostic {
     let message = match found {
         None => format!("mechanism `{mechanism}` has no input or parameter `{name}`"),
         Some(found) => format!("`{name}` is {found} of mechanism `{mechanism}`, and no input or parameter"),
     };
-    let help = meant.map(|name| format!("was `{name}` meant?"));
-    let listed = || match known {
+    let help = suggestion.map(|name| format!("was `{name}` meant?"));
+    let listed = || match candidates {
         [] => "derivatives are taken by inputs and parameters, and there are none".to_owned(),
-        _ => format!("derivatives are taken by {}", super::some_of(known)),
+        _ => format!("derivatives are taken by {}", super::some_of(candidates)),
     };
     Diagnostic::new(Code::E0703, message).help(help.unwrap_or_else(listed))
 }
 
-/// `der(e, front.reach)`, where `front: lever(reach = …)`; and the names in that formula.
+/// `der(e, front.reach)` with `front: lever(reach = …)`, and the names in that formula.
 pub fn by_bound(span: Span, path: &str, binding: Span, made_of: &[String]) -> Diagnostic {
     Diagnostic::new(Code::E0310, format!("`{path}` is bound where its mechanism is used"))
         .at(span, "not free")
@@ -83,7 +83,7 @@ pub fn by_bound(span: Span, path: &str, binding: Span, made_of: &[String]) -> Di
         .help(free_instead(made_of))
 }
 
-/// The same of `--by front.reach`.
+/// `--by front.reach` with such a binding.
 pub fn column_by_bound(path: &str, binding: Span, made_of: &[String]) -> Diagnostic {
     Diagnostic::new(
         Code::E0708,
@@ -101,7 +101,7 @@ fn free_instead(made_of: &[String]) -> String {
     }
 }
 
-/// `--by` names a part; `free` are those of its params and inputs that are not bound.
+/// `--by` with a part; `free` are its params and inputs that are not bound.
 pub fn column_by_part(path: &str, free: &[String]) -> Diagnostic {
     let names: Vec<&str> = free.iter().map(String::as_str).take(MOST_NAMES).collect();
     let more = if free.len() > names.len() { ", for example" } else { "" };
@@ -112,5 +112,5 @@ pub fn column_by_part(path: &str, free: &[String]) -> Diagnostic {
     Diagnostic::new(Code::E0703, format!("`{path}` is a part, and no input or parameter")).help(help)
 }
 
-/// So many names are listed at most.
+/// The largest number of listed names.
 const MOST_NAMES: usize = 8;

@@ -1,30 +1,30 @@
-//! What paths like `link[k - 1].pin` and `leg[0].foot.toe` name, as the names that copies have.
+//! Paths such as `link[k - 1].pin` and `leg[0].foot.toe`, resolved to the names of copies.
 
-use super::{Numbers, Unwritten, Writer, Written, indexed};
+use super::{Expanded, Expander, NotExpandable, Numbers, indexed};
 use crate::check::errors;
+use crate::check::free_names::name_of;
 use crate::check::instance::Instance;
-use crate::check::mentions::name_of;
 use mechc_syntax::ast::{self, Expr, ExprKind, Item, ItemKind, Name};
 use mechc_text::source::Span;
 use rustc_hash::FxHashSet;
 use std::rc::Rc;
 
-impl<'t> Writer<'t, '_> {
-    pub(super) fn must_not_be_repeated(&mut self, name: &Name) -> Written<()> {
+impl<'t> Expander<'t, '_> {
+    pub(super) fn must_not_be_repeated(&mut self, name: &Name) -> Expanded<()> {
         let Some(copies) = self.copies.get(name.text.as_str()) else { return Ok(()) };
         let first = copies.iter().min().map(|numbers| indexed(&name.text, numbers));
-        self.tell(errors::which_copy(name, first.as_deref()));
-        Err(Unwritten)
+        self.report_once(errors::which_copy(name, first.as_deref()));
+        Err(NotExpandable)
     }
 
-    /// `link[2].pin`
+    /// Resolves `link[2].pin`.
     pub(super) fn path(
         &mut self,
         span: Span,
         segments: &[ast::PathSegment],
         numbers: &Numbers<'_>,
-    ) -> Written<ExprKind> {
-        let [first, rest @ ..] = segments else { return Err(Unwritten) };
+    ) -> Expanded<ExprKind> {
+        let [first, rest @ ..] = segments else { return Err(NotExpandable) };
         let owner = self.copy_named(first, numbers)?;
         if let Some(part) = self.parts.get(&owner.text).cloned()
             && !rest.is_empty()
@@ -36,17 +36,17 @@ impl<'t> Writer<'t, '_> {
             [feature] if feature.indices.is_empty() => Ok(ExprKind::Member { owner, feature: feature.name.clone() }),
             _ => {
                 let diagnostic = if self.names.contains(first.name.text.as_str()) || first.name.text == "ground" {
-                    errors::path_of_nothing(span, segments, true)
+                    errors::invalid_path(span, segments, true)
                 } else {
                     errors::unknown_owner(&first.name, self.tree)
                 };
-                self.tell(diagnostic);
-                Err(Unwritten)
+                self.report_once(diagnostic);
+                Err(NotExpandable)
             }
         }
     }
 
-    /// What a path names in a part: `leg[0].foot.toe` is the feature `toe` of the body that is called `leg[0].foot` here.
+    /// Resolves a path into a part: `leg[0].foot.toe` is the feature `toe` of the body that is called `leg[0].foot` here.
     pub(super) fn inside(
         &mut self,
         span: Span,
@@ -54,9 +54,9 @@ impl<'t> Writer<'t, '_> {
         part: Option<Rc<Instance<'t>>>,
         segments: &[ast::PathSegment],
         numbers: &Numbers<'_>,
-    ) -> Written<ExprKind> {
-        // of a part that cannot be, that has been said
-        let mut part = part.ok_or(Unwritten)?;
+    ) -> Expanded<ExprKind> {
+        // A part that cannot be instantiated has been reported.
+        let mut part = part.ok_or(NotExpandable)?;
         let mut path = path.to_owned();
         for (k, segment) in segments.iter().enumerate() {
             let name = self.copy_in(&part, &path, segment, numbers)?;
@@ -75,31 +75,31 @@ impl<'t> Writer<'t, '_> {
                 [feature] if feature.indices.is_empty() => {
                     Ok(ExprKind::Member { owner, feature: feature.name.clone() })
                 }
-                // of a part that cannot be, that has been said
-                _ if part.is_a_part(&segment.name.text) => Err(Unwritten),
+                // A part that cannot be instantiated has been reported.
+                _ if part.is_a_part(&segment.name.text) => Err(NotExpandable),
                 _ => {
-                    self.tell(errors::path_goes_on(span));
-                    Err(Unwritten)
+                    self.report_once(errors::path_too_long(span));
+                    Err(NotExpandable)
                 }
             };
         }
-        Err(Unwritten)
+        Err(NotExpandable)
     }
 
-    /// The name that something has in a part.
+    /// Returns the name of a copy in a part.
     fn copy_in(
         &mut self,
         part: &Instance<'t>,
         path: &str,
         segment: &ast::PathSegment,
         numbers: &Numbers<'_>,
-    ) -> Written<String> {
+    ) -> Expanded<String> {
         let ast::PathSegment { name, indices } = segment;
         let copies = part.copies.get(name.text.as_str());
         let diagnostic = match (copies, indices.is_empty()) {
             _ if !part.declares(&name.text) => {
-                let known: Vec<&str> = part.names().collect();
-                errors::nothing_in_part(path, part.mechanism_name(), name, &known)
+                let candidates: Vec<&str> = part.names().collect();
+                errors::unknown_in_part(path, part.mechanism_name(), name, &candidates)
             }
             (None, true) => return Ok(name.text.clone()),
             (None, false) => errors::not_repeated(name),
@@ -112,12 +112,12 @@ impl<'t> Writer<'t, '_> {
                 return self.one_of(&copies, segment, numbers);
             }
         };
-        self.tell(diagnostic);
-        Err(Unwritten)
+        self.report_once(diagnostic);
+        Err(NotExpandable)
     }
 
-    /// The name that a copy has.
-    fn copy_named(&mut self, segment: &ast::PathSegment, numbers: &Numbers<'_>) -> Written<Name> {
+    /// Returns the name of a copy.
+    fn copy_named(&mut self, segment: &ast::PathSegment, numbers: &Numbers<'_>) -> Expanded<Name> {
         let ast::PathSegment { name, indices } = segment;
         if indices.is_empty() {
             self.must_not_be_repeated(name)?;
@@ -128,42 +128,42 @@ impl<'t> Writer<'t, '_> {
                 let text = self.one_of(&copies, segment, numbers)?;
                 Ok(Name { text, span: name.span })
             }
-            // of what could not be repeated, or be read, that has been said
-            None if self.is_repeated(name) || self.is_unread(name) => Err(Unwritten),
+            // A declaration that could not be repeated or parsed has been reported.
+            None if self.is_repeated(name) || self.is_unread(name) => Err(NotExpandable),
             None if self.names.contains(name.text.as_str()) => {
-                self.tell(errors::not_repeated(name));
-                Err(Unwritten)
+                self.report_once(errors::not_repeated(name));
+                Err(NotExpandable)
             }
-            // nothing of that name is told by whoever asks for it
+            // An unknown name is reported where it is resolved.
             None => Ok(Name { text: indexed(&name.text, &self.values(indices, numbers)?), span: name.span }),
         }
     }
 
     fn is_repeated(&self, name: &Name) -> bool {
-        let is_it = |item: &Item| name_of(item).is_some_and(|own| own.text == name.text);
+        let is_it = |item: &Item| name_of(item).is_some_and(|other| other.text == name.text);
         self.tree.items.iter().any(|item| !item.ranges.is_empty() && is_it(item))
     }
 
-    /// Whether a declaration that could not be read gives this name, perhaps to several.
+    /// Returns whether a broken declaration may have this name, perhaps for several copies.
     fn is_unread(&self, name: &Name) -> bool {
         let gives_it = |item: &Item| match &item.kind {
-            ItemKind::Broken { names } => names.iter().any(|own| own.text == name.text),
+            ItemKind::Broken { names } => names.iter().any(|other| other.text == name.text),
             _ => false,
         };
         self.tree.items.iter().any(gives_it)
     }
 
-    fn values(&mut self, indices: &[Expr], numbers: &Numbers<'_>) -> Written<Vec<i64>> {
+    fn values(&mut self, indices: &[Expr], numbers: &Numbers<'_>) -> Expanded<Vec<i64>> {
         indices.iter().map(|e| self.whole_number(e, numbers, "an index")).collect()
     }
 
-    /// The name of one of some copies.
+    /// Returns the name of one copy, whose indices must exist.
     fn one_of(
         &mut self,
         copies: &FxHashSet<Vec<i64>>,
         segment: &ast::PathSegment,
         numbers: &Numbers<'_>,
-    ) -> Written<String> {
+    ) -> Expanded<String> {
         let ast::PathSegment { name, indices } = segment;
         let values = self.values(indices, numbers)?;
         let copy = indexed(&name.text, &values);
@@ -172,7 +172,7 @@ impl<'t> Writer<'t, '_> {
         }
         let ends = [copies.iter().min(), copies.iter().max()].map(|end| end.map(|end| indexed(&name.text, end)));
         let span = indices.iter().fold(name.span, |span, index| span.to(index.span));
-        self.tell(errors::no_such_copy(&copy, span, ends, numbers));
-        Err(Unwritten)
+        self.report_once(errors::no_such_copy(&copy, span, ends, numbers));
+        Err(NotExpandable)
     }
 }

@@ -71,7 +71,7 @@ const FUNCTIONS: &[(&str, usize, &str)] = &[
     ("uplus", 1, "a"),
 ];
 
-/// Whether a name means something in a formula.
+/// Returns whether a name has a meaning in a formula.
 pub(super) fn is_known(name: &str) -> bool {
     matches!(name, "t" | "pi") || FUNCTIONS.iter().any(|(function, ..)| *function == name)
 }
@@ -129,9 +129,9 @@ pub(super) fn call(name: &str, name_span: Span, arguments: &[Expr], span: Span) 
         return Err(Box::new(errors::fault(name_span, message, "no counterpart").help_if(help)));
     };
     if arguments.len() != count {
-        let wanted = if count == 1 { "one argument" } else { "two arguments" };
-        let message = format!("`{name}` takes {wanted} here, found {}", arguments.len());
-        return Err(Box::new(errors::fault(span, message, format!("expected {wanted}"))));
+        let expected = if count == 1 { "one argument" } else { "two arguments" };
+        let message = format!("`{name}` takes {expected} here, found {}", arguments.len());
+        return Err(Box::new(errors::fault(span, message, format!("expected {expected}"))));
     }
     let mut sources = Sources::default();
     let file = sources.add("function", formula);

@@ -14,7 +14,7 @@ use crate::import::errors;
 use crate::import::value::Quoted;
 use mechc_text::source::Span;
 
-/// What an infix operator does.
+/// Operation of an infix operator.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 enum Infix {
     Or,
@@ -50,7 +50,7 @@ const INFIX: &[(&str, u8, Infix)] = &[
     (".^", POWER, Infix::Power),
 ];
 
-/// How tightly a sign binds: what is looser does not enter its operand.
+/// Binding strength of a sign; looser operators do not enter its operand.
 const SIGN: u8 = 8;
 const POWER: u8 = 9;
 
@@ -76,8 +76,8 @@ impl<'a> Parser<'a> {
         self.tokens.get(self.at).copied()
     }
 
-    fn sign(&mut self, wanted: &str) -> Option<Token<'a>> {
-        let token = self.peek().filter(|token| matches!(token.kind, TokenKind::Sign(sign) if sign == wanted))?;
+    fn sign(&mut self, expected: &str) -> Option<Token<'a>> {
+        let token = self.peek().filter(|token| matches!(token.kind, TokenKind::Sign(sign) if sign == expected))?;
         self.at += 1;
         Some(token)
     }
@@ -127,7 +127,7 @@ impl<'a> Parser<'a> {
         Ok(signed(sign, operand, token.span))
     }
 
-    /// What stands behind `^`: signs with a primary, so that the next `^` takes it all as its base.
+    /// Parses the exponent behind `^`: signs with a primary, so that the next `^` takes the whole power as its base.
     fn exponent(&mut self, depth: usize) -> Built<Term> {
         let mut signs = Vec::new();
         while let Some(token) = self.peek() {

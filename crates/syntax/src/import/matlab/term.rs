@@ -1,4 +1,4 @@
-//! What a part of a MATLAB formula is in the language.
+//! Terms of a MATLAB formula as formulas of the language.
 
 use crate::ast::{ComparisonSign, Expr, ExprKind};
 use crate::import::build;
@@ -18,7 +18,7 @@ impl Term {
         Term { expression, is_truth: true }
     }
 
-    /// As it stands, be it a number or a condition.
+    /// Returns the number or condition as it is.
     pub fn expression(&self) -> &Expr {
         &self.expression
     }
@@ -33,7 +33,7 @@ impl Term {
         Expr { kind: ExprKind::If { arms: vec![(self.expression, build::number(1.0, span))], otherwise }, span }
     }
 
-    /// What is not 0 is true.
+    /// Converts to a condition: nonzero is true.
     pub fn into_condition(self) -> Expr {
         if self.is_truth { self.expression } else { against_zero(self.expression, ComparisonSign::NotEqual) }
     }

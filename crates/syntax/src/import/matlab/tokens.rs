@@ -5,7 +5,7 @@ use crate::import::errors;
 use crate::import::value::Quoted;
 use mechc_text::source::Span;
 
-/// What a token is.
+/// Kinds of tokens.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(super) enum TokenKind<'a> {
     Number(f64),

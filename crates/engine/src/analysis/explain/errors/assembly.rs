@@ -15,9 +15,8 @@ const FAR_OFF: &str =
 pub fn open_loop(system: &ConstraintSystem, open: &OpenLoop, t: f64) -> Diagnostic {
     let declaration = &system.declarations()[open.at];
     let (noun, name) = (declaration.kind.noun(), &declaration.name);
-    let far = if open.kind == CoordinateKind::Length { 100.0 * system.length() } else { std::f64::consts::TAU };
     let is_joint = matches!(declaration.kind, DeclarationKind::Joint(_));
-    if open.by > far && !(is_joint && open.by.is_finite()) {
+    if open.is_unreachable(system) {
         return without_value(system, open, t);
     }
     let by = if open.kind == CoordinateKind::Length { length(open.by) } else { degrees(open.by) };
@@ -38,7 +37,7 @@ pub fn open_loop(system: &ConstraintSystem, open: &OpenLoop, t: f64) -> Diagnost
             diagnostic = diagnostic.note(format!("{what}: {}", cut_list(&names)));
         }
     }
-    if open.by > far {
+    if open.is_far(system) {
         return diagnostic.help(FAR_OFF);
     }
     let driver = open.declarations.iter().find(|&&k| system.declarations()[k].kind == DeclarationKind::Driver);

@@ -81,7 +81,7 @@ fn count_data(diagnostic: Diagnostic, system: &ConstraintSystem, declaration: De
         .datum("coordinates", n)
         .datum("equations", m)
         .datum("ndof", system.ndof())
-        .datum("redundant", vec![system.declarations()[declaration].name.clone()])
+        .redundant(vec![system.declarations()[declaration].name.clone()])
 }
 
 fn headline_of_redundant(system: &ConstraintSystem, group: &[Dependent]) -> String {
@@ -388,7 +388,7 @@ pub fn too_many_and_too_few(system: &ConstraintSystem, dependents: &[Dependent],
         .datum("coordinates", n)
         .datum("equations", m)
         .datum("ndof", system.ndof())
-        .datum("redundant", named)
+        .redundant(named)
         .datum("free", free)
 }
 

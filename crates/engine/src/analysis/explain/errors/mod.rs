@@ -82,6 +82,11 @@ pub fn gap_kind(system: &ConstraintSystem, row: usize) -> CoordinateKind {
     if kinds.any(|kind| kind == CoordinateKind::Length) { CoordinateKind::Length } else { CoordinateKind::Angle }
 }
 
+/// Adds to a diagnostic that it happens on the way from the mechanism's own first time (s) to the requested one.
+pub fn before_start(diagnostic: Diagnostic, from: f64) -> Diagnostic {
+    Diagnostic { message: format!("on the way from {} s: {}", short(from), diagnostic.message), ..diagnostic }
+}
+
 /// Marks declarations, and says beside the first what holds of it, or of them all.
 pub fn with_places(
     mut diagnostic: Diagnostic,

@@ -1,10 +1,10 @@
 //! A motion that cannot go on: formulas without a value, jumps, haste.
 
-use super::{at, ceases_to_hold, in_units, named_all, no_contact, short, with_places};
-use crate::analysis::state::{Fault, Unknown};
+use super::{at, in_units, named_all, short, with_places};
+use crate::analysis::state::Unknown;
 use mechc_expr::{Symbol, TableId};
 use mechc_ir::{
-    Condition, ConditionKind, ConstraintSystem, DeclarationId, DeclarationKind, JointKind, LoadForce, Press,
+    Condition, ConditionKind, ConstraintSystem, ContactForce, DeclarationId, DeclarationKind, JointKind, LoadForce,
 };
 use mechc_text::diag::{Code, Diagnostic};
 
@@ -13,19 +13,6 @@ const MOST_COLUMNS: usize = 12;
 
 /// Why what is solved for beside the motion may have no value.
 const NO_FORCE: &str = "infinite, undefined, or too near to a singular position";
-
-/// A formula that has no value, or not one that it may have.
-pub fn no_value(system: &ConstraintSystem, fault: Fault, t: f64) -> Diagnostic {
-    match fault {
-        Fault::NotFinite { row } => formula_not_finite(system, &[system.rows()[row].declaration], t),
-        Fault::Condition { index } => condition(system, &system.conditions()[index], t),
-        Fault::Watch { index } => no_contact(system, index, t),
-        Fault::Check { index } => ceases_to_hold(system, index, t),
-        Fault::Singular | Fault::Uncertain | Fault::TooFar | Fault::Choice | Fault::Rim | Fault::Edge { .. } => {
-            cannot_follow(system, t, None)
-        }
-    }
-}
 
 /// A formula of some declarations that has no value, or a derivative that has none.
 pub fn formula_not_finite(system: &ConstraintSystem, declarations: &[DeclarationId], t: f64) -> Diagnostic {
@@ -36,9 +23,9 @@ pub fn formula_not_finite(system: &ConstraintSystem, declarations: &[Declaration
 }
 
 /// A load that has no value, of which a condition may not hold.
-pub fn load_not_finite(system: &ConstraintSystem, load: &LoadForce, broken: Option<&Condition>, t: f64) -> Diagnostic {
+pub fn load_not_finite(system: &ConstraintSystem, load: &LoadForce, broken: Option<usize>, t: f64) -> Diagnostic {
     if let Some(broken) = broken {
-        return condition(system, broken, t);
+        return condition(system, &load.conditions[broken], t);
     }
     Diagnostic::new(Code::E0605, format!("load `{}` is not finite at {}", load.name, at(t)))
         .at(load.span, "infinite or not a number")
@@ -55,7 +42,7 @@ pub fn load_without_direction(load: &LoadForce, t: f64) -> Diagnostic {
 }
 
 /// A warning that a contact would have to pull with a force (N, below zero), at `t` (s) for the first time.
-pub fn contact_pulls(system: &ConstraintSystem, contact: &Press, force: f64, t: f64) -> Diagnostic {
+pub fn contact_pulls(system: &ConstraintSystem, contact: &ContactForce, force: f64, t: f64) -> Diagnostic {
     let declaration = &system.declarations()[contact.declaration];
     let message = format!("contact `{}` would have to pull at {}", declaration.name, at(t));
     let label = format!("its bodies would part, unless they are held together by {} N", short(-force));
@@ -104,7 +91,8 @@ pub fn without_value(system: &ConstraintSystem, what: Unknown, t: f64, rows: u64
         .datum("rows", rows as usize)
 }
 
-fn condition(system: &ConstraintSystem, condition: &Condition, t: f64) -> Diagnostic {
+/// A condition of a formula that does not hold.
+pub fn condition(system: &ConstraintSystem, condition: &Condition, t: f64) -> Diagnostic {
     let diagnostic = |code: Code, what: &str| Diagnostic::new(code, format!("{what} at {}", at(t))).datum("t", t);
     let owner = &condition.owner;
     let ends = |table: TableId| {

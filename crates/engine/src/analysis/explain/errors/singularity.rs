@@ -1,7 +1,7 @@
 //! Singular positions, at the start and on the way, and contacts that end.
 
 use super::{at, named, names, owners, with_places};
-use mechc_ir::{ConstraintSystem, DeclarationId, DeclarationKind, JointKind, WatchKind};
+use mechc_ir::{ConstraintSystem, DeclarationId, DeclarationKind, JointKind, MonitorKind};
 use mechc_text::diag::{Code, Diagnostic};
 
 /// What kind of singular position a mechanism starts in.
@@ -19,19 +19,19 @@ pub enum StartVerdict {
 
 /// A contact where a tangent vanishes, or gears whose centres meet.
 pub fn no_contact(system: &ConstraintSystem, index: usize, t: f64) -> Diagnostic {
-    let watch = &system.watches()[index];
+    let watch = &system.monitors()[index];
     let joint = &system.declarations()[watch.declaration];
     let diagnostic = |message: String| Diagnostic::new(Code::E0607, message).datum("t", t);
     match watch.kind {
-        WatchKind::LineOfCenters => diagnostic(format!("the centres of `{}` meet at {}", joint.name, at(t)))
+        MonitorKind::LineOfCenters => diagnostic(format!("the centres of `{}` meet at {}", joint.name, at(t)))
             .at(joint.span, "there is no line of centres")
             .help("hold the gears apart by a carrier"),
-        WatchKind::Curvature => {
+        MonitorKind::Curvature => {
             diagnostic(format!("the relative curvature at the contact `{}` changes its sign at {}", joint.name, at(t)))
                 .at(joint.span, "beyond it the two would go through each other")
                 .help("let the curve bend one way all along the contact")
         }
-        WatchKind::Tangents => {
+        MonitorKind::Tangents => {
             diagnostic(format!("a curve has no tangent at the contact `{}` at {}", joint.name, at(t)))
                 .at(joint.span, "the derivative of the curve by its argument vanishes there")
                 .help(
@@ -44,7 +44,7 @@ pub fn no_contact(system: &ConstraintSystem, index: usize, t: f64) -> Diagnostic
 
 /// A flat follower whose curve has a cusp where it touches.
 pub fn undercut(system: &ConstraintSystem, index: usize, t: f64) -> Diagnostic {
-    let joint = &system.declarations()[system.watches()[index].declaration];
+    let joint = &system.declarations()[system.monitors()[index].declaration];
     let message = format!(
         "the curve at the contact `{}` is undercut at {}: its radius of curvature comes down to 0 mm",
         joint.name,
@@ -218,6 +218,6 @@ pub fn singular_start(
     .datum("coordinates", system.coordinates().len())
     .datum("equations", system.rows().len())
     .datum("ndof", system.ndof())
-    .datum("redundant", names(joints.iter().map(|&k| &system.declarations()[k].name)))
+    .redundant(names(joints.iter().map(|&k| &system.declarations()[k].name)))
     .datum("free", names(columns.iter().map(|&k| &system.coordinates()[k].name)))
 }

@@ -1,6 +1,6 @@
 //! The way over a singular position, as curves between states on both sides of it.
 
-use super::finer::Finer;
+use super::refined_bridge::RefinedBridge;
 use crate::analysis::follow::step::{Step, quintic_between};
 use crate::analysis::state::{Kinematics, State};
 use mechc_expr::math::boundary;
@@ -11,11 +11,11 @@ use mechc_ir::tolerances::singular::bridge::{EXACT, SOLVABLE};
 enum Sought {
     #[default]
     Unknown,
-    Known(Option<Finer>),
+    Known(Option<RefinedBridge>),
 }
 
 impl Sought {
-    fn curve(&self) -> Option<&Finer> {
+    fn curve(&self) -> Option<&RefinedBridge> {
         match self {
             Sought::Known(Some(finer)) => Some(finer),
             _ => None,
@@ -97,7 +97,7 @@ impl Bridge {
 
     fn look_for_finer(&mut self, kinematics: &mut Kinematics, step: &mut Step) {
         if let Sought::Unknown = self.finer {
-            self.finer = Sought::Known(Finer::between(kinematics, step, [&self.from, &self.to]));
+            self.finer = Sought::Known(RefinedBridge::between(kinematics, step, [&self.from, &self.to]));
         }
     }
 
@@ -113,7 +113,7 @@ impl Bridge {
     }
 
     /// A curve between the states that are so near to the singular position.
-    fn narrow_curve(&self, kinematics: &mut Kinematics, step: &mut Step, nearest: f64) -> Option<Finer> {
+    fn narrow_curve(&self, kinematics: &mut Kinematics, step: &mut Step, nearest: f64) -> Option<RefinedBridge> {
         let mut is_near = |t: f64| {
             kinematics.restore(&self.state_at(t));
             kinematics.nearness(nearest) < nearest
@@ -126,7 +126,7 @@ impl Bridge {
             step.solve(kinematics).ok()?;
             Some(step.trial().clone())
         });
-        Finer::between(kinematics, step, [&from?, &to?])
+        RefinedBridge::between(kinematics, step, [&from?, &to?])
     }
 }
 

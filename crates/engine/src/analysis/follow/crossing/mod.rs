@@ -5,20 +5,19 @@
 //! which also tells when the singular position is reached.
 
 mod bridge;
-mod build;
-mod finer;
-mod on_bridge;
-mod reach;
+mod bridge_rows;
+mod bridge_search;
+mod end_of_reach;
+mod refined_bridge;
 mod singular_times;
 
-use super::remarks::Remarks;
 use super::step::Step;
-use crate::analysis::explain::singular;
+use super::warnings::Warnings;
+use crate::analysis::explain::{Stop, singular};
 use crate::analysis::state::{Fault, Kinematics, State};
 pub use bridge::Bridge;
 use mechc_ir::tolerances::scales::linear::CLEAR_PIVOT;
 use mechc_ir::tolerances::singular::bridge::{CERTAIN, CLEAR};
-use mechc_text::diag::Diagnostic;
 
 /// Whether the position that was factored is clear of every singular one.
 pub fn is_clear(kinematics: &mut Kinematics) -> bool {
@@ -45,7 +44,7 @@ pub struct Crossing {
 }
 
 /// A way over a singular position that is laid aside.
-pub struct Aside {
+pub struct SuspendedBridge {
     bridge: Option<Bridge>,
     passes: bool,
 }
@@ -124,26 +123,26 @@ impl Crossing {
     }
 
     /// Lays the way aside to look for another one, of which only a row is to be learnt.
-    pub fn lay_aside(&mut self) -> Aside {
+    pub fn suspend(&mut self) -> SuspendedBridge {
         let bridge = std::mem::replace(&mut self.bridge, self.spare.take());
-        Aside { bridge, passes: self.passes }
+        SuspendedBridge { bridge, passes: self.passes }
     }
 
     /// Goes back from there, and keeps what was found for the next row.
-    pub fn take_up(&mut self, aside: Aside) {
+    pub fn resume(&mut self, aside: SuspendedBridge) {
         self.spare = std::mem::replace(&mut self.bridge, aside.bridge);
         (self.passes, self.fold) = (aside.passes, None);
     }
 
     /// Lays the way aside, as if there were none and nobody wanted one.
-    pub fn forget(&mut self) -> Aside {
-        let aside = Aside { bridge: self.bridge.take(), passes: self.passes };
+    pub fn forget(&mut self) -> SuspendedBridge {
+        let aside = SuspendedBridge { bridge: self.bridge.take(), passes: self.passes };
         self.passes = false;
         aside
     }
 
     /// Goes back from there.
-    pub fn remember(&mut self, aside: Aside) {
+    pub fn remember(&mut self, aside: SuspendedBridge) {
         (self.bridge, self.passes) = (aside.bridge, aside.passes);
     }
 
@@ -157,42 +156,37 @@ impl Crossing {
         kinematics: &mut Kinematics,
         step: &mut Step,
         (fault, h, target): (Fault, f64, f64),
-        remarks: &mut Remarks,
-    ) -> Result<(), Box<Diagnostic>> {
-        let is_singular = matches!(fault, Fault::Singular | Fault::Choice | Fault::TooFar | Fault::Watch { .. });
+        warnings: &mut Warnings,
+    ) -> Result<(), Box<Stop>> {
+        let is_singular = matches!(fault, Fault::Singular | Fault::Choice | Fault::TooFar | Fault::Monitor { .. });
         self.fold = None;
         let bridge = if is_singular { self.bridge_ahead(kinematics, step) } else { None };
         let Some(bridge) = bridge else {
-            let why = singular::explain_fold(kinematics, step.state(), fault, [h, target], self.fold);
-            return Err(Box::new(why));
+            return Err(singular::find_stop_near_fold(kinematics, step.state(), fault, [h, target], self.fold));
         };
         kinematics.restore(&bridge.to);
-        if let Err(Fault::Watch { index }) = step.same_sides(kinematics) {
+        if let Err(Fault::Monitor { index }) = step.check_monitors(kinematics) {
             // beyond it two bodies would go through each other: no branch goes on there, however smooth the equations are
             kinematics.restore(&bridge.state_at(bridge.at));
-            let why = singular::explain_contact_that_ends(kinematics, index, bridge.at);
+            let stop = singular::end_of_contact(kinematics, index, bridge.at);
             self.bridge = Some(bridge);
-            return Err(Box::new(why));
+            return Err(stop);
         }
         if !self.passes {
-            let why = self.explain(kinematics, &bridge, bridge.at);
+            let stop = singular::stop_at_bifurcation(kinematics, &bridge.state_at(bridge.at));
             // rows before the singular position may lie on it
             self.bridge = Some(bridge);
-            return Err(Box::new(why));
+            return Err(stop);
         }
         for at in [Some(bridge.at), bridge.again].into_iter().flatten() {
             // what comes behind the last row is not passed
             if at <= self.last + CERTAIN * bridge.length() {
-                remarks.push(self.explain(kinematics, &bridge, at));
+                warnings.push(singular::warn_of_passage(kinematics, &bridge.state_at(at)));
             }
         }
         self.clear.copy_from(&bridge.to);
         step.go_to(kinematics, &bridge.to, bridge.length().min(self.span));
         self.bridge = Some(bridge);
         Ok(())
-    }
-
-    fn explain(&self, kinematics: &mut Kinematics, bridge: &Bridge, at: f64) -> Diagnostic {
-        singular::explain_contact(kinematics, &bridge.state_at(at), self.passes)
     }
 }

@@ -5,24 +5,23 @@
 //! are evaluated at that same time, and compared: a position or velocity that jumps has no acceleration, an acceleration
 //! that jumps has two.
 
-mod between;
-mod gauges;
-mod in_time;
-mod limits;
-mod restless;
-mod rims;
-mod sides;
+mod chattering;
+mod domain_boundaries;
+mod event_functions;
+mod motion_switches;
+mod one_sided_limits;
+mod one_sided_states;
 mod signals;
+mod time_switches;
 
-use super::remarks::Remarks;
 use super::step::Step;
-use crate::analysis::explain::singular;
+use super::warnings::Warnings;
+use crate::analysis::explain::{Stop, singular};
 use crate::analysis::state::{Fault, Kinematics, State, shortly_after};
+use chattering::Chattering;
+use domain_boundaries::DomainBoundaries;
 use mechc_ir::program::Enclosure;
-use mechc_text::diag::Diagnostic;
-use restless::Restless;
-use rims::Rims;
-use sides::Sides;
+use one_sided_states::OneSidedStates;
 use signals::Signals;
 
 /// Where a switch changes.
@@ -62,11 +61,11 @@ pub struct Edges {
     /// Each coordinate's middle and reach in a part of a step.
     boxes: Vec<[f64; 2]>,
     /// By switch.
-    restless: Vec<Restless>,
+    chattering: Vec<Chattering>,
     /// An edge of the motion that a longer step has met.
     met: Option<Edge>,
-    sides: Sides,
-    rims: Rims,
+    sides: OneSidedStates,
+    rims: DomainBoundaries,
     signals: Signals,
     /// A position beside the state.
     place: Vec<f64>,
@@ -77,7 +76,7 @@ impl Edges {
     pub fn new(kinematics: &mut Kinematics, state: &State, span: f64, last: f64) -> Edges {
         let n = state.q.len();
         let signals = Signals::new(kinematics, state);
-        let rims = Rims::new(kinematics, state, span, last);
+        let rims = DomainBoundaries::new(kinematics, state, span, last);
         let [in_time, along] = kinematics.enclosures();
         Edges {
             span,
@@ -85,9 +84,9 @@ impl Edges {
             in_time,
             along,
             boxes: vec![[0.0; 2]; n],
-            restless: vec![Restless::NEVER; kinematics.switches().len()],
+            chattering: vec![Chattering::NEVER; kinematics.switches().len()],
             met: None,
-            sides: Sides::new(kinematics, state, span),
+            sides: OneSidedStates::new(kinematics, state, span),
             rims,
             signals,
             place: vec![0.0; n],
@@ -116,13 +115,13 @@ impl Edges {
 
     /// Sets every switch to what it is on the later side of the state; `after` is a time by which those of time have changed (s).
     pub fn settle(&mut self, kinematics: &mut Kinematics, state: &State, after: Option<f64>) {
-        sides::settle(kinematics, state, (self.span, after), &mut self.place);
+        one_sided_states::settle(kinematics, state, (self.span, after), &mut self.place);
     }
 
     /// Takes note of how fast velocities and accelerations change over a step of length `h` that is to be accepted.
-    pub fn take_pace(&mut self, kinematics: &Kinematics, step: &Step, h: f64) {
+    pub fn record_rates(&mut self, kinematics: &Kinematics, step: &Step, h: f64) {
         if !kinematics.switches().is_empty() {
-            self.sides.take_pace(kinematics, [step.state(), step.trial()], h);
+            self.sides.record_rates(kinematics, [step.state(), step.trial()], h);
         }
     }
 
@@ -137,7 +136,7 @@ impl Edges {
         step: &mut Step,
         next: f64,
         is_output: bool,
-    ) -> Result<Option<Edge>, Box<Diagnostic>> {
+    ) -> Result<Option<Edge>, Box<Stop>> {
         let reach = if is_output { shortly_after(next) } else { next };
         let of_time = if self.in_time.is_empty() { None } else { self.edge_of_time(kinematics, [step.t(), reach])? };
         let edge = Edge::earlier(of_time, self.met.filter(|edge| edge.t <= reach));
@@ -153,10 +152,10 @@ impl Edges {
         kinematics: &mut Kinematics,
         step: &mut Step,
         edge: Edge,
-        remarks: &mut Remarks,
-    ) -> Result<bool, Box<Diagnostic>> {
+        warnings: &mut Warnings,
+    ) -> Result<bool, Box<Stop>> {
         if edge.is_rim {
-            return self.cross_rim(kinematics, step, remarks).map(|()| false);
+            return self.cross_rim(kinematics, step, warnings).map(|()| false);
         }
         if self.met.is_some_and(|known| known.t <= edge.t) {
             self.met = None;
@@ -164,10 +163,10 @@ impl Edges {
         self.sides.remember(kinematics, step.state());
         self.settle(kinematics, step.state(), edge.after);
         match self.sides.take_later(kinematics, step) {
-            Ok(None) => self.note_restless(kinematics, step.t()),
-            Ok(Some(jump)) => self.sides.say(kinematics, step, jump, remarks)?,
+            Ok(None) => self.note_chattering(kinematics, step.t()),
+            Ok(Some(jump)) => self.sides.say(kinematics, step, jump, warnings)?,
             Err(fault) => {
-                return Err(Box::new(singular::explain(kinematics, self.sides.before(), fault, 0.0, step.t())));
+                return Err(singular::find_stop(kinematics, self.sides.before(), fault, [0.0, step.t()]));
             }
         }
         Ok(true)
@@ -178,9 +177,9 @@ impl Edges {
         &mut self,
         kinematics: &mut Kinematics,
         step: &mut Step,
-        remarks: &mut Remarks,
-    ) -> Result<(), Box<Diagnostic>> {
-        self.rims.cross(kinematics, step, remarks)
+        warnings: &mut Warnings,
+    ) -> Result<(), Box<Stop>> {
+        self.rims.cross(kinematics, step, warnings)
     }
 
     /// Why the motion ends just ahead, if a rim is what ends it: even a step as small as `h` (s) failed.
@@ -189,15 +188,15 @@ impl Edges {
         kinematics: &mut Kinematics,
         step: &mut Step,
         h: f64,
-        remarks: &mut Remarks,
-    ) -> Option<Box<Diagnostic>> {
-        self.rims.end(kinematics, step, h, remarks)
+        warnings: &mut Warnings,
+    ) -> Option<Box<Stop>> {
+        self.rims.end(kinematics, step, h, warnings)
     }
 
     /// Refuses a step of length `h`, whose curve must have been drawn, between whose ends something happens: a signal leaves what it is
     /// at the ends, an edge of the motion or a rim is gone over. `between` is how far the curve is off, scaled; none for a step to an
     /// edge of the motion, beyond which nobody looks.
-    pub fn look_between(
+    pub fn check_interior(
         &mut self,
         kinematics: &mut Kinematics,
         step: &mut Step,

@@ -5,7 +5,7 @@ use crate::analysis::follow::step::Step;
 use crate::analysis::state::{Fault, Kinematics, State};
 use mechc_expr::math::Halving;
 use mechc_ir::program::{Enclosure, Signal};
-use mechc_ir::tolerances::steps::signals::{FINEST, MOST_PARTS, NUDGE, UNSEEN};
+use mechc_ir::tolerances::steps::signals::{FINEST, MOST_PARTS, NEGLIGIBLE_MOTION, NUDGE};
 
 /// What time alone decides about the equations, and what is known of it.
 pub(super) struct Signals {
@@ -24,7 +24,7 @@ impl Signals {
         let all = kinematics.signals();
         kinematics.restore(state);
         // what follows without iteration has no branches: there only a formula may end
-        let unseen = if kinematics.linear().is_explicit() { f64::MAX } else { UNSEEN };
+        let unseen = if kinematics.linear().is_explicit() { f64::MAX } else { NEGLIGIBLE_MOTION };
         let bounds: Vec<f64> =
             kinematics.effects(&all, &state.q, NUDGE).iter().map(|effect| (unseen / effect).min(f64::MAX)).collect();
         let enclosure = kinematics.enclosure_of(&all);

@@ -1,25 +1,25 @@
 //! A row for each output time: which one comes next, what it holds, and what it is worth.
 
-mod alone;
-mod forces;
-mod leap;
-mod missing;
+mod force_monitor;
+mod missing_values;
+mod row_batch;
+mod single_row;
 
-use super::bookmark::Bookmark;
+use super::checkpoint::Checkpoint;
 use super::edges::Edge;
-use super::remarks::Remarks;
+use super::warnings::Warnings;
 use crate::analysis::state::{Kinematics, State, Times, Trust, shortly_after};
-pub use alone::Alone;
-pub use forces::ForceWatch;
-pub use leap::{Leap, state_of_row};
+pub use force_monitor::ForceMonitor;
 use mechc_ir::tolerances::steps::march::{CRUMB, MOST_STEPS};
-use missing::Missing;
+use missing_values::MissingValues;
+pub use row_batch::{RowBatch, state_of_row};
+pub use single_row::SingleRow;
 
 /// Where a row is.
 #[derive(Clone, Copy)]
 pub enum Place {
     /// On its own.
-    Own,
+    Single,
     /// Among those that were solved for at once.
     Lane(usize),
 }
@@ -38,20 +38,20 @@ pub struct Rows {
     /// Whether a step may go over several output times.
     may_leap: bool,
     /// What solves for the rows of such a step.
-    leap: Option<Leap>,
+    leap: Option<RowBatch>,
     /// The row that was found last on its own, and what it is worth.
     row: Vec<f64>,
     trust: Trust,
     /// Whether it is near a position that may be a bifurcation to pass.
     is_near: bool,
     /// The last row on a bridge which was found without it.
-    plain: Option<Bookmark>,
-    missing: Missing,
+    plain: Option<Checkpoint>,
+    missing: MissingValues,
 }
 
 impl Rows {
     /// For some times; `leap` solves for several rows at once.
-    pub fn new(kinematics: &Kinematics, leap: Option<Leap>, times: Times) -> Rows {
+    pub fn new(kinematics: &Kinematics, leap: Option<RowBatch>, times: Times) -> Rows {
         Rows {
             times,
             next: 0,
@@ -65,7 +65,7 @@ impl Rows {
             trust: Trust::Certain,
             is_near: false,
             plain: None,
-            missing: Missing::new(kinematics.system()),
+            missing: MissingValues::new(kinematics.system()),
         }
     }
 
@@ -124,7 +124,7 @@ impl Rows {
     }
 
     /// Up to a time (s) steps go to each output time on their own.
-    pub fn be_careful_until(&mut self, t: f64) {
+    pub fn single_step_until(&mut self, t: f64) {
         self.careful_until = t;
     }
 
@@ -146,22 +146,22 @@ impl Rows {
     }
 
     /// The output times with the number of the next one, and what solves for several of their rows at once.
-    pub fn leap(&mut self) -> Option<(&mut Leap, (&Times, u64))> {
+    pub fn leap(&mut self) -> Option<(&mut RowBatch, (&Times, u64))> {
         let Rows { leap, times, next, .. } = self;
         leap.as_mut().map(|leap| (leap, (&*times, *next)))
     }
 
     /// From now on rows are solved for otherwise.
-    pub fn change_solver(&mut self, leap: Option<Leap>) {
+    pub fn change_solver(&mut self, leap: Option<RowBatch>) {
         self.leap = leap;
     }
 
     /// The step that was gone over last holds no rows.
     pub fn close_leap(&mut self) {
-        self.leap.iter_mut().for_each(Leap::close);
+        self.leap.iter_mut().for_each(RowBatch::close);
     }
 
-    /// Solves once more for the row that was found on its own (`Leap::refine`).
+    /// Solves once more for the row that was found on its own (`RowBatch::refine`).
     pub fn refine(&mut self, kinematics: &mut Kinematics, here: &State, t: f64) {
         if let Some(leap) = &mut self.leap {
             leap.refine(kinematics, here, t, &mut self.row);
@@ -169,12 +169,12 @@ impl Rows {
     }
 
     /// The row that was found on its own.
-    pub fn own(&self) -> &[f64] {
+    pub fn single(&self) -> &[f64] {
         &self.row
     }
 
     /// The same, to be written.
-    pub fn own_mut(&mut self) -> &mut [f64] {
+    pub fn single_mut(&mut self) -> &mut [f64] {
         &mut self.row
     }
 
@@ -220,12 +220,12 @@ impl Rows {
     }
 
     /// Keeps where a row on a bridge was found without it.
-    pub fn keep_plain(&mut self, here: Option<Bookmark>) {
+    pub fn keep_plain(&mut self, here: Option<Checkpoint>) {
         self.plain = here;
     }
 
     /// Where the last one was, if that is before a time (s).
-    pub fn take_plain(&mut self, t: f64) -> Option<Bookmark> {
+    pub fn take_plain(&mut self, t: f64) -> Option<Checkpoint> {
         self.plain.take().filter(|plain| plain.state().t < t)
     }
 
@@ -241,7 +241,7 @@ impl Rows {
     }
 
     /// A warning for each measure that had no value, once.
-    pub fn say_what_is_missing(&mut self, kinematics: &Kinematics, remarks: &mut Remarks) {
-        self.missing.say(kinematics.system(), remarks);
+    pub fn say_what_is_missing(&mut self, warnings: &mut Warnings) {
+        self.missing.say(warnings);
     }
 }

@@ -17,7 +17,7 @@ impl Signs {
     fn new(kinematics: &Kinematics) -> Signs {
         let determinants = vec![Determinant::ONE; kinematics.linear().blocks()];
         let left_out = kinematics.determined().left_out().to_vec();
-        Signs { determinants, sides: vec![true; kinematics.system().watches().len()], left_out }
+        Signs { determinants, sides: vec![true; kinematics.system().monitors().len()], left_out }
     }
 
     pub fn copy_from(&mut self, other: &Signs) {
@@ -96,7 +96,7 @@ impl Branch {
         self.way = Way { h, smallest_pivot: kinematics.linear().smallest_pivot() };
     }
 
-    pub fn take_sides(&mut self, kinematics: &Kinematics) {
+    pub fn record_monitor_signs(&mut self, kinematics: &Kinematics) {
         kinematics.sides(&mut self.now.sides);
     }
 
@@ -112,7 +112,7 @@ impl Branch {
     pub fn compare_sides(&mut self, kinematics: &Kinematics) -> Result<(), Fault> {
         kinematics.sides(&mut self.trial.sides);
         match self.now.sides.iter().zip(&self.trial.sides).position(|(now, trial)| now != trial) {
-            Some(index) => Err(Fault::Watch { index }),
+            Some(index) => Err(Fault::Monitor { index }),
             None => Ok(()),
         }
     }

@@ -5,16 +5,16 @@
 //! is halved. So the branch followed does not depend on the output times.
 
 mod branch;
-mod length;
 mod newton;
+mod step_length;
 mod touch;
 
 use crate::analysis::state::{Fault, Kinematics, State};
 use branch::Branch;
 pub use branch::Signs;
-use length::Length;
 use mechc_expr::math::{GOLDEN, along, parabola, predicted, quintic};
 use mechc_ir::tolerances::steps::march::{LARGEST_BETWEEN, LARGEST_MOTION, NEAREST};
+use step_length::Length;
 
 /// The state, the state that is tried from there, and the way between.
 pub struct Step {
@@ -83,7 +83,7 @@ impl Step {
     pub fn change_equations(&mut self, kinematics: &mut Kinematics, h: f64) -> Result<(), Fault> {
         self.branch = Branch::new(kinematics);
         self.begin_branch(kinematics);
-        self.branch.take_sides(kinematics);
+        self.branch.record_monitor_signs(kinematics);
         self.length.set(h);
         self.derive_state(kinematics)
     }
@@ -128,7 +128,7 @@ impl Step {
         self.state.copy_from(state);
         kinematics.restore(&self.state);
         self.begin_branch(kinematics);
-        self.branch.take_sides(kinematics);
+        self.branch.record_monitor_signs(kinematics);
         self.length.set(h);
     }
 
@@ -164,8 +164,8 @@ impl Step {
     }
 
     /// Takes the sign of what is watched where the state was set.
-    pub fn take_sides(&mut self, kinematics: &Kinematics) {
-        self.branch.take_sides(kinematics);
+    pub fn record_monitor_signs(&mut self, kinematics: &Kinematics) {
+        self.branch.record_monitor_signs(kinematics);
     }
 
     /// Whether the position that was factored is on the branch of the state: every determinant, and what is watched, has
@@ -175,7 +175,7 @@ impl Step {
     }
 
     /// Whether what is watched has the sign of the state where a position was set.
-    pub fn same_sides(&mut self, kinematics: &Kinematics) -> Result<(), Fault> {
+    pub fn check_monitors(&mut self, kinematics: &Kinematics) -> Result<(), Fault> {
         self.branch.compare_sides(kinematics)
     }
 
@@ -263,7 +263,7 @@ impl Step {
     }
 
     /// The way that the state leads to, of some coordinates.
-    pub fn draw_way_ahead(&mut self, h: f64, columns: impl Iterator<Item = usize>) {
+    pub fn extrapolate_curve(&mut self, h: f64, columns: impl Iterator<Item = usize>) {
         for k in columns {
             self.curve[k] = parabola(end(&self.state, k), h);
         }
@@ -330,7 +330,7 @@ impl Step {
     }
 
     /// Takes the determinants of the state that was just accepted, after a step of length `h`, and chooses the next length.
-    pub fn go_on(&mut self, kinematics: &Kinematics, h: f64, accepted: &Accepted) {
+    pub fn commit(&mut self, kinematics: &Kinematics, h: f64, accepted: &Accepted) {
         self.branch.keep(kinematics, h);
         self.length.adapt(kinematics, h, accepted);
     }
@@ -342,6 +342,6 @@ impl Step {
 }
 
 /// No step ends too near to a singular position.
-pub fn keep_away(kinematics: &mut Kinematics) -> Result<(), Fault> {
+pub fn reject_near_singular(kinematics: &mut Kinematics) -> Result<(), Fault> {
     if kinematics.nearness(NEAREST) < NEAREST { Err(Fault::Singular) } else { Ok(()) }
 }

@@ -4,7 +4,7 @@
 //! show nothing. But before such a place a determinant falls, ever more slowly, so that the line through its last two values
 //! meets zero before it does. Only a step on which that happens is looked into.
 
-use super::{Step, keep_away};
+use super::{Step, reject_near_singular};
 use crate::analysis::state::{Fault, Kinematics};
 use mechc_expr::math::GoldenSection;
 use mechc_ir::tolerances::steps::touch::{DEEP, SECTIONS, SHALLOW};
@@ -54,6 +54,6 @@ impl Step {
     fn factor_within(&mut self, kinematics: &mut Kinematics, h: f64, x: f64) -> Result<(), Fault> {
         self.set_on_curve(kinematics, h, x)?;
         kinematics.factor()?;
-        keep_away(kinematics)
+        reject_near_singular(kinematics)
     }
 }

@@ -12,7 +12,7 @@ pub enum Fault {
     /// A formula that must be positive is not: its number.
     Condition { index: usize },
     /// What is watched changes its sign: its number.
-    Watch { index: usize },
+    Monitor { index: usize },
     /// An equation that was left out ceases to hold: its number among the checks.
     Check { index: usize },
     /// Derivatives would be more rounding than digits.
@@ -20,7 +20,7 @@ pub enum Fault {
     /// The equations that are solved come near to depending on each other where all equations together do not.
     Choice,
     /// The step goes over a rim, of which a note has been taken.
-    Rim,
+    DomainBoundary,
     /// The step goes over an edge of a switch, by its number, which lies before a time (s).
     Edge { t: f64, switch: usize },
 }

@@ -13,7 +13,7 @@ use crate::solver::{Equations, Solver, Values};
 use derivatives::Spread;
 pub use fault::Fault;
 use mechc_expr::math::Vectors;
-use mechc_ir::layout::{self, Holds};
+use mechc_ir::layout::{self, ColumnContent};
 use mechc_ir::program::{Program, Register, Registers, Stage};
 use mechc_ir::structure::Determined;
 use mechc_ir::{ConstraintSystem, DeclarationKind};
@@ -80,7 +80,7 @@ pub struct Kinematics {
     other_estimates: Option<Vec<f64>>,
     variations: Varied,
     /// What the columns of a row hold.
-    holds: Vec<Holds>,
+    holds: Vec<ColumnContent>,
     /// What rows are solved for with.
     vectors: Vectors,
 }
@@ -95,7 +95,7 @@ impl Kinematics {
         cancel: Cancel,
     ) -> Kinematics {
         let system = determined.system();
-        let params = system.values_of_params();
+        let params = system.param_values();
         let (registers, linear) = (program.start(&params), BlockLu::new(system, determined.blocks()));
         let bent = (0..system.rows().len()).filter(|&row| is_bent(system, row)).collect();
         let looked_at_beside = (0..system.rows().len()).filter(|&row| is_looked_at_beside(system, row)).collect();
@@ -232,9 +232,11 @@ impl Kinematics {
     pub fn is_plain(&self) -> bool {
         let system = self.system();
         let has_branches = !self.program.switches().is_empty() || !self.program.tables().is_empty();
-        let is_watched = !system.watches().is_empty() || !system.checks().is_empty() || !system.rims().is_empty();
+        let is_watched =
+            !system.monitors().is_empty() || !system.checks().is_empty() || !system.domain_boundaries().is_empty();
         let on_the_way = system.conditions().iter().any(|it| !system.graph().dependence(it.positive).is_constant());
-        let has_more = !system.needed_forces().is_empty() || !system.loads().is_empty() || !system.presses().is_empty();
+        let has_more =
+            !system.required_forces().is_empty() || !system.loads().is_empty() || !system.contact_forces().is_empty();
         let is_varied = system.has_signals() || system.all_variations().is_some() || !system.open_contacts().is_empty();
         let is_bent = !self.bent.is_empty() || !self.signals().is_empty();
         !(has_branches || is_watched || on_the_way || has_more || is_varied || is_bent)

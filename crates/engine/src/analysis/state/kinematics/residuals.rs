@@ -4,7 +4,7 @@ use super::{Kinematics, State};
 use mechc_ir::program::{Program, Register, Registers};
 use mechc_ir::tolerances::checks::LARGEST_OPENING;
 use mechc_ir::tolerances::scales::kinematics::ROUNDING;
-use mechc_ir::{Owner, WatchKind};
+use mechc_ir::{MonitorKind, Owner};
 
 impl Kinematics {
     /// What is left of each row's velocity and acceleration equation with the derivatives of another state, scaled; the
@@ -30,7 +30,7 @@ impl Kinematics {
 
     /// A quantity that is watched, against its scale, where the position was set.
     pub fn watched(&self, index: usize) -> f64 {
-        self.registers.get(self.program.outputs.watches[index]) / self.system().watches()[index].scale
+        self.registers.get(self.program.outputs.watches[index]) / self.system().monitors()[index].scale
     }
 
     /// Writes the sign of everything that is watched.
@@ -43,9 +43,9 @@ impl Kinematics {
     /// The coordinates `θ` of lines of centres that point away from the other centre, where the position was set.
     pub fn turned_lines(&self) -> Vec<usize> {
         let system = self.system();
-        let is_turned = |k: &usize| system.watches()[*k].kind == WatchKind::LineOfCenters && self.watched(*k) < 0.0;
+        let is_turned = |k: &usize| system.monitors()[*k].kind == MonitorKind::LineOfCenters && self.watched(*k) < 0.0;
         let joints =
-            (0..system.watches().len()).filter(is_turned).map(|k| Owner::Joint(system.watches()[k].declaration));
+            (0..system.monitors().len()).filter(is_turned).map(|k| Owner::Joint(system.monitors()[k].declaration));
         joints.filter_map(|owner| system.coordinates().iter().position(|c| c.owner == owner)).collect()
     }
 

@@ -7,7 +7,7 @@ use crate::analysis::state::scoped::ScopedLu;
 use crate::solver::Pivoting;
 use mechc_expr::{Dependence, ExprId};
 use mechc_ir::ConstraintSystem;
-use mechc_ir::layout::{self, Holds};
+use mechc_ir::layout::{self, ColumnContent};
 use mechc_ir::program::{Program, Register, Registers, Stage};
 use mechc_ir::structure::Determined;
 use mechc_ir::tolerances::scales::kinematics::TRUSTED;
@@ -25,15 +25,21 @@ pub(super) struct Varied {
 }
 
 /// Whether a column holds what is not known at every position: forces, and what is differentiated by something else than time.
-fn may_be_missing(system: &ConstraintSystem, holds: &Holds) -> bool {
+fn may_be_missing(system: &ConstraintSystem, holds: &ColumnContent) -> bool {
     let is_of_solution = |id: ExprId| {
         let dependence = system.graph().dependence(id);
         dependence.highest_varied_order().is_some() || dependence.on(Dependence::FORCES)
     };
     match *holds {
-        Holds::Time | Holds::Coordinate { .. } | Holds::Slope { .. } | Holds::Varied | Holds::Multiplier => false,
-        Holds::Measure { index, order } => system.measures()[index].derivative(order).is_some_and(is_of_solution),
-        Holds::Reaction(_) | Holds::Appended(_) => true,
+        ColumnContent::Time
+        | ColumnContent::Coordinate { .. }
+        | ColumnContent::Slope { .. }
+        | ColumnContent::Varied
+        | ColumnContent::Multiplier => false,
+        ColumnContent::Measure { index, order } => {
+            system.measures()[index].derivative(order).is_some_and(is_of_solution)
+        }
+        ColumnContent::Reaction(_) | ColumnContent::DerivativeColumn(_) => true,
     }
 }
 
@@ -49,7 +55,7 @@ pub enum Unknown {
 }
 
 impl Varied {
-    pub fn new(system: &ConstraintSystem, holds: &[Holds]) -> Varied {
+    pub fn new(system: &ConstraintSystem, holds: &[ColumnContent]) -> Varied {
         let scoped = ScopedLu::new(system);
         if system.all_variations().is_none() && system.forces().is_none() {
             return Varied { solution: Vec::new(), columns: Vec::new(), scoped };
@@ -73,9 +79,9 @@ impl Kinematics {
 
     /// The same equations and scales, whose variations are those that results need; none where they need none.
     pub fn with_variations_of_results(&self) -> Option<Kinematics> {
-        let determined = Arc::new(self.determined.for_variations_of_results()?);
+        let determined = Arc::new(self.determined.with_result_variations()?);
         let program = Arc::new(Program::new(determined.system()));
-        let params = determined.system().values_of_params();
+        let params = determined.system().param_values();
         let holds = layout::holds(determined.system());
         let (registers, variations) = (program.start(&params), Varied::new(determined.system(), &holds));
         Some(Kinematics { determined, program, registers, variations, holds, ..self.clone() })
@@ -205,8 +211,10 @@ impl Kinematics {
     /// Whose number there is none of where a cell of a result row is empty, which must be one of a measure, derivative or force.
     pub fn unknown_in(&self, column: usize) -> Unknown {
         match self.holds.get(column) {
-            Some(&Holds::Measure { index, .. }) => Unknown::Measure(index),
-            Some(&Holds::Appended(k)) => Unknown::Derivative(self.system().appended()[k].variable as usize),
+            Some(&ColumnContent::Measure { index, .. }) => Unknown::Measure(index),
+            Some(&ColumnContent::DerivativeColumn(k)) => {
+                Unknown::Derivative(self.system().derivative_columns()[k].variable as usize)
+            }
             _ => Unknown::Forces,
         }
     }

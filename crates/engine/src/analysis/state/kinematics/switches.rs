@@ -1,12 +1,12 @@
 //! What time and motion decide beside the equations: switches, rims, signals.
 
 use super::Kinematics;
-use mechc_ir::program::{Enclosure, Frozen, Op, PlacedRim, Register, Signal, Stage, Switch};
+use mechc_ir::program::{BoundaryRegisters, Enclosure, FrozenSwitches, Op, Register, Signal, Stage, Switch};
 
 impl Kinematics {
     /// Which switches stay as they are from now on.
     pub fn freeze(&mut self, time: bool, motion: bool) {
-        self.registers.freeze(Frozen { time, motion });
+        self.registers.freeze(FrozenSwitches { time, motion });
     }
 
     /// Sets the switches of time to what they are at a time, and keeps them so.
@@ -50,7 +50,7 @@ impl Kinematics {
     }
 
     /// Where formulas come to the end of what their functions take.
-    pub fn rims(&self) -> &[PlacedRim] {
+    pub fn rims(&self) -> &[BoundaryRegisters] {
         &self.program.outputs.rims
     }
 
@@ -60,13 +60,13 @@ impl Kinematics {
     }
 
     /// A rim's gauge and its slope where time, position and velocity were set.
-    pub fn gauge(&mut self, rim: &PlacedRim) -> [f64; 2] {
+    pub fn gauge(&mut self, rim: &BoundaryRegisters) -> [f64; 2] {
         self.program.run(Stage::Rims, &mut self.registers);
         [rim.gauge, rim.slope].map(|register| self.registers.get(register))
     }
 
     /// The largest term of a gauge, which must just have been asked for.
-    pub fn largest_term(&self, rim: &PlacedRim) -> f64 {
+    pub fn largest_term(&self, rim: &BoundaryRegisters) -> f64 {
         rim.terms.iter().map(|&register| self.registers.get(register).abs()).fold(0.0, f64::max)
     }
 
@@ -121,7 +121,7 @@ impl Kinematics {
 
     pub fn enclosure_of(&self, signals: &[Signal]) -> Enclosure {
         let registers: Vec<Register> = signals.iter().map(|signal| signal.register).collect();
-        Enclosure::of_registers(&self.program, &self.registers, &registers)
+        Enclosure::for_registers(&self.program, &self.registers, &registers)
     }
 
     /// Encloses signals from one time (s) to another.

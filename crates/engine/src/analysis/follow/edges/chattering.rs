@@ -1,0 +1,83 @@
+//! Switches that go back and forth without effect.
+
+use super::Edges;
+use crate::analysis::follow::step::Step;
+use crate::analysis::state::{Kinematics, aslant};
+use mechc_ir::program::Register;
+use mechc_ir::tolerances::steps::edges::{AT_REST, FINEST, LONGEST_REST, NUDGE, ROUNDING};
+
+/// A switch that has gone back and forth without anything to show for it: two branches that agree to rounding. It is left
+/// alone for a while, and for longer each time.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Chattering {
+    last: f64,
+    length: f64,
+    until: f64,
+}
+
+impl Chattering {
+    /// One that has never been so.
+    pub const NEVER: Chattering = Chattering { last: f64::NEG_INFINITY, length: 0.0, until: f64::NEG_INFINITY };
+
+    /// Whether nobody looks at it behind a time (s).
+    pub fn is_suspended(&self, t: f64) -> bool {
+        self.until > t
+    }
+
+    /// Nobody looks at it up to a time (s).
+    pub fn suspend_until(&mut self, until: f64) {
+        self.until = until;
+    }
+
+    /// It has changed at a time (s), and nothing jumps; times are measured against a span (s).
+    fn take_change(&mut self, t: f64, span: f64) {
+        let at_once = t - self.last <= f64::max(4.0 * self.length, FINEST * span);
+        self.length = if at_once { f64::max(2.0 * self.length, FINEST * span) } else { 0.0 };
+        self.length = self.length.min(LONGEST_REST * span);
+        (self.last, self.until) = (t + self.length, t + self.length);
+    }
+}
+
+/// Whether the switch that is computed in a register is left alone behind a time (s), so that it may change.
+pub(super) fn may_change(kinematics: &Kinematics, chattering: &[Chattering], register: Register, t: f64) -> bool {
+    let mut switches = kinematics.switches().iter().zip(chattering);
+    switches.any(|(switch, chattering)| switch.to == register && chattering.is_suspended(t))
+}
+
+impl Edges {
+    /// Nothing jumps at an edge: if it is one of many in no time at all, its switch is left alone for a while.
+    pub(super) fn note_chattering(&mut self, kinematics: &Kinematics, t: f64) {
+        let switches = kinematics.switches().iter().zip(self.sides.switches());
+        for (chattering, (switch, before)) in self.chattering.iter_mut().zip(switches) {
+            if kinematics.switch(switch).to_bits() != before.to_bits() {
+                chattering.take_change(t, self.span);
+            }
+        }
+    }
+
+    /// Whether a switch that changes where the position was set stands on its edge all the time, so that rounding decides:
+    /// what it is decided by neither is off the edge nor has it moved since the state.
+    pub fn rests(&mut self, kinematics: &mut Kinematics, step: &Step, switch: usize) -> bool {
+        let switch = kinematics.switches()[switch];
+        let (there, off) = kinematics.edge(&switch);
+        kinematics.set_time(step.t());
+        let mut at = |nudge: f64| {
+            let linear = kinematics.linear();
+            for (k, (place, q)) in self.place.iter_mut().zip(&step.state().q).enumerate() {
+                *place = q + nudge * linear.column_scale(k) * aslant(k);
+            }
+            // what is wrong with a position shows where it is solved for
+            let _ = kinematics.set_position(&self.place);
+            kinematics.edge(&switch).0
+        };
+        let (nudged, here) = (at(NUDGE), at(0.0));
+        let largest = kinematics.linear().largest(&step.state().q);
+        let nothing = f64::max(AT_REST, ROUNDING * f64::EPSILON * largest) * (nudged - here).abs() / NUDGE;
+        off <= nothing && (there - here).abs() <= nothing
+    }
+
+    /// Leaves a switch alone up to a time (s).
+    pub fn suspend_until(&mut self, switch: usize, t: f64) {
+        self.chattering[switch].suspend_until(t);
+    }
+}

@@ -1,0 +1,334 @@
+//! DomainBoundaries: the times where a formula comes to the end of what one of its functions takes, as `sqrt((t - 1 s)^2)` does.
+//!
+//! No switch tells of such an edge, and at its very time the formula mostly has no derivative. What is known is a quantity,
+//! the gauge, that is zero there, and its slope along the motion. A step is proven by intervals to hold none: the gauge
+//! keeps away from zero, or it goes one way only and has the same sign at both ends. Else its zero is located to
+//! neighbouring doubles, the step ends before it, and both sides are judged by states ever nearer to it
+//! (`analysis/follow/edges/limits.rs`). What agrees on both sides is no edge, and the motion goes on as if nothing had been.
+
+use super::event_functions::{EventFunctions, Met, Way};
+use super::one_sided_limits::{Nearer, OneSidedLimits, Verdict};
+use super::one_sided_states::columns_that_jump;
+use crate::analysis::explain::{Stop, StopCause, errors};
+use crate::analysis::follow::step::{Step, write_prediction};
+use crate::analysis::follow::warnings::Warnings;
+use crate::analysis::state::{Fault, Kinematics, State, shortly_after};
+use mechc_expr::math::{Halving, bisect};
+use mechc_ir::tolerances::steps::rims::{
+    FARTHEST, FINEST, FINEST_BETWEEN, KNOWN, LAST_MOMENT, MOMENT, MOMENT_OF_MOTION, MOST_HALVINGS, MOST_PARTS,
+    MOST_PARTS_BETWEEN, ROUNDING,
+};
+
+/// What is known of the rims.
+pub(super) struct DomainBoundaries {
+    gauges: EventFunctions,
+    /// The rim that a step has come to, at a time (s).
+    met: Option<Met>,
+    /// The stop that the motion comes to.
+    end: Option<Box<Stop>>,
+    limits: OneSidedLimits,
+    /// The rows of both sides.
+    rows: [Vec<f64>; 2],
+    /// Results of the switches where the motion is.
+    switches: Vec<f64>,
+    /// A position beside the state, and Newton's correction of it.
+    place: Vec<f64>,
+    delta: Vec<f64>,
+    /// The time that the steps are measured against, and the last time (s).
+    span: f64,
+    last: f64,
+}
+
+impl DomainBoundaries {
+    pub fn new(kinematics: &Kinematics, state: &State, span: f64, last: f64) -> DomainBoundaries {
+        let (n, row) = (state.q.len(), vec![0.0; kinematics.row_length()]);
+        DomainBoundaries {
+            gauges: EventFunctions::new(kinematics, state.t, span),
+            met: None,
+            end: None,
+            limits: OneSidedLimits::new(state),
+            rows: [row.clone(), row],
+            switches: vec![0.0; kinematics.switches().len()],
+            place: vec![0.0; n],
+            delta: vec![0.0; n],
+            span,
+            last,
+        }
+    }
+
+    /// When the next step has to end for a rim of time, or for the end of the motion, if it comes to one before `reach` (s).
+    pub fn next(&mut self, kinematics: &mut Kinematics, step: &mut Step, reach: f64) -> Option<f64> {
+        if self.gauges.is_empty() {
+            return None;
+        }
+        let end = self.end.as_ref().map(|end| end.t - (shortly_after(end.t) - end.t) * (LAST_MOMENT / 4.0));
+        let reach = end.map_or(reach, |end| end.min(reach));
+        self.met = self.met.take().filter(|met| !self.gauges.rim(met.rim).on_time);
+        let from = step.t();
+        if self.met.is_none() && self.gauges.has_any(Way::Time) && reach > from {
+            let parts = Halving::new([from, reach], FINEST * self.span, MOST_PARTS);
+            let found = self.gauges.first_zero(kinematics, step, Way::Time, parts);
+            self.met = found.filter(|met| shortly_after(met.t) < self.last);
+        }
+        let stop = self.met.map(|met| (met.t - FARTHEST * self.span).max(from));
+        match (stop, end.filter(|end| *end <= reach)) {
+            (Some(a), Some(b)) => Some(a.min(b)),
+            (one, other) => one.or(other),
+        }
+    }
+
+    /// Judges the rim that the state has come to.
+    pub fn cross(
+        &mut self,
+        kinematics: &mut Kinematics,
+        step: &mut Step,
+        warnings: &mut Warnings,
+    ) -> Result<(), Box<Stop>> {
+        if let Some(Met { rim, t }) = self.met.take() {
+            self.judge(kinematics, step, (rim, t), warnings);
+            return Ok(());
+        }
+        match self.end.take() {
+            Some(stop) => Err(stop),
+            None => Ok(()),
+        }
+    }
+
+    /// Why the motion ends just ahead, if a rim is what ends it: even a step as small as `h` (s) failed.
+    pub fn end(
+        &mut self,
+        kinematics: &mut Kinematics,
+        step: &mut Step,
+        h: f64,
+        warnings: &mut Warnings,
+    ) -> Option<Box<Stop>> {
+        if self.end.is_none() {
+            // the way that the state leads to, as far as a rim may be that keeps steps from coming nearer
+            let h = h.max(FARTHEST * self.span);
+            if self.gauges.has_any(Way::Curve(h)) {
+                step.extrapolate_curve(h, 0..step.state().q.len());
+            }
+            if let Some(met) = self.first_on_curve(kinematics, step, h) {
+                self.judge(kinematics, step, (met.rim, step.t() + met.t * h), warnings);
+            }
+        }
+        self.end.take()
+    }
+
+    /// Looks for rims that a step of length `h` goes over, on the curve through both its ends, which must have been drawn.
+    pub fn look(&mut self, kinematics: &mut Kinematics, step: &mut Step, h: f64) -> Result<(), Fault> {
+        let Some(met) = self.first_on_curve(kinematics, step, h) else {
+            return Ok(());
+        };
+        let t = step.t() + met.t * h;
+        if shortly_after(t) >= self.last {
+            return Ok(());
+        }
+        // over a rim the curve is not exact: a short step knows better where it is
+        if h > 4.0 * FARTHEST * self.span {
+            return Err(Fault::TooFar);
+        }
+        self.met = Some(Met { rim: met.rim, t });
+        Err(Fault::DomainBoundary)
+    }
+
+    fn first_on_curve(&mut self, kinematics: &mut Kinematics, step: &mut Step, h: f64) -> Option<Met> {
+        let way = Way::Curve(h);
+        if !self.gauges.has_any(way) {
+            return None;
+        }
+        let parts = Halving::new([0.0, 1.0], FINEST_BETWEEN, MOST_PARTS_BETWEEN);
+        self.gauges.first_zero(kinematics, step, way, parts)
+    }
+
+    /// Looks at both sides of a rim near a time (s), which the state is next to, and takes note of where the motion ends if
+    /// it does not go on smoothly.
+    fn judge(
+        &mut self,
+        kinematics: &mut Kinematics,
+        step: &mut Step,
+        (rim, near): (usize, f64),
+        warnings: &mut Warnings,
+    ) {
+        self.keep_switches(kinematics);
+        let on_time = self.gauges.rim(rim).on_time;
+        let t = if on_time { near } else { self.locate(kinematics, step, rim, near) };
+        self.gauges.pass(rim, t);
+        let is_reached = self.is_reached(kinematics, step, rim, t);
+        let verdict = if is_reached { self.look_at_sides(kinematics, step, rim, t) } else { Verdict::Smooth };
+        self.restore_switches(kinematics);
+        kinematics.restore(step.state());
+        // the state was computed once, so that this cannot fail now
+        let _ = step.derive_state(kinematics);
+        let (system, behind) = (kinematics.system(), &kinematics.system().domain_boundaries()[rim].declarations);
+        let [before, after] = self.limits.sides();
+        let declarations = behind.clone();
+        let cause = match verdict {
+            Verdict::Smooth => return,
+            Verdict::Acceleration => {
+                let [before, after] = &self.rows;
+                warnings.warn_of_jump(behind, || columns_that_jump(system, self.span, [before, after]), t);
+                return;
+            }
+            Verdict::Position { column, by } => {
+                StopCause::PositionJump { declarations, jump: Some((column, by)), is_corner: false }
+            }
+            Verdict::Corner => StopCause::PositionJump { declarations, jump: None, is_corner: true },
+            Verdict::Velocity { column } => {
+                StopCause::VelocityJump { declarations, column, velocities: [before.qd[column], after.qd[column]] }
+            }
+            Verdict::NotFinite => StopCause::NotFinite { declarations },
+        };
+        if self.end.as_ref().is_none_or(|end| t < end.t) {
+            self.end = Some(cause.at(t));
+        }
+    }
+
+    fn look_at_sides(&mut self, kinematics: &mut Kinematics, step: &mut Step, rim: usize, t: f64) -> Verdict {
+        self.limits.begin(kinematics.system(), self.span);
+        let mut distance = FARTHEST * self.span;
+        while let Nearer::Wanted = self.limits.wants(distance, t) {
+            let before = self.solve_beside(kinematics, step, rim, (t - distance, false));
+            if before.is_some() {
+                self.limits.take_before(step.trial());
+                kinematics.write_row(step.trial(), &mut self.rows[0]);
+            }
+            let after = self.solve_beside(kinematics, step, rim, (t + distance, true));
+            if after.is_some() {
+                self.limits.take_after(step.trial());
+                kinematics.write_row(step.trial(), &mut self.rows[1]);
+            } else if before.is_some() {
+                let gap = self.gap_at(kinematics, t + distance, distance);
+                self.limits.take_gap(gap);
+            }
+            let linear = kinematics.linear();
+            self.limits.take(distance, [before, after], |k| linear.column_scale(k));
+            distance *= 0.25;
+        }
+        let system = kinematics.system();
+        let is_contact = system.domain_boundaries()[rim].declarations.iter().any(|&k| errors::has_tangent(system, k));
+        let passes = self.is_passed(kinematics, step.state(), rim, t);
+        self.limits.verdict(is_contact && passes)
+    }
+
+    /// How far the way that the state before leads to is off from what the equations ask for: the largest correction, scaled, its
+    /// coordinate, and that coordinate's [m, rad].
+    fn gap_at(&mut self, kinematics: &mut Kinematics, t: f64, distance: f64) -> (f64, usize, f64) {
+        let ([before, _], h) = (self.limits.sides(), 2.0 * distance);
+        for (k, place) in self.place.iter_mut().enumerate() {
+            *place = before.q[k] + h * before.qd[k];
+        }
+        kinematics.set_time(t);
+        if kinematics.set_position(&self.place).is_err() || kinematics.factor().is_err() {
+            return (f64::NAN, 0, 0.0);
+        }
+        kinematics.correction(&mut self.delta);
+        let linear = kinematics.linear();
+        let sizes = self.delta.iter().enumerate().map(|(k, delta)| (delta.abs() / linear.column_scale(k), k, *delta));
+        sizes.fold((0.0, 0, 0.0), |best, one| if one.0 > best.0 { one } else { best })
+    }
+
+    /// Whether a gauge only touches zero at a time, by the way that the state leads to.
+    fn is_passed(&mut self, kinematics: &mut Kinematics, state: &State, rim: usize, t: f64) -> bool {
+        let mut at = |t: f64| {
+            write_prediction(state, t - state.t, &mut self.place);
+            kinematics.set_time(t);
+            let is_set = kinematics.set_position(&self.place).is_ok();
+            is_set.then(|| kinematics.gauge(self.gauges.rim(rim))[0])
+        };
+        let far = FARTHEST * self.span;
+        matches!((at(t - far), at(t + far)), (Some(a), Some(b)) if a != 0.0 && b != 0.0)
+    }
+
+    /// Solves for the state at a time next to a rim, on one side of it, with the branches that formulas have there; gives the rounding
+    /// of what the rim's formula computes there, as a part of it. None if there is no such state.
+    fn solve_beside(
+        &mut self,
+        kinematics: &mut Kinematics,
+        step: &mut Step,
+        rim: usize,
+        (t, is_after): (f64, bool),
+    ) -> Option<f64> {
+        self.restore_switches(kinematics);
+        kinematics.settle_time(t);
+        match self.limits.nearest(is_after) {
+            Some(near) => step.predict_from(near, t - near.t, t),
+            None => step.predict_freely(t - step.t(), t),
+        }
+        if !kinematics.switches().is_empty() {
+            kinematics.set_time(t);
+            kinematics.settle_motion(&step.trial().q);
+        }
+        step.solve(kinematics).ok()?;
+        let layout = self.gauges.rim(rim);
+        let [gauge, _] = kinematics.gauge(layout);
+        let rounding = f64::EPSILON * kinematics.largest_term(layout) / gauge.abs();
+        (rounding < KNOWN).then_some(rounding)
+    }
+
+    /// The gauge and its slope at a time next to the state, solved for.
+    fn solved_gauge(&self, kinematics: &mut Kinematics, step: &mut Step, rim: usize, t: f64) -> Option<[f64; 2]> {
+        step.predict(kinematics, t - step.t(), t).ok()?;
+        step.correct(kinematics).ok()?;
+        let _ = step.derive_trial(kinematics);
+        let found = kinematics.gauge(self.gauges.rim(rim));
+        found.iter().all(|value| !value.is_nan()).then_some(found)
+    }
+
+    /// The zero of a gauge of the motion near a time, by states that are solved for.
+    fn locate(&mut self, kinematics: &mut Kinematics, step: &mut Step, rim: usize, t: f64) -> f64 {
+        let far = FARTHEST * self.span;
+        let (a, b) = ((t - far).max(self.gauges.passed(rim)), t + far);
+        let Some([at_a, slope_a]) = self.solved_gauge(kinematics, step, rim, a) else { return t };
+        let Some([at_b, slope_b]) = self.solved_gauge(kinematics, step, rim, b) else { return t };
+        let sign = if at_a < 0.0 { -1.0 } else { 1.0 };
+        let crosses = sign * at_b < 0.0;
+        let touches = sign * slope_a < 0.0 && sign * slope_b > 0.0;
+        if !crosses && !touches {
+            return t;
+        }
+        // where rounding leaves the formula no value its argument is known all the same, on the curve through both sides
+        let (from, h) = (step.t(), b - step.t());
+        step.draw_curve(h);
+        let [_, zero] = bisect([a, b], MOST_HALVINGS, |t| {
+            let solved = self.solved_gauge(kinematics, step, rim, t);
+            let on_curve = || self.gauges.at(kinematics, step, (Way::Curve(h), rim), (t - from) / h);
+            let [gauge, slope] = solved.unwrap_or_else(on_curve);
+            if crosses { sign * gauge > 0.0 } else { sign * slope < 0.0 }
+        });
+        zero
+    }
+
+    /// Whether a gauge is zero at a time, as far as numbers can tell.
+    fn is_reached(&mut self, kinematics: &mut Kinematics, step: &mut Step, rim: usize, t: f64) -> bool {
+        let on_time = self.gauges.rim(rim).on_time;
+        let moment =
+            if on_time { MOMENT * f64::EPSILON * t.abs() + f64::MIN_POSITIVE } else { MOMENT_OF_MOTION * self.span };
+        let mut at = |t: f64| {
+            let gauge = if on_time {
+                kinematics.set_time(t);
+                kinematics.gauge(self.gauges.rim(rim))[0]
+            } else {
+                self.solved_gauge(kinematics, step, rim, t)?[0]
+            };
+            Some((gauge, kinematics.largest_term(self.gauges.rim(rim))))
+        };
+        let Some((here, terms)) = at(t) else {
+            return true;
+        };
+        let is_rounding = here.abs() <= ROUNDING * f64::EPSILON * terms && terms > here.abs();
+        let mut changes =
+            |t: f64| at(t).is_none_or(|(there, _)| here == 0.0 || !(there / here < 2.0 && there / here > 0.5));
+        here.is_nan() || is_rounding || changes(t - moment) || changes(t + moment)
+    }
+
+    fn keep_switches(&mut self, kinematics: &Kinematics) {
+        for (kept, switch) in self.switches.iter_mut().zip(kinematics.switches()) {
+            *kept = kinematics.switch(switch);
+        }
+    }
+
+    fn restore_switches(&self, kinematics: &mut Kinematics) {
+        kinematics.set_switches(&self.switches);
+    }
+}

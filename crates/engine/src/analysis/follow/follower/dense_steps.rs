@@ -1,0 +1,130 @@
+//! Steps over several output times.
+
+use super::Follower;
+use crate::analysis::explain::Stop;
+use crate::analysis::follow::crossing::is_clear;
+use crate::analysis::follow::rows::Place;
+use crate::analysis::follow::step::{Accepted, reject_near_singular};
+use crate::analysis::state::{Fault, Trust};
+use mechc_ir::tolerances::steps::march::{LARGEST_BETWEEN, LARGEST_CORRECTION};
+
+impl Follower {
+    /// Whether a step may go over several output times: the state is clear of singular positions.
+    pub(super) fn may_leap(&self) -> bool {
+        let t = self.step.t();
+        self.rows.may_leap(t) && self.crossing.was_clear_at(t)
+    }
+
+    /// Tries a step over as many output times as the error allows.
+    pub(super) fn leap(&mut self) -> Result<(), Box<Stop>> {
+        let (from, upcoming) = (self.step.t(), self.rows.upcoming());
+        let target = self.rows.target(from, self.step.h());
+        let edge = self.edges.next(&mut self.kinematics, &mut self.step, target, target >= upcoming)?;
+        let edge = edge.map(|edge| self.rows.at_output(edge, from));
+        let next = edge.map_or(target, |edge| edge.t);
+        let h = next - from;
+        if h <= 0.0 {
+            self.rows.close_leap();
+            return edge.map_or(Ok(()), |edge| self.cross(edge));
+        }
+        match self.try_leap(h, next, edge.is_some()) {
+            Ok(Some(accepted)) => {
+                self.accept(h, &accepted);
+                self.edge = edge;
+                Ok(())
+            }
+            Ok(None) => {
+                self.rows.single_step_until(upcoming);
+                Ok(())
+            }
+            Err(fault) => {
+                self.rows.close_leap();
+                self.handle_rejection(h, fault, upcoming)
+            }
+        }
+    }
+
+    /// A step of length `h` to time `t`, solved for like a row, which says more of the way between than one place of it does;
+    /// none where steps had better go to each output time on their own.
+    fn try_leap(&mut self, h: f64, t: f64, to_edge: bool) -> Result<Option<Accepted>, Fault> {
+        let Follower { kinematics, step, edges, crossing, rows, .. } = self;
+        let to_edge_of_motion = edges.is_met_by(t);
+        let Some((leap, times)) = rows.leap() else {
+            return Ok(None);
+        };
+        let motion = step.predict(kinematics, h, t)?;
+        let Some(first_correction) = leap.solve_ahead(kinematics, step, h, t) else {
+            return Ok(None);
+        };
+        if first_correction.is_nan() || first_correction > LARGEST_CORRECTION {
+            return Err(Fault::TooFar);
+        }
+        kinematics.set_time(t);
+        kinematics.set_position(&step.trial().q)?;
+        if !to_edge_of_motion {
+            edges.before_switch(kinematics, step.t(), t)?;
+        }
+        kinematics.factor()?;
+        step.same_branch(kinematics)?;
+        reject_near_singular(kinematics)?;
+        if !is_clear(kinematics) {
+            return Ok(None);
+        }
+        step.draw_curve(h);
+        leap.open(kinematics, step, times, (h, t, to_edge), |origin| origin.write(step, edges, crossing));
+        let between = leap.correction_between(kinematics, step, times, h);
+        if between.is_nan() || (between > LARGEST_BETWEEN && leap.is_short(h)) {
+            leap.close();
+            return Ok(None);
+        }
+        if between > LARGEST_BETWEEN {
+            return Err(Fault::TooFar);
+        }
+        edges.check_interior(kinematics, step, h, (!to_edge_of_motion).then_some(between))?;
+        step.look_for_touch(kinematics, h, motion)?;
+        Ok(Some(Accepted { first_correction, between, motion }))
+    }
+
+    /// The row of the next output time `t`, if that lies within the step that was accepted last.
+    pub(super) fn row_in_leap(&mut self, t: f64) -> Option<Place> {
+        let (leap, times) = self.rows.leap().filter(|(leap, (_, next))| leap.holds_time(*next))?;
+        if let Some(lane) = leap.lane_of(&self.kinematics, &self.step, times) {
+            return Some(Place::Lane(lane));
+        }
+        let way = leap.way();
+        if self.row_on_curve(way, t) {
+            self.refine(t);
+            return Some(Place::Single);
+        }
+        self.take_step_back();
+        None
+    }
+
+    /// Writes the row of a time within the last step, from a time and of a length (s), by solving from its curve, with pivots that suit
+    /// it; whether it holds.
+    fn row_on_curve(&mut self, way: [f64; 2], t: f64) -> bool {
+        let Follower { kinematics, step, edges, rows, .. } = self;
+        step.try_on_curve(way, t);
+        let is_solved = step.correct(kinematics).is_ok()
+            && edges.switch_met(kinematics, step.t()).is_none()
+            && step.same_branch(kinematics).is_ok()
+            && step.derive_trial(kinematics).is_ok()
+            && is_clear(kinematics)
+            && Trust::of(kinematics, step.trial()).is_certain();
+        if is_solved {
+            kinematics.write_row(step.trial(), rows.single_mut());
+        }
+        is_solved
+    }
+
+    /// Goes back to where the last step began, to go over it time by time.
+    fn take_step_back(&mut self) {
+        let origin = self.rows.leap().map(|(leap, _)| leap.origin().clone());
+        self.rows.single_step_until(self.step.t());
+        self.edge = None;
+        self.rows.close_leap();
+        if let Some(origin) = origin {
+            self.go_back(&origin);
+        }
+    }
+}

@@ -1,0 +1,154 @@
+//! A row whose derivatives are in doubt, so near to a singular position that rounding may have spoiled them: held against the way
+//! over that position, or against itself.
+
+use super::Follower;
+use crate::analysis::explain::Stop;
+use crate::analysis::follow::crossing::is_clear;
+use crate::analysis::state::{Kinematics, State, Trust, are_small};
+use mechc_expr::math::GOLDEN;
+use mechc_ir::layout::RowLayout;
+use mechc_ir::tolerances::solving::doubt::{CELL, NEAREST_BRANCH, PLACES, RIGHT};
+use mechc_ir::tolerances::solving::rows::STEPS_AHEAD;
+
+/// The range of no values.
+const NOTHING: [f64; 2] = [f64::INFINITY, f64::NEG_INFINITY];
+
+impl Follower {
+    /// A row of a time `t` whose derivatives are in doubt. If it lies on the way up to a bifurcation that way shows whether they
+    /// are right, and what they are if not. The motion is left as it was, so that the rows behind it are the same.
+    pub(super) fn row_in_doubt(&mut self, t: f64) -> Result<(), Box<Stop>> {
+        let (row, here, probe) = (self.rows.single().to_vec(), self.checkpoint(), self.step.probe());
+        let (said, aside) = (self.warnings.said(), self.crossing.suspend());
+        let mut on_bridge = self.row_on_bridge(t);
+        let mut why = None;
+        if on_bridge.is_none() && !self.crossing.is_clear_ahead(t) {
+            why = self.step_ahead(t);
+            on_bridge = self.row_on_bridge(t);
+        }
+        self.crossing.resume(aside);
+        let better = on_bridge.is_some().then(|| self.rows.single().to_vec());
+        self.go_back(&here);
+        self.step.set_probe(probe);
+        self.warnings.take_back_to(said);
+        if better.is_none() && !self.is_reproducible(here.state()) {
+            return Err(self.explain_refused(t, why));
+        }
+        self.rows.single_mut().copy_from_slice(&row);
+        self.refine(t);
+        self.kinematics.restore(self.step.state());
+        if let Some(better) = better.filter(|better| !agree(&self.kinematics, self.rows.single(), better)) {
+            self.rows.single_mut().copy_from_slice(&better);
+        }
+        Ok(())
+    }
+
+    /// Steps from a row of a time `t` on until the motion is clear again, or cannot go on; gives why.
+    fn step_ahead(&mut self, t: f64) -> Option<Box<Stop>> {
+        let ahead = self.time_ahead(t);
+        for _ in 0..STEPS_AHEAD {
+            if let Err(why) = self.step_towards(ahead) {
+                return Some(why);
+            }
+            // a step that failed leaves the factors of where it failed
+            self.kinematics.restore(self.step.state());
+            if self.step.t() > t && is_clear(&mut self.kinematics) {
+                self.crossing.take_clear_ahead(self.step.t());
+                break;
+            }
+            if self.step.t() >= ahead {
+                break;
+            }
+        }
+        None
+    }
+
+    /// Whether a row that has been found is certain, be it that it was in doubt.
+    pub(super) fn is_certain(&mut self, state: &State) -> bool {
+        let trust = self.rows.trust();
+        trust.is_certain() || (trust == Trust::Doubtful && self.is_reproducible(state))
+    }
+
+    /// Whether velocities and accelerations of a state stay what they are where its position is solved for again, from places
+    /// beside it: then rounding does not add up as it might. These places lie about a point of a grid, whichever way led to the
+    /// state.
+    pub(super) fn is_reproducible(&mut self, state: &State) -> bool {
+        let n = state.q.len();
+        let mut ranges = [vec![NOTHING; n], vec![NOTHING; n]];
+        let is_solved = (0..PLACES).all(|place| {
+            self.solve_beside(state, place) && {
+                let solved = self.step.trial();
+                for (range, values) in ranges.iter_mut().zip([&solved.qd, &solved.qdd]) {
+                    for ([low, high], value) in range.iter_mut().zip(values) {
+                        (*low, *high) = (low.min(*value), high.max(*value));
+                    }
+                }
+                true
+            }
+        });
+        self.kinematics.restore(state);
+        let wide = ranges.map(|range| range.iter().map(|[low, high]| high - low).collect::<Vec<f64>>());
+        is_solved && are_small(&self.kinematics, state, [&wide[0], &wide[1]], [RIGHT[1], RIGHT[2]])
+    }
+
+    /// Solves for a state once more, from one of the places beside it.
+    fn solve_beside(&mut self, state: &State, place: usize) -> bool {
+        let n = state.q.len();
+        let linear = self.kinematics.linear();
+        let beside = state.q.iter().enumerate().map(|(k, q)| {
+            let cell = CELL * linear.column_scale(k);
+            let aside = (GOLDEN * (place * n + k + 1) as f64).fract() - 0.5;
+            ((q / cell).round() + aside) * cell
+        });
+        self.step.try_position(state.t, beside);
+        self.step.solve(&mut self.kinematics).is_ok()
+    }
+
+    /// The row of a time on a bridge, or else the same solved for, be it as near to the singular position as it likes, if it can
+    /// be trusted.
+    pub(super) fn or_solve_directly(&mut self, t: f64, row: Result<(), Box<Stop>>) -> Result<(), Box<Stop>> {
+        row.or_else(|why| if self.trusted_row(t) || self.narrow_row(t) { Ok(()) } else { Err(why) })
+    }
+
+    fn narrow_row(&mut self, t: f64) -> bool {
+        let Follower { kinematics, step, crossing, rows, .. } = self;
+        crossing.write_narrow_row(kinematics, step, t, rows.single_mut())
+    }
+
+    fn trusted_row(&mut self, t: f64) -> bool {
+        let Follower { kinematics, step, crossing, .. } = self;
+        let Some(state) = crossing.state_at(t) else {
+            return false;
+        };
+        step.try_state(&state);
+        let Ok(correction) = step.correct(kinematics) else {
+            return false;
+        };
+        // another branch may not be far
+        let is_near = correction <= NEAREST_BRANCH * kinematics.nearness(1.0);
+        if !is_near || step.derive_trial(kinematics).is_err() {
+            return false;
+        }
+        let solved = step.trial().clone();
+        let is_trusted = match Trust::of(kinematics, &solved) {
+            Trust::Certain => true,
+            Trust::Doubtful => self.is_reproducible(&solved),
+            Trust::Uncertain => false,
+        };
+        if is_trusted {
+            self.kinematics.restore(&solved);
+            self.kinematics.write_given_row(&solved, self.rows.single_mut());
+        }
+        is_trusted
+    }
+}
+
+/// Whether a row is right, beside one that is.
+fn agree(kinematics: &Kinematics, row: &[f64], other: &[f64]) -> bool {
+    let layout = RowLayout::new(kinematics.system());
+    let right = |column: usize| RIGHT[layout.order_of(column)];
+    // a measure may have no value
+    let is_near = |(column, (a, b)): (usize, (&f64, &f64))| {
+        !a.is_finite() || kinematics.may_be_missing(column) || (a - b).abs() <= right(column) * (1.0 + b.abs())
+    };
+    row.iter().zip(other).enumerate().all(is_near)
+}

@@ -1,0 +1,133 @@
+//! Change points that the motion just misses. Where a length is off two branches that would cross become two that turn away from each other:
+//! with `s` the way of the driver they are `x² = s² + ε`, and the least singular value goes with `√(s² + ε)`. The motion goes on along one of
+//! them. For a four-bar `ε` is about three times the part of a link that it is off by.
+
+use crate::analysis::explain::{Warning, singular};
+use crate::analysis::state::{Kinematics, State};
+use mechc_ir::tolerances::singular::misses::{EVEN, FALLS, FAR, OF_LENGTHS, WITHIN};
+
+/// What there is to be said of the least distance to a singular position so far.
+pub struct NearMisses {
+    /// The last two states that were come to.
+    last: [Look; 2],
+    /// The second of these.
+    state: State,
+    /// The one that is nearest to a singular position.
+    nearest: State,
+    /// Room for another state.
+    beside: State,
+    /// The largest singular value since the last least one.
+    highest: f64,
+    /// Whether rows are handed out, beside which it is told; a motion that is followed for its results alone is not watched.
+    is_watching: bool,
+    is_reported: bool,
+    found: Option<Miss>,
+}
+
+/// A change point that was missed.
+#[derive(Clone, Copy)]
+struct Miss {
+    /// When (s).
+    t: f64,
+    /// By what part of the lengths.
+    within: f64,
+}
+
+/// How near a state is to a singular position.
+#[derive(Clone, Copy)]
+struct Look {
+    t: f64,
+    sigma: f64,
+}
+
+impl Look {
+    const NONE: Look = Look { t: f64::NEG_INFINITY, sigma: f64::NEG_INFINITY };
+}
+
+impl NearMisses {
+    pub fn new(state: &State) -> NearMisses {
+        NearMisses {
+            last: [Look::NONE; 2],
+            state: state.clone(),
+            nearest: state.clone(),
+            beside: state.clone(),
+            highest: 0.0,
+            is_watching: false,
+            is_reported: false,
+            found: None,
+        }
+    }
+
+    /// From now on rows are handed out.
+    pub fn watch(&mut self) {
+        self.is_watching = true;
+    }
+
+    /// What comes next does not lie on the way from here.
+    pub fn forget(&mut self) {
+        (self.last, self.highest) = ([Look::NONE; 2], 0.0);
+    }
+
+    /// Looks at a state that was just come to, where it was factored, with what it was factored with left as it is.
+    pub fn take(&mut self, kinematics: &mut Kinematics, state: &State) {
+        // where equations were left out, those that are solved near singular positions at which all together do not
+        if !self.is_watching || self.is_reported || !kinematics.system().checks().is_empty() {
+            return;
+        }
+        if state.t <= self.last[1].t {
+            self.forget();
+        }
+        let sigma = kinematics.nearness(FAR).min(FAR);
+        let now = Look { t: state.t, sigma };
+        let [before, least] = self.last;
+        if let Some([turning, t]) = least_between([before, least, now]).filter(|_| least.sigma <= FALLS * self.highest)
+        {
+            let then = asked_speed(kinematics, &mut self.state);
+            self.beside.copy_from(state);
+            let speed = asked_speed(kinematics, &mut self.beside);
+            // a driver that turns back before a dead point comes near to one as well
+            let is_even = (speed - then).abs() <= EVEN * speed;
+            let within = OF_LENGTHS * turning * speed * speed;
+            if is_even && within <= WITHIN {
+                self.nearest.copy_from(&self.state);
+                (self.is_reported, self.found) = (true, Some(Miss { t, within }));
+            }
+            kinematics.restore(state);
+        }
+        self.highest = if least.sigma < before.sigma && least.sigma < sigma { sigma } else { self.highest.max(sigma) };
+        self.last = [least, now];
+        self.state.copy_from(state);
+    }
+
+    /// What has been found up to a time (s), once; the motion stays where it is, `here`.
+    pub fn tell(&mut self, kinematics: &mut Kinematics, here: &State, t: f64) -> Option<Warning> {
+        let Miss { t, within } = self.found.take_if(|miss| miss.t <= t)?;
+        let why = singular::warn_of_miss(kinematics, &self.nearest, within, t);
+        kinematics.restore(here);
+        self.is_reported = why.is_some();
+        why
+    }
+}
+
+/// The square of the time in which the motion turns away from a singular position that it is nearest to about the second of three states (s²),
+/// and when that is (s).
+fn least_between([a, b, c]: [Look; 3]) -> Option<[f64; 2]> {
+    if !(b.sigma < a.sigma && b.sigma <= c.sigma && b.sigma < FAR) {
+        return None;
+    }
+    let square = |look: Look| look.sigma * look.sigma;
+    // the parabola through all three
+    let [left, right] = [a, c].map(|look| (square(look) - square(b)) / (look.t - b.t));
+    let bend = (right - left) / (c.t - a.t);
+    let slope = left - bend * (a.t - b.t);
+    let (aside, down) = (-0.5 * slope / bend, 0.25 * slope * slope / bend);
+    Some([(square(b) - down).max(0.0) / bend, b.t + aside])
+}
+
+/// How fast the equations ask to be met in a state, scaled (1/s).
+fn asked_speed(kinematics: &mut Kinematics, state: &mut State) -> f64 {
+    kinematics.restore(state);
+    // the speeds that are asked for are known though those of the mechanism may not be
+    let _ = kinematics.derivatives(state);
+    (0..kinematics.system().rows().len()).map(|row| kinematics.asked_speed(row)).fold(0.0, f64::max)
+}

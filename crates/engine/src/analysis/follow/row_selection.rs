@@ -1,0 +1,167 @@
+//! Which equations are solved, where there are more than are needed.
+//!
+//! A row that is left out is a sum of the others, `Φ_q,out = Σ w Φ_q,kept`. Where the rows that are kept come near to depending on each other, and
+//! all rows together do not, a weight grows: the row that it belongs to is left out instead, which makes the volume that the kept rows span larger by
+//! that factor (S. A. Goreinov et al., *How to find a good submatrix*, 2010). In a singular position of all rows no weight grows.
+
+use super::checkpoint::Checkpoint;
+use super::rows::RowBatch;
+use crate::analysis::state::{Kinematics, State};
+use crate::solver::Solver;
+use mechc_expr::ExprId;
+use mechc_ir::program::{Program, Register, Registers, Stage};
+use mechc_ir::structure::Determined;
+use mechc_ir::tolerances::steps::choice::{HEAVY, LARGEST_WEIGHT, MOST_EXCHANGES};
+use std::sync::Arc;
+
+/// Some equations that are solved, with what solves them.
+pub struct SelectedRows {
+    determined: Arc<Determined>,
+    program: Arc<Program>,
+    pub solver: Option<Arc<Solver>>,
+}
+
+impl SelectedRows {
+    /// A motion with these equations.
+    pub fn kinematics(&self, like: &Kinematics) -> Kinematics {
+        like.with_equations(Arc::clone(&self.determined), Arc::clone(&self.program))
+    }
+
+    /// The row that these equations have in place of one of others; none where it is left out.
+    pub fn row_in_place_of(&self, row: usize, other: &Determined) -> Option<usize> {
+        let row = *other.kept().get(row)?;
+        self.determined.kept().binary_search(&row).ok()
+    }
+}
+
+/// What watches the equations that are solved.
+pub struct RowSelection {
+    program: Program,
+    registers: Registers,
+    /// By row of the whole, its slopes.
+    slopes: Vec<Vec<(usize, Register)>>,
+    /// The rows of the whole that are solved, in order.
+    kept: Vec<usize>,
+    /// The slopes of a row that is left out, by coordinate, and its weights, by row that is solved.
+    slope: Vec<f64>,
+    weights: Vec<f64>,
+    /// What has been chosen so far.
+    known: Vec<Arc<SelectedRows>>,
+    current: Option<Arc<SelectedRows>>,
+}
+
+impl RowSelection {
+    /// Of equations of which some are left out; none where all are needed.
+    pub fn of(kinematics: &Kinematics) -> Option<RowSelection> {
+        let determined = kinematics.determined();
+        let whole = determined.whole();
+        if determined.left_out().is_empty() || whole.has_signals() {
+            return None;
+        }
+        let n = whole.coordinates().len();
+        let entries: Vec<ExprId> = whole.phi_q().entries().iter().map(|&(_, slope)| slope).collect();
+        let (program, registers) = Program::of_formulas(whole.graph(), [whole.params().len(), n, 0, 0], &entries);
+        let slopes = (0..whole.rows().len())
+            .map(|row| {
+                let columns = whole.phi_q().row(row).iter().map(|&(column, _)| column as usize);
+                columns.zip(whole.phi_q().range(row).map(|position| registers[position])).collect()
+            })
+            .collect();
+        let registers = program.start(&whole.param_values());
+        let kept = determined.kept();
+        let (slope, weights) = (vec![0.0; n], vec![0.0; n]);
+        Some(RowSelection { program, registers, slopes, kept, slope, weights, known: Vec::new(), current: None })
+    }
+
+    /// The equations that are solved, if they are others than those at the start.
+    pub fn current(&self) -> Option<&Arc<SelectedRows>> {
+        self.current.as_ref()
+    }
+
+    /// Whether the equations that are solved are well chosen at a state, where these were factored.
+    pub fn is_good(&mut self, kinematics: &mut Kinematics, state: &State) -> bool {
+        self.heaviest(kinematics, state).is_none_or(|(_, _, weight)| weight <= LARGEST_WEIGHT)
+    }
+
+    /// The largest weight of a row that is solved in one that is left out, both by their place among all rows, scaled; none where nothing is left
+    /// out.
+    fn heaviest(&mut self, kinematics: &mut Kinematics, state: &State) -> Option<(usize, usize, f64)> {
+        let determined = kinematics.determined();
+        let inputs = self.program.inputs;
+        self.registers.set(inputs.time, state.t);
+        self.registers.set_all(inputs.coordinates[0], &state.q);
+        self.program.run(Stage::Measures, &mut self.registers);
+        let mut heaviest: Option<(usize, usize, f64)> = None;
+        for &row in determined.left_out() {
+            self.slope.fill(0.0);
+            let mut norm = 0.0;
+            for &(column, register) in &self.slopes[row] {
+                let slope = self.registers.get(register);
+                self.slope[column] = slope;
+                let scaled = slope * kinematics.linear().column_scale(column);
+                norm += scaled * scaled;
+            }
+            let norm = norm.sqrt();
+            kinematics.solve_for_multipliers(&self.slope, &mut self.weights);
+            for (own, (&kept, weight)) in self.kept.iter().zip(&self.weights).enumerate() {
+                let weight = weight.abs() * kinematics.linear().row_norm(own) / norm;
+                if weight > heaviest.map_or(0.0, |(_, _, known)| known) {
+                    heaviest = Some((row, kept, weight));
+                }
+            }
+        }
+        heaviest
+    }
+
+    /// Chooses the equations for a state anew; says whether they are others. Allocates.
+    pub fn choose(&mut self, kinematics: &mut Kinematics, state: &State) -> bool {
+        let mut is_changed = false;
+        for _ in 0..MOST_EXCHANGES {
+            kinematics.restore(state);
+            let heaviest = self.heaviest(kinematics, state).filter(|(_, _, weight)| *weight > HEAVY);
+            let Some((out, kept, _)) = heaviest else {
+                break;
+            };
+            let determined = kinematics.determined();
+            let mut left_out: Vec<usize> = determined.left_out().iter().copied().filter(|&row| row != out).collect();
+            left_out.push(kept);
+            left_out.sort_unstable();
+            let Some(chosen) = self.chosen(kinematics, &left_out, state) else {
+                break;
+            };
+            *kinematics = chosen.kinematics(kinematics);
+            kinematics.restore(state);
+            kinematics.measure_slopes(&state.q);
+            kinematics.restore(state);
+            kinematics.choose_orders();
+            self.kept = kinematics.determined().kept();
+            self.current = Some(chosen);
+            is_changed = true;
+        }
+        kinematics.restore(state);
+        is_changed
+    }
+
+    /// The equations of the whole without some rows, of which no solver is known yet where they are new.
+    fn chosen(&mut self, kinematics: &Kinematics, left_out: &[usize], state: &State) -> Option<Arc<SelectedRows>> {
+        let known = self.known.iter().find(|known| known.determined.left_out() == left_out);
+        if let Some(known) = known {
+            return Some(Arc::clone(known));
+        }
+        let determined = Arc::new(kinematics.determined().with_rows_dropped(left_out)?);
+        let program = Arc::new(Program::new(determined.system()));
+        let mut other = kinematics.with_equations(Arc::clone(&determined), Arc::clone(&program));
+        other.restore(state);
+        other.choose_orders();
+        let solver = other.solver().map(Arc::new);
+        let chosen = Arc::new(SelectedRows { determined, program, solver });
+        self.known.push(Arc::clone(&chosen));
+        Some(chosen)
+    }
+
+    /// What solves for rows of a motion with the equations that are solved now, measured against a span (s).
+    pub fn leap(&self, kinematics: &Kinematics, origin: Checkpoint, span: f64) -> Option<RowBatch> {
+        let solver = self.current.as_ref()?.solver.clone()?;
+        Some(RowBatch::new(kinematics, solver, origin, span))
+    }
+}

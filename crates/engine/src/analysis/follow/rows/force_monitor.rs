@@ -1,0 +1,305 @@
+//! Forces beside the rows: contacts that would have to pull, in rows or between them, and loads that have no value.
+
+use crate::analysis::explain::{Stop, StopCause, Warning, WarningCause};
+use crate::analysis::follow::warnings::Warnings;
+use crate::analysis::state::{Kinematics, State};
+use mechc_expr::ExprId;
+use mechc_expr::math::{Halving, about, along, farthest};
+use mechc_ir::layout::RowLayout;
+use mechc_ir::program::{Program, Ranges, Register, Registers, Stage};
+use mechc_ir::tolerances::contacts::{CORRECTIONS, FINEST_BETWEEN, MOST_BETWEEN, PULLS, STRIKES, WIDEST_BETWEEN};
+use mechc_ir::{ConstraintSystem, LoadForce};
+
+/// A load, as it is watched.
+struct LoadMonitor {
+    force: Register,
+    /// By how much the distance that it works on is longer than what has no direction.
+    excess: Option<Register>,
+    /// What must be above zero, in the order of its conditions.
+    conditions: Vec<Register>,
+    is_reported: bool,
+}
+
+/// A contact that pulls between rows.
+#[derive(Clone, Copy)]
+struct Pull {
+    /// When it does so most (s).
+    t: f64,
+    /// What it presses with then (N).
+    pressing: f64,
+}
+
+/// What looks at the forces of rows, once more, and of the way between them.
+pub struct ForceMonitor {
+    kinematics: Kinematics,
+    program: Program,
+    registers: Registers,
+    /// By contact.
+    presses: Vec<Register>,
+    has_pulled: Vec<bool>,
+    /// The side to which each presses: 1 where that is known, 0 where the first row will tell.
+    sides: Vec<f64>,
+    /// Whether a row has been looked at: before the first one, and for who asks for no rows, the way is not.
+    has_begun: bool,
+    /// By contact: where it pulls on the way that no row has been told of.
+    between: Vec<Option<Pull>>,
+    loads: Vec<LoadMonitor>,
+    /// By load: what it can be on a part of the way.
+    ranges: Vec<Ranges>,
+    /// By load: its value at both ends of that part, and the largest so far.
+    ends: Vec<[f64; 2]>,
+    largest_load: f64,
+    delta: Vec<f64>,
+    /// Where a row has the coordinates, by their order, and how many there are.
+    coordinates: [usize; 4],
+    state: State,
+}
+
+impl LoadMonitor {
+    /// A load whose formulas are in the next registers.
+    fn of(load: &LoadForce, registers: &mut impl Iterator<Item = Register>) -> Option<LoadMonitor> {
+        let force = registers.next()?;
+        let excess = load.excess.and_then(|_| registers.next());
+        let conditions = registers.take(load.conditions.len()).collect();
+        Some(LoadMonitor { force, excess, conditions, is_reported: false })
+    }
+
+    /// Warns once of a distance that has no direction at a time (s); a load that has no value is why there is none of anything.
+    fn look(&mut self, index: usize, registers: &Registers, t: f64, warnings: &mut Warnings) -> Result<(), Box<Stop>> {
+        if !registers.get(self.force).is_finite() {
+            let holds = |register: &Register| registers.get(*register) > 0.0;
+            let broken = self.conditions.iter().position(|condition| !holds(condition));
+            return Err(StopCause::Load { index, broken }.at(t));
+        }
+        if !self.is_reported && self.excess.is_some_and(|excess| registers.get(excess) <= 0.0) {
+            self.is_reported = true;
+            warnings.push(Warning { t, cause: WarningCause::LoadWithoutDirection { index } });
+        }
+        Ok(())
+    }
+}
+
+impl ForceMonitor {
+    /// Of equations in a state; none where there is nothing to watch.
+    pub fn of(kinematics: &Kinematics, state: &State) -> Option<ForceMonitor> {
+        let system = kinematics.system();
+        if system.loads().is_empty() && system.contact_forces().is_empty() {
+            return None;
+        }
+        let presses = system.contact_forces().iter().map(|press| press.force);
+        let formulas: Vec<ExprId> = presses.chain(system.loads().iter().flat_map(LoadForce::formulas)).collect();
+        let counts = [system.params().len(), system.coordinates().len(), 0, system.rows().len()];
+        let (program, registers) = Program::of_formulas(system.graph(), counts, &formulas);
+        let mut registers = registers.into_iter();
+        let presses: Vec<Register> = registers.by_ref().take(system.contact_forces().len()).collect();
+        let loads: Vec<LoadMonitor> =
+            system.loads().iter().map_while(|load| LoadMonitor::of(load, &mut registers)).collect();
+        let params = system.param_values();
+        let registers = program.start(&params);
+        let range = |load: &LoadMonitor| Ranges::new(&program, &registers, &[load.force], Stage::Measures, false);
+        let ranges: Vec<Ranges> = loads.iter().map(range).collect();
+        let (between, ends) = (vec![None; presses.len()], vec![[0.0; 2]; loads.len()]);
+        let delta = vec![0.0; state.q.len()];
+        let coordinates = RowLayout::new(system).coordinates.map(|first| first as usize);
+        let has_pulled = vec![false; presses.len()];
+        let sides = system.contact_forces().iter().map(|press| f64::from(u8::from(press.is_sided))).collect();
+        let (kinematics, state) = (kinematics.clone(), state.clone());
+        Some(ForceMonitor {
+            kinematics,
+            program,
+            registers,
+            presses,
+            has_pulled,
+            sides,
+            has_begun: false,
+            between,
+            loads,
+            ranges,
+            ends,
+            largest_load: 0.0,
+            delta,
+            coordinates,
+            state,
+        })
+    }
+
+    /// Goes on with other equations, which exert the same.
+    pub fn change_equations(&mut self, kinematics: &Kinematics) {
+        if let Some(other) = ForceMonitor::of(kinematics, &self.state) {
+            let told: Vec<bool> = self.loads.iter().map(|load| load.is_reported).collect();
+            let (has_pulled, sides) = (std::mem::take(&mut self.has_pulled), std::mem::take(&mut self.sides));
+            let (has_begun, largest_load) = (self.has_begun, self.largest_load);
+            let between = std::mem::take(&mut self.between);
+            *self = ForceMonitor { has_pulled, sides, has_begun, between, largest_load, ..other };
+            for (load, is_reported) in self.loads.iter_mut().zip(told) {
+                load.is_reported = is_reported;
+            }
+        }
+    }
+
+    /// Looks at a row of a motion: warns once of each contact that pulls there, with a part of the row's largest force that is no rounding, or
+    /// has pulled on the way to it; where no curve tells its side, of one that presses to the other side than before. A load that has no value is
+    /// why there is none.
+    pub fn look(&mut self, of: &Kinematics, row: &[f64], warnings: &mut Warnings) -> Result<(), Box<Stop>> {
+        self.has_begun = true;
+        let is_whole = row.iter().all(|value| value.is_finite());
+        if is_whole && self.has_pulled.iter().all(|has_pulled| *has_pulled) {
+            return Ok(());
+        }
+        self.kinematics.take_switches(of);
+        self.set_row(row);
+        self.compute();
+        let system = self.kinematics.system();
+        for (index, load) in self.loads.iter_mut().enumerate() {
+            load.look(index, &self.registers, row[0], warnings)?;
+        }
+        let least = PULLS * self.largest(system);
+        for k in 0..self.presses.len() {
+            let force = self.registers.get(self.presses[k]);
+            if self.sides[k] == 0.0 && force.abs() > least {
+                self.sides[k] = force.signum();
+            }
+            let pressing = self.sides[k] * force;
+            let in_row = (pressing < -least).then_some(Pull { t: row[0], pressing });
+            let before = self.between[k].filter(|pull| pull.t <= row[0]);
+            if let Some(Pull { t, pressing }) = in_row.or(before)
+                && !self.has_pulled[k]
+            {
+                self.has_pulled[k] = true;
+                warnings.push(Warning { t, cause: WarningCause::ContactPulls { index: k, force: pressing } });
+            }
+        }
+        Ok(())
+    }
+
+    /// Looks at the way that a step of length `h` from a time (s) goes over, each coordinate being a polynomial of the part of the step. Where a
+    /// load may do what its values at both ends of a part do not tell it is looked at in smaller parts. What is found is told with the next row.
+    pub fn check_interior(&mut self, of: &Kinematics, [from, h]: [f64; 2], curve: &[[f64; 6]]) {
+        if !self.has_begun {
+            return;
+        }
+        let is_open = |k: usize| !self.has_pulled[k] && self.sides[k] != 0.0;
+        if !(0..self.presses.len()).any(is_open) {
+            return;
+        }
+        self.kinematics.take_switches(of);
+        let mut parts = Halving::<32>::new([0.0, 1.0], FINEST_BETWEEN, MOST_BETWEEN);
+        self.set_on_curve(curve, [from, h], 0.0);
+        self.read_loads(0);
+        while let Some(part @ [a, b]) = parts.next_part() {
+            if b - a > WIDEST_BETWEEN && parts.halve(part) {
+                continue;
+            }
+            if !self.set_on_curve(curve, [from, h], b) {
+                return;
+            }
+            self.read_loads(1);
+            if self.may_strike(curve, [from, h], part) && parts.halve(part) {
+                continue;
+            }
+            self.take_pulls(from + b * h);
+            self.ends.iter_mut().for_each(|ends| ends[0] = ends[1]);
+        }
+    }
+
+    /// Takes note of contacts that pull at a place that was computed, at a time (s).
+    fn take_pulls(&mut self, t: f64) {
+        let least = PULLS * self.largest(self.kinematics.system());
+        for (k, press) in self.presses.iter().enumerate() {
+            let pressing = self.sides[k] * self.registers.get(*press);
+            let is_most = self.between[k].is_none_or(|pull| pressing < pull.pressing);
+            if pressing < -least && is_most {
+                self.between[k] = Some(Pull { t, pressing });
+            }
+        }
+    }
+
+    fn read_loads(&mut self, end: usize) {
+        for (load, ends) in self.loads.iter().zip(&mut self.ends) {
+            ends[end] = self.registers.get(load.force);
+            self.largest_load = self.largest_load.max(ends[end].abs());
+        }
+    }
+
+    /// Whether a load may leave the values that it has at both ends of a part of a step.
+    fn may_strike(&mut self, curve: &[[f64; 6]], [from, h]: [f64; 2], [a, b]: [f64; 2]) -> bool {
+        let ForceMonitor { program, registers, ranges, ends, .. } = self;
+        let (middle, reach) = (0.5 * (a + b), 0.5 * (b - a));
+        let least = STRIKES * self.largest_load;
+        ranges.iter_mut().zip(ends).any(|(ranges, ends)| {
+            ranges.set_times([from + a * h, from + b * h]);
+            for (k, curve) in curve.iter().enumerate() {
+                let mut along = *curve;
+                for first in &program.inputs.coordinates[..3] {
+                    let taylor = about(&along, middle);
+                    let far = farthest(&taylor[1..], reach);
+                    ranges.set(first + k as Register, [taylor[0] - far, taylor[0] + far]);
+                    along = slope(&along, h);
+                }
+            }
+            let range = ranges.range(program, registers, 0);
+            let beyond = f64::max(range.high - ends[0].max(ends[1]), ends[0].min(ends[1]) - range.low);
+            beyond.is_nan() || beyond > least
+        })
+    }
+
+    /// Solves for a place of the curve of a step and computes what is watched there; says whether it could.
+    fn set_on_curve(&mut self, curve: &[[f64; 6]], [from, h]: [f64; 2], x: f64) -> bool {
+        let ForceMonitor { kinematics, state, delta, .. } = self;
+        state.t = from + x * h;
+        for (q, curve) in state.q.iter_mut().zip(curve) {
+            *q = along(curve, x);
+        }
+        kinematics.set_time(state.t);
+        for _ in 0..CORRECTIONS {
+            if kinematics.set_position(&state.q).is_err() || kinematics.factor().is_err() {
+                return false;
+            }
+            kinematics.correction(delta);
+            state.q.iter_mut().zip(&*delta).for_each(|(q, delta)| *q += delta);
+        }
+        let is_solved = kinematics.set_position(&state.q).is_ok()
+            && kinematics.factor().is_ok()
+            && kinematics.derivatives(state).is_ok();
+        if is_solved {
+            self.compute();
+        }
+        is_solved
+    }
+
+    /// The largest of the multipliers.
+    fn largest(&self, system: &ConstraintSystem) -> f64 {
+        (0..system.rows().len()).map(|row| self.kinematics.multiplier(row).abs()).fold(0.0, f64::max)
+    }
+
+    /// Takes the state of a row.
+    fn set_row(&mut self, row: &[f64]) {
+        let ForceMonitor { state, coordinates, .. } = self;
+        let n = state.q.len();
+        state.t = row[0];
+        let own = [&mut state.q, &mut state.qd, &mut state.qdd];
+        for (values, first) in own.into_iter().zip(&*coordinates) {
+            values.copy_from_slice(&row[*first..first + n]);
+        }
+    }
+
+    /// Computes what is watched at the state.
+    fn compute(&mut self) {
+        let ForceMonitor { kinematics, program, registers, state, .. } = self;
+        kinematics.vary_at(state);
+        let inputs = program.inputs;
+        registers.set(inputs.time, state.t);
+        for (first, values) in inputs.coordinates.into_iter().zip([&state.q, &state.qd, &state.qdd]) {
+            registers.set_all(first, values);
+        }
+        for row in 0..kinematics.system().rows().len() {
+            registers.set(inputs.multipliers + row as Register, kinematics.multiplier(row));
+        }
+        program.run(Stage::Measures, registers);
+    }
+}
+
+/// The time derivative of a polynomial of the part of a step of length `h` (s), likewise.
+fn slope(&[_, a, b, c, d, e]: &[f64; 6], h: f64) -> [f64; 6] {
+    [a / h, 2.0 * b / h, 3.0 * c / h, 4.0 * d / h, 5.0 * e / h, 0.0]
+}

@@ -1,0 +1,61 @@
+//! How long steps are.
+
+use super::Accepted;
+use crate::analysis::state::Kinematics;
+use mechc_ir::tolerances::DEFAULT_SPAN;
+use mechc_ir::tolerances::steps::march::{
+    CALM_BETWEEN, CALM_CORRECTION, CRUMB, FEWEST_STEPS, FEWEST_STEPS_NEAR, LARGEST_BETWEEN, LARGEST_CORRECTION,
+    SMALLEST_STEP,
+};
+
+/// The length of the next step, as far as the error is known.
+pub struct Length {
+    h: f64,
+    smallest: f64,
+    /// The time that the steps are measured against (s).
+    span: f64,
+}
+
+impl Length {
+    /// For a motion over a span (s).
+    pub fn new(span: f64) -> Length {
+        let measure = if span > 0.0 { span } else { DEFAULT_SPAN };
+        Length { h: span / FEWEST_STEPS_NEAR, smallest: SMALLEST_STEP * span, span: measure }
+    }
+
+    pub fn h(&self) -> f64 {
+        self.h
+    }
+
+    pub fn set(&mut self, h: f64) {
+        self.h = h;
+    }
+
+    /// When a step from a time towards another one ends (s).
+    pub fn end_towards(&self, from: f64, t: f64) -> f64 {
+        if self.h >= CRUMB * (t - from) { t } else { from + self.h }
+    }
+
+    /// Behind a step of length `h` that was accepted.
+    pub fn adapt(&mut self, kinematics: &Kinematics, h: f64, accepted: &Accepted) {
+        // a singular value changes by no more than the motion, or little more
+        let longest = self.span / FEWEST_STEPS;
+        let is_near = 2.0 * accepted.motion * longest >= kinematics.linear().smallest_pivot() * h;
+        let longest = if is_near { self.span / FEWEST_STEPS_NEAR } else { longest };
+        let calm = accepted.first_correction < LARGEST_CORRECTION / CALM_CORRECTION
+            && accepted.between < LARGEST_BETWEEN / CALM_BETWEEN;
+        if calm {
+            // a step cut short by an output time says little of a longer one
+            self.h = self.h.max(2.0 * h).min(longest);
+        } else {
+            self.h = self.h.min(h).min(longest);
+        }
+    }
+
+    /// Behind a step of length `h` from a time that was refused; says whether there is no shorter one.
+    pub fn halve(&mut self, h: f64, from: f64) -> bool {
+        self.h = 0.5 * h;
+        let vanishes = from + self.h <= from;
+        self.h < self.smallest || vanishes
+    }
+}

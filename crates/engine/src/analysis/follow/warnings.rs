@@ -1,0 +1,79 @@
+//! What there is to say beside the rows, and what is known of accelerations that jump.
+
+use crate::analysis::explain::{Warning, WarningCause};
+use mechc_ir::{ConstraintSystem, DeclarationId, IdVec};
+
+/// Warnings of a motion so far.
+pub struct Warnings {
+    said: Said,
+    /// Times at which accelerations have jumped (s), if anybody asks for them.
+    jumps: Option<Vec<f64>>,
+}
+
+/// What has been said, which may have to be taken back.
+#[derive(Clone)]
+pub struct Said {
+    warnings: Vec<Warning>,
+    /// Declarations of which it has been said that they make an acceleration jump.
+    warned: IdVec<DeclarationId, bool>,
+}
+
+impl Warnings {
+    pub fn new(system: &ConstraintSystem) -> Warnings {
+        let warned = system.declarations().map(|_| false);
+        Warnings { said: Said { warnings: Vec::new(), warned }, jumps: None }
+    }
+
+    pub fn push(&mut self, warning: Warning) {
+        self.said.warnings.push(warning);
+    }
+
+    /// All that has been said since this was asked last.
+    pub fn take(&mut self) -> Vec<Warning> {
+        std::mem::take(&mut self.said.warnings)
+    }
+
+    /// What has been said so far.
+    pub fn said(&self) -> Said {
+        self.said.clone()
+    }
+
+    /// Takes back what has been said since.
+    pub fn take_back_to(&mut self, said: Said) {
+        self.said = said;
+    }
+
+    /// From now on times are remembered at which accelerations jump.
+    pub fn keep_jumps(&mut self) {
+        self.jumps.get_or_insert_default();
+    }
+
+    /// These times (s), ascending, each once.
+    pub fn jumps(&self) -> Vec<f64> {
+        let mut jumps = self.jumps.clone().unwrap_or_default();
+        jumps.sort_by(f64::total_cmp);
+        jumps.dedup();
+        jumps
+    }
+
+    /// An acceleration jumps at an edge (s).
+    pub fn take_jump(&mut self, t: f64) {
+        if let Some(jumps) = &mut self.jumps {
+            jumps.push(t);
+        }
+    }
+
+    /// Warns of declarations that make an acceleration jump at a time (s), once of each.
+    pub fn warn_of_jump(&mut self, behind: &[DeclarationId], columns: impl FnOnce() -> Vec<String>, t: f64) {
+        if behind.iter().all(|&declaration| self.said.warned[declaration]) {
+            return;
+        }
+        for &declaration in behind {
+            self.said.warned[declaration] = true;
+        }
+        self.push(Warning {
+            t,
+            cause: WarningCause::AccelerationJump { declarations: behind.to_vec(), columns: columns() },
+        });
+    }
+}

@@ -1,0 +1,48 @@
+//! The options of a check.
+
+use super::{ContinuationPath, InputOverrides, Library, SettableInputs, TableFiles};
+use mechc_syntax::ast::Expr;
+
+/// The options of a check, and the files that the text names.
+#[derive(Clone, Debug, Default)]
+pub struct CheckOptions {
+    /// Overrides of parameters.
+    pub settings: Vec<ParamOverride>,
+    /// The mechanisms of all files that the text uses.
+    pub library: Library,
+    /// The texts of the files that tables name.
+    pub files: TableFiles,
+    /// Overrides of inputs.
+    pub given: InputOverrides,
+    /// For a part that is checked on its own: the values of its bound params (SI).
+    pub bound: Vec<(String, f64)>,
+    /// The target of a continuation, if the model is one of a continuation.
+    pub continuation: Option<ContinuationPath>,
+    /// The paths of parameters that may change after the check. They become symbols even if their formulas depend on others, and the model
+    /// lists them.
+    pub open: Vec<String>,
+    /// The names by which all columns are differentiated.
+    pub by: Vec<String>,
+    /// Present if results are differentiated by these names too: for the start and the end of the analysis, true if it is that of the text,
+    /// which may depend on parameters.
+    pub slopes: Option<[bool; 2]>,
+    /// True if the reactions of all joints and the efforts of all drivers are tabulated.
+    pub reactions: bool,
+    /// True if pictures show forces.
+    pub pictures_forces: bool,
+    /// True if inputs stay signals in the model, and are not replaced by their formulas.
+    pub has_signals: bool,
+    /// Inputs that become settable numbers.
+    pub set_inputs: Option<SettableInputs>,
+    /// The paths of parts whose derivatives use only their own equations, although they move together with their surroundings.
+    pub coupled: Vec<String>,
+}
+
+/// The override of a parameter: `--set crank_length=60mm`.
+#[derive(Clone, Debug)]
+pub struct ParamOverride {
+    /// The path of the parameter, or of a coordinate of a point. Without an index it names all copies.
+    pub path: String,
+    /// The formula, which names nothing of the file.
+    pub value: Expr,
+}

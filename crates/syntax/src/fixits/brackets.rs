@@ -1,0 +1,157 @@
+//! Unclosed brackets, and where their closing brackets belong.
+
+use super::Fault;
+use crate::tokens::{Token, begins_declaration, tokens};
+use mechc_text::diag::{Applicability, Edit, Fix};
+
+impl<'a> Fault<'a> {
+    /// Returns the brackets that are open before the fault, innermost last.
+    pub(super) fn opened(&self) -> Vec<(usize, &'a str)> {
+        let mut opened: Vec<(usize, &str)> = Vec::new();
+        let before = &self.text[..self.at];
+        for token in tokens(before) {
+            match token.text {
+                "(" | "[" | "{" => opened.push((token.start, token.text)),
+                ")" | "]" | "}" => drop(opened.pop()),
+                // no parenthesis reaches into the next declaration, and `ground.O` is a point
+                _ if begins_declaration(self.text, token) => {
+                    opened.retain(|(_, token)| *token == "{");
+                }
+                _ => {}
+            }
+        }
+        opened
+    }
+
+    /// Returns whether the word at the fault cannot belong to an open bracket.
+    fn ends_what_is_open(&self) -> bool {
+        self.found.is_empty() || self.found == "}" || self.found == "{" || self.begins_declaration()
+    }
+
+    /// Returns whether more parentheses and square brackets are closed than opened from here to the next declaration or brace.
+    fn is_closed_behind(&self) -> bool {
+        let rest = &self.text[self.at..];
+        let mut depth = 0;
+        for (k, token) in tokens(rest).into_iter().enumerate() {
+            let place = Token { start: self.at + token.start, ..token };
+            match token.text {
+                "(" | "[" => depth += 1,
+                ")" | "]" => depth -= 1,
+                "{" | "}" => return false,
+                _ if k > 0 && begins_declaration(self.text, place) => return false,
+                _ => {}
+            }
+            if depth < 0 {
+                return true;
+            }
+        }
+        false
+    }
+
+    /// Returns the earlier position that causes a fault, with its explanation.
+    pub fn reason(&self) -> Option<(usize, &'static str)> {
+        let before = self.before();
+        match self.opened().last() {
+            _ if !self.ends_what_is_open() || self.is_closed_behind() => None,
+            _ if before.ends_with('=') => Some((before.len() - 1, "nothing stands behind this")),
+            None if before.ends_with('}') => Some((before.len() - 1, "this `}` ends the mechanism")),
+            Some((start, "(")) => Some((*start, "this `(` is not closed")),
+            Some((start, "[")) => Some((*start, "this `[` is not closed")),
+            Some((start, "{")) if self.found.is_empty() || self.ends_a_body() => {
+                Some((*start, "this `{` is not closed"))
+            }
+            _ => None,
+        }
+    }
+
+    /// Returns the brackets that are missing before the fault.
+    pub(super) fn closing(&self) -> Option<Fix> {
+        // what is closed further on is not what is missing
+        if !self.ends_what_is_open() || self.before().ends_with('=') || self.is_closed_behind() {
+            return None;
+        }
+        let opened = self.opened();
+        match opened.last()? {
+            (_, "{") if self.found.is_empty() => self.braces_at_the_end(&opened),
+            (_, "{") if self.found == "mechanism" => {
+                let edits = vec![self.brace_before()?];
+                Some(Fix { message: "close it with `}`".to_owned(), edits, applies: Applicability::Always })
+            }
+            (_, "{") => None,
+            _ => self.round_and_square(&opened),
+        }
+    }
+
+    fn round_and_square(&self, opened: &[(usize, &str)]) -> Option<Fix> {
+        let open = opened.iter().rev().take_while(|(_, token)| *token != "{");
+        let closers: String = open.clone().map(|(_, token)| if *token == "(" { ')' } else { ']' }).collect();
+        let before = tokens(&self.text[..self.at]);
+        let end = before.last().map(|token| token.end())?;
+        // behind an operator something else is missing
+        if before.last().is_some_and(|token| is_operator(token.text)) {
+            return None;
+        }
+        let (innermost, bracket) = opened.last()?;
+        let inside: Vec<&str> =
+            before.iter().filter(|token| token.start > *innermost).map(|token| token.text).collect();
+        let is_sure =
+            open.count() == 1 && if *bracket == "(" { is_plain_list(&inside) } else { inside.ends_with(&[")"]) };
+        let applies = if is_sure { Applicability::Always } else { Applicability::Probably };
+        Some(Fix::replace(self.span(end..end), closers.clone(), format!("close it with `{closers}`"), applies))
+    }
+
+    /// Returns the braces that are missing at the end of the text.
+    fn braces_at_the_end(&self, opened: &[(usize, &str)]) -> Option<Fix> {
+        let line_end = self.line_end();
+        let mut text = if self.text.ends_with('\n') { String::new() } else { line_end.to_owned() };
+        for (start, token) in opened.iter().rev() {
+            if *token != "{" {
+                return None;
+            }
+            text += &format!("{}}}{line_end}", self.indentation(*start));
+        }
+        // one brace too many at the head of a block leaves one open at the end as well
+        let tokens: Vec<Token<'_>> = tokens(self.text);
+        let is_doubled = tokens.windows(2).any(|pair| pair[0].text == "{" && pair[1].text == "{");
+        let applies = if opened.len() == 1 && !is_doubled { Applicability::Always } else { Applicability::Probably };
+        let (end, closers) = (self.text.len(), "}".repeat(opened.len()));
+        Some(Fix::replace(self.span(end..end), text, format!("close it with `{closers}`"), applies))
+    }
+
+    /// Returns a brace that closes the innermost block before the declaration here.
+    pub(super) fn brace_before(&self) -> Option<Edit> {
+        let (open, _) = self.opened().into_iter().rfind(|(_, token)| *token == "{")?;
+        let end = tokens(&self.text[..self.at]).last().map(|token| token.end())?;
+        let Some(line) = self.text[end..self.at].find('\n') else {
+            return Some(Edit { span: self.span(self.at..self.at), text: "} ".to_owned() });
+        };
+        // behind the comment at the end of the line, if there is one
+        let place = end + self.text[end..end + line].trim_end_matches('\r').len();
+        let text = format!("{}{}}}", self.line_end(), self.indentation(open));
+        Some(Edit { span: self.span(place..place), text })
+    }
+
+    /// Returns the line end that the text uses.
+    pub(super) fn line_end(&self) -> &'static str {
+        if self.text.contains("\r\n") { "\r\n" } else { "\n" }
+    }
+
+    /// Returns the white space at the beginning of the line that contains a byte.
+    pub(super) fn indentation(&self, byte: usize) -> &'a str {
+        let start = self.text[..byte].rfind('\n').map_or(0, |at| at + 1);
+        let line = &self.text[start..];
+        &line[..line.len() - line.trim_start().len()]
+    }
+}
+
+/// Returns whether tokens are words and numbers with commas; otherwise a part may belong behind the parenthesis.
+fn is_plain_list(tokens: &[&str]) -> bool {
+    tokens.iter().enumerate().all(|(k, token)| {
+        let is_sign = *token == "-" && (k == 0 || tokens[k - 1] == ",");
+        is_sign || !is_operator(token) && *token != "("
+    })
+}
+
+fn is_operator(token: &str) -> bool {
+    ["+", "-", "*", "/", "^", "<", ">", "<=", ">=", "==", "!=", "="].contains(&token)
+}

@@ -1,0 +1,324 @@
+//! Synchronization points: where declarations begin, judging by words and braces alone. Parsing resumes there after a fault.
+
+use super::foreign_syntax::hyphenated_at;
+use super::tokens::{Token, tokens};
+use mechc_text::diag::nearest;
+use mechc_text::vocabulary::{JointWord, Keyword, Place, Role, Synonym, declares_name, is_ground};
+use rustc_hash::FxHashSet;
+use std::ops::Range;
+
+/// The tokens of a text with the declarations that they may begin.
+pub(super) struct SyncPoints<'a> {
+    text: &'a str,
+    tokens: Vec<Token<'a>>,
+    /// By token: its role, if it is a keyword in this position.
+    roles: Vec<Option<Role>>,
+    /// By token: true if it stands where the declaration before it has its name.
+    names: Vec<bool>,
+    /// Hyphenated names at their declarations; every use of them parses as a difference.
+    hyphenated: FxHashSet<&'a str>,
+}
+
+/// Maximum number of tokens in the head of a block: `body NAME at (x, y, phi) {` with formulas.
+const LONGEST_HEAD: usize = 100;
+
+impl<'a> SyncPoints<'a> {
+    pub fn new(text: &'a str) -> SyncPoints<'a> {
+        let tokens = tokens(text);
+        let role = |token: &Token<'_>| Keyword::named(token.text).map(|keyword| keyword.role);
+        let mut roles: Vec<Option<Role>> = tokens.iter().map(role).collect();
+        for k in 0..tokens.len() {
+            // elsewhere it is a name
+            if roles[k].is_some_and(Role::is_opener) && !opens(text, &tokens, &roles, k) {
+                roles[k] = None;
+            }
+        }
+        let (mut names, mut is_name, mut takes_name) = (Vec::with_capacity(tokens.len()), false, false);
+        for (token, role) in tokens.iter().zip(&roles) {
+            is_name = takes_name && !is_name;
+            names.push(is_name);
+            takes_name = role.is_some_and(begins) && declares_name(token.text);
+        }
+        let declared = tokens.iter().zip(&names).filter(|(_, is_name)| **is_name);
+        let hyphenated = declared.filter_map(|(token, _)| hyphenated_at(text, token.start)).collect();
+        SyncPoints { text, tokens, roles, names, hyphenated }
+    }
+
+    fn role(&self, k: usize) -> Option<Role> {
+        self.roles.get(k).copied().flatten()
+    }
+
+    /// Returns whether a token is the keyword of a declaration.
+    fn is_declaration(&self, k: usize) -> bool {
+        self.role(k).is_some_and(begins)
+    }
+
+    /// Returns whether a token is the keyword of a feature.
+    pub fn is_feature(&self, k: usize) -> bool {
+        matches!(self.role(k), Some(Role::Feature | Role::FeatureOpener))
+    }
+
+    /// Returns the index of the first token at or behind a byte.
+    pub fn index_at(&self, byte: usize) -> usize {
+        self.tokens.partition_point(|token| token.start < byte)
+    }
+
+    /// Returns the word of a token; empty behind the last one.
+    pub fn word(&self, k: usize) -> &'a str {
+        self.tokens.get(k).map_or("", |token| token.text)
+    }
+
+    /// Returns where a token begins; the end of the text behind the last one.
+    pub fn start(&self, k: usize) -> usize {
+        self.tokens.get(k).map_or(self.text.len(), |token| token.start)
+    }
+
+    /// Returns where the text before a token ends, without white space and comments.
+    pub fn end_before(&self, k: usize) -> usize {
+        k.checked_sub(1).and_then(|k| self.tokens.get(k)).map_or(0, |token| token.end())
+    }
+
+    /// Returns the end of a token.
+    pub fn end(&self, k: usize) -> usize {
+        self.tokens.get(k).map_or(self.text.len(), |token| token.end())
+    }
+
+    /// Returns the byte range of a token.
+    pub fn range(&self, k: usize) -> Range<usize> {
+        self.start(k)..self.end(k)
+    }
+
+    /// Returns whether a token begins a `use`: the word, which may also be a name, before a string or at the beginning of a line.
+    pub fn begins_use(&self, k: usize) -> bool {
+        self.word(k) == "use" && (self.string_behind(k).is_some() || self.is_first_on_its_line(k))
+    }
+
+    /// Returns the string right behind a token.
+    pub fn string_behind(&self, k: usize) -> Option<Token<'a>> {
+        self.tokens.get(k + 1).copied().filter(|token| token.text.starts_with('"'))
+    }
+
+    /// Returns where a `use` ends: at the next one, at a mechanism, or with its line, unless the next line continues it.
+    pub fn end_of_use(&self, k: usize) -> usize {
+        let goes_on = |next: usize| {
+            let is_prefix = self.word(next - 1) == "as" && self.string_behind(next).is_none();
+            self.word(next) == "as" || self.word(next).starts_with('"') || is_prefix
+        };
+        let is_next = |next: usize| self.is_first_on_its_line(next) || self.begins_use(next);
+        let ends = |&next: &usize| self.word(next) == "mechanism" || is_next(next) && !goes_on(next);
+        (k + 1..self.tokens.len()).find(ends).unwrap_or(self.tokens.len())
+    }
+
+    pub fn is_behind_the_last(&self, k: usize) -> bool {
+        k >= self.tokens.len()
+    }
+
+    /// Returns where a declaration without a block ends that begins at a token: at the next keyword that begins one, or at the brace that
+    /// closes the enclosing block.
+    ///
+    /// A declaration that follows the grammar never continues beyond.
+    pub fn end_of_plain(&self, k: usize) -> usize {
+        let ends = |k: usize| matches!(self.word(k), "{" | "}") || self.is_keyword(k) && !self.is_inside(k);
+        (k + 1..self.tokens.len()).find(|&k| ends(k)).unwrap_or(self.tokens.len())
+    }
+
+    /// Returns the token at which parsing resumes after a fault in the declaration that begins at a token: the next declaration, or the end
+    /// of the enclosing block. Braces in between are skipped.
+    pub fn sync_token(&self, k: usize) -> usize {
+        let mut depth = 0_usize;
+        for next in k..self.tokens.len() {
+            match self.word(next) {
+                "{" => depth += 1,
+                "}" if depth == 0 => return next,
+                "}" => depth -= 1,
+                _ if depth == 0 && next > k && self.begins_declaration(next) => return next,
+                _ => {}
+            }
+        }
+        self.tokens.len()
+    }
+
+    /// Returns the brace that opens the block of a declaration whose head has a fault, if it has one.
+    pub fn block_behind(&self, k: usize) -> Option<usize> {
+        let end = self.tokens.len().min(k + LONGEST_HEAD);
+        (k + 1..end)
+            .take_while(|&next| self.word(next) != "}" && !self.begins_declaration(next))
+            .find(|&next| self.word(next) == "{")
+    }
+
+    /// Returns how many more braces are opened than closed from a token on; negative if more are closed.
+    pub fn braces_from(&self, k: usize) -> isize {
+        let weight = |token: &Token<'_>| isize::from(token.text == "{") - isize::from(token.text == "}");
+        self.tokens.get(k..).unwrap_or_default().iter().map(weight).sum()
+    }
+
+    /// Returns the names that the declaration at a token would define: the word behind its keyword, or the first of two words.
+    pub fn names_of(&self, k: usize, end: usize) -> impl Iterator<Item = Token<'a>> {
+        let is_name = |token: &&Token<'a>| token.text.starts_with(|c: char| c.is_alphabetic() || c == '_');
+        // what is no keyword may be a name without one, `r = 3`, or a misspelt keyword before one
+        let whole = |token: Token<'a>| Token { text: self.hyphenated_name(&token).unwrap_or(token.text), ..token };
+        let head = (k..end.min(k + 2).min(self.tokens.len())).filter(|&k| !self.is_declaration(k));
+        head.map(|k| self.tokens[k]).filter(move |token| is_name(&token)).map(whole)
+    }
+
+    /// Returns whether a token stands where the declaration before it has its name.
+    pub fn is_name_of(&self, k: usize) -> bool {
+        self.names.get(k).copied().unwrap_or(false)
+    }
+
+    /// Returns whether a token is a keyword that begins a declaration wherever the grammar holds.
+    fn is_keyword(&self, k: usize) -> bool {
+        self.is_declaration(k) && self.word(k + 1) != "."
+    }
+
+    /// Returns whether a keyword stands where only a name makes sense: within a line, and not before the continuation of its declaration.
+    fn is_inside(&self, k: usize) -> bool {
+        let (next, second) = (self.word(k + 1), self.word(k + 2));
+        let before = if k > 0 { self.word(k - 1) } else { "" };
+        // an argument on a line of its own
+        let is_argument = self.word(k) == "ground" && ["(", ","].contains(&before) && next != "{" && second != "{";
+        if self.is_first_on_its_line(k) {
+            return is_argument;
+        }
+        let goes_on = match self.word(k) {
+            "ground" => next == "{",
+            "analysis" => next == "from",
+            "fn" | "curve" => second == "(",
+            "joint" | "driver" | "constraint" | "part" | "load" => second == ":",
+            // seen by what stands beside it
+            "gravity" | "mass" => true,
+            "mechanism" => second == "{",
+            "body" => second == "{" || second == "at",
+            _ => second == "=" && next != ")",
+        };
+        // after a bracket or an operator a formula goes on
+        let is_operand = ["on", "(", ",", "=", "+", "-", "*", "/", "^", ".", "<", ">"].contains(&before);
+        self.is_name_of(k) || is_operand && !goes_on
+    }
+
+    fn is_first_on_its_line(&self, k: usize) -> bool {
+        let start = self.start(k);
+        let before = k.checked_sub(1).map_or(0, |before| self.end(before));
+        k == 0 || self.text[before..start].contains('\n')
+    }
+
+    /// Returns whether a declaration begins at a token: by its keyword, or by a word in its place.
+    pub fn begins_declaration(&self, k: usize) -> bool {
+        // `ground.O` is a point, `joint joint: …` has a name that is none
+        if self.word(k + 1) == "." {
+            return false;
+        }
+        if self.is_declaration(k) {
+            return !self.is_inside(k);
+        }
+        if self.is_name_of(k) {
+            return false;
+        }
+        let is_joining = |k: usize| matches!(self.role(k), Some(Role::Formula | Role::Separator | Role::Place));
+        let is_word = |k: usize| self.word(k).starts_with(char::is_alphabetic) && !is_joining(k);
+        // `30 mm` and `a.b` go on with a word
+        let before = if k > 0 { self.word(k - 1) } else { "" };
+        let may_be_a_unit = before.starts_with(|c: char| c.is_ascii_digit()) && !self.is_first_on_its_line(k);
+        if !is_word(k) || before == "." || may_be_a_unit {
+            return false;
+        }
+        let is_equation = self.word(k + 2) == "=";
+        let is_block = self.word(k + 1) == "{" && ["{", "}"].contains(&before);
+        let is_on_one_line = !self.is_first_on_its_line(k + 1);
+        is_block
+            || self.begins_without_keyword(k)
+            || (is_word(k + 1) && is_on_one_line && (is_equation || [":", "{", "at"].contains(&self.word(k + 2))))
+            || self.word(k + 1) == "from"
+    }
+
+    /// Returns whether a block begins at a token with a synonym of `ground`: `frame {`.
+    pub fn is_ground_by_another_name(&self, k: usize) -> bool {
+        let word = self.word(k);
+        self.role(k).is_none() && self.word(k + 1) == "{" && (is_ground(word) || nearest(word, ["ground"]).is_some())
+    }
+
+    /// Returns whether a line begins like a declaration behind its keyword: `r = 3`, `j: revolute(…)`; or with the kind of a joint.
+    fn begins_without_keyword(&self, k: usize) -> bool {
+        let [next, second] = [self.word(k + 1), self.word(k + 2)];
+        let is_joint = JointWord::named(self.word(k)).is_some();
+        let is_named_joint = second == "(" && (is_joint || Synonym::of(Place::Joint, self.word(k)).is_some());
+        self.is_first_on_its_line(k) && (["=", ":", "{"].contains(&next) || is_joint && next == "(" || is_named_joint)
+    }
+
+    /// Returns whether a declaration of the mechanism, rather than of a body, begins at a token.
+    pub fn begins_large_declaration(&self, k: usize) -> bool {
+        self.begins_declaration(k) && matches!(self.role(k), Some(Role::Declaration | Role::Opener))
+    }
+
+    /// Returns whether a token is a keyword that was used as a name, or stands right behind one.
+    pub fn uses_bad_name(&self, byte: usize, bad_names: &FxHashSet<&str>) -> bool {
+        let k = self.index_at(byte);
+        // where it begins a declaration it is no name
+        let is_used = |k: usize| bad_names.contains(self.word(k)) && (self.is_inside(k) || !self.is_keyword(k));
+        [k, k.saturating_sub(1)].iter().any(|&k| !self.is_behind_the_last(k) && is_used(k))
+    }
+
+    /// Returns the reserved word in the position of a name, with the keyword of its declaration.
+    pub fn word_as_name(&self, byte: usize) -> Option<(&'a str, &'a str)> {
+        let k = self.index_at(byte);
+        let is_reserved = matches!(self.role(k), Some(Role::Declaration | Role::Feature | Role::Formula));
+        (self.start(k) == byte && is_reserved && self.is_name_of(k)).then(|| (self.word(k), self.word(k - 1)))
+    }
+
+    /// Returns the hyphenated name that begins with a token.
+    fn hyphenated_name(&self, token: &Token<'a>) -> Option<&'a str> {
+        let is_known = |name: &&str| self.hyphenated.contains(name);
+        if self.hyphenated.is_empty() { None } else { hyphenated_at(self.text, token.start).filter(is_known) }
+    }
+
+    /// Returns whether a range of tokens contains a hyphenated name.
+    pub fn uses_hyphenated(&self, from: usize, to: usize) -> bool {
+        self.tokens.get(from..to).unwrap_or_default().iter().any(|token| self.hyphenated_name(token).is_some())
+    }
+
+    /// Returns whether a word occurs anywhere in the text.
+    pub fn has_word(&self, word: &str) -> bool {
+        self.tokens.iter().any(|token| token.text == word)
+    }
+}
+
+fn begins(role: Role) -> bool {
+    matches!(role, Role::Declaration | Role::Feature) || role.is_opener()
+}
+
+/// Returns whether a word that may begin a declaration does so at a token: a name stands behind it with its definition, or the line begins here.
+fn opens(text: &str, tokens: &[Token<'_>], roles: &[Option<Role>], k: usize) -> bool {
+    if !declares_name(tokens[k].text) {
+        return opens_with_a_formula(text, tokens, roles, k);
+    }
+    let word = |k: usize| tokens.get(k).map_or("", |token| token.text);
+    let is_word = word(k + 1).starts_with(|c: char| c.is_alphabetic() || c == '_');
+    let is_defined = ["=", "[", ":"].contains(&word(k + 2));
+    is_word && (is_defined || begins_line(text, tokens, k) && roles.get(k + 1).is_some_and(Option::is_none))
+}
+
+fn begins_line(text: &str, tokens: &[Token<'_>], k: usize) -> bool {
+    let behind = k.checked_sub(1).map_or(0, |before| tokens[before].end());
+    text[behind..tokens[k].start].contains('\n')
+}
+
+/// Returns whether a word before a formula, such as `mass`, begins a declaration at a token: no name stands between the end of one formula
+/// and the beginning of another.
+fn opens_with_a_formula(text: &str, tokens: &[Token<'_>], roles: &[Option<Role>], k: usize) -> bool {
+    let word = |k: usize| tokens.get(k).map_or("", |token| token.text);
+    let begins_with = |text: &str, is: fn(char) -> bool| text.starts_with(is);
+    let is_of_word = |c: char| c.is_alphanumeric() || c == '_';
+    let is_behind_an_end = k.checked_sub(1).is_some_and(|before| match roles[before] {
+        None => begins_with(word(before), is_of_word) || matches!(word(before), ")" | "]" | "{" | "}"),
+        // a name at the end of a line, as far as anyone can tell
+        Some(Role::Separator | Role::Place) => word(before) == "mirrored" || begins_line(text, tokens, k),
+        Some(role) => role == Role::Side,
+    });
+    let next = word(k + 1);
+    let is_before_a_beginning = match roles.get(k + 1).copied().flatten() {
+        Some(role) if role.is_opener() => !matches!(word(k + 2), "=" | ":" | "["),
+        Some(_) => matches!(next, "if" | "not" | "ground"),
+        None => begins_with(next, |c| c.is_alphanumeric() || matches!(c, '_' | '(' | '-' | '.')),
+    };
+    is_behind_an_end && is_before_a_beginning
+}

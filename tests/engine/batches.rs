@@ -1,0 +1,364 @@
+//! Batches of sweep variants: each lane has the bits of a single run, and so do variants that leave their lane because their branch is in
+//! doubt.
+
+#![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic)] // a test fails by panicking
+
+use crate::support::sweeps::{Subject, bits_of, compare_all, count, have_equal_bits, subject, vary};
+use mechc::{Choice, Method, Status, SweepOptions, Swept, Variants, VaryOptions, Vectors};
+use std::collections::VecDeque;
+
+/// A four-bar that is turned once, or to and fro, by what is said of it.
+fn four_bar(turn: &str, every: &str) -> String {
+    format!(
+        "mechanism four_bar {{
+            param base = 4
+            param arm = 1
+            param rod = 3.5
+            param lever = 3
+            param pen_x = 1.75
+            param speed = 2
+            param rise = speed^2 / 4 + 1
+            ground {{ point A = (0, 0) point B = (base, 0) }}
+            body crank at (0, 0, 0.5) {{ point A = (0, 0) point C = (arm, 0) }}
+            body coupler at (0.88, 0.48, 0.78) {{ point C = (0, 0) point D = (rod, 0) point pen = (pen_x, rise / 2) }}
+            body rocker at (3.7, 1.5, 1.8) {{ point B = (-lever / 2, 0) point D = (lever / 2, 0) }}
+            joint main: revolute(ground.A, crank.A)
+            joint pin: revolute(crank.C, coupler.C)
+            joint knee: revolute(coupler.D, rocker.D)
+            joint pivot: revolute(ground.B, rocker.B)
+            driver motor: rotation(main) = {turn}
+            measure height = y(coupler.pen)
+            measure reach = hypot(x(coupler.pen), y(coupler.pen))
+            analysis from 0 to 3.15 every {every}
+        }}"
+    )
+}
+
+const TURNS: &str = "0.5 + speed * t";
+
+fn sampled(ranges: &[&str], sample: u64, method: Method) -> VaryOptions {
+    VaryOptions { sample: Some(sample), method: Some(method), ..vary(ranges) }
+}
+
+/// Values about one, as a list that `--vary` reads.
+fn about(name: &str, value: f64) -> String {
+    let off = [0.0, 1e-15, 1e-12, 1e-9, 1e-7, 1e-5, 1e-4, 1e-3, 3e-3, 1e-2, 3e-2, 0.1];
+    let values = off.iter().flat_map(|off| [value - off, value + off]).map(|value| format!("{value}"));
+    format!("{name}={}", values.collect::<Vec<_>>().join(","))
+}
+
+fn compare(subject: &Subject, requested: &VaryOptions) -> (Vec<(Status, usize)>, usize) {
+    compare_all(subject, &subject.variants(requested))
+}
+
+/// What this way is for: if all variants went alone nobody would notice.
+#[test]
+fn plain_variants_go_side_by_side() {
+    let ranges = ["rod=3.4..3.6", "lever=2.9..3.1", "base=3.9..4.1", "speed=1..3", "pen_x=-1..2"];
+    for every in ["0.05", "1.575"] {
+        let subject = subject(&four_bar(TURNS, every), Choice::default());
+        for method in [Method::Sobol, Method::Random] {
+            let (found, abreast) = compare(&subject, &sampled(&ranges, 40, method));
+            assert_eq!((count(&found, Status::Ok), abreast), (40, 40), "every {every}: {found:?}");
+        }
+    }
+}
+
+#[test]
+fn linkages_of_all_shapes_are_what_they_are_alone() {
+    let ranges = ["base=2..5", "arm=0.3..2", "rod=1.5..5", "lever=1.5..5", "speed=-2..2"];
+    let mut all = 0;
+    for every in ["0.15", "1.05"] {
+        let subject = subject(&four_bar(TURNS, every), Choice::default());
+        let (found, abreast) = compare(&subject, &sampled(&ranges, 96, Method::Sobol));
+        assert!(found.len() >= 3, "{found:?}");
+        all += abreast;
+        // one that leaves its lane has not been taken for another one that did not
+        assert!(abreast <= count(&found, Status::Ok), "{found:?}");
+    }
+    assert!(all > 20, "{all} went side by side");
+}
+
+/// Where the shortest and the longest link are together as long as the other two all links come to lie on one line: there and next to it the
+/// branch is in doubt.
+#[test]
+fn at_change_points_no_branch_is_guessed() {
+    for every in ["0.21", "1.575"] {
+        let subject = subject(&four_bar(TURNS, every), Choice::default());
+        // arm + base = rod + lever, arm + rod = base + lever, arm + lever = base + rod
+        for requested in [about("lever", 1.5), about("rod", 6.0), about("lever", 6.5), about("arm", 2.5)] {
+            let (found, abreast) = compare(&subject, &vary(&[&requested]));
+            assert!(count(&found, Status::Ok) >= abreast, "{requested}: {found:?}");
+            assert!(found.iter().any(|(status, _)| !status.is_complete()), "{requested}: {found:?}");
+        }
+        // a parallelogram, or nearly one
+        let requested = ["arm=1", "lever=1", &about("base", 3.5)];
+        compare(&subject, &vary(&requested));
+    }
+}
+
+/// The rocker is driven: there are two dead points, and what is asked for ends just before one, at it, or beyond.
+#[test]
+fn next_to_dead_points_variants_stop_where_they_stop_alone() {
+    let text = four_bar(TURNS, "0.315").replace("revolute(ground.B, rocker.B)", "revolute(rocker.B, ground.B)");
+    let text = text.replace("rotation(main) = 0.5 + speed * t", "rotation(pivot) = -1.85 + speed * t / 10");
+    let subject = subject(&text, Choice::default());
+    // with a crank of 1 its dead points are where crank and coupler are in line: at 4.5 and 2.5 from the base
+    let angle = |reach: f64| mechc_expr::math::acos((16.0 + 9.0 - reach * reach) / 24.0);
+    let mut stopped = 0;
+    for dead in [angle(4.5), angle(2.5)] {
+        // the rocker stands at π less the angle in the triangle
+        let from_start = 1.85 - (std::f64::consts::PI - dead);
+        let (found, _) = compare(&subject, &vary(&[&about("speed", 10.0 * from_start / 3.15)]));
+        stopped += found.iter().filter(|(status, _)| !status.is_complete()).map(|(_, count)| count).sum::<usize>();
+        let (found, _) = compare(&subject, &vary(&[&about("rod", 3.5), "speed=-3,3"]));
+        stopped += found.iter().filter(|(status, _)| !status.is_complete()).map(|(_, count)| count).sum::<usize>();
+    }
+    assert!(stopped > 20, "{stopped} stopped");
+}
+
+/// Where it can just be assembled, and where it just cannot.
+#[test]
+fn at_the_end_of_their_reach_variants_are_assembled_as_alone() {
+    let subject = subject(&four_bar(TURNS, "0.5"), Choice::default());
+    // at the start the crank's pin is so far from the base
+    let (sin, cos) = mechc_expr::math::sin_cos(0.5);
+    let way = mechc_expr::math::hypot(4.0 - cos, sin);
+    for requested in [about("rod", way - 3.0), about("lever", way - 3.5), about("rod", way + 3.0)] {
+        let (found, abreast) = compare(&subject, &vary(&[&requested]));
+        assert!(count(&found, Status::Ok) >= abreast && found.len() >= 2, "{requested}: {found:?}");
+    }
+}
+
+/// Rows are known to be there without being followed once more; what is asked of the whole motion is as it is alone.
+#[test]
+fn results_beside_a_lane_are_those_alone() {
+    let results = ["top = max(height)", "when = argmax(height)", "mean_reach = mean(reach)", "late = at(height, 3)"];
+    let results = results.iter().map(|&result| result.to_owned()).collect();
+    let subject = subject(&four_bar(TURNS, "0.45"), Choice { results, ..Choice::default() });
+    let requested = sampled(&["rod=2..4", "lever=2..4", "pen_x=-1..2"], 24, Method::Sobol);
+    let (found, abreast) = compare(&subject, &requested);
+    assert!(abreast > 8 && abreast <= count(&found, Status::Ok), "{abreast} of {found:?}");
+    let alone = subject.sweep(&subject.variants(&requested), &SweepOptions::default());
+    let beside = subject.sweep(&subject.variants(&requested), &subject.all_columns());
+    // results are in doubt earlier than rows
+    assert!(alone.abreast > 8 && alone.abreast <= abreast, "{} of {abreast}", alone.abreast);
+    assert_eq!(alone.statuses, beside.statuses);
+    for (alone, beside) in alone.results.iter().zip(&beside.results) {
+        assert!(have_equal_bits(alone, beside), "{alone:?} {beside:?}");
+    }
+}
+
+/// One that stops, or is not even a mechanism, beside others: they do not feel it.
+#[test]
+fn who_leaves_a_lane_leaves_the_others_alone() {
+    let subject = subject(&four_bar(TURNS, "0.315"), Choice::default());
+    let rods = ["3.5", "0", "-3.4", "9", "1.9", "3.6", "1e300", "3.45", "2.2", "0.1"];
+    let requested = [format!("rod={}", rods.join(",")), "lever=3,0,2.95".to_owned()];
+    let (found, abreast) = compare(&subject, &vary(&[&requested[0], &requested[1]]));
+    assert!(found.len() >= 3 && abreast >= 5, "{abreast} of {found:?}");
+}
+
+#[test]
+fn threads_vectors_and_columns_change_no_bit() {
+    let subject = subject(&four_bar(TURNS, "0.21"), Choice::default());
+    let variants = subject.variants(&sampled(&["rod=2..4", "lever=1.4..4", "arm=0.5..1.5"], 100, Method::Sobol));
+    let all = subject.all_columns();
+    let whole = subject.sweep(&variants, &SweepOptions { jobs: Some(1), ..all.clone() });
+    assert!((20..100).contains(&whole.abreast), "{}", whole.abreast);
+    for name in Vectors::NAMES {
+        let Some(vectors) = Vectors::named(name) else { continue };
+        for jobs in [1, 2, 16] {
+            let swept = subject.sweep(&variants, &SweepOptions { jobs: Some(jobs), vectors, ..all.clone() });
+            assert_eq!(bits_of(&swept), bits_of(&whole), "{name}, {jobs} threads");
+        }
+    }
+    for columns in [vec![4, 5], vec![0], vec![9, 1, 9], Vec::new()] {
+        let swept = subject.sweep(&variants, &SweepOptions { columns: Some(columns.clone()), ..all.clone() });
+        assert_eq!(swept.statuses, whole.statuses);
+        for (column, from) in swept.columns.iter().zip(&columns) {
+            assert!(have_equal_bits(column, &whole.columns[*from]), "column {from} of {columns:?}");
+        }
+    }
+    // other groups, other neighbours
+    for skip in [1, 7, 33] {
+        let share = subject.sweep(&variants, &SweepOptions { skip, take: Some(20), ..all.clone() });
+        let first: usize = whole.lengths[..skip as usize].iter().sum();
+        let rows: usize = share.lengths.iter().sum();
+        for (column, known) in share.columns.iter().zip(&whole.columns) {
+            assert!(have_equal_bits(column, &known[first..first + rows]), "from {skip} on");
+        }
+    }
+}
+
+/// Compares a block with its variants, one after the other.
+fn assert_holds_those_alone(subject: &Subject, variants: &Variants, block: &Swept) {
+    for (k, number) in (block.first..).take(block.len()).enumerate() {
+        let (status, _, rows) = subject.run_single(variants.settings(number));
+        assert_eq!((block.statuses[k], block.lengths[k]), (status, rows.len()));
+        let first: usize = block.lengths[..k].iter().sum();
+        for (at, row) in rows.iter().enumerate() {
+            let swept: Vec<f64> = block.columns.iter().map(|column| column[first + at]).collect();
+            assert!(have_equal_bits(&swept, row), "{number}, row {at}");
+        }
+    }
+}
+
+/// Columns are written where those of other variants stood before, of which some have one number throughout: another one, or the same.
+#[test]
+fn memory_that_held_other_variants_holds_these() {
+    let subject = subject(&four_bar(TURNS, "1.575"), Choice::default());
+    let rods = (0..40).map(|k| format!("{}", 3.4 + 0.005 * f64::from(k))).collect::<Vec<_>>().join(",");
+    for requested in [["speed=1,2,2,1,3", &format!("rod={rods}")], ["speed=1,2,2,1,3", &format!("rod={rods},9")]] {
+        let variants = subject.variants(&vary(&requested));
+        // each is dropped before the next one is made, or stays for a while, as threads have it that read
+        for (jobs, stay) in [(1, 0), (3, 4)] {
+            let options = SweepOptions { jobs: Some(jobs), ..subject.all_columns() };
+            let mut blocks =
+                subject.checked.sweep(&subject.compiled, &variants, &options, |block| block).expect("times");
+            let mut read: VecDeque<Swept> = blocks.by_ref().take(stay).collect();
+            let mut count = 0;
+            loop {
+                read.extend(blocks.next());
+                let Some(block) = read.pop_front() else { break };
+                assert!(block.len() <= 64, "several blocks have the same memory");
+                assert_holds_those_alone(&subject, &variants, &block);
+                count += block.len() as u64;
+            }
+            assert_eq!(count, variants.points().count());
+        }
+    }
+}
+
+/// What is the same for all variants is learned from those that come first, of which none gets to its end, or not all; where a crank's length or
+/// its speed varies, its place or its turn is not the same.
+#[test]
+fn what_is_the_same_for_all_is_theirs_alone() {
+    let subject = subject(&four_bar(TURNS, "0.045"), Choice::default());
+    let locking = (0..36).map(|k| 1.5 + 0.0125 * f64::from(k));
+    let turning = (0..40).map(|k| 3.4 + 0.005 * f64::from(k));
+    let rods = locking.chain(turning).map(|rod| format!("{rod}")).collect::<Vec<_>>().join(",");
+    for more in ["pen_x=1", "pen_x=1,2", "arm=1,0.95", "speed=2,1.9"] {
+        for requested in [[more, &format!("rod={rods}")], [&format!("rod={rods}"), more]] {
+            let (found, abreast) = compare(&subject, &vary(&requested));
+            assert!(abreast >= 40 && count(&found, Status::Ok) < 150 && found.len() == 2, "{abreast} of {found:?}");
+        }
+    }
+}
+
+/// Of so many numbers none is kept but the times.
+#[test]
+fn long_motions_are_those_alone() {
+    let subject = subject(&four_bar(TURNS, "0.00008"), Choice::default());
+    assert!(subject.all_columns().columns.expect("all").len() * 39_375 > 1 << 20);
+    let (found, abreast) = compare(&subject, &vary(&["rod=3.4,3.5,3.6"]));
+    assert_eq!((count(&found, Status::Ok), abreast), (3, 3));
+}
+
+/// Rows that are near to each other are led on by velocities alone: they are the same ones, also where variants are much faster than the file's own
+/// values have it, lock up, or come by where branches meet.
+#[test]
+fn near_rows_are_those_alone() {
+    let driven = four_bar(TURNS, "0.015").replace("revolute(ground.B, rocker.B)", "revolute(rocker.B, ground.B)");
+    let driven = driven.replace("rotation(main) = 0.5 + speed * t", "rotation(pivot) = -1.85 + speed * t / 10");
+    let shapes = ["base=2..5", "arm=0.3..2", "rod=1.5..5", "lever=1.5..5", "speed=-20..20"];
+    let sampled = sampled(&shapes, 150, Method::Random);
+    let (changing, locking) = (vary(&[&about("rod", 6.0), "lever=2.9,3"]), vary(&["speed=-3..3:40", "rod=3.4..3.6:3"]));
+    for (text, requested, least) in [
+        (four_bar(TURNS, "0.015"), sampled, 20),
+        (four_bar(TURNS, "0.015"), changing, 1),
+        (four_bar("0.5 - 3 * speed * t", "0.005"), vary(&["rod=3.4..3.6:5", "speed=0..9:7"]), 20),
+        (driven, locking, 1),
+    ] {
+        let subject = subject(&text, Choice::default());
+        let (variants, all) = (subject.variants(&requested), subject.all_columns());
+        let (found, abreast) = compare_all(&subject, &variants);
+        assert!(abreast >= least, "{abreast} of {found:?}");
+        let whole = subject.sweep(&variants, &all);
+        // positions of the last body, and its velocities
+        for columns in [vec![7, 8, 9], vec![18, 19]] {
+            let swept = subject.sweep(&variants, &SweepOptions { columns: Some(columns.clone()), ..all.clone() });
+            assert!(swept.abreast >= least, "{} of {:?}", swept.abreast, swept.statuses);
+            assert_eq!((&swept.statuses, &swept.lengths), (&whole.statuses, &whole.lengths));
+            for (column, from) in swept.columns.iter().zip(&columns) {
+                assert!(have_equal_bits(column, &whole.columns[*from]), "column {from} of {requested:?}");
+            }
+        }
+    }
+}
+
+/// Of a zero the text's check decides other things than of other values; times may be a list that begins later than the motion; and a text
+/// may say nothing but values.
+#[test]
+fn zeros_and_times_of_their_own_are_as_alone() {
+    let text = four_bar(TURNS, "0.5").replace("param rise", "param P = (0.4, 0.3) param rise");
+    let text = text.replace("point pen = (pen_x, rise / 2)", "point pen = P + (pen_x, 0)");
+    let subject = subject(&text, Choice::default());
+    for requested in [["P.x=0,0.1,-0.2", "pen_x=0.5,0"], ["P.x=-0.1,0", "P.y=0,0.2"], ["speed=0,1,2", "rod=3.4,3.5"]] {
+        let (found, abreast) = compare(&subject, &vary(&requested));
+        assert!(
+            abreast >= 1 && abreast < found.iter().map(|(_, count)| count).sum(),
+            "{requested:?}: {abreast} of {found:?}"
+        );
+    }
+    let variants = subject.variants(&vary(&["rod=3.3..3.7:9"]));
+    let all = subject.sweep(&variants, &subject.all_columns());
+    let times = mechc::RequestedTimes { at: vec![1.5, 3.0], ..mechc::RequestedTimes::default() };
+    let some = subject.sweep(&variants, &SweepOptions { times, ..subject.all_columns() });
+    assert_eq!((some.abreast, &some.lengths), (9, &vec![2; 9]));
+    let rows = all.lengths[0];
+    for (some, all) in some.columns.iter().zip(&all.columns) {
+        let wanted: Vec<f64> = (0..9).flat_map(|k| [all[k * rows + 3], all[k * rows + 6]]).collect();
+        assert!(have_equal_bits(some, &wanted));
+    }
+}
+
+/// On the way to its params a mechanism may come over an edge, or to an end, that it does not meet at either of its ends.
+#[test]
+fn what_happens_on_the_way_is_seen_as_alone() {
+    for (from, to) in [
+        ("(arm, 0)", "(arm - mod(arm, 1) + mod(arm, 1), 0)"),
+        ("(arm, 0)", "(abs(arm - 1.2) + 0.8, 0)"),
+        ("(base, 0)", "(4 + sqrt((arm - 1.1) * (arm - 1.3) + 0.0001), 0)"),
+        ("(base, 0)", "(4 + arm * lever / 100, 0)"),
+    ] {
+        let text = four_bar(TURNS, "0.5").replace(from, to);
+        let (found, abreast) =
+            compare(&subject(&text, Choice::default()), &vary(&["arm=1,1.05,1.21,1.4,2.1", "lever=3,3.1"]));
+        assert_eq!(abreast, 0, "{to}: {found:?}");
+    }
+}
+
+/// What this way does not look at goes alone.
+#[test]
+fn what_is_not_plain_goes_alone() {
+    let plain = four_bar(TURNS, "0.5");
+    let requested = vary(&["rod=3.45,3.55", "speed=1.5"]);
+    let of = |text: &str| compare(&subject(text, Choice::default()), &requested).1;
+    assert_eq!(of(&plain), 2);
+    for (from, to) in [
+        // a driver with an edge, one that does not go straight on
+        ("0.5 + speed * t", "0.5 + max(speed * t, 1)"),
+        ("0.5 + speed * t", "0.5 + sin(speed * t)"),
+        // an analysis that goes with a param, and a formula that is decided by one
+        ("every 0.5", "every speed / 3"),
+        ("/ 4 + 1", "/ 4 + (if speed < 1.7 then 1 else 2)"),
+    ] {
+        let text = plain.replace(from, to);
+        assert_ne!(text, plain);
+        let went = of(&text);
+        // what stays the same decides nothing: the speed is the same in both variants
+        let wanted = if from.starts_with("every") || from.starts_with('/') { 2 } else { 0 };
+        assert_eq!(went, wanted, "{to}");
+    }
+    let two = vary(&["rod=3.45", "speed=1.5,1.9"]);
+    for (from, to) in [("every 0.5", "every speed / 3"), ("/ 4 + 1", "/ 4 + (if speed < 1.7 then 1 else 2)")] {
+        let subject = subject(&plain.replace(from, to), Choice::default());
+        assert_eq!(compare_one_by_one(&subject, &two), 1, "{to}");
+    }
+}
+
+/// The same where variants have other times; gives how many went side by side.
+fn compare_one_by_one(subject: &Subject, requested: &VaryOptions) -> usize {
+    compare(subject, requested).1
+}
