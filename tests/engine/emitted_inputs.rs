@@ -376,7 +376,7 @@ fn main() {
             println!("{:?}", state.q());
         }
     }
-    println!("{continued} {drawn} {refused}");
+    println!("{led} {drawn} {refused}");
 }
 "#;
 

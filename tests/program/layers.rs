@@ -139,8 +139,7 @@ fn what_only_tests_need_is_left_out() {
 const STAGES: [&str; 3] = ["ir", "lang", "syntax"];
 
 /// Names that several crates export for different types: none more, and each that is gone goes from here too.
-const SHARED: &[&str] =
-    &["Column", "Declaration", "JointKind", "Node", "Place", "Point", "Profile", "Segment", "Trace"];
+const SHARED: &[&str] = &["Column", "Declaration", "JointKind", "Node", "Point", "Profile", "Segment", "Trace"];
 
 #[test]
 fn no_two_crates_export_types_of_one_name() {
@@ -167,7 +166,7 @@ fn no_two_crates_export_types_of_one_name() {
 /// What a file may use of the platform: threads, which are gone without their feature; and the server of live pages, which is too, its
 /// connections and their limits.
 const PLATFORM: &[(&str, &str)] = &[
-    ("engine/src/analysis/follow/rows/leap.rs", "std::thread"),
+    ("engine/src/analysis/follow/rows/row_batch.rs", "std::thread"),
     ("parallel/src/lib.rs", "std::thread"),
     ("parallel/src/ordered_pipeline.rs", "std::thread"),
     ("parallel/src/scoped_chunks.rs", "std::thread"),

@@ -5,7 +5,7 @@ use crate::options::RunOptions;
 use crate::run::Run;
 use crate::{Checked, Compiled};
 use mechc_draw::scene::{Declaration, Faults, Joints, Length, Motion, Pose, Scene, drawn_poses};
-use mechc_engine::analysis::{self, FreeMotion, Horizon, Link, LinkOf, Stop, StopCause, Times};
+use mechc_engine::analysis::{self, FaultyLink, FaultyLinkKind, FreeMotion, Horizon, Stop, StopCause, Times};
 use mechc_ir::layout::{self, Column, ColumnKind, ColumnUnit};
 use mechc_ir::{BodyId, ConstraintSystem, DeclarationId};
 use mechc_lang::check::{self, Library};
@@ -349,7 +349,7 @@ fn lengths(scene: &Scene, stop: &Stop, system: &ConstraintSystem) -> Vec<Length>
     }
 }
 
-fn faulty_length(scene: &Scene, link: &Link, system: &ConstraintSystem) -> Option<Length> {
+fn faulty_length(scene: &Scene, link: &FaultyLink, system: &ConstraintSystem) -> Option<Length> {
     let declaration = |id: DeclarationId| {
         let name = &system.declarations()[id].name;
         let is_it =
@@ -359,12 +359,12 @@ fn faulty_length(scene: &Scene, link: &Link, system: &ConstraintSystem) -> Optio
     let fault = if link.too_short { "too short" } else { "too long" };
     let text = format!("{}: {fault}", analysis::length_in_words(link.length));
     match link.of {
-        LinkOf::Body(body, [from, to]) => {
+        FaultyLinkKind::Body(body, [from, to]) => {
             let name = body.map_or("ground", |body| &system.bodies()[body].name);
             let frame = scene.frames.iter().position(|declaration| scene.declarations[*declaration].name == name)?;
             Some(Length { frame: Some(frame), ends: [declaration(from)?, declaration(to)?], text })
         }
-        LinkOf::Declaration(id) => Some(Length { frame: None, ends: [declaration(id)?; 2], text }),
+        FaultyLinkKind::Declaration(id) => Some(Length { frame: None, ends: [declaration(id)?; 2], text }),
     }
 }
 

@@ -27,8 +27,8 @@ mod state;
 pub use assemble::{Moved, Request, Solving, Started, Unassembled, with_parts};
 pub use explain::errors::length as length_in_words;
 pub use explain::{
-    FreeMotion, Link, LinkOf, OpenLoop, SingularPosition, Stop, StopCause, Warning, WarningCause, determine,
-    free_motions,
+    FaultyLink, FaultyLinkKind, FreeMotion, OpenLoop, SingularPosition, Stop, StopCause, Warning, WarningCause,
+    determine, free_motions,
 };
 pub use follow::{
     ContinuationOptions, Follower, PathOutcome, continue_from, follow_to, lead, start, start_from, start_of_paths,

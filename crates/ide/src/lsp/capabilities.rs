@@ -1,6 +1,6 @@
 //! The capabilities of the client and of the server.
 
-use super::handlers::tokens::{TOKEN_MODIFIERS, token_types};
+use crate::TokenKind;
 use mechc_text::source::Encoding;
 use serde_json::{Value, json};
 use std::path::PathBuf;
@@ -159,3 +159,26 @@ mod tests {
         assert_eq!(Client::from_params(&json!(null)).encoding, Encoding::Utf16);
     }
 }
+
+/// Returns the types of the legend.
+fn token_types() -> Vec<&'static str> {
+    TOKEN_TYPES.iter().map(|(_, name)| *name).collect()
+}
+
+/// The modifiers of the legend, in the order of their bits.
+const TOKEN_MODIFIERS: [&str; 3] = ["declaration", "readonly", "defaultLibrary"];
+
+/// The protocol's types of tokens for the kinds of names and words, in the order of the legend.
+pub(super) const TOKEN_TYPES: &[(TokenKind, &str)] = &[
+    (TokenKind::Mechanism, "class"),
+    (TokenKind::Part, "namespace"),
+    (TokenKind::Body, "struct"),
+    (TokenKind::Feature, "property"),
+    (TokenKind::Equation, "event"),
+    (TokenKind::Function, "function"),
+    (TokenKind::Argument, "parameter"),
+    (TokenKind::Value, "variable"),
+    (TokenKind::JointKind, "type"),
+    (TokenKind::Unit, "enumMember"),
+    (TokenKind::Keyword, "keyword"),
+];

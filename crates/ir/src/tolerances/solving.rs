@@ -123,7 +123,7 @@ pub mod pivoting {
     pub const LARGEST_BLOCK: usize = 100;
 }
 
-/// Output times that are solved together (`crates/engine/src/analysis/follow/rows/leap.rs`).
+/// Output times that are solved together (`crates/engine/src/analysis/follow/rows/row_batch.rs`).
 pub mod rows {
     /// Number of times in a batch.
     pub const LANES: usize = 16;

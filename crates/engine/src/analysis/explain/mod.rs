@@ -15,5 +15,5 @@ mod stop;
 
 pub use determine::{determine, free_motions};
 pub use freedom::FreeMotion;
-pub use open_loop::{Link, LinkOf, OpenLoop};
+pub use open_loop::{FaultyLink, FaultyLinkKind, OpenLoop};
 pub use stop::{SingularPosition, Stop, StopCause, Warning, WarningCause};

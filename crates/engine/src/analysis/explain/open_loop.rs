@@ -26,7 +26,7 @@ pub struct OpenLoop {
     /// All declarations that take part, in order.
     pub declarations: Vec<DeclarationId>,
     /// Lengths that stand in the way.
-    pub links: Vec<Link>,
+    pub links: Vec<FaultyLink>,
     /// The largest residual that is left, scaled.
     pub residual: f64,
 }
@@ -47,9 +47,9 @@ impl OpenLoop {
 
 /// A length that is too short or too long.
 #[derive(Clone, Debug)]
-pub struct Link {
+pub struct FaultyLink {
     /// What it is of.
-    pub of: LinkOf,
+    pub of: FaultyLinkKind,
     /// The length (m).
     pub length: f64,
     /// Whether it is too short.
@@ -58,7 +58,7 @@ pub struct Link {
 
 /// What a length is of.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum LinkOf {
+pub enum FaultyLinkKind {
     /// The distance between two declarations' points on a body; none for the ground.
     Body(Option<BodyId>, [DeclarationId; 2]),
     /// The distance that a declaration prescribes.
@@ -219,11 +219,20 @@ fn weakest(
 }
 
 /// The lengths along which the residuals pull or press.
-fn links(evaluator: &Evaluator<'_>, part: &Subsystem, linear: &Linear, declarations: &[DeclarationId]) -> Vec<Link> {
+fn links(
+    evaluator: &Evaluator<'_>,
+    part: &Subsystem,
+    linear: &Linear,
+    declarations: &[DeclarationId],
+) -> Vec<FaultyLink> {
     let system = evaluator.system;
     let mut links = Vec::new();
     for &k in declarations {
-        let link = |[length, found]: [f64; 2]| Link { of: LinkOf::Declaration(k), length, too_short: found > length };
+        let link = |[length, found]: [f64; 2]| FaultyLink {
+            of: FaultyLinkKind::Declaration(k),
+            length,
+            too_short: found > length,
+        };
         links.extend(evaluator.distance(k).map(link));
     }
     let bodies = std::iter::once(None).chain(system.bodies().ids().map(Some));
@@ -241,7 +250,7 @@ fn links(evaluator: &Evaluator<'_>, part: &Subsystem, linear: &Linear, declarati
         let along = (second.force[0] * way[0] + second.force[1] * way[1]) / length;
         if length > CLOSED * system.length() && along.abs() > ALONG * f64::max(first.size(), second.size()) {
             let ends = [first.declaration, second.declaration];
-            links.push(Link { of: LinkOf::Body(*body, ends), length, too_short: along > 0.0 });
+            links.push(FaultyLink { of: FaultyLinkKind::Body(*body, ends), length, too_short: along > 0.0 });
         }
     }
     links

@@ -1,32 +1,10 @@
 //! Semantic tokens.
 
+use crate::lsp::capabilities::TOKEN_TYPES;
 use crate::lsp::convert::ProtocolContext;
 use crate::{self as ide, SemanticToken, TokenKind};
 use gen_lsp_types as lsp;
 use std::ops::Range;
-
-/// The protocol's types of tokens for the kinds of names and words, in the order of the legend.
-const TOKEN_TYPES: &[(TokenKind, &str)] = &[
-    (TokenKind::Mechanism, "class"),
-    (TokenKind::Part, "namespace"),
-    (TokenKind::Body, "struct"),
-    (TokenKind::Feature, "property"),
-    (TokenKind::Equation, "event"),
-    (TokenKind::Function, "function"),
-    (TokenKind::Argument, "parameter"),
-    (TokenKind::Value, "variable"),
-    (TokenKind::JointKind, "type"),
-    (TokenKind::Unit, "enumMember"),
-    (TokenKind::Keyword, "keyword"),
-];
-
-/// Returns the types of the legend.
-pub(in crate::lsp) fn token_types() -> Vec<&'static str> {
-    TOKEN_TYPES.iter().map(|(_, name)| *name).collect()
-}
-
-/// The modifiers of the legend, in the order of their bits.
-pub(in crate::lsp) const TOKEN_MODIFIERS: [&str; 3] = ["declaration", "readonly", "defaultLibrary"];
 
 pub(super) fn all(context: &ProtocolContext, params: &lsp::SemanticTokensParams) -> Option<lsp::SemanticTokens> {
     encoded(context, &params.text_document.uri, &(0..u32::MAX))

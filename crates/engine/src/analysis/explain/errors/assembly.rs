@@ -1,7 +1,7 @@
 //! A start that cannot be assembled.
 
 use super::{at, cut_list, degrees, length, named, three_digits, with_places};
-use crate::analysis::explain::open_loop::{Link, LinkOf, OpenLoop};
+use crate::analysis::explain::open_loop::{FaultyLink, FaultyLinkKind, OpenLoop};
 use mechc_expr::math;
 use mechc_ir::{ConstraintSystem, CoordinateKind, DeclarationId, DeclarationKind};
 use mechc_text::diag::{Code, Diagnostic};
@@ -82,11 +82,13 @@ fn at_least(value: f64) -> f64 {
 }
 
 /// What a length is of, and between which declarations it is.
-fn link_as_data(system: &ConstraintSystem, link: &Link) -> Value {
+fn link_as_data(system: &ConstraintSystem, link: &FaultyLink) -> Value {
     let is = if link.too_short { "too short" } else { "too long" };
     match link.of {
-        LinkOf::Declaration(k) => json!({ "of": system.declarations()[k].name, "length": link.length, "is": is }),
-        LinkOf::Body(body, ends) => {
+        FaultyLinkKind::Declaration(k) => {
+            json!({ "of": system.declarations()[k].name, "length": link.length, "is": is })
+        }
+        FaultyLinkKind::Body(body, ends) => {
             let of = body.map_or("ground", |body| &system.bodies()[body].name);
             let [from, to] = ends.map(|k| &system.declarations()[k].name);
             json!({ "of": of, "from": from, "to": to, "length": link.length, "is": is })
@@ -95,11 +97,11 @@ fn link_as_data(system: &ConstraintSystem, link: &Link) -> Value {
 }
 
 /// `coupler` (40 mm from `front` to `back`)
-fn link_in_words(system: &ConstraintSystem, link: &Link) -> String {
+fn link_in_words(system: &ConstraintSystem, link: &FaultyLink) -> String {
     let length = length(link.length);
     match link.of {
-        LinkOf::Declaration(k) => format!("`{}` ({length})", system.declarations()[k].name),
-        LinkOf::Body(body, [from, to]) => {
+        FaultyLinkKind::Declaration(k) => format!("`{}` ({length})", system.declarations()[k].name),
+        FaultyLinkKind::Body(body, [from, to]) => {
             let body = body.map_or("the ground".to_owned(), |body| format!("`{}`", system.bodies()[body].name));
             let [from, to] = [from, to].map(|k| &system.declarations()[k].name);
             format!("{body} ({length} from `{from}` to `{to}`)")
