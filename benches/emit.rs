@@ -16,11 +16,11 @@ fn main() -> Result<(), Box<dyn Error>> {
     let folder = std::env::var("OUT_DIR")?;
     for (name, path, lanes) in MODULES {
         println!("cargo::rerun-if-changed={path}");
-        let parsed = Parsed::of(path, &std::fs::read_to_string(path)?);
+        let parsed = Parsed::new(path, &std::fs::read_to_string(path)?);
         let checked = parsed.check(&Choice::default(), &Memory::default());
         let (compiled, _) = checked.compile(Redundant::Refused, &Cancel::default());
         let compiled = compiled.ok_or_else(|| format!("{path} is not determined"))?;
-        let (module, _) = compiled.rust(&RustOptions { lanes, ..RustOptions::of(path.to_owned()) });
+        let (module, _) = compiled.rust(&RustOptions { lanes, ..RustOptions::new(path.to_owned()) });
         let module = module.ok_or_else(|| format!("{path} cannot be emitted"))?;
         // what is included may not begin with attributes of a file
         let is_inside = |line: &&str| !line.starts_with("//!") && !line.starts_with("#![");

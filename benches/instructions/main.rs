@@ -59,7 +59,7 @@ fn variants(file: &str, param: &str) -> Result<(), Box<dyn Error>> {
 
 fn compile(file: &str, choice: &Choice) -> Result<(Checked, Compiled), Box<dyn Error>> {
     let text = std::fs::read_to_string(file)?;
-    let checked = Parsed::of(file, &text).check(choice, &Memory::default());
+    let checked = Parsed::new(file, &text).check(choice, &Memory::default());
     let (compiled, _) = checked.compile(Redundant::Refused, &Cancel::default());
     let compiled = compiled.ok_or("the mechanism does not compile")?;
     Ok((checked, compiled))

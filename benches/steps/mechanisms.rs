@@ -9,7 +9,7 @@ pub fn compile(text: &str) -> Compiled {
 
 /// The same with what is chosen.
 pub fn compile_as(text: &str, choice: &Choice) -> Compiled {
-    let checked = Parsed::of("bench.mech", text).check(choice, &Memory::default());
+    let checked = Parsed::new("bench.mech", text).check(choice, &Memory::default());
     let (compiled, diagnostics) = checked.compile(Redundant::Refused, &Cancel::default());
     assert!(compiled.is_some(), "{:?} {diagnostics:?}", checked.diagnostics());
     compiled.expect("it is determined")

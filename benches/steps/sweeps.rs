@@ -49,7 +49,7 @@ impl Subject {
 
     fn new(text: String, params: [&'static str; 2]) -> Subject {
         let choice = Choice { lead: true, ..Choice::default() };
-        let checked = Parsed::of("bench.mech", &text).check(&choice, &Memory::default());
+        let checked = Parsed::new("bench.mech", &text).check(&choice, &Memory::default());
         let compiled = compile_as(&text, &choice);
         Subject { text, params, checked, compiled, choice }
     }

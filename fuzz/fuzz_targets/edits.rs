@@ -69,7 +69,7 @@ fuzz_target!(|bytes: &[u8]| {
         }
         let mut sources = Sources::default();
         let file = sources.add("text.mech", new.as_str());
-        let reread = syntax::reread(&old, &text, &sources, file);
+        let reread = syntax::reparse(&old, &text, &sources, file);
         assert!(reread == parsed(&new), "from\n{text}\nto\n{new}");
         (old, text) = (reread, new);
         snapshot = snapshot.with_text(&path, Some(text.as_str().into()));

@@ -60,7 +60,7 @@ pub struct Ran {
 /// Something does not hold that must hold of every text.
 pub fn run(text: &str) -> Ran {
     let mut ran = Ran::default();
-    let parsed = Parsed::of("text.mech", text);
+    let parsed = Parsed::new("text.mech", text);
     if !parsed.faults().is_empty() {
         assert!(parsed.faults().has_errors(), "refused without a reason");
         say(parsed.faults().iter(), parsed.sources());
@@ -128,7 +128,7 @@ fn follow(parsed: &Parsed, name: String, ran: &mut Ran) {
     });
     let Some(compiled) = compiled else { return };
     ran.determined += 1;
-    let (emitted, _) = compiled.rust(&RustOptions { with_motion: false, ..RustOptions::of("text.mech") });
+    let (emitted, _) = compiled.rust(&RustOptions { with_motion: false, ..RustOptions::new("text.mech") });
     let (determined, program) = compiled.inside();
     // measures that are differentiated by inputs and parameters are not emitted
     let is_varied = !determined.system().variations().is_empty();

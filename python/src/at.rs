@@ -7,7 +7,8 @@ use crate::memory::{self, Of};
 use crate::waiting::interruptible;
 pub use found::{_at_again, At, Columns};
 use mechc::{
-    MechanismEvaluator, EvaluatorOptions, EvaluationPoint, Cancel, Checked, Choice, ColumnUnit, Diagnostic, InputMotion, SettableParam,
+    Cancel, Checked, Choice, ColumnUnit, Diagnostic, EvaluationPoint, EvaluatorOptions, InputMotion,
+    MechanismEvaluator, SettableParam,
 };
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyFloat, PyString};
@@ -108,13 +109,13 @@ impl Compiled {
         let usual = EvaluatorOptions::default();
         let adjusting = EvaluatorOptions {
             inputs: kind.inputs.clone(),
-            bend: kind.bend,
+            has_accelerations: kind.bend,
             params: kind.params.clone(),
             redundant: stages.redundant,
             tolerance: kind.tolerance.map_or(usual.tolerance, f64::from_bits),
             pass_bifurcations: kind.pass_bifurcations,
         };
-        let adjustable = checked.adjustable(&adjusting, cancel).map_err(|(sources, said)| Said::of(&said, &sources))?;
+        let adjustable = checked.evaluator(&adjusting, cancel).map_err(|(sources, said)| Said::of(&said, &sources))?;
         let compiled = adjustable.compiled();
         let (names, units) = (compiled.columns(), compiled.units());
         let place = |name: String| names.iter().position(|column| *column == name);

@@ -2,7 +2,7 @@
 //! in `mechc/errors.py`.
 
 use crate::words::in_python;
-use mechc::{Responsibility, Color, Diagnostic, Diagnostics, Format, Severity, Sources, render};
+use mechc::{Color, Diagnostic, Diagnostics, Format, Responsibility, Severity, Sources, render};
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
 use pyo3::types::PyList;

@@ -5,7 +5,7 @@ use crate::mechanism::Stages;
 use crate::memory::{self, Of};
 use crate::run::Asked;
 use crate::waiting::interruptible;
-use mechc::{MechanismEvaluator, EvaluatorOptions, Answers, RequestedTimes, Cancel, ColumnUnit, RunOptions};
+use mechc::{Answers, Cancel, ColumnUnit, EvaluatorOptions, MechanismEvaluator, RequestedTimes, RunOptions};
 use numpy::{PyArray1, PyArrayMethods, PyReadonlyArray1};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -41,11 +41,12 @@ impl Function {
         let ((checked, _), _) = asked.stages(stages, cancel)?;
         let RunOptions { tolerance, pass_bifurcations, .. } = asked.options(cancel);
         let (count, inputs, redundant) = (params.len(), Vec::new(), asked.redundant(stages));
-        let adjusting = EvaluatorOptions { inputs, bend: false, params, redundant, tolerance, pass_bifurcations };
-        let adjustable = checked.adjustable(&adjusting, cancel).map_err(|(sources, said)| Said::of(&said, &sources))?;
+        let adjusting =
+            EvaluatorOptions { inputs, has_accelerations: false, params, redundant, tolerance, pass_bifurcations };
+        let adjustable = checked.evaluator(&adjusting, cancel).map_err(|(sources, said)| Said::of(&said, &sources))?;
         let compiled = adjustable.compiled();
         let mut sources = compiled.sources().clone();
-        let times = RequestedTimes::of([&asked.from, &asked.to, &asked.every], &asked.at, &mut sources);
+        let times = RequestedTimes::from_options([&asked.from, &asked.to, &asked.every], &asked.at, &mut sources);
         let times = times.map_err(|why| Said::of(&why, &sources))?;
         let wanted = compiled.select_columns(&asked.columns).map_err(|why| Said::of_one(*why, &sources))?;
         let all = compiled.units();

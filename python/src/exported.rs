@@ -4,7 +4,7 @@ use crate::errors::Said;
 use crate::mechanism::Stages;
 use crate::run::Asked;
 use crate::waiting::interruptible;
-use mechc::{RequestedTimes, Cancel, MARK, RustOptions, page, picture};
+use mechc::{Cancel, MARK, RequestedTimes, RustOptions, page, picture};
 use pyo3::prelude::*;
 use std::sync::Arc;
 
@@ -29,7 +29,7 @@ impl AskedOfRust {
             with_sensitivities: self.sensitivities,
             lanes: self.lanes,
             for_c: self.ffi,
-            ..RustOptions::of(file_name(stages))
+            ..RustOptions::new(file_name(stages))
         }
     }
 
@@ -104,11 +104,11 @@ impl Both {
         let choice = mechc::Choice { pictures_forces: true, ..asked.choice(stages) };
         let ((checked, compiled), _) = stages.with(&choice, &*stages.files, asked.redundant(stages), cancel)?;
         let mut sources = compiled.sources().clone();
-        let times = RequestedTimes::of([&asked.from, &asked.to, &asked.every], &asked.at, &mut sources)
+        let times = RequestedTimes::from_options([&asked.from, &asked.to, &asked.every], &asked.at, &mut sources)
             .and_then(|asked| Ok(asked.over(compiled.analysis()).map_err(|why| *why)?.whole().map_err(|why| *why)?))
             .map_err(|why| Said::of(&why, &sources))?;
         let options = asked.options(cancel);
-        let (seen, said) = match checked.seen(&compiled, &times, &options, most) {
+        let (seen, said) = match checked.visualize(&compiled, &times, &options, most) {
             (None, said) => (checked.static_visualization(Some(&compiled), (times.from(), &options), &said), said),
             seen => seen,
         };

@@ -373,7 +373,7 @@ fn read(text: Option<&str>, path: &Path, files: &Files) -> Result<Parsed, (Sourc
         Some(text) => {
             let mut sources = Sources::default();
             let file = sources.add(path.to_string_lossy(), text);
-            Ok(Parsed::of_source(sources, file, path))
+            Ok(Parsed::from_source(sources, file, path))
         }
     }
 }

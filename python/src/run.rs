@@ -6,7 +6,7 @@ use crate::mechanism::Stages;
 use crate::memory::{self, Of};
 use crate::table::Table;
 use crate::waiting::interruptible;
-use mechc::{RequestedTimes, Cancel, Checked, Choice, ColumnUnit, Compiled, Diagnostics, Redundant, Run, RunOptions};
+use mechc::{Cancel, Checked, Choice, ColumnUnit, Compiled, Diagnostics, Redundant, RequestedTimes, Run, RunOptions};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use std::path::PathBuf;
@@ -136,7 +136,7 @@ impl Asked {
         let ((_, compiled), said) = self.stages(stages, cancel)?;
         let mut sources = compiled.sources().clone();
         let ends = [&self.from, &self.to, &self.every];
-        let times = RequestedTimes::of(ends, &self.at, &mut sources)
+        let times = RequestedTimes::from_options(ends, &self.at, &mut sources)
             .and_then(|asked| Ok(asked.over(compiled.analysis()).map_err(|why| *why)?.times().map_err(|why| *why)?));
         let times = times.map_err(|why| Said::of(&why, &sources))?;
         let wanted = compiled.select_columns(&self.columns).map_err(|why| Said::of_one(*why, &sources))?;

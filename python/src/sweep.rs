@@ -11,8 +11,8 @@ use crate::table::{Head, Kind, Table, schema};
 use crate::waiting::interruptible;
 use arrow_schema::SchemaRef;
 use mechc::{
-    RequestedTimes, Cancel, Checked, Choice, ColumnUnit, Compiled, Diagnostic, Diagnostics, Method, Sources, SweepOptions,
-    Variants, VaryOptions,
+    Cancel, Checked, Choice, ColumnUnit, Compiled, Diagnostic, Diagnostics, Method, RequestedTimes, Sources,
+    SweepOptions, Variants, VaryOptions,
 };
 use pyo3::prelude::*;
 use pyo3::types::PyCapsule;
@@ -93,7 +93,8 @@ impl Whole {
         let compiled = checked.widest(&variants, redundant).unwrap_or(compiled);
         let mut sources = variants.sources().clone();
         let ends = [&asked.from, &asked.to, &asked.every];
-        let times = RequestedTimes::of(ends, &asked.at, &mut sources).map_err(|why| Said::of(&why, &sources))?;
+        let times =
+            RequestedTimes::from_options(ends, &asked.at, &mut sources).map_err(|why| Said::of(&why, &sources))?;
         let refused = |why: Box<Diagnostic>| Said::of_one(*why, &sources);
         let rows = times.over(compiled.analysis()).and_then(|times| times.times()).map_err(refused)?.len();
         let wanted = if more.rows { Some(compiled.select_columns(&asked.columns).map_err(refused)?) } else { None };

@@ -4,7 +4,7 @@ use crate::errors::Said;
 use crate::mechanism::Stages;
 use crate::run::Asked;
 use crate::waiting::interruptible;
-use mechc::{OutputSensitivity, RequestedTimes, Cancel, RunOptions, SweepOptions, Tolerance};
+use mechc::{Cancel, OutputSensitivity, RequestedTimes, RunOptions, SweepOptions, Tolerance};
 use pyo3::prelude::*;
 use std::sync::Arc;
 
@@ -63,7 +63,7 @@ fn found(
     let told = |(sources, said)| Said::of(&said, &sources);
     let tolerancing = checked.tolerancing(tol, &choice, &*stages.files).map_err(told)?;
     let mut sources = compiled.sources().clone();
-    let times = RequestedTimes::of([&asked.from, &asked.to, &asked.every], &[], &mut sources);
+    let times = RequestedTimes::from_options([&asked.from, &asked.to, &asked.every], &[], &mut sources);
     let RunOptions { tolerance, pass_bifurcations, .. } = asked.options(cancel);
     let options = SweepOptions {
         times: times.map_err(|why| Said::of(&why, &sources))?,
@@ -73,9 +73,9 @@ fn found(
         cancel: cancel.clone(),
         ..SweepOptions::default()
     };
-    let affected = tolerancing.affected(&compiled, &options).map_err(told)?;
+    let affected = tolerancing.sensitivities(&compiled, &options).map_err(told)?;
     let verified =
-        if verify { Some(tolerancing.verified(&compiled, &affected, &options, |_| ()).map_err(told)?) } else { None };
+        if verify { Some(tolerancing.verify(&compiled, &affected, &options, |_| ()).map_err(told)?) } else { None };
     let tolerances = tolerancing.tolerances();
     let quantity = |(k, of): (usize, &OutputSensitivity)| {
         let deviation = of.deviation(tolerances, normal);

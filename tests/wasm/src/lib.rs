@@ -43,7 +43,7 @@ pub extern "C" fn run() -> usize {
 }
 
 fn table_of(mut texts: impl Iterator<Item = String>) -> Result<String, String> {
-    let parsed = Parsed::of("handed over", &texts.next().unwrap_or_default());
+    let parsed = Parsed::new("handed over", &texts.next().unwrap_or_default());
     let mut world = Memory::default();
     while let (Some(name), Some(text)) = (texts.next(), texts.next()) {
         world = world.with(name, text);

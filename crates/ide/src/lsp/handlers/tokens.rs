@@ -2,7 +2,7 @@
 
 use crate::lsp::capabilities::TOKEN_TYPES;
 use crate::lsp::convert::ProtocolContext;
-use crate::{self as ide, SemanticToken, TokenKind};
+use crate::{self as ide, SemanticToken};
 use gen_lsp_types as lsp;
 use std::ops::Range;
 
