@@ -10,7 +10,7 @@
 //! ```
 //! use mechc::{Cancel, Choice, Memory, Parsed, Redundant, RunOptions, Times};
 //!
-//! let parsed = Parsed::of("disc.mech", "
+//! let parsed = Parsed::new("disc.mech", "
 //!     mechanism disc {
 //!         ground { point O = (0, 0) }
 //!         body wheel { point O = (0, 0) }

@@ -63,7 +63,7 @@ pub struct Choice {
 /// ```
 /// use mechc::{Choice, Memory, Parsed};
 ///
-/// let parsed = Parsed::of("lever.mech", "mechanism lever { body bar { point P = (1 m, 0) } driver d: angle(bra) = t }");
+/// let parsed = Parsed::new("lever.mech", "mechanism lever { body bar { point P = (1 m, 0) } driver d: angle(bra) = t }");
 /// let checked = parsed.check(&Choice::default(), &Memory::default());
 /// assert!(!checked.is_sound());
 /// assert_eq!(checked.diagnostics().iter().map(|diagnostic| diagnostic.code.as_str()).collect::<Vec<_>>(), ["E0201"]);

@@ -36,7 +36,7 @@ pub enum Redundant {
 ///      joint axle: revolute(ground.O, wheel.O)
 ///      driver motor: rotation(axle) = 90 deg/s * t
 ///  }";
-/// let checked = Parsed::of("disc.mech", text).check(&Choice::default(), &Memory::default());
+/// let checked = Parsed::new("disc.mech", text).check(&Choice::default(), &Memory::default());
 /// let (compiled, diagnostics) = checked.compile(Redundant::Refused, &Cancel::default());
 /// let compiled = compiled.expect("it is determined");
 /// assert!(diagnostics.is_empty());

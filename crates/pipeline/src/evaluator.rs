@@ -72,7 +72,7 @@ pub struct EvaluationPoint {
 ///      joint axle: revolute(ground.O, wheel.O)
 ///      driver motor: rotation(axle) = turn
 ///  }";
-/// let checked = Parsed::of("disc.mech", text).check(&Choice::default(), &Memory::default());
+/// let checked = Parsed::new("disc.mech", text).check(&Choice::default(), &Memory::default());
 /// let adjusting = EvaluatorOptions { inputs: vec!["turn".to_owned()], ..EvaluatorOptions::default() };
 /// let disc = checked.adjustable(&adjusting, &Cancel::default()).expect("it is determined");
 /// let turn = InputMotion { value: 0.3, rate: 2.0, acceleration: 0.0 };

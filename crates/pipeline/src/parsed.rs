@@ -10,7 +10,7 @@ use std::sync::Arc;
 /// A file that was read, with syntax errors or without.
 ///
 /// ```
-/// let parsed = mechc::Parsed::of("two.mech", "mechanism arm { } mechanism leg { body foot { } } // to come");
+/// let parsed = mechc::Parsed::new("two.mech", "mechanism arm { } mechanism leg { body foot { } } // to come");
 /// assert!(parsed.faults().is_empty());
 /// assert_eq!(parsed.mechanisms().collect::<Vec<_>>(), ["arm", "leg"]);
 /// ```

@@ -37,7 +37,7 @@ pub struct Assembly {
 /// #     joint axle: revolute(ground.O, wheel.O)
 /// #     driver motor: rotation(axle) = 90 deg/s * t
 /// # }";
-/// # let checked = Parsed::of("disc.mech", text).check(&Choice::default(), &Memory::default());
+/// # let checked = Parsed::new("disc.mech", text).check(&Choice::default(), &Memory::default());
 /// # let (compiled, _) = checked.compile(Redundant::Refused, &Cancel::default());
 /// # let compiled = compiled.expect("it is determined");
 /// let times = Times::grid(0.0, 2.0, 0.5).expect("a grid");
@@ -104,10 +104,10 @@ impl Compiled {
     /// #     joint axle: revolute(ground.O, wheel.O)
     /// #     driver motor: rotation(axle) = 90 deg/s * t
     /// # }";
-    /// # let checked = Parsed::of("disc.mech", text).check(&Choice::default(), &Memory::default());
+    /// # let checked = Parsed::new("disc.mech", text).check(&Choice::default(), &Memory::default());
     /// # let (compiled, _) = checked.compile(Redundant::Refused, &Cancel::default());
     /// # let compiled = compiled.expect("it is determined");
-    /// let (assembly, diagnostics) = compiled.assembled(1.0, &RunOptions::default());
+    /// let (assembly, diagnostics) = compiled.assemble_at(1.0, &RunOptions::default());
     /// assert!(diagnostics.is_empty());
     /// assert_eq!(assembly.expect("it assembles").coordinates[2].1, std::f64::consts::FRAC_PI_2);
     /// ```
