@@ -660,7 +660,7 @@ fn solve(guess: &[f64; TEARS], t: f64, m: &Model, at: &mut Solution) {
         let v20 = s17 * m.params.rod_length + rod_y;
         let v21 = v20 * v19;
         v22 = -v21;
-        newton.see(v22, 7.450580596923828e-9, 1.0);
+        newton.record(v22, 7.450580596923828e-9, 1.0);
         if newton.is_done() {
             break;
         }
@@ -722,7 +722,7 @@ fn solve(guess: &[f64; TEARS], t: f64, m: &Model, at: &mut Solution) {
         let v53 = 1.0 / c52;
         let v54 = s52 * v53;
         v55 = -v54;
-        newton.see(v55, 7.450580596923828e-9, 1.0);
+        newton.record(v55, 7.450580596923828e-9, 1.0);
         if newton.is_done() {
             break;
         }
@@ -774,7 +774,7 @@ impl Equations for Model {
 impl Branches for Model {}
 
 impl Checks for Model {
-    type Watched = [bool; 0];
+    type Monitors = [bool; 0];
 }
 
 impl Solved for Model {
@@ -920,7 +920,7 @@ fn drawn(_p: &Params) -> [f64; N] {
 
 impl Timed for Model {
     type Params = Params;
-    type Lead = ();
+    type Continuation = ();
     type Passed = [f64; 0];
     type Row = [f64; COLUMNS];
 
@@ -960,7 +960,7 @@ pub mod lanes {
     use super::*;
 
     use super::runtime::grid::on_grid;
-    use super::runtime::lane_newton::Settling;
+    use super::runtime::lane_newton::LaneNewton;
     use super::runtime::lane_solutions::Laned;
     use super::runtime::limits::ITERATIONS;
     use super::runtime::without_branches::sin_cos_below_a_million;
@@ -1100,7 +1100,7 @@ pub mod lanes {
         for k in 0..LANES {
             w[0][k] = on_grid(w[0][k], 7.450580596923828e-9);
         }
-        let mut newton = Settling::new();
+        let mut newton = LaneNewton::new();
         for _ in 0..ITERATIONS {
             for k in 0..LANES {
                 let x1 = w[0][k];
@@ -1111,7 +1111,7 @@ pub mod lanes {
                 let v21 = w[4][k] * w[1][k] + w[2][k];
                 let v22 = v21 * v20;
                 w[3][k] = -v22;
-                newton.see(k, w[3][k], TEAR_CELLS[0], TEAR_SCALES[0]);
+                newton.record(k, w[3][k], TEAR_CELLS[0], TEAR_SCALES[0]);
             }
             if newton.is_done() {
                 break;
@@ -1208,7 +1208,7 @@ pub mod lanes {
         for k in 0..LANES {
             w[11][k] = on_grid(w[11][k], 7.450580596923828e-9);
         }
-        let mut newton = Settling::new();
+        let mut newton = LaneNewton::new();
         for _ in 0..ITERATIONS {
             for k in 0..LANES {
                 let x1 = w[11][k];
@@ -1217,7 +1217,7 @@ pub mod lanes {
                 let v54 = 1.0 / w[14][k];
                 let v55 = w[13][k] * v54;
                 w[12][k] = -v55;
-                newton.see(k, w[12][k], TEAR_CELLS[1], TEAR_SCALES[1]);
+                newton.record(k, w[12][k], TEAR_CELLS[1], TEAR_SCALES[1]);
             }
             if newton.is_done() {
                 break;
@@ -1259,13 +1259,13 @@ pub mod lanes {
 #[rustfmt::skip]
 mod runtime {
 pub mod numbers {
-//! Numbers by place, and how large they are.
+//! Lists of numbers and their norms.
 
 use core::fmt::Debug;
 
-/// So many numbers.
+/// A list of numbers.
 pub trait Numbers: Copy + Debug + 'static + AsRef<[f64]> + AsMut<[f64]> {
-    /// All of them 0.
+    /// All numbers 0.
     const ZERO: Self;
 }
 
@@ -1273,9 +1273,9 @@ impl<const K: usize> Numbers for [f64; K] {
     const ZERO: Self = [0.0; K];
 }
 
-/// So many answers.
+/// A list of flags.
 pub trait Flags: Copy + Debug + PartialEq + 'static + AsRef<[bool]> + AsMut<[bool]> {
-    /// All of them no.
+    /// All flags false.
     const NONE: Self;
 }
 
@@ -1283,19 +1283,19 @@ impl<const K: usize> Flags for [bool; K] {
     const NONE: Self = [false; K];
 }
 
-/// The largest value beside its scale; not a number if one is not.
+/// Returns the largest absolute value relative to its scale; NaN if any is NaN.
 pub fn largest<N: Numbers>(values: &N, scales: &N) -> f64 {
     let pairs = values.as_ref().iter().zip(scales.as_ref());
     let sizes = pairs.map(|(value, scale)| value.abs() / scale);
     sizes.fold(0.0, larger)
 }
 
-/// The larger one; not a number if one is not.
+/// Returns the larger number; NaN if either is NaN.
 pub fn larger(a: f64, b: f64) -> f64 {
     if b > a || b.is_nan() { b } else { a }
 }
 
-/// Adds a zero for each value, which one that is not finite turns into no number: all are looked at without a branch for each.
+/// Adds 0 for each finite value and NaN for each other one, so that a single comparison checks all without branches.
 #[inline(always)]
 #[allow(clippy::inline_always)] // a call would cost more than it does
 pub fn add_zeros<N: Numbers>(values: &N, sums: &mut [f64; 4]) {
@@ -1313,14 +1313,14 @@ pub fn add_zeros<N: Numbers>(values: &N, sums: &mut [f64; 4]) {
     }
 }
 
-/// What leads from some numbers to others.
+/// Returns the differences `to - from`.
 pub fn difference<N: Numbers>(to: &N, from: &N) -> N {
-    let mut way = *to;
-    way.as_mut().iter_mut().zip(from.as_ref()).for_each(|(way, from)| *way -= from);
-    way
+    let mut difference = *to;
+    difference.as_mut().iter_mut().zip(from.as_ref()).for_each(|(difference, from)| *difference -= from);
+    difference
 }
 
-/// Coordinates after a time `h` (s), by their velocities and accelerations now.
+/// Returns the coordinates after a time `h` (s), from the present velocities and accelerations.
 pub fn predicted<N: Numbers>(q: &N, qd: &N, qdd: &N, h: f64) -> N {
     let mut later = *q;
     let rates = qd.as_ref().iter().zip(qdd.as_ref());
@@ -1332,9 +1332,9 @@ pub fn predicted<N: Numbers>(q: &N, qd: &N, qdd: &N, h: f64) -> N {
 }
 
 pub mod error {
-//! Why something cannot be done.
+//! Errors of emitted code.
 
-/// Why a mechanism could not be brought to a time.
+/// The reason why a mechanism could not be moved to a time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Error {
@@ -1372,7 +1372,7 @@ impl core::fmt::Display for Error {
 
 impl core::error::Error for Error {}
 
-/// Why a step is refused.
+/// The reason why a step is refused.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Fault {
     /// Something is not a number.
@@ -1388,7 +1388,7 @@ pub enum Fault {
 }
 
 impl Fault {
-    /// Why a mechanism cannot be assembled.
+    /// Returns the error of a mechanism that cannot be assembled.
     pub fn at_start(self) -> Error {
         match self {
             Self::NotANumber => Error::NotANumber,
@@ -1400,111 +1400,111 @@ impl Fault {
 }
 
 pub mod equations {
-//! What is asked of a mechanism with its parameters: its equations, their branches, and what must hold beside them.
+//! Interface of a mechanism with its parameters: equations, their branches, and conditions beside them.
 
 use super::numbers::{Flags, Numbers};
 use core::fmt::Debug;
 
-/// The equations `phi = 0` and what follows from them.
+/// The equations `phi = 0` and their derivatives.
 pub trait Equations: Copy + Debug {
-    /// A number for each coordinate, and for each equation.
+    /// A number for each coordinate, or each equation.
     type Q: Numbers;
-    /// One for each entry of `phi_q` that does not vanish.
+    /// A number for each entry of `phi_q` that does not vanish.
     type Entries: Numbers;
-    /// Which branch formulas take, by place: what a comparison gives, the number of a piece.
+    /// Branches of formulas: the result of each comparison, the number of each piece.
     type Sides: Numbers + PartialEq;
 
-    /// Row and column of each entry of `phi_q`.
+    /// Returns row and column of each entry of `phi_q`.
     fn pattern() -> &'static [(usize, usize)];
 
-    /// What a change of each coordinate is judged against.
+    /// Returns the scale of each coordinate.
     fn scales() -> &'static Self::Q;
 
-    /// What is left of the equations.
+    /// Returns the residuals of the equations.
     fn phi(&self, q: &Self::Q, t: f64, sides: &Self::Sides) -> Self::Q;
 
-    /// The entries of their Jacobian.
+    /// Returns the entries of the Jacobian.
     fn phi_q(&self, q: &Self::Q, t: f64, sides: &Self::Sides) -> Self::Entries;
 
-    /// The right side of the velocity equation.
+    /// Returns the right side of the velocity equation.
     fn nu(&self, q: &Self::Q, t: f64, sides: &Self::Sides) -> Self::Q;
 
-    /// The right side of the acceleration equation.
+    /// Returns the right side of the acceleration equation.
     fn gamma(&self, q: &Self::Q, qd: &Self::Q, t: f64, sides: &Self::Sides) -> Self::Q;
 }
 
-/// What decides the branches of formulas. Where formulas have none, all of this is nothing.
+/// Conditions that select the branches of formulas. By default formulas have none.
 pub trait Branches: Equations {
-    /// Whether time alone decides some.
+    /// True if some branches depend on time alone.
     const OF_TIME: bool = false;
 
-    /// Whether the motion decides some.
+    /// True if some branches depend on the motion.
     const OF_MOTION: bool = false;
 
-    /// The last time of the file's analysis (s), at which formulas of time take their earlier branches.
+    /// Last time of the file's analysis (s), at which formulas of time take their earlier branches.
     const END: Option<f64> = None;
 
-    /// Which of them time alone decides.
+    /// Returns for each branch whether it depends on time alone.
     fn is_of_time() -> &'static [bool] {
         &[]
     }
 
-    /// The branches that time alone decides, the others as 0.
+    /// Returns the branches that depend on time alone, and 0 for the others.
     fn sides_of_time(&self, _t: f64) -> Self::Sides {
         Self::Sides::ZERO
     }
 
-    /// The branches at a position, those of time being known.
+    /// Returns all branches at a position, with those of time given in `sides`.
     fn sides_of_motion(&self, _q: &Self::Q, _t: f64, sides: &Self::Sides) -> Self::Sides {
         *sides
     }
 }
 
-/// What must hold beside the equations; of most mechanisms nothing.
+/// Conditions beside the equations; most mechanisms have none.
 pub trait Checks: Equations {
-    /// Which quantities that keep their signs along a branch are positive.
-    type Watched: Flags;
+    /// A flag for each quantity that keeps its sign along a branch: whether it is positive.
+    type Monitors: Flags;
 
-    /// Whether equations were left out as redundant.
-    const LEAVES_OUT: bool = false;
+    /// True if equations were left out as redundant.
+    const HAS_REDUNDANT_ROWS: bool = false;
 
-    /// Whether distances are positive, and places within their intervals and tables.
+    /// Returns whether distances are positive, and positions lie within their intervals and tables.
     fn conditions_hold(&self, _q: &Self::Q, _t: f64, _sides: &Self::Sides) -> bool {
         true
     }
 
-    /// Whether the equations that were left out hold.
-    fn left_out_holds(&self, _q: &Self::Q, _t: f64, _sides: &Self::Sides) -> bool {
+    /// Returns whether the redundant equations hold.
+    fn redundant_rows_hold(&self, _q: &Self::Q, _t: f64, _sides: &Self::Sides) -> bool {
         true
     }
 
-    /// What keeps its sign along a branch of the motion.
-    fn watched(&self, _q: &Self::Q, _t: f64, _sides: &Self::Sides) -> Self::Watched {
-        Self::Watched::NONE
+    /// Returns the signs of quantities that keep them along a branch of the motion.
+    fn monitors(&self, _q: &Self::Q, _t: f64, _sides: &Self::Sides) -> Self::Monitors {
+        Self::Monitors::NONE
     }
 }
 }
 
 pub mod measured {
-//! What is measured.
+//! Measures.
 
 use core::fmt::Debug;
 
 /// Measures with their first and second time derivatives.
 pub trait Measured: Copy + Debug {
-    /// Nothing is measured yet.
+    /// Measures before the first solution.
     const ZERO: Self;
 
-    /// Which of them, in the order of [`lists`](Measured::lists), are derivatives by inputs or parameters, or forces.
+    /// Flags in the order of [`lists`](Measured::lists): true for derivatives by inputs or parameters, and for forces.
     const IS_VARIED: &'static [bool] = &[];
 
-    /// Values, rates and accelerations.
+    /// Returns values, rates and accelerations.
     fn lists(&self) -> [&[f64]; 3];
 
-    /// The same, to be written.
+    /// Returns values, rates and accelerations for modification.
     fn lists_mut(&mut self) -> [&mut [f64]; 3];
 
-    /// What is not finite is no number.
+    /// Replaces values that are not finite by NaN.
     fn leave_out(&mut self) {
         for list in self.lists_mut() {
             for value in list.iter_mut().filter(|value| !value.is_finite()) {
@@ -1513,7 +1513,8 @@ pub trait Measured: Copy + Debug {
         }
     }
 
-    /// Close to a singular position derivatives by inputs and parameters, and forces, have no value.
+    /// Replaces derivatives by inputs and parameters, and forces, by NaN, since they have no value close to a singular
+    /// position.
     fn leave_varied_out(&mut self) {
         let mut rest = Self::IS_VARIED.iter();
         for list in self.lists_mut() {
@@ -1524,7 +1525,7 @@ pub trait Measured: Copy + Debug {
     }
 }
 
-/// Where nothing is measured.
+/// A mechanism without measures.
 impl Measured for () {
     const ZERO: Self = ();
 
@@ -1539,71 +1540,71 @@ impl Measured for () {
 }
 
 pub mod work {
-//! How much work a call does, and how far it comes.
+//! Work and progress of a call.
 
 use super::equations::Branches;
 use super::limits::{MOST_BRANCHES, MOST_HALVINGS};
 
-/// Evaluations that a call has done. One is a solution of the equations at a place, with all that is checked there: by the operations
-/// that were written for that, or by elimination with partial pivoting where these lose digits. A look at formulas of time that decide a
-/// branch, or at whether they end, is one too.
+/// Number of evaluations of a call. One is a solution of the equations at a position with all checks there: by the
+/// specialized operations, or by elimination with partial pivoting where these lose digits. Evaluating the formulas of time
+/// that decide a branch, or the ends of their domains, counts as one too.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Work {
-    /// How many there were.
+    /// Number of evaluations.
     pub evaluations: usize,
 }
 
 impl Work {
-    /// Counts some more.
+    /// Counts more evaluations.
     pub fn add(&mut self, evaluations: usize) {
         self.evaluations = self.evaluations.wrapping_add(evaluations);
     }
 }
 
-/// How far a call has come.
+/// Progress of a call.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Progress {
-    /// The part of the way that is done: 1 at its end, and only there; 0 if the state has not moved along it yet.
+    /// Fraction of the path that is done: 1 only at its end; 0 if the state has not moved along it yet.
     pub fraction: f64,
 }
 
 impl Progress {
-    /// The end is reached.
+    /// The end of the path.
     pub const REACHED: Self = Self { fraction: 1.0 };
 
-    /// A part of the way, which is not all of it.
+    /// Creates the progress of an incomplete path.
     pub fn part(done: f64, all: f64) -> Self {
         Self { fraction: f64::min(done / all, 1.0 - f64::EPSILON) }
     }
 
-    /// Whether the end is reached; if not, the same call goes on from here.
+    /// Returns whether the end is reached; if not, the same call continues from here.
     #[must_use]
     pub fn is_reached(self) -> bool {
         self.fraction >= 1.0
     }
 }
 
-/// Evaluations that a solution takes at most whose branches of formulas are known: by the operations, by pivoting, and by the operations
-/// once more.
+/// Largest number of evaluations of a solution on given branches of formulas: by the operations, by pivoting, and by the
+/// operations again.
 pub const OF_FINDING: usize = 3;
 
-/// Evaluations that the branches of formulas of time take.
+/// Number of evaluations of the branches of formulas of time.
 pub const fn of_sides<M: Branches>() -> usize {
     if M::OF_TIME { 1 } else { 0 }
 }
 
-/// Evaluations that a solution takes at most.
+/// Largest number of evaluations of a solution.
 pub const fn of_reaching<M: Branches>() -> usize {
     let branches = if M::OF_MOTION { MOST_BRANCHES } else { 1 };
     of_sides::<M>() + branches * OF_FINDING
 }
 
-/// Evaluations that the search for the first edge of a step takes at most.
+/// Largest number of evaluations in the search for the first edge of a step.
 pub const fn of_edge<M: Branches>() -> usize {
     (2 + MOST_HALVINGS) * of_sides::<M>()
 }
 
-/// Evaluations that one step takes at most, from the search for its end to the look at both sides of an edge.
+/// Largest number of evaluations of one step, from the search for its end to the check of both sides of an edge.
 pub const fn of_step<M: Branches>() -> usize {
     let rounding = 1;
     of_edge::<M>() + of_reaching::<M>() + rounding + OF_FINDING * of_sides::<M>()
@@ -1611,7 +1612,7 @@ pub const fn of_step<M: Branches>() -> usize {
 }
 
 pub mod solution {
-//! What solves the equations at a time, and what that is found by.
+//! Solutions of the equations at a time, and the interface of the solver.
 
 use super::equations::{Branches, Checks};
 use super::error::Fault;
@@ -1621,31 +1622,31 @@ use core::fmt::Debug;
 
 /// Equations with the operations that solve them.
 pub trait Solved: Branches + Checks {
-    /// A number for each coordinate that Newton solves for; the others follow.
+    /// A number for each coordinate that Newton solves for; the others follow from these.
     type Tears: Numbers;
-    /// An answer for each block of equations whose determinant changes with the position.
+    /// A flag for each block of equations whose determinant changes with the position.
     type Turns: Flags;
-    /// What is measured.
+    /// Measures.
     type Measures: Measured;
     /// Values that only measures need.
     type Joined: Numbers;
-    /// What the motion goes along: time, or signals.
+    /// Variable of the motion: time, or signals.
     type Along: Along<Self>;
 
-    /// What a change of each coordinate that Newton solves for is judged against.
+    /// Returns the scale of each coordinate that Newton solves for.
     fn tear_scales() -> &'static Self::Tears;
 
-    /// Whether determinants are negative where all pivots are positive.
+    /// Returns for each block whether its determinant is negative if all pivots are positive.
     fn turned() -> &'static Self::Turns;
 
-    /// Of all coordinates those that Newton solves for.
+    /// Selects the coordinates that Newton solves for.
     fn tears(q: &Self::Q) -> Self::Tears;
 
-    /// Position, velocity and acceleration at a time.
+    /// Solves for position, velocity and acceleration at a time.
     fn solve(&self, guess: &Self::Tears, t: f64, sides: &Self::Sides, at: &mut Solution<Self>);
 
-    /// The same by elimination with partial pivoting from a position nearby, where [`solve`](Solved::solve) has failed with `at`;
-    /// a fault where blocks are too large for that.
+    /// Solves by elimination with partial pivoting from a position nearby, after [`solve`](Solved::solve) has failed with
+    /// `at`. Returns a fault if blocks are too large for that.
     fn pivoted(
         &self,
         _q: &Self::Q,
@@ -1657,36 +1658,36 @@ pub trait Solved: Branches + Checks {
     }
 }
 
-/// What a motion goes along, with what a solution holds of that.
+/// The variable of a motion, with the part of a solution that belongs to it.
 pub trait Along<M: Solved>: Copy + Debug {
-    /// Nothing is known yet.
+    /// Value before the first solution.
     const ZERO: Self;
 
-    /// Coordinates at a distance `h` from a solution.
+    /// Returns the predicted coordinates at a distance `h` from a solution.
     fn predicted(m: &M, from: &Solution<M>, h: f64) -> M::Q;
 
-    /// A place a little ahead, at which the branches of formulas tell those on which the motion goes on.
+    /// Returns a position and time slightly ahead, where the branches of formulas are those on which the motion continues.
     fn ahead(m: &M, at: &Solution<M>) -> (M::Q, f64);
 
-    /// Takes down what a solution has been found for.
+    /// Records the point that a solution belongs to.
     fn note(&mut self, _m: &M, _t: f64) {}
 
-    /// The derivatives of the coordinates, by what the motion goes along.
+    /// Returns the derivatives of the coordinates by the variable of the motion.
     fn slopes(&self) -> &[M::Q] {
         &[]
     }
 
-    /// The same, to be written.
+    /// Returns these derivatives for modification.
     #[allow(dead_code)] // what is neither pivoted nor listed knows them by their names
     fn slopes_mut(&mut self) -> &mut [M::Q] {
         &mut []
     }
 }
 
-/// What solves the equations at a time.
+/// Solution of the equations at a time.
 #[derive(Debug)]
 pub struct Solution<M: Solved> {
-    /// The time (s), or the place on a way.
+    /// Time (s), or position on a path.
     pub t: f64,
     /// Coordinates.
     pub q: M::Q,
@@ -1696,24 +1697,24 @@ pub struct Solution<M: Solved> {
     pub qdd: M::Q,
     /// Measures.
     pub measures: M::Measures,
-    /// What only measures need.
+    /// Values that only measures need.
     #[allow(dead_code)] // mostly they need nothing
     pub joined: M::Joined,
-    /// What it holds of what the motion goes along.
+    /// Part of the solution that belongs to the variable of the motion.
     pub along: M::Along,
-    /// The branches of formulas.
+    /// Branches of formulas.
     pub sides: M::Sides,
-    /// Which quantities that must keep their signs are positive.
-    pub watched: M::Watched,
-    /// By block of equations: whether its determinant is negative.
+    /// Signs of quantities that keep them along a branch: true if positive.
+    pub monitors: M::Monitors,
+    /// Signs of the determinants of the blocks of equations.
     pub is_negative: M::Turns,
-    /// Whether Newton has arrived.
+    /// True if Newton's iteration has converged.
     pub is_settled: bool,
-    /// Whether no digits were lost, and the equations hold.
+    /// True if no digits were lost and the equations hold.
     pub holds: bool,
-    /// Newton's largest first correction, scaled.
+    /// Largest first correction of Newton's iteration, scaled.
     pub first: f64,
-    /// One over the smallest pivot, scaled.
+    /// Reciprocal of the smallest pivot, scaled.
     pub steepest: f64,
 }
 
@@ -1726,7 +1727,7 @@ impl<M: Solved> Clone for Solution<M> {
 impl<M: Solved> Copy for Solution<M> {}
 
 impl<M: Solved> Solution<M> {
-    /// Nothing is solved yet.
+    /// Solution before the first solve.
     pub const ZERO: Self = Self {
         t: 0.0,
         q: M::Q::ZERO,
@@ -1736,7 +1737,7 @@ impl<M: Solved> Solution<M> {
         joined: M::Joined::ZERO,
         along: M::Along::ZERO,
         sides: M::Sides::ZERO,
-        watched: M::Watched::NONE,
+        monitors: M::Monitors::NONE,
         is_negative: M::Turns::NONE,
         is_settled: true,
         holds: true,
@@ -1744,14 +1745,14 @@ impl<M: Solved> Solution<M> {
         steepest: 0.0,
     };
 
-    /// Nothing but a position and its time.
+    /// Creates a solution that holds only a position and its time.
     pub fn near(q: &M::Q, t: f64) -> Self {
         let mut near = Self::ZERO;
         (near.t, near.q) = (t, *q);
         near
     }
 
-    /// Makes ready for being solved for.
+    /// Resets the records before a solve.
     pub fn begin(&mut self, t: f64) {
         self.t = t;
         self.is_negative = *M::turned();
@@ -1759,12 +1760,12 @@ impl<M: Solved> Solution<M> {
         (self.first, self.steepest) = (0.0, 0.0);
     }
 
-    /// Why it cannot be used.
+    /// Returns the reason why the solution cannot be used.
     pub fn fault(&self) -> Fault {
         if self.is_finite() { Fault::TooFar } else { Fault::NotANumber }
     }
 
-    /// Whether all of it is numbers; measures may be none.
+    /// Returns whether coordinates and their derivatives are finite; measures may be NaN.
     pub fn is_finite(&self) -> bool {
         let mut sums = [0.0; 4];
         add_zeros(&self.q, &mut sums);
@@ -1779,45 +1780,45 @@ impl<M: Solved> Solution<M> {
 }
 
 pub mod track {
-//! Where something is on its way.
+//! Present and previous solution of a continuation.
 
 use super::solution::{Solution, Solved};
 
-/// The solution of now, and the one before it or the next one in the making.
+/// The present solution, and the previous one or the next one in progress.
 #[derive(Clone, Copy, Debug)]
 pub struct Track<M: Solved> {
     pub(super) solutions: [Solution<M>; 2],
-    /// Whether that of now is the second.
+    /// True if the present solution is the second.
     pub(super) is_second: bool,
-    /// Whether the one before lies on the same smooth motion.
+    /// True if the previous solution lies on the same smooth motion.
     pub(super) is_smooth: bool,
-    /// The step that goes well: a time (s), or a change of a signal.
+    /// Step size that works well: a time (s), or a change of a signal.
     pub(super) stride: f64,
 }
 
 impl<M: Solved> Track<M> {
-    /// The solution of now.
+    /// Returns the present solution.
     #[inline]
     pub fn at(&self) -> &Solution<M> {
         let [first, second] = &self.solutions;
         if self.is_second { second } else { first }
     }
 
-    /// The same, to be written.
+    /// Returns the present solution for modification.
     #[inline]
     pub fn at_mut(&mut self) -> &mut Solution<M> {
         let [first, second] = &mut self.solutions;
         if self.is_second { second } else { first }
     }
 
-    /// The one before, or the next one in the making.
+    /// Returns the previous solution, or the next one in progress.
     #[inline]
     pub fn other(&self) -> &Solution<M> {
         let [first, second] = &self.solutions;
         if self.is_second { first } else { second }
     }
 
-    /// Both: that of now, and the other one, to be written.
+    /// Returns the present solution, and the other one for modification.
     #[inline]
     pub fn both(&mut self) -> (&Solution<M>, &mut Solution<M>) {
         let [first, second] = &mut self.solutions;
@@ -1825,27 +1826,27 @@ impl<M: Solved> Track<M> {
     }
 }
 
-/// What a track was before a call, which an error gives back bit for bit.
+/// Checkpoint of a track before a call, from which an error restores every bit.
 pub struct Checkpoint<M: Solved> {
-    /// The time or place of the solution of then.
+    /// Time or position of the solution at the checkpoint.
     t: f64,
     is_second: bool,
     is_smooth: bool,
     stride: f64,
     other: Solution<M>,
-    /// The solution of then, once a second step is about to write over it.
+    /// The solution at the checkpoint, once a second step is about to overwrite it.
     now: Option<Solution<M>>,
 }
 
 impl<M: Solved> Checkpoint<M> {
-    /// What a track is now.
+    /// Creates a checkpoint of a track.
     #[inline]
     pub fn of(track: &Track<M>) -> Self {
         let Track { is_second, is_smooth, stride, .. } = *track;
         Self { t: track.at().t, is_second, is_smooth, stride, other: *track.other(), now: None }
     }
 
-    /// Keeps the solution of then, which stands beside that of now after the first step.
+    /// Keeps the solution of the checkpoint, which is the other solution after the first step.
     #[inline]
     pub fn keep(&mut self, track: &Track<M>) {
         if self.now.is_none() {
@@ -1853,7 +1854,7 @@ impl<M: Solved> Checkpoint<M> {
         }
     }
 
-    /// Gives back what was.
+    /// Restores the track.
     #[cold]
     pub fn restore(&self, track: &mut Track<M>) {
         (track.is_second, track.is_smooth, track.stride) = (self.is_second, self.is_smooth, self.stride);
@@ -1866,29 +1867,29 @@ impl<M: Solved> Checkpoint<M> {
 }
 }
 
-pub mod so_far {
-//! What is the largest, found one by one.
+pub mod running_max {
+//! Maximum of a sequence.
 
-/// What is the largest so far, in the loops that solve, which have time for one comparison: a value that is not a number wins, but only
-/// until the next. What it comes from is not a number either, and is asked for that.
-pub fn larger_so_far(largest: f64, value: f64) -> f64 {
+/// Returns the maximum so far with a single comparison, for inner loops: NaN wins, but only until the next value. The
+/// results that a NaN comes from are NaN as well and are checked for that.
+pub fn running_max(largest: f64, value: f64) -> f64 {
     if value <= largest { largest } else { value }
 }
 }
 
 pub mod pivots {
-//! What pivots tell of a position.
+//! Record of pivots.
 
-use super::so_far::larger_so_far;
+use super::running_max::running_max;
 use super::solution::{Solution, Solved};
 
 impl<M: Solved> Solution<M> {
-    /// Takes note of one over a pivot, and of what makes that a pure number.
+    /// Records the reciprocal of a pivot; `weight` makes it dimensionless.
     pub fn pivot(&mut self, turn: usize, inverse: f64, weight: f64) {
         if let Some(is_negative) = self.is_negative.as_mut().get_mut(turn) {
             *is_negative ^= inverse < 0.0;
         }
-        self.steepest = larger_so_far(self.steepest, inverse.abs() * weight);
+        self.steepest = running_max(self.steepest, inverse.abs() * weight);
     }
 }
 }
@@ -2003,40 +2004,40 @@ pub mod newton {
 use super::grid::{bound_at_first, going_on, next_point};
 use super::limits::{BORDER, LARGEST_CORRECTION};
 use super::numbers::larger;
-use super::so_far::larger_so_far;
+use super::running_max::running_max;
 use super::solution::{Solution, Solved};
 
-/// An iteration of Newton from grid point to grid point, so that where it begins leaves no trace in where it ends.
+/// A Newton iteration from grid point to grid point, so that its result does not depend on its start.
 pub struct Newton {
     is_first: bool,
     is_lost: bool,
     has_settled: bool,
     first: f64,
-    /// The largest correction, and with which one it ends, both in cells of the grid.
+    /// Largest correction, and the bound below which the iteration ends, both in cells of the grid.
     largest: f64,
     bound: f64,
-    /// The cells, in cells, among whose points coordinates next to a border go on.
+    /// Spacing, in cells, of the points to which coordinates next to a border continue.
     cells: f64,
 }
 
 impl Newton {
-    /// It has not begun.
+    /// Creates an iteration before its first step.
     pub fn new() -> Self {
         let bound = bound_at_first(BORDER);
         Self { is_first: true, is_lost: false, has_settled: false, first: 0.0, largest: 0.0, bound, cells: 1.0 }
     }
 
-    /// The correction of a coordinate; its grid has cells so wide, and it is judged against `scale`.
-    pub fn see(&mut self, delta: f64, cell: f64, scale: f64) {
+    /// Records the correction of a coordinate, whose grid has cells of width `cell`, and whose scale is `scale`.
+    pub fn record(&mut self, delta: f64, cell: f64, scale: f64) {
         let size = delta.abs();
         if self.is_first {
-            self.first = larger_so_far(self.first, size / scale);
+            self.first = running_max(self.first, size / scale);
         }
-        self.largest = larger_so_far(self.largest, size / cell);
+        self.largest = running_max(self.largest, size / cell);
         self.is_lost |= size.is_nan() || size > LARGEST_CORRECTION * scale;
     }
 
-    /// Whether no further iteration is needed, or none helps.
+    /// Returns whether the iteration is done: it has settled or is lost.
     pub fn is_done(&mut self) -> bool {
         self.has_settled = !self.is_lost && self.largest <= self.bound;
         let is_done = self.has_settled || self.is_lost;
@@ -2047,14 +2048,14 @@ impl Newton {
         is_done
     }
 
-    /// The grid point that a coordinate goes on to.
+    /// Returns the grid point to which a coordinate continues.
     pub fn next(&self, x: f64, delta: f64, cell: f64) -> f64 {
         next_point(x, delta, cell, self.cells, BORDER)
     }
 }
 
 impl<M: Solved> Solution<M> {
-    /// Takes over how an iteration went.
+    /// Records the outcome of an iteration.
     pub fn note(&mut self, newton: &Newton) {
         self.is_settled &= newton.has_settled;
         self.first = larger(self.first, newton.first);
@@ -2063,7 +2064,7 @@ impl<M: Solved> Solution<M> {
 }
 
 pub mod branches {
-//! The branches of formulas along the motion.
+//! Branches of formulas along the motion.
 
 use super::equations::Branches;
 use super::limits::{MOST_HALVINGS, SLACK};
@@ -2071,8 +2072,8 @@ use super::neighbours::{bisect, shortly_after};
 use super::solution::{Along, Solution, Solved};
 use super::work::{Work, of_sides};
 
-/// The branches of formulas of time at a time: the later ones where they change just then, but at the end of the file's analysis
-/// the earlier ones.
+/// Returns the branches of formulas of time at a time: the later ones if they change at that time, but the earlier ones at
+/// the end of the file's analysis.
 pub fn sides_at<M: Branches>(t: f64, m: &M, work: &mut Work) -> M::Sides {
     work.add(of_sides::<M>());
     match M::END {
@@ -2081,12 +2082,12 @@ pub fn sides_at<M: Branches>(t: f64, m: &M, work: &mut Work) -> M::Sides {
     }
 }
 
-/// Whether a time is the end of the file's analysis.
+/// Returns whether a time is the end of the file's analysis.
 fn is_end<M: Branches>(t: f64) -> bool {
     M::END.is_some_and(|end| t <= end && shortly_after(t, SLACK) >= end)
 }
 
-/// The first time of a step at which formulas of time take other branches than at its beginning; its end if they do not.
+/// Returns the first time in a step at which formulas of time change their branches; the end of the step if they do not.
 pub fn first_edge<M: Branches>(from: f64, to: f64, m: &M, work: &mut Work) -> f64 {
     let here = sides_at(from, m, work);
     if sides_at(to, m, work) == here {
@@ -2096,12 +2097,12 @@ pub fn first_edge<M: Branches>(from: f64, to: f64, m: &M, work: &mut Work) -> f6
     edge
 }
 
-/// The branches at a position that is next to one that is looked for.
+/// Returns the branches at a position next to the one that is solved for.
 pub fn sides_near<M: Branches>(q: &M::Q, t: f64, m: &M, work: &mut Work) -> M::Sides {
     m.sides_of_motion(q, t, &sides_at(t, m, work))
 }
 
-/// The branches with those of time exchanged.
+/// Replaces the branches of time.
 pub fn with_time<M: Branches>(sides: &M::Sides, of_time: &M::Sides) -> M::Sides {
     let mut all = *sides;
     let pairs = of_time.as_ref().iter().zip(M::is_of_time());
@@ -2113,7 +2114,8 @@ pub fn with_time<M: Branches>(sides: &M::Sides, of_time: &M::Sides) -> M::Sides 
     all
 }
 
-/// The branches of formulas of the motion that lie ahead of a position; at the end of the file's analysis those that lie behind it.
+/// Returns the branches of formulas of the motion just ahead of a position; at the end of the file's analysis those just
+/// behind it.
 pub fn sides_ahead<M: Solved>(at: &Solution<M>, m: &M) -> M::Sides {
     let (mut q, t) = M::Along::ahead(m, at);
     if !is_end::<M>(at.t) {
@@ -2127,7 +2129,7 @@ pub fn sides_ahead<M: Solved>(at: &Solution<M>, m: &M) -> M::Sides {
 }
 
 pub mod reach {
-//! Solving at a time, on the branches that are there.
+//! Solves at a time, on the branches that hold there.
 
 use super::branches::{sides_ahead, sides_at, with_time};
 use super::error::Fault;
@@ -2137,7 +2139,7 @@ use super::numbers::{larger, largest};
 use super::solution::{Along, Solution, Solved};
 use super::work::Work;
 
-/// Solves at a time, from a guess; `from` is where the motion comes from.
+/// Solves at a time from a guess; `from` is the previous solution of the motion.
 pub fn reach<M: Solved>(
     guess: &M::Tears,
     from: &Solution<M>,
@@ -2163,7 +2165,7 @@ pub fn reach<M: Solved>(
     Err(Fault::TooFar)
 }
 
-/// Solves with branches of formulas that are known.
+/// Solves on given branches of formulas.
 pub fn find<M: Solved>(
     guess: &M::Tears,
     from: &Solution<M>,
@@ -2182,17 +2184,17 @@ pub fn find<M: Solved>(
     if !m.conditions_hold(&at.q, t, sides) {
         return Err(Fault::NotANumber);
     }
-    if !m.left_out_holds(&at.q, t, sides) {
+    if !m.redundant_rows_hold(&at.q, t, sides) {
         return Err(Fault::LeftOut);
     }
-    at.watched = m.watched(&at.q, t, sides);
+    at.monitors = m.monitors(&at.q, t, sides);
     at.sides = *sides;
     at.along.note(m, t);
     at.measures.leave_out();
     if at.is_finite() { Ok(()) } else { Err(Fault::NotANumber) }
 }
 
-/// Solves once more from a position that is known, and if that does not help either, takes that.
+/// Solves by pivoting, then again by the operations from that position; keeps the result of pivoting if they fail again.
 #[cold]
 #[inline(never)]
 fn find_with_pivoting<M: Solved>(
@@ -2213,8 +2215,8 @@ fn find_with_pivoting<M: Solved>(
     Ok(())
 }
 
-/// What rounding makes of the velocities and accelerations, for every unit of steepness: they are amplified by as much as the
-/// position is near to a singular one.
+/// Returns the relative rounding error of velocities and accelerations per unit of steepness. The closer a position is to a
+/// singular one, the more rounding is amplified.
 pub fn rounding<M: Solved>(at: &Solution<M>, m: &M) -> f64 {
     let (t, sides, scales) = (at.t, &at.sides, M::scales());
     let slopes = m.phi_q(&at.q, t, sides);
@@ -2235,7 +2237,8 @@ pub fn rounding<M: Solved>(at: &Solution<M>, m: &M) -> f64 {
     f64::EPSILON * amplified
 }
 
-/// Whether a position that is reached lies on the branch of the motion that it comes from, whose equations are so steep.
+/// Returns whether a solution lies on the branch of `from`; `steepness` is how much steeper the parameters make the
+/// equations than those of the file.
 pub fn stays_on_branch<M: Solved>(
     from: &Solution<M>,
     at: &mut Solution<M>,
@@ -2245,7 +2248,7 @@ pub fn stays_on_branch<M: Solved>(
     work: &mut Work,
 ) -> bool {
     let steepest = at.steepest / steepness;
-    if at.watched != from.watched || at.is_negative != from.is_negative || steepest > STEEPEST {
+    if at.monitors != from.monitors || at.is_negative != from.is_negative || steepest > STEEPEST {
         return false;
     }
     if steepest > STEEP {
@@ -2261,7 +2264,7 @@ pub fn stays_on_branch<M: Solved>(
 }
 
 pub mod state {
-//! A mechanism that moves with time, and where it is.
+//! A mechanism that moves with time, and its state.
 
 use super::error::Error;
 use super::limits::{AHEAD, FARTHEST_AHEAD, LONGEST_AHEAD};
@@ -2272,97 +2275,97 @@ use super::track::Track;
 use super::work::Work;
 use core::fmt::Debug;
 
-/// What can be set of a mechanism.
+/// Parameters of a mechanism.
 pub trait Parameters: Copy + Debug + Default {
-    /// Part of the way from these to others.
+    /// Interpolates between these parameters and others.
     #[must_use]
     fn towards(&self, other: &Self, part: f64) -> Self;
 
-    /// Whether all are numbers.
+    /// Returns whether all parameters are finite.
     fn is_finite(&self) -> bool;
 }
 
-/// A mechanism whose motion goes along time.
+/// A mechanism whose motion follows time.
 pub trait Timed: Solved<Along = Time> {
-    /// Its parameters.
+    /// Parameters of the mechanism.
     type Params: Parameters;
-    /// What leads it by its inputs; `()` where it has none.
-    type Lead: Lead<Self>;
-    /// By rim, where formulas of time may end: the time at which it was looked at last (s).
+    /// Continuation along inputs; `()` if the mechanism has none.
+    type Continuation: Continuation<Self>;
+    /// Time of the last check of each domain boundary of a formula of time (s).
     type Passed: Numbers;
     /// A number for each result.
     type Row: Numbers;
 
-    /// The first time of the file's analysis (s), at which the mechanism is assembled.
+    /// First time of the file's analysis (s), at which the mechanism is assembled.
     const START_TIME: f64;
-    /// How long the file's analysis takes (s).
+    /// Duration of the file's analysis (s).
     const SPAN: f64;
-    /// The longest step (s).
+    /// Longest step (s).
     const LONGEST_STEP: f64;
-    /// The shortest step (s).
+    /// Shortest step (s).
     const SMALLEST_STEP: f64;
-    /// Evaluations that the rims of a step take at most.
-    const WORK_OF_RIMS: usize = 0;
+    /// Largest number of evaluations for the domain boundaries of a step.
+    const WORK_OF_BOUNDARIES: usize = 0;
 
-    /// The mechanism with some parameters.
+    /// Creates the mechanism with the given parameters.
     fn new(params: &Self::Params) -> Self;
 
-    /// Its parameters.
+    /// Parameters of the mechanism.
     fn params(&self) -> &Self::Params;
 
-    /// The assembled position with the file's parameters.
+    /// Returns the assembled position with the parameters of the file.
     fn start() -> &'static Self::Q;
 
-    /// Where the file's poses put the coordinates with its parameters, roughly: what is not closed yet.
+    /// Returns the coordinates by the poses of the file, with the present parameters; the loops are not closed yet.
     fn drawn(&self) -> Self::Q;
 
-    /// Solves at a place from far away; nothing where that does not arrive, or blocks are too large for it.
+    /// Solves at a position from far away. Returns `None` if that does not converge, or if blocks are too large for it.
     fn closed(&self, _q: &Self::Q, _t: f64, _work: &mut Work) -> Option<Self::Q> {
         None
     }
 
-    /// The first rim of a step that was not looked at yet, with its time.
-    fn first_rim(&self, _from: f64, _to: f64, _passed: &Self::Passed, _work: &mut Work) -> Option<(usize, f64)> {
+    /// Returns the first unchecked domain boundary in a step, with its time.
+    fn first_boundary(&self, _from: f64, _to: f64, _passed: &Self::Passed, _work: &mut Work) -> Option<(usize, f64)> {
         None
     }
 
-    /// Looks at both sides of a rim next to the state.
-    fn look_at_rim(_state: &mut State<Self>, _rim: usize, _t: f64, _work: &mut Work) -> Result<(), Error> {
+    /// Checks both sides of a domain boundary near the state.
+    fn check_boundary(_state: &mut State<Self>, _rim: usize, _t: f64, _work: &mut Work) -> Result<(), Error> {
         Ok(())
     }
 }
 
-/// What leads a mechanism by its inputs.
-pub trait Lead<M: Timed>: Copy + Debug {
-    /// Evaluations that taking up the time takes at most beside its steps, and each of these.
+/// Continuation of a mechanism along its inputs.
+pub trait Continuation<M: Timed>: Copy + Debug {
+    /// Largest number of evaluations for the return to time: without steps, and for each step.
     const WORK: [usize; 2];
 
-    /// Nothing is led yet.
+    /// Creates an inactive continuation.
     fn new(params: &M::Params) -> Self;
 
-    /// Whether inputs have led to where the mechanism is, rather than the time.
-    fn is_leading(&self) -> bool;
+    /// Returns whether inputs, rather than time, have moved the mechanism to its position.
+    fn is_active(&self) -> bool;
 
-    /// Brings a mechanism that inputs have led back to what the formulas of its inputs say at its time, in so many steps at most;
-    /// gives how many of them are left, or nothing where it is still on its way.
-    fn take_up_time(state: &mut State<M>, most: usize, work: &mut Work) -> Result<Option<usize>, Error>;
+    /// Moves a mechanism back to the inputs that its formulas give at its time, in at most `most` steps. Returns the number
+    /// of steps that are left, or `None` if it has not arrived yet.
+    fn resume_time(state: &mut State<M>, most: usize, work: &mut Work) -> Result<Option<usize>, Error>;
 }
 
-impl<M: Timed> Lead<M> for () {
+impl<M: Timed> Continuation<M> for () {
     const WORK: [usize; 2] = [0, 0];
 
     fn new(_: &M::Params) -> Self {}
 
-    fn is_leading(&self) -> bool {
+    fn is_active(&self) -> bool {
         false
     }
 
-    fn take_up_time(_: &mut State<M>, most: usize, _: &mut Work) -> Result<Option<usize>, Error> {
+    fn resume_time(_: &mut State<M>, most: usize, _: &mut Work) -> Result<Option<usize>, Error> {
         Ok(Some(most))
     }
 }
 
-/// The motion goes along time.
+/// Motion along time.
 #[derive(Clone, Copy, Debug)]
 pub struct Time;
 
@@ -2381,13 +2384,13 @@ impl<M: Timed> Along<M> for Time {
     }
 }
 
-/// How a mechanism was assembled with its parameters.
+/// How a mechanism was assembled for its parameters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Assembly {
-    /// It was led from the assembled position of the file's own parameters, along its branch.
+    /// By continuation from the assembled position of the file's own parameters, along its branch.
     Led,
-    /// No way led there: the equations were solved from the poses that the file draws with these parameters, as `mechc run --set` does.
-    /// It may be another branch.
+    /// From the poses that the file draws with these parameters, as `mechc run --set` does, because the continuation did
+    /// not arrive. This may be another branch.
     Drawn,
 }
 
@@ -2395,74 +2398,74 @@ pub enum Assembly {
 #[derive(Clone, Debug)]
 pub struct State<M: Timed> {
     pub(super) model: M,
-    /// Where it is along the time.
+    /// Position along time.
     pub(super) track: Track<M>,
-    /// How much steeper these parameters make the equations than the file's.
+    /// Steepness of the equations relative to that with the parameters of the file.
     pub(super) steepness: f64,
-    /// How it was assembled.
+    /// The kind of assembly.
     pub(super) assembly: Assembly,
-    /// What leads by inputs.
-    pub(super) lead: M::Lead,
-    /// By rim: the time at which it was looked at last (s).
+    /// Continuation along inputs.
+    pub(super) continuation: M::Continuation,
+    /// Time of the last check of each domain boundary (s).
     pub(super) passed: M::Passed,
 }
 
 impl<M: Timed> State<M> {
-    /// The solution of now.
+    /// Returns the present solution.
     pub(super) fn at(&self) -> &Solution<M> {
         self.track.at()
     }
 
-    /// How it was assembled with its parameters.
+    /// Returns how the mechanism was assembled for its parameters.
     #[must_use]
     pub fn assembly(&self) -> Assembly {
         self.assembly
     }
 
-    /// The time (s).
+    /// Returns the time (s).
     #[must_use]
     pub fn t(&self) -> f64 {
         self.at().t
     }
 
-    /// The parameters.
+    /// Returns the parameters.
     #[must_use]
     pub fn params(&self) -> &M::Params {
         self.model.params()
     }
 
-    /// The coordinates (m, rad), by their indices.
+    /// Returns the coordinates (m, rad), by their indices.
     #[must_use]
     pub fn q(&self) -> &M::Q {
         &self.at().q
     }
 
-    /// Their velocities (m/s, rad/s).
+    /// Returns the velocities of the coordinates (m/s, rad/s).
     #[must_use]
     pub fn qd(&self) -> &M::Q {
         &self.at().qd
     }
 
-    /// Their accelerations (m/s^2, rad/s^2).
+    /// Returns the accelerations of the coordinates (m/s^2, rad/s^2).
     #[must_use]
     pub fn qdd(&self) -> &M::Q {
         &self.at().qdd
     }
 
-    /// The measures, by their indices, and their first and second time derivatives; `NAN` where one has no value, and no step fails
-    /// for that.
+    /// Returns the measures, by their indices, with their first and second time derivatives; `NAN` where a measure has no
+    /// value, which fails no step.
     #[must_use]
     pub fn measures(&self) -> &M::Measures {
         &self.at().measures
     }
 
-    /// Whether inputs have led here, rather than the time.
-    pub(super) fn is_led(&self) -> bool {
-        self.lead.is_leading()
+    /// Returns whether inputs, rather than time, have moved the mechanism here.
+    pub(super) fn is_input_driven(&self) -> bool {
+        self.continuation.is_active()
     }
 
-    /// All results, in the order of the columns of `mechc run`: the time, coordinates and measures, then their first and their second
-    /// derivatives.
+    /// Returns all results in the order of the columns of `mechc run`: the time, coordinates and measures, then their first
+    /// and second derivatives.
     #[must_use]
     pub fn row(&self) -> M::Row {
         let at = self.at();
@@ -2479,7 +2482,7 @@ impl<M: Timed> State<M> {
 }
 
 pub mod assemble {
-//! The start of a motion.
+//! Assembly at the start of a motion.
 
 use super::branches::sides_near;
 use super::error::{Error, Fault};
@@ -2487,11 +2490,11 @@ use super::limits::{FIRST_PARTS, LARGEST_CORRECTION, MOST_PARTS, MOST_SHORTER, M
 use super::numbers::Numbers;
 use super::reach::reach;
 use super::solution::Solution;
-use super::state::{Assembly, Lead, Parameters, State, Timed};
+use super::state::{Assembly, Continuation, Parameters, State, Timed};
 use super::track::Track;
 use super::work::{Work, of_reaching, of_sides};
 
-/// Evaluations that it takes at most.
+/// Largest number of evaluations of an assembly.
 pub const fn most_work<M: Timed>() -> usize {
     let of_start = of_sides::<M>() + of_reaching::<M>();
     (2 + FIRST_PARTS + MOST_PARTS) * (of_start + of_sides::<M>() + 1)
@@ -2499,49 +2502,49 @@ pub const fn most_work<M: Timed>() -> usize {
         + (1 + MOST_SHORTER) * MOST_TRIALS
 }
 
-/// Brings the mechanism to its first time with some parameters: along the branch that the file's parameters give where a short way
-/// leads there, else from the poses that the file draws with these parameters, and only then along a long way.
+/// Assembles the mechanism at its first time with the given parameters: along the branch of the file's parameters if a
+/// short path leads there, else from the poses that the file draws with these parameters, and only then along a long path.
 pub fn assemble<M: Timed>(params: &M::Params, work: &mut Work) -> Result<State<M>, Error> {
     if !params.is_finite() {
         return Err(Error::NotANumber);
     }
-    let mut way = Way::<M>::new(work)?;
+    let mut path = ParameterPath::<M>::new(work)?;
     let model = M::new(params);
-    match way.lead(params, FIRST_PARTS, work) {
-        Ok(at) => return Ok(way.state(model, at, Assembly::Led)),
+    match path.advance(params, FIRST_PARTS, work) {
+        Ok(at) => return Ok(path.state(model, at, Assembly::Led)),
         Err(Error::NotANumber) => return Err(Error::NotANumber),
         Err(_) => {}
     }
-    let mut at = way.at;
+    let mut at = path.at;
     let drawn = model.closed(&model.drawn(), M::START_TIME, work);
     if drawn.is_some_and(|q| start(&q, &model, &mut at, work).is_ok()) {
-        return Ok(way.state(model, at, Assembly::Drawn));
+        return Ok(path.state(model, at, Assembly::Drawn));
     }
-    let at = way.lead(params, MOST_PARTS, work)?;
-    Ok(way.state(model, at, Assembly::Led))
+    let at = path.advance(params, MOST_PARTS, work)?;
+    Ok(path.state(model, at, Assembly::Led))
 }
 
-/// The way from the file's parameters to others.
-struct Way<M: Timed> {
-    /// How steep the equations are with the file's.
+/// The path from the file's parameters to others.
+struct ParameterPath<M: Timed> {
+    /// Steepness of the equations with the file's parameters.
     usual: f64,
-    /// The solution where it has come to.
+    /// Solution at the present position.
     at: Solution<M>,
-    /// The part that is done, and the next one that is tried.
+    /// Fraction that is done, and the next increment to try.
     done: f64,
     part: f64,
 }
 
-impl<M: Timed> Way<M> {
-    /// Its beginning.
+impl<M: Timed> ParameterPath<M> {
+    /// Creates the path at its beginning.
     fn new(work: &mut Work) -> Result<Self, Error> {
         let mut at = Solution::ZERO;
         start(M::start(), &M::new(&M::Params::default()), &mut at, work).map_err(Fault::at_start)?;
         Ok(Self { usual: at.steepest, at, done: 0.0, part: 1.0 })
     }
 
-    /// Goes on to the end, in so many trials at most.
-    fn lead(&mut self, params: &M::Params, most: usize, work: &mut Work) -> Result<Solution<M>, Error> {
+    /// Continues to the end in at most `most` trials.
+    fn advance(&mut self, params: &M::Params, most: usize, work: &mut Work) -> Result<Solution<M>, Error> {
         let (file, mut found, mut why) = (M::Params::default(), self.at, Error::Divergence);
         for _ in 0..most {
             let next = f64::min(self.done + self.part, 1.0);
@@ -2566,14 +2569,14 @@ impl<M: Timed> Way<M> {
         Err(why)
     }
 
-    /// The state at a solution.
+    /// Creates the state at a solution.
     fn state(&self, model: M, at: Solution<M>, assembly: Assembly) -> State<M> {
         let ratio = at.steepest / self.usual;
         let mut passed = M::Passed::ZERO;
         passed.as_mut().fill(f64::NEG_INFINITY);
         State {
             steepness: if ratio > 0.0 { ratio } else { 1.0 },
-            lead: M::Lead::new(model.params()),
+            continuation: M::Continuation::new(model.params()),
             model,
             track: Track { solutions: [at, self.at], is_second: false, is_smooth: false, stride: M::LONGEST_STEP },
             assembly,
@@ -2582,7 +2585,8 @@ impl<M: Timed> Way<M> {
     }
 }
 
-/// Whether a position is too far away to solve from, by the operations alone: to try harder costs many times as much.
+/// Returns whether a position is too far away to solve from by the operations alone; pivoting would cost many times as
+/// much.
 fn is_far<M: Timed>(q: &M::Q, m: &M, at: &mut Solution<M>, work: &mut Work) -> bool {
     let sides = sides_near(q, M::START_TIME, m, work);
     work.add(1);
@@ -2590,7 +2594,7 @@ fn is_far<M: Timed>(q: &M::Q, m: &M, at: &mut Solution<M>, work: &mut Work) -> b
     !at.is_settled && at.first > LARGEST_CORRECTION
 }
 
-/// Solves at the first time, from a position nearby.
+/// Solves at the first time from a position nearby.
 fn start<M: Timed>(q: &M::Q, m: &M, at: &mut Solution<M>, work: &mut Work) -> Result<(), Fault> {
     let mut near = Solution::near(q, M::START_TIME);
     near.sides = sides_near(q, M::START_TIME, m, work);
@@ -2600,7 +2604,7 @@ fn start<M: Timed>(q: &M::Q, m: &M, at: &mut Solution<M>, work: &mut Work) -> Re
 }
 
 pub mod explain {
-//! Why a motion cannot go on.
+//! The reason why a motion cannot go on.
 
 use super::branches::sides_at;
 use super::equations::{Branches, Checks};
@@ -2610,7 +2614,7 @@ use super::solution::{Solution, Solved};
 use super::state::{State, Timed};
 use super::work::{Work, of_sides};
 
-/// Why even the shortest step from a state towards a time is refused.
+/// Returns the reason why even the shortest step from a state towards a time is refused.
 pub fn explain<M: Timed>(state: &State<M>, fault: Fault, t: f64, work: &mut Work) -> Error {
     let at = state.at();
     if let Some(error) = regular(at, fault, t, &state.model, work) {
@@ -2623,26 +2627,26 @@ pub fn explain<M: Timed>(state: &State<M>, fault: Fault, t: f64, work: &mut Work
     meeting::<M>(if t < at.t { -left } else { left }, M::SPAN)
 }
 
-/// Evaluations that it takes to tell why, at most.
+/// Largest number of evaluations that [`regular`] takes.
 pub const fn of_regular<M: Branches>() -> usize {
     1 + 2 * of_sides::<M>()
 }
 
-/// Why it is, if that has nothing to do with how near the position is to a singular one.
+/// Returns the reason, if it does not depend on how near the position is to a singular one.
 pub fn regular<M: Solved>(at: &Solution<M>, fault: Fault, t: f64, m: &M, work: &mut Work) -> Option<Error> {
     work.add(1);
     let values = m.phi(&at.q, t, &at.sides);
     if fault == Fault::NotANumber || values.as_ref().iter().any(|value| !value.is_finite()) {
         return Some(Error::NotANumber);
     }
-    // a position that jumps far is not even found on the other side
+    // a position that jumps far is not found on the other side
     let mut is_at_edge = || sides_at(at.t, m, work) != sides_at(t, m, work);
     let jumps = fault == Fault::NotSmooth || (fault == Fault::TooFar && is_at_edge());
     jumps.then_some(Error::NotSmooth)
 }
 
-/// How long it takes to a dead point: a motion that comes to one after a time u is as the root of u, whose slope over twice its
-/// curvature is u. That of the fastest coordinate counts.
+/// Returns the time until a dead point, from the fastest coordinate: a time u before a dead point a motion behaves like the
+/// root of u, whose slope over twice its curvature is u.
 pub fn until_turn<M: Solved>(at: &Solution<M>) -> f64 {
     let rates = at.qd.as_ref().iter().zip(at.qdd.as_ref()).zip(M::scales().as_ref());
     let sooner = |(speed, left): (f64, f64), ((v, a), scale): ((&f64, &f64), &f64)| {
@@ -2651,12 +2655,12 @@ pub fn until_turn<M: Solved>(at: &Solution<M>) -> f64 {
     rates.fold((0.0, 0.0), sooner).1
 }
 
-/// What the motion meets at a singular position: a dead point if that is so little of a span ahead. Else equations that were left out may
-/// decide how it goes on.
+/// Returns what the motion meets at a singular position: a dead point if it is at most a small part of the span ahead.
+/// Otherwise redundant equations may decide how the motion continues.
 pub fn meeting<M: Checks>(left: f64, span: f64) -> Error {
     if left > 0.0 && left < NEAR_FOLD * span {
         Error::LockUp
-    } else if M::LEAVES_OUT {
+    } else if M::HAS_REDUNDANT_ROWS {
         Error::Inconsistent
     } else {
         Error::Bifurcation
@@ -2665,7 +2669,7 @@ pub fn meeting<M: Checks>(left: f64, span: f64) -> Error {
 }
 
 pub mod step {
-//! Steps from time to time.
+//! Steps along time.
 
 use super::branches::first_edge;
 use super::error::{Error, Fault};
@@ -2678,21 +2682,21 @@ use super::limits::{
 use super::numbers::{Numbers, difference, largest};
 use super::reach::{find, reach, stays_on_branch};
 use super::solution::{Solution, Solved};
-use super::state::{Lead, State, Timed};
+use super::state::{Continuation, State, Timed};
 use super::track::Checkpoint;
 use super::work::{Progress, Work, of_step};
 
-/// Evaluations that a call of so many steps takes at most.
+/// Largest number of evaluations of a call with at most `most` steps.
 pub const fn most_work<M: Timed>(most: usize) -> usize {
-    let [of_lead, of_its_step] = M::Lead::WORK;
-    let of_step = of_step::<M>() + M::WORK_OF_RIMS;
-    let of_step = if of_its_step > of_step { of_its_step } else { of_step };
-    most.saturating_mul(of_step).saturating_add(of_lead + of_regular::<M>())
+    let [of_return, of_return_step] = M::Continuation::WORK;
+    let of_step = of_step::<M>() + M::WORK_OF_BOUNDARIES;
+    let of_step = if of_return_step > of_step { of_return_step } else { of_step };
+    most.saturating_mul(of_step).saturating_add(of_return + of_regular::<M>())
 }
 
-/// Moves a state to time `t` (s), in so many steps at most, each as short as the motion asks for: position, velocity and acceleration
-/// are those of the branch that it is on, whichever way `t` lies. After an error the state is as it was; what so many steps do not
-/// reach is one.
+/// Moves a state to time `t` (s) in at most `most` steps, whose length is controlled by the motion. Position, velocity and
+/// acceleration are those of the branch of the state, whichever direction `t` lies in. After an error the state is
+/// unchanged; not arriving within the steps is an error.
 pub fn step<M: Timed>(t: f64, state: &mut State<M>, most: usize, work: &mut Work) -> Result<(), Error> {
     let is_beyond = (t - state.at().t).abs() > M::LONGEST_STEP * most as f64;
     if is_beyond && t.is_finite() {
@@ -2701,7 +2705,7 @@ pub fn step<M: Timed>(t: f64, state: &mut State<M>, most: usize, work: &mut Work
     go(t, state, most, true, work).map(|_| ())
 }
 
-/// The same, but what so many steps do not reach is on its way.
+/// Moves a state towards time `t` (s) as [`step`] does, but returns the progress if the steps do not suffice.
 pub fn step_within<M: Timed>(t: f64, state: &mut State<M>, most: usize, work: &mut Work) -> Result<Progress, Error> {
     go(t, state, most, false, work)
 }
@@ -2710,33 +2714,33 @@ fn go<M: Timed>(t: f64, state: &mut State<M>, most: usize, is_whole: bool, work:
     if !(t - state.at().t).is_finite() {
         return Err(Error::NotANumber);
     }
-    if state.is_led() { take_up(t, state, most, is_whole, work) } else { march(t, state, most, is_whole, work) }
+    if state.is_input_driven() { resume(t, state, most, is_whole, work) } else { march(t, state, most, is_whole, work) }
 }
 
-/// Goes on by the time from where inputs have led.
+/// Returns to the inputs that the formulas give, then moves along time.
 #[cold]
 #[inline(never)]
-fn take_up<M: Timed>(
+fn resume<M: Timed>(
     t: f64,
     state: &mut State<M>,
     most: usize,
     is_whole: bool,
     work: &mut Work,
 ) -> Result<Progress, Error> {
-    let (lead, track) = (state.lead, state.track);
-    let result = match M::Lead::take_up_time(state, most, work) {
+    let (continuation, track) = (state.continuation, state.track);
+    let result = match M::Continuation::resume_time(state, most, work) {
         Ok(Some(left)) => march(t, state, left, is_whole, work),
         Ok(None) if is_whole => Err(Error::TooFar),
         Ok(None) => Ok(Progress { fraction: 0.0 }),
         Err(error) => Err(error),
     };
     if result.is_err() {
-        (state.lead, state.track) = (lead, track);
+        (state.continuation, state.track) = (continuation, track);
     }
     result
 }
 
-/// Steps from time to time.
+/// Steps along time.
 fn march<M: Timed>(
     t: f64,
     state: &mut State<M>,
@@ -2754,14 +2758,14 @@ fn march<M: Timed>(
         }
         let stride = state.track.stride;
         let wanted = if stride >= CRUMB * left.abs() { t } else { now + stride.copysign(left) };
-        // what is fast may be over before the step's end
+        // a branch that holds only briefly may be over before the end of the step
         let edge = first_edge(now, wanted, &state.model, work);
-        let next = match state.model.first_rim(now, edge, &state.passed, work) {
+        let next = match state.model.first_boundary(now, edge, &state.passed, work) {
             None => edge,
-            Some((rim, at)) => {
+            Some((boundary, at)) => {
                 let before = at - (LEAD * M::SPAN).copysign(left);
                 if (before - now) * left <= 0.0 {
-                    if let Err(error) = M::look_at_rim(state, rim, at, work) {
+                    if let Err(error) = M::check_boundary(state, boundary, at, work) {
                         why = error;
                         break;
                     }
@@ -2802,19 +2806,19 @@ fn march<M: Timed>(
     Err(why)
 }
 
-/// One step to a time; says whether a longer one would do as well.
+/// Takes one step to a time. Returns whether a longer step would do as well.
 fn advance<M: Timed>(state: &mut State<M>, t: f64, is_wanted: bool, work: &mut Work) -> Result<bool, Fault> {
     let is_smooth = state.track.is_smooth;
     let (from, at) = state.track.both();
     let m = &state.model;
     let h = t - from.t;
     let (v, a) = (M::tears(&from.qd), M::tears(&from.qdd));
-    let mut way = if is_smooth { bend(from, at, h) } else { M::Tears::ZERO };
-    for (way, (v, a)) in way.as_mut().iter_mut().zip(v.as_ref().iter().zip(a.as_ref())) {
+    let mut motion = if is_smooth { bend(from, at, h) } else { M::Tears::ZERO };
+    for (motion, (v, a)) in motion.as_mut().iter_mut().zip(v.as_ref().iter().zip(a.as_ref())) {
         // Taylor
-        *way += h * (v + 0.5 * h * a);
+        *motion += h * (v + 0.5 * h * a);
     }
-    let is_calm = tried(&way, from, t, m, at, |at| gap(from, at, h), work)?;
+    let is_calm = try_step(&motion, from, t, m, at, |at| gap(from, at, h), work)?;
     if !stays_on_branch(from, at, m, is_wanted, state.steepness, work) {
         return Err(Fault::Singular);
     }
@@ -2827,10 +2831,11 @@ fn advance<M: Timed>(state: &mut State<M>, t: f64, is_wanted: bool, work: &mut W
     Ok(is_calm)
 }
 
-/// Solves at a time, or a place of a way, to which the tears are expected to go so far, if that is near enough for a step; says whether
-/// a longer step would do as well. A gap is how far a solution is from what the slopes at both ends make of the way between, scaled.
-pub fn tried<M: Solved>(
-    way: &M::Tears,
+/// Solves at a time, or at a position of a path, if the expected motion of the Newton coordinates and the gap are small
+/// enough for a step. Returns whether a longer step would do as well. The gap is the distance of a solution from the
+/// position that the slopes at both ends predict, scaled.
+pub fn try_step<M: Solved>(
+    motion: &M::Tears,
     from: &Solution<M>,
     t: f64,
     m: &M,
@@ -2838,14 +2843,14 @@ pub fn tried<M: Solved>(
     gap: impl FnOnce(&Solution<M>) -> f64,
     work: &mut Work,
 ) -> Result<bool, Fault> {
-    // what is not a number is not small either
-    let is_short = largest(way, M::tear_scales()) <= LARGEST_MOTION;
+    // NaN is not small either
+    let is_short = largest(motion, M::tear_scales()) <= LARGEST_MOTION;
     if !is_short {
         return Err(Fault::TooFar);
     }
     let mut guess = M::tears(&from.q);
-    for (guess, way) in guess.as_mut().iter_mut().zip(way.as_ref()) {
-        *guess += *way;
+    for (guess, motion) in guess.as_mut().iter_mut().zip(motion.as_ref()) {
+        *guess += *motion;
     }
     reach(&guess, from, t, m, at, work)?;
     let gap = gap(at);
@@ -2856,21 +2861,21 @@ pub fn tried<M: Solved>(
     Ok(at.first < LARGEST_CORRECTION / CALM_CORRECTION && gap < LARGEST_GAP / CALM_BETWEEN)
 }
 
-/// How far positions are from what both ends' velocities and accelerations make of the way between (Hermite), scaled.
+/// Returns the distance of positions from those that velocities and accelerations at both ends predict (Hermite), scaled.
 fn gap<M: Solved>(from: &Solution<M>, at: &Solution<M>, h: f64) -> f64 {
     let (x, v, a) = (M::tears(&from.q), M::tears(&from.qd), M::tears(&from.qdd));
     let (y, w, b) = (M::tears(&at.q), M::tears(&at.qd), M::tears(&at.qdd));
     let mut gaps = M::Tears::ZERO;
-    let ways = y.as_ref().iter().zip(x.as_ref());
+    let positions = y.as_ref().iter().zip(x.as_ref());
     let rates = v.as_ref().iter().zip(w.as_ref());
     let bends = a.as_ref().iter().zip(b.as_ref());
-    for ((gap, (y, x)), ((v, w), (a, b))) in gaps.as_mut().iter_mut().zip(ways).zip(rates.zip(bends)) {
+    for ((gap, (y, x)), ((v, w), (a, b))) in gaps.as_mut().iter_mut().zip(positions).zip(rates.zip(bends)) {
         *gap = y - x - 0.5 * h * (v + w) - h * h * (1.0 / 12.0) * (a - b);
     }
     largest(&gaps, M::tear_scales())
 }
 
-/// What the motion since the solution before adds to Taylor's way over a time `h` (s).
+/// Returns the correction of Taylor's prediction over a time `h` (s) by the previous solution.
 fn bend<M: Solved>(now: &Solution<M>, before: &Solution<M>, h: f64) -> M::Tears {
     let back = now.t - before.t;
     let u = h / back;
@@ -2880,26 +2885,26 @@ fn bend<M: Solved>(now: &Solution<M>, before: &Solution<M>, h: f64) -> M::Tears 
     let (x, v, a) = (M::tears(&now.q), M::tears(&now.qd), M::tears(&now.qdd));
     let (y, w, b) = (M::tears(&before.q), M::tears(&before.qd), M::tears(&before.qdd));
     let mut bend = M::Tears::ZERO;
-    let ways = x.as_ref().iter().zip(y.as_ref());
+    let positions = x.as_ref().iter().zip(y.as_ref());
     let rates = v.as_ref().iter().zip(w.as_ref());
     let bends = a.as_ref().iter().zip(b.as_ref());
-    for ((bend, (x, y)), ((v, w), (a, b))) in bend.as_mut().iter_mut().zip(ways).zip(rates.zip(bends)) {
+    for ((bend, (x, y)), ((v, w), (a, b))) in bend.as_mut().iter_mut().zip(positions).zip(rates.zip(bends)) {
         *bend = bend_ahead([*x, *v, *a], [*y, *w, *b], back, u);
     }
     bend
 }
 
-/// Whether position or velocity differ on the two sides of a time at which formulas change their branches: `at` is the later side, and
-/// `from` has the branches of the earlier one.
+/// Returns whether position or velocity differ on the two sides of a time at which formulas change their branches: `at` is
+/// the later side, and `from` has the branches of the earlier one.
 fn jumps<M: Timed>(from: &Solution<M>, at: &Solution<M>, m: &M, work: &mut Work) -> bool {
     let mut before = *at;
     if find(&M::tears(&at.q), at, at.t, m, &from.sides, &mut before, work).is_err() {
         return true;
     }
-    let (way, change) = (difference(&at.q, &before.q), difference(&at.qd, &before.qd));
+    let (motion, change) = (difference(&at.q, &before.q), difference(&at.qd, &before.qd));
     let scales = M::scales();
     let fastest = largest(&at.qd, scales) + largest(&before.qd, scales) + REST / M::SPAN;
-    largest(&way, scales) > POSITION_JUMP || largest(&change, scales) > VELOCITY_JUMP * fastest
+    largest(&motion, scales) > POSITION_JUMP || largest(&change, scales) > VELOCITY_JUMP * fastest
 }
 }
 
@@ -3068,7 +3073,7 @@ fn eliminate(matrix: &mut [f64], x: &mut [f64]) -> (f64, bool) {
 }
 
 pub mod pivoting {
-//! Solving by elimination with partial pivoting, where the order that `solve` has loses digits.
+//! Elimination with partial pivoting, for positions where the fixed order of `solve` loses digits.
 
 use super::blocks::{self, Blocks};
 use super::branches::sides_near;
@@ -3081,37 +3086,38 @@ use super::work::Work;
 
 /// Equations that can be solved by elimination with partial pivoting.
 pub trait Pivoting: Solved {
-    /// Numbers that the elimination of the largest block works on.
+    /// Workspace for the elimination of the largest block.
     type Work: Numbers;
-    /// An answer for each block of equations.
+    /// A flag for each block of equations.
     type Blocks: Flags;
-    /// The derivatives of coordinates, velocities and accelerations by inputs and parameters that measures hold.
+    /// Derivatives of coordinates, velocities and accelerations by inputs and parameters that measures hold.
     type Varied: Numbers;
-    /// A right side for each derivative by what the motion goes along.
+    /// A right side for each derivative by the variable of the motion.
     type Rights: AsRef<[Self::Q]>;
 
-    /// What may be left of an equation, beside the norm of its row.
+    /// Largest residual of an equation, relative to the norm of its row.
     const TOLERANCE: f64;
-    /// Whether measures hold third derivatives of the coordinates.
+    /// True if measures hold third derivatives of the coordinates.
     const HAS_JERK: bool = false;
-    /// By derivative by inputs and parameters: whether it is one by two.
+    /// True for each derivative by inputs and parameters that is one by two of them.
     const IS_BY_TWO: &'static [bool] = &[];
 
-    /// How the equations fall apart into blocks.
+    /// Returns the blocks of the equations.
     fn blocks() -> &'static Blocks<'static>;
 
-    /// The blocks whose determinants change.
+    /// Returns the blocks whose determinants change.
     fn turning() -> &'static [usize];
 
-    /// The width of a cell of each coordinate's grid.
+    /// Returns the width of a cell of each coordinate's grid.
     fn cells() -> &'static Self::Q;
 
-    /// The right side of the jerk equation.
+    /// Returns the right side of the jerk equation.
     fn jerk(&self, _orders: [&Self::Q; 3], _t: f64, _sides: &Self::Sides) -> Self::Q {
         Self::Q::ZERO
     }
 
-    /// The right sides for the derivatives by inputs and parameters, as far as those before them are found.
+    /// Returns the right sides for the derivatives by inputs and parameters, as far as the derivatives before them are
+    /// solved.
     fn varied_right(
         &self,
         _orders: [&Self::Q; 3],
@@ -3122,32 +3128,33 @@ pub trait Pivoting: Solved {
         Self::Varied::ZERO
     }
 
-    /// The transposed matrix, where somebody asks for forces.
+    /// Returns the transposed matrix, if forces are needed.
     fn transposed() -> Option<&'static Transposed> {
         None
     }
 
-    /// What the multipliers have to hold, by coordinate.
+    /// Returns the loads that the multipliers have to balance, by coordinate.
     fn needed(&self, _orders: [&Self::Q; 4], _t: f64, _sides: &Self::Sides) -> Self::Q {
         Self::Q::ZERO
     }
 
-    /// The right sides for the derivatives by what the motion goes along.
+    /// Returns the right sides for the derivatives by the variable of the motion.
     fn rights(&self, q: &Self::Q, t: f64, sides: &Self::Sides) -> Self::Rights;
 
-    /// What is measured, from the coordinates with their first three derivatives, what these vary by, and the multipliers.
+    /// Returns the measures, from the coordinates with their first three derivatives, their variations, and the
+    /// multipliers.
     fn measured(&self, orders: [&Self::Q; 4], varied: &Self::Varied, multipliers: &Self::Q, t: f64) -> Self::Measures;
 }
 
 /// The transposed matrix, an equation for each coordinate.
 pub struct Transposed {
-    /// How its equations fall apart into blocks.
+    /// Blocks of its equations.
     pub blocks: &'static Blocks<'static>,
-    /// The place of each of its entries among those of the matrix.
+    /// Index of each of its entries among those of the matrix.
     pub places: &'static [usize],
 }
 
-/// The solution from a position nearby. All coordinates lie on a grid while Newton goes on.
+/// Solves from a position nearby. All coordinates stay on a grid during Newton's iteration.
 pub fn solve_with_pivoting<M: Pivoting>(m: &M, q: &M::Q, t: f64, sides: &M::Sides) -> Result<Solution<M>, Fault> {
     let mut at = Solution::near(q, t);
     let mut elimination = Elimination::<M>::new();
@@ -3177,8 +3184,9 @@ pub fn solve_with_pivoting<M: Pivoting>(m: &M, q: &M::Q, t: f64, sides: &M::Side
     if at.holds { Ok(at) } else { Err(Fault::TooFar) }
 }
 
-/// Newton's iteration from far away, for which an equation counts by what a change of its coordinates makes of it: each correction is
-/// so short that nothing moves by more than its scale, and that the equations come nearer to holding. Nothing where it does not arrive.
+/// Solves by Newton's iteration from far away, with equations scaled by the effect of their coordinates. Each correction is
+/// so short that nothing moves by more than its scale, and that the residual decreases. Returns `None` if it does not
+/// converge.
 pub fn close<M: Pivoting>(m: &M, q: &M::Q, t: f64, work: &mut Work) -> Option<M::Q> {
     let (mut q, mut elimination) = (*q, Elimination::<M>::new());
     let mut sides = sides_near(&q, t, m, work);
@@ -3214,7 +3222,7 @@ pub fn close<M: Pivoting>(m: &M, q: &M::Q, t: f64, work: &mut Work) -> Option<M:
     None
 }
 
-/// What a change of the coordinates by their scales makes of each equation at most.
+/// Returns the largest change of each equation by a change of the coordinates by their scales.
 fn norms<M: Pivoting>(slopes: &M::Entries) -> M::Q {
     let mut norms = M::Q::ZERO;
     norms.as_mut().fill(f64::MIN_POSITIVE);
@@ -3226,7 +3234,7 @@ fn norms<M: Pivoting>(slopes: &M::Entries) -> M::Q {
     norms
 }
 
-/// Newton's iteration; whether it has arrived.
+/// Runs Newton's iteration. Returns whether it has converged.
 fn settle<M: Pivoting>(m: &M, at: &mut Solution<M>, sides: &M::Sides, elimination: &mut Elimination<M>) -> bool {
     let mut bound = bound_at_first(BORDER);
     for (q, cell) in at.q.as_mut().iter_mut().zip(M::cells().as_ref()) {
@@ -3253,8 +3261,8 @@ fn settle<M: Pivoting>(m: &M, at: &mut Solution<M>, sides: &M::Sides, eliminatio
     false
 }
 
-/// The derivatives of the coordinates, their velocities and accelerations by inputs and parameters: those by one before those by two,
-/// each order from those before.
+/// Returns the derivatives of the coordinates, their velocities and accelerations by inputs and parameters: those by one
+/// before those by two, each order from those before.
 fn vary<M: Pivoting>(
     m: &M,
     elimination: &mut Elimination<M>,
@@ -3282,19 +3290,19 @@ fn vary<M: Pivoting>(
     varied
 }
 
-/// The work of solving linear equations in blocks.
+/// Workspace for solving linear equations in blocks.
 pub struct Elimination<M: Pivoting> {
     work: M::Work,
     is_negative: M::Blocks,
 }
 
 impl<M: Pivoting> Elimination<M> {
-    /// Room for the work.
+    /// Creates an empty workspace.
     pub fn new() -> Self {
         Self { work: M::Work::ZERO, is_negative: M::Blocks::NONE }
     }
 
-    /// The solution for a right side, and the smallest pivot.
+    /// Returns the solution for a right side, and the smallest pivot.
     pub fn solve(&mut self, slopes: &M::Entries, right: &M::Q) -> (M::Q, f64) {
         let mut x = M::Q::ZERO;
         let (work, is_negative) = (self.work.as_mut(), self.is_negative.as_mut());
@@ -3302,7 +3310,7 @@ impl<M: Pivoting> Elimination<M> {
         (x, pivot)
     }
 
-    /// The third derivatives of the coordinates; 0 where nobody asks for them.
+    /// Returns the third derivatives of the coordinates; 0 if measures do not need them.
     pub fn third_derivatives(
         &mut self,
         m: &M,
@@ -3314,7 +3322,7 @@ impl<M: Pivoting> Elimination<M> {
         if M::HAS_JERK { self.solve(slopes, &m.jerk(orders, t, sides)).0 } else { M::Q::ZERO }
     }
 
-    /// The multipliers of a state; 0 where nobody asks for forces.
+    /// Returns the multipliers of a state; 0 if forces are not needed.
     pub fn multipliers(&mut self, m: &M, slopes: &M::Entries, orders: [&M::Q; 4], t: f64, sides: &M::Sides) -> M::Q {
         let mut multipliers = M::Q::ZERO;
         let Some(Transposed { blocks, places }) = M::transposed() else { return multipliers };
@@ -3329,7 +3337,7 @@ impl<M: Pivoting> Elimination<M> {
     }
 }
 
-/// Whether what is left of the equations is within their tolerance, and what rounding makes of the coordinates.
+/// Returns whether the residuals are within the tolerance and the rounding error of the coordinates.
 fn is_next_to_nothing<M: Pivoting>(values: &M::Q, slopes: &M::Entries, q: &M::Q) -> bool {
     let mut bounds = M::Q::ZERO;
     for (&(row, column), slope) in M::pattern().iter().zip(slopes.as_ref()) {
@@ -3343,7 +3351,7 @@ fn is_next_to_nothing<M: Pivoting>(values: &M::Q, slopes: &M::Entries, q: &M::Q)
     pairs.all(|(value, bound)| value.abs() <= *bound)
 }
 
-/// No number is -0.
+/// Replaces -0 by 0.
 pub fn without_signs_of_zero<N: Numbers>(mut values: N) -> N {
     values.as_mut().iter_mut().for_each(|value| *value += 0.0);
     values
@@ -3351,9 +3359,9 @@ pub fn without_signs_of_zero<N: Numbers>(mut values: N) -> N {
 }
 
 pub mod lane_solutions {
-//! What solves the equations in every lane.
+//! Solutions of the equations in every lane.
 
-// what is done in every lane reads best, and vectorises best, with the lane's number
+// loops by lane number read best and vectorise best
 #![allow(clippy::needless_range_loop)]
 
 use super::measured::Measured;
@@ -3361,9 +3369,9 @@ use super::solution::Solution;
 use super::state::Timed;
 use core::fmt::Debug;
 
-/// So many numbers, each in every lane.
+/// A list of numbers for every lane.
 pub trait Lists<T, const L: usize>: Copy + Debug + AsRef<[[T; L]]> + AsMut<[[T; L]]> {
-    /// All of them 0.
+    /// All numbers 0.
     const ZERO: Self;
 }
 
@@ -3379,26 +3387,26 @@ impl<const K: usize, const L: usize> Lists<u64, L> for [[u64; L]; K] {
 pub trait Laned<const L: usize>: Timed {
     /// A number for each coordinate.
     type Coordinates: Lists<f64, L>;
-    /// One for each that Newton solves for.
+    /// A number for each coordinate that Newton solves for.
     type Guesses: Lists<f64, L>;
-    /// One for each measure; each rate; each acceleration.
+    /// A number for each measure, its rate, its acceleration.
     type Values: Lists<f64, L>;
     /// See [`Values`](Laned::Values).
     type Rates: Lists<f64, L>;
     /// See [`Values`](Laned::Values).
     type Accelerations: Lists<f64, L>;
-    /// One for each value that only measures need.
+    /// A number for each value that only measures need.
     type OfJoined: Lists<f64, L>;
-    /// What has the sign of its determinant, for each block.
+    /// A number for each block that has the sign of its determinant.
     type Signs: Lists<u64, L>;
 
-    /// Whether anything must hold beside the equations.
+    /// True if conditions beside the equations exist.
     const HAS_CHECKS: bool;
 
-    /// Out of all coordinates those that Newton solves for.
+    /// Selects the coordinates that Newton solves for.
     fn tears_of(q: &Self::Coordinates) -> Self::Guesses;
 
-    /// Position, velocity and acceleration in every lane.
+    /// Solves for position, velocity and acceleration in every lane.
     fn solve_each(
         guess: &Self::Guesses,
         t: &[f64; L],
@@ -3408,7 +3416,7 @@ pub trait Laned<const L: usize>: Timed {
     );
 }
 
-/// What solves the equations in every lane.
+/// Solutions of the equations in every lane.
 #[derive(Clone, Debug)]
 pub struct Solutions<M: Laned<L>, const L: usize> {
     /// Times (s).
@@ -3421,25 +3429,25 @@ pub struct Solutions<M: Laned<L>, const L: usize> {
     pub qdd: M::Coordinates,
     /// Measures.
     pub values: M::Values,
-    /// Their rates.
+    /// Rates of the measures.
     pub rates: M::Rates,
-    /// Their accelerations.
+    /// Accelerations of the measures.
     pub accelerations: M::Accelerations,
-    /// What only measures need.
+    /// Values that only measures need.
     #[allow(dead_code)] // mostly they need nothing
     pub joined: M::OfJoined,
-    /// By block: what has the sign of its determinant.
+    /// A number for each block that has the sign of its determinant.
     pub signs: M::Signs,
-    /// Multipliers, residuals, angles and corrections beside what is bearable: 1 at most.
+    /// Largest ratio of multipliers, residuals, angles and corrections to their bounds: at most 1 in a valid lane.
     pub strain: [f64; L],
-    /// Newton's largest first correction, scaled.
+    /// Largest first correction of Newton's iteration, scaled.
     pub first: [f64; L],
-    /// One over the smallest pivot, scaled.
+    /// Reciprocal of the smallest pivot, scaled.
     pub steepest: [f64; L],
 }
 
 impl<M: Laned<L>, const L: usize> Solutions<M, L> {
-    /// Nothing is solved yet.
+    /// Solutions before the first solve.
     pub const ZERO: Self = Self {
         t: [0.0; L],
         q: M::Coordinates::ZERO,
@@ -3455,7 +3463,7 @@ impl<M: Laned<L>, const L: usize> Solutions<M, L> {
         steepest: [0.0; L],
     };
 
-    /// Makes ready for being solved for.
+    /// Resets the records before a solve.
     pub fn begin(&mut self, t: &[f64; L]) {
         self.t = *t;
         let zero = [0.0; L];
@@ -3465,12 +3473,12 @@ impl<M: Laned<L>, const L: usize> Solutions<M, L> {
         }
     }
 
-    /// Coordinates that Newton solves for, with their velocities and accelerations.
+    /// Returns the coordinates that Newton solves for, with their velocities and accelerations.
     pub fn tears(&self) -> [M::Guesses; 3] {
         [M::tears_of(&self.q), M::tears_of(&self.qd), M::tears_of(&self.qdd)]
     }
 
-    /// Which lanes hold nothing but numbers.
+    /// Returns for each lane whether all its numbers are finite.
     pub fn are_finite(&self) -> [bool; L] {
         let mut sum = [0.0; L];
         for list in [&self.q, &self.qd, &self.qdd] {
@@ -3483,7 +3491,7 @@ impl<M: Laned<L>, const L: usize> Solutions<M, L> {
         sum.map(|sum| sum == 0.0)
     }
 
-    /// A lane on its own.
+    /// Returns the solution of one lane.
     pub fn lane(&self, lane: usize) -> Solution<M> {
         let mut at = Solution::<M>::ZERO;
         at.t = of(&self.t, lane);
@@ -3502,7 +3510,7 @@ impl<M: Laned<L>, const L: usize> Solutions<M, L> {
         at
     }
 
-    /// Takes over a lane on its own.
+    /// Sets the solution of one lane.
     pub fn set_lane(&mut self, lane: usize, at: &Solution<M>) {
         set([at.t].as_slice(), lane, core::slice::from_mut(&mut self.t));
         set([at.steepest].as_slice(), lane, core::slice::from_mut(&mut self.steepest));
@@ -3521,17 +3529,17 @@ impl<M: Laned<L>, const L: usize> Solutions<M, L> {
     }
 }
 
-/// The number of a lane.
+/// Returns the number of a lane.
 fn of<const L: usize>(each: &[f64; L], lane: usize) -> f64 {
     each.get(lane).copied().unwrap_or(f64::NAN)
 }
 
-/// The numbers of a lane.
+/// Reads the numbers of a lane.
 fn get<const L: usize>(each: &[[f64; L]], lane: usize, to: &mut [f64]) {
     to.iter_mut().zip(each).for_each(|(to, each)| *to = of(each, lane));
 }
 
-/// Leaves numbers in a lane.
+/// Writes the numbers of a lane.
 fn set<const L: usize>(values: &[f64], lane: usize, to: &mut [[f64; L]]) {
     for (each, value) in to.iter_mut().zip(values) {
         if let Some(place) = each.get_mut(lane) {
@@ -3541,37 +3549,37 @@ fn set<const L: usize>(values: &[f64], lane: usize, to: &mut [[f64; L]]) {
 }
 }
 
-pub mod lane_strain {
-//! What must not be too large in a lane.
+pub mod lane_residuals {
+//! Record of bounded quantities in a lane.
 
 use super::lane_solutions::{Laned, Solutions};
-use super::so_far::larger_so_far;
+use super::running_max::running_max;
 
 impl<M: Laned<L>, const L: usize> Solutions<M, L> {
-    /// Takes note of a value that must not be above 1 when it is multiplied by a factor.
+    /// Records a value that times `factor` must not exceed 1.
     #[inline]
     pub fn watch(&mut self, lane: usize, value: f64, factor: f64) {
         if let Some(strain) = self.strain.get_mut(lane) {
-            *strain = larger_so_far(*strain, value.abs() * factor);
+            *strain = running_max(*strain, value.abs() * factor);
         }
     }
 }
 }
 
 pub mod lane_pivots {
-//! What pivots tell of a position in a lane.
+//! Record of pivots in a lane.
 
 use super::lane_solutions::{Laned, Solutions};
-use super::so_far::larger_so_far;
+use super::running_max::running_max;
 
 impl<M: Laned<L>, const L: usize> Solutions<M, L> {
-    /// Takes note of one over a pivot, and of what makes that a pure number.
+    /// Records the reciprocal of a pivot; `weight` makes it dimensionless.
     #[inline]
     pub fn pivot(&mut self, lane: usize, turn: usize, inverse: f64, weight: f64) {
         let signs = self.signs.as_mut().get_mut(turn).and_then(|signs| signs.get_mut(lane));
         if let (Some(sign), Some(steepest)) = (signs, self.steepest.get_mut(lane)) {
             *sign ^= inverse.to_bits();
-            *steepest = larger_so_far(*steepest, inverse.abs() * weight);
+            *steepest = running_max(*steepest, inverse.abs() * weight);
         }
     }
 }
@@ -3580,46 +3588,46 @@ impl<M: Laned<L>, const L: usize> Solutions<M, L> {
 pub mod lane_newton {
 //! Newton's iteration in lanes.
 
-// what is done in every lane reads best, and vectorises best, with the lane's number
+// loops by lane number read best and vectorise best
 #![allow(clippy::needless_range_loop)]
 
 use super::grid::{bound_at_first, going_on, next_point};
 use super::lane_solutions::{Laned, Solutions};
 use super::limits::{BORDER, LARGEST_CORRECTION};
-use super::so_far::larger_so_far;
+use super::running_max::running_max;
 
-/// An iteration of Newton in every lane, until all have settled or are lost. A lane that has settled stays where it is.
-pub struct Settling<const L: usize> {
+/// A Newton iteration in every lane, until each has settled or is lost. A lane that has settled stays where it is.
+pub struct LaneNewton<const L: usize> {
     is_first: bool,
     first: [f64; L],
-    /// The largest correction, scaled.
+    /// Largest correction, scaled.
     far: [f64; L],
-    /// The largest correction now, and with which one it ends, both in cells of the grid.
+    /// Largest correction of this iteration, and the bound below which it ends, both in cells of the grid.
     largest: [f64; L],
     bound: [f64; L],
-    /// The cells, in cells, among whose points coordinates next to a border go on; 0 where all stay.
+    /// Spacing, in cells, of the points to which coordinates next to a border continue; 0 in lanes that stay.
     cells: [f64; L],
 }
 
-impl<const L: usize> Settling<L> {
-    /// It has not begun.
+impl<const L: usize> LaneNewton<L> {
+    /// Creates an iteration before its first step.
     pub fn new() -> Self {
         let zero = [0.0; L];
         let bound = [bound_at_first(BORDER); L];
         Self { is_first: true, first: zero, far: zero, largest: zero, bound, cells: zero }
     }
 
-    /// The correction of a coordinate; its grid has cells so wide, and it is judged against `scale`.
+    /// Records the correction of a coordinate, whose grid has cells of width `cell`, and whose scale is `scale`.
     #[inline]
-    pub fn see(&mut self, lane: usize, delta: f64, cell: f64, scale: f64) {
+    pub fn record(&mut self, lane: usize, delta: f64, cell: f64, scale: f64) {
         let size = delta.abs();
         if let (Some(far), Some(largest)) = (self.far.get_mut(lane), self.largest.get_mut(lane)) {
-            *far = larger_so_far(*far, size / scale);
-            *largest = larger_so_far(*largest, size / cell);
+            *far = running_max(*far, size / scale);
+            *largest = running_max(*largest, size / cell);
         }
     }
 
-    /// Whether no further iteration is needed, or none helps.
+    /// Returns whether the iteration is done in every lane: it has settled or is lost.
     pub fn is_done(&mut self) -> bool {
         if self.is_first {
             self.first = self.far;
@@ -3630,7 +3638,7 @@ impl<const L: usize> Settling<L> {
             let is_lost = self.far[k].is_nan() || self.far[k] > LARGEST_CORRECTION;
             let stays = is_lost || self.largest[k] <= self.bound[k];
             let (bound, cells) = going_on(self.largest[k], self.bound[k], BORDER);
-            // from now on it stays
+            // the lane stays from now on
             self.bound[k] = if stays { f64::INFINITY } else { bound };
             self.cells[k] = if stays { 0.0 } else { cells };
             open += self.cells[k];
@@ -3639,7 +3647,7 @@ impl<const L: usize> Settling<L> {
         open == 0.0
     }
 
-    /// The grid point that a coordinate goes on to.
+    /// Returns the grid point to which a coordinate continues.
     #[inline]
     pub fn next(&self, lane: usize, x: f64, delta: f64, cell: f64) -> f64 {
         let cells = self.cells.get(lane).copied().unwrap_or(0.0);
@@ -3647,23 +3655,23 @@ impl<const L: usize> Settling<L> {
         if cells > 0.0 { next } else { x }
     }
 
-    /// Leaves word of how it went. What is not a number is in the coordinates, too.
+    /// Records the outcome. Values that are NaN appear in the coordinates, too.
     pub fn note<M: Laned<L>>(&self, at: &mut Solutions<M, L>) {
         for k in 0..L {
-            at.first[k] = larger_so_far(at.first[k], self.first[k]);
+            at.first[k] = running_max(at.first[k], self.first[k]);
             let lost = self.far[k] * (1.0 / LARGEST_CORRECTION);
             let strain = if self.cells[k] > 0.0 { f64::INFINITY } else { lost };
-            at.strain[k] = larger_so_far(at.strain[k], strain);
+            at.strain[k] = running_max(at.strain[k], strain);
         }
     }
 }
 }
 
 pub mod lanes {
-//! The same for several variants of the mechanism, or several times, at once: in loops over the lanes that a compiler turns into vector
+//! Several variants of the mechanism, or several times, at once: in loops over the lanes that a compiler turns into vector
 //! instructions. Each lane has the bits that it would have alone.
 
-// what is done in every lane reads best, and vectorises best, with the lane's number
+// loops by lane number read best and vectorise best
 #![allow(clippy::needless_range_loop)]
 
 use super::assemble::assemble;
@@ -3675,81 +3683,81 @@ use super::limits::{
     CALM_BETWEEN, CALM_CORRECTION, FARTHEST_BEND, LARGEST_CORRECTION, LARGEST_GAP, LARGEST_MOTION, MOST_STEPS, STEEP,
 };
 use super::numbers::Numbers;
-use super::so_far::larger_so_far;
-use super::state::{Assembly, Lead, State};
+use super::running_max::running_max;
+use super::state::{Assembly, Continuation, State};
 use super::step::step;
 use super::track::Track;
 use super::work::Work;
 
-/// As many mechanisms, each with its own parameters, at a time of its own.
+/// A mechanism in every lane, with parameters and a time of its own.
 #[derive(Clone, Debug)]
 pub struct States<M: Laned<L>, const L: usize> {
     pub(super) models: [M; L],
-    /// The solutions of now and the ones before, or the next ones in the making.
+    /// The present solutions, and the previous ones or the next ones in progress.
     pub(super) solutions: [Solutions<M, L>; 2],
-    /// Whether those of now are the second.
+    /// True if the present solutions are the second.
     pub(super) is_second: bool,
     pub(super) is_smooth: [bool; L],
     pub(super) steepness: [f64; L],
     pub(super) step: [f64; L],
     pub(super) assembly: [Assembly; L],
     pub(super) sides: [M::Sides; L],
-    pub(super) watched: [M::Watched; L],
-    /// What leads each lane by inputs.
-    pub(super) lead: [M::Lead; L],
+    pub(super) monitors: [M::Monitors; L],
+    /// Continuation of each lane along inputs.
+    pub(super) continuation: [M::Continuation; L],
 }
 
 impl<M: Laned<L>, const L: usize> States<M, L> {
-    /// The solutions of now.
+    /// Returns the present solutions.
     fn now(&self) -> &Solutions<M, L> {
         let [first, second] = &self.solutions;
         if self.is_second { second } else { first }
     }
 
-    /// The ones before, or the next ones in the making.
+    /// Returns the previous solutions, or the next ones in progress.
     fn other(&self) -> &Solutions<M, L> {
         let [first, second] = &self.solutions;
         if self.is_second { first } else { second }
     }
 
-    /// Both, to be changed: those of now, and the others.
+    /// Returns the present solutions and the others for modification.
     pub(super) fn both(&mut self) -> (&mut Solutions<M, L>, &mut Solutions<M, L>) {
         let [first, second] = &mut self.solutions;
         if self.is_second { (second, first) } else { (first, second) }
     }
 
-    /// The times (s).
+    /// Returns the times (s).
     #[must_use]
     pub fn t(&self) -> &[f64; L] {
         &self.now().t
     }
 
-    /// The coordinates (m, rad), by their indices.
+    /// Returns the coordinates (m, rad), by their indices.
     #[must_use]
     pub fn q(&self) -> &M::Coordinates {
         &self.now().q
     }
 
-    /// Their velocities (m/s, rad/s).
+    /// Returns the velocities of the coordinates (m/s, rad/s).
     #[must_use]
     pub fn qd(&self) -> &M::Coordinates {
         &self.now().qd
     }
 
-    /// Their accelerations (m/s^2, rad/s^2).
+    /// Returns the accelerations of the coordinates (m/s^2, rad/s^2).
     #[must_use]
     pub fn qdd(&self) -> &M::Coordinates {
         &self.now().qdd
     }
 
-    /// A lane on its own; none where there is no such lane.
+    /// Returns the state of one lane; `None` if the lane does not exist.
     #[must_use]
     pub fn get(&self, lane: usize) -> Option<State<M>> {
-        let (model, lead) = (*self.models.get(lane)?, *self.lead.get(lane)?);
+        let (model, lead) = (*self.models.get(lane)?, *self.continuation.get(lane)?);
         let mut solutions = [self.now().lane(lane), self.other().lane(lane)];
         for at in &mut solutions {
             at.sides = *self.sides.get(lane)?;
-            at.watched = *self.watched.get(lane)?;
+            at.monitors = *self.monitors.get(lane)?;
         }
         let mut passed = M::Passed::ZERO;
         passed.as_mut().fill(f64::NEG_INFINITY);
@@ -3763,26 +3771,26 @@ impl<M: Laned<L>, const L: usize> States<M, L> {
             },
             steepness: *self.steepness.get(lane)?,
             assembly: *self.assembly.get(lane)?,
-            lead,
+            continuation: lead,
             passed,
         })
     }
 
-    /// Takes over where a lane on its own has come to.
+    /// Sets the state of one lane.
     fn set(&mut self, lane: usize, state: &State<M>) {
         put(&mut self.step, lane, &state.track.stride);
         put(&mut self.sides, lane, &state.at().sides);
-        put(&mut self.watched, lane, &state.at().watched);
-        put(&mut self.lead, lane, &state.lead);
+        put(&mut self.monitors, lane, &state.at().monitors);
+        put(&mut self.continuation, lane, &state.continuation);
         put(&mut self.is_smooth, lane, &false);
     }
 
-    /// Moves a lane on its own, and leaves it among the other solutions.
+    /// Moves one lane alone, and leaves its solution among the other ones.
     fn alone(&mut self, lane: usize, t: f64) -> Result<(), Error> {
         let Some(mut state) = self.get(lane) else {
             return Ok(());
         };
-        // where the solution before was, the one that has been tried is now
+        // the rejected trial has replaced the previous solution
         state.track.is_smooth = false;
         let result = step(t, &mut state, MOST_STEPS, &mut Work::default());
         self.both().1.set_lane(lane, state.at());
@@ -3790,7 +3798,7 @@ impl<M: Laned<L>, const L: usize> States<M, L> {
         result
     }
 
-    /// Tries one step of every lane; says which ones have got there.
+    /// Tries one step of every lane. Returns for each lane whether it has arrived.
     fn advance(&mut self, t: &[f64; L]) -> [bool; L] {
         let is_smooth = self.is_smooth;
         let [first, second] = &mut self.solutions;
@@ -3834,16 +3842,17 @@ impl<M: Laned<L>, const L: usize> States<M, L> {
         is_done
     }
 
-    /// Whether a lane's next solution lies on the branches of formulas that it comes from; time takes up alone where inputs have led.
+    /// Returns whether the next solution of a lane keeps the branches of formulas. A lane that inputs have moved has to
+    /// return to time alone.
     fn keeps_branch(&self, lane: usize) -> bool {
-        if self.lead.get(lane).is_none_or(Lead::is_leading) {
+        if self.continuation.get(lane).is_none_or(Continuation::is_active) {
             return false;
         }
         if !M::HAS_CHECKS {
             return true;
         }
-        let (Some(model), Some(sides), Some(watched)) =
-            (self.models.get(lane), self.sides.get(lane), self.watched.get(lane))
+        let (Some(model), Some(sides), Some(monitors)) =
+            (self.models.get(lane), self.sides.get(lane), self.monitors.get(lane))
         else {
             return false;
         };
@@ -3852,7 +3861,7 @@ impl<M: Laned<L>, const L: usize> States<M, L> {
         let (t, of_time) = (at.t, sides_at(at.t, model, work));
         let mut passed = M::Passed::ZERO;
         passed.as_mut().fill(f64::NEG_INFINITY);
-        if model.first_rim(from, t, &passed, work).is_some() {
+        if model.first_boundary(from, t, &passed, work).is_some() {
             return false;
         }
         at.sides = of_time;
@@ -3862,13 +3871,13 @@ impl<M: Laned<L>, const L: usize> States<M, L> {
         }
         at.sides == *sides
             && model.conditions_hold(&at.q, t, sides)
-            && model.left_out_holds(&at.q, t, sides)
-            && model.watched(&at.q, t, sides) == *watched
+            && model.redundant_rows_hold(&at.q, t, sides)
+            && model.monitors(&at.q, t, sides) == *monitors
     }
 }
 
-/// Brings the mechanisms to the first time, each with its own parameters; says of each lane why it cannot be assembled, if it cannot.
-/// Such a lane has the parameters of the file.
+/// Assembles a mechanism for each set of parameters. Returns for each lane the reason if it cannot be assembled; such a
+/// lane has the parameters of the file.
 #[allow(clippy::type_complexity)] // the states, and an answer for each
 pub fn assemble_each<M: Laned<L>, const L: usize>(
     params: &[M::Params; L],
@@ -3884,8 +3893,8 @@ pub fn assemble_each<M: Laned<L>, const L: usize>(
         step: [M::LONGEST_STEP; L],
         assembly: [one.assembly; L],
         sides: [one.at().sides; L],
-        watched: [one.at().watched; L],
-        lead: [one.lead; L],
+        monitors: [one.at().monitors; L],
+        continuation: [one.continuation; L],
     };
     let mut results = [Ok(()); L];
     for (k, (params, result)) in params.iter().zip(&mut results).enumerate() {
@@ -3901,8 +3910,8 @@ pub fn assemble_each<M: Laned<L>, const L: usize>(
     Ok((states, results))
 }
 
-/// Moves every lane to a time of its own (s); one that asks for more than one step goes its way alone. Says of each lane whether it has
-/// got there, and if not, why; it stays at the last time that it could reach.
+/// Moves every lane to its time (s); a lane that needs more than one step moves alone. Returns for each lane the reason if
+/// it has not arrived; it stays at the last time that it could reach.
 pub fn step_each<M: Laned<L>, const L: usize>(t: &[f64; L], states: &mut States<M, L>) -> [Result<(), Error>; L] {
     let is_done = states.advance(t);
     let mut results = [Ok(()); L];
@@ -3915,7 +3924,7 @@ pub fn step_each<M: Laned<L>, const L: usize>(t: &[f64; L], states: &mut States<
     results
 }
 
-/// Where Newton begins in every lane, and how far that is, scaled.
+/// Returns the start of Newton's iteration in every lane, and its distance from the present position, scaled.
 fn guess<M: Laned<L>, const L: usize>(
     from: &Solutions<M, L>,
     before: &Solutions<M, L>,
@@ -3939,15 +3948,15 @@ fn guess<M: Laned<L>, const L: usize>(
         for k in 0..L {
             let (h, x, v, a) = (h[k], x[k], v[k], a[k]);
             let bend = bend_ahead([x, v, a], [y[k], w[k], b[k]], back[k], u[k]);
-            let way = h * (v + 0.5 * h * a) + bend;
-            guess[k] = x + way;
-            motion[k] = larger_so_far(motion[k], way.abs() / scale);
+            let step = h * (v + 0.5 * h * a) + bend;
+            guess[k] = x + step;
+            motion[k] = running_max(motion[k], step.abs() / scale);
         }
     }
     (guess, motion)
 }
 
-/// How far positions are from what both ends' velocities and accelerations make of the way between, scaled.
+/// Returns the distance of positions from those that velocities and accelerations at both ends predict (Hermite), scaled.
 fn gap<M: Laned<L>, const L: usize>(from: &Solutions<M, L>, at: &Solutions<M, L>, h: &[f64; L]) -> [f64; L] {
     let [x, v, a] = from.tears();
     let [y, w, b] = at.tears();
@@ -3959,13 +3968,13 @@ fn gap<M: Laned<L>, const L: usize>(from: &Solutions<M, L>, at: &Solutions<M, L>
             let rates = 0.5 * h[k] * (v[k] + w[k]);
             let bends = h[k] * h[k] * (1.0 / 12.0) * (a[k] - b[k]);
             let gap_here = y[k] - x[k] - rates - bends;
-            gap[k] = larger_so_far(gap[k], gap_here.abs() / scale);
+            gap[k] = running_max(gap[k], gap_here.abs() / scale);
         }
     }
     gap
 }
 
-/// Leaves something in a lane.
+/// Sets the value of a lane.
 pub fn put<T: Clone>(each: &mut [T], lane: usize, value: &T) {
     if let Some(place) = each.get_mut(lane) {
         place.clone_from(value);

@@ -30,13 +30,22 @@ mod text;
 pub use bytecode::LARGEST_STRAIGHT;
 pub use json::json;
 pub use latex::latex;
-pub use package::{CrateFile, MARK, NOT_IN_ALL, Reference, package};
+pub use package::{MARK, NOT_IN_ALL, Reference, package};
 pub use rust::{is_large, rust};
 
 use mechc_engine::solver::{BlockTables, Solver};
 use mechc_ir::ConstraintSystem;
 use mechc_ir::program::Program;
 use mechc_text::source::Sources;
+
+/// A file of an emitted crate.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct CrateFile {
+    /// Path in the crate, with `/`.
+    pub path: String,
+    /// Contents; one of the first lines contains [`MARK`].
+    pub text: String,
+}
 
 /// What there is to emit.
 pub struct TranslationUnit<'u> {

@@ -8,18 +8,9 @@ use super::names::{Case, Namer, is_keyword};
 use super::params::Params;
 use super::rust;
 use super::text::{lines, literal, one_line, unit};
-use super::{LARGEST_STRAIGHT, TranslationUnit, c};
+use super::{CrateFile, LARGEST_STRAIGHT, TranslationUnit, c};
 use mechc_ir::Measure;
 use std::fmt::Display;
-
-/// A file of an emitted crate.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct CrateFile {
-    /// Path in the crate, with `/`.
-    pub path: String,
-    /// Contents; one of the first lines contains [`MARK`].
-    pub text: String,
-}
 
 /// Text near the beginning of every emitted file, which distinguishes it from a file written by hand.
 pub const MARK: &str = "ritten by mechc ";

@@ -74,7 +74,7 @@ pub struct EvaluationPoint {
 ///  }";
 /// let checked = Parsed::new("disc.mech", text).check(&Choice::default(), &Memory::default());
 /// let adjusting = EvaluatorOptions { inputs: vec!["turn".to_owned()], ..EvaluatorOptions::default() };
-/// let disc = checked.adjustable(&adjusting, &Cancel::default()).expect("it is determined");
+/// let disc = checked.evaluator(&adjusting, &Cancel::default()).expect("it is determined");
 /// let turn = InputMotion { value: 0.3, rate: 2.0, acceleration: 0.0 };
 /// let (once, mut row) = (RequestedTimes { at: vec![0.0], ..RequestedTimes::default() }, Vec::new());
 /// let results = disc.follow(&[turn], &[], &once, &Cancel::default(), |values| row.extend_from_slice(values));

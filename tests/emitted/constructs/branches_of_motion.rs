@@ -549,7 +549,7 @@ impl Branches for Model {
 }
 
 impl Checks for Model {
-    type Watched = [bool; 0];
+    type Monitors = [bool; 0];
 }
 
 impl Solved for Model {
@@ -666,7 +666,7 @@ fn drawn(_p: &Params) -> [f64; N] {
 
 impl Timed for Model {
     type Params = Params;
-    type Lead = ();
+    type Continuation = ();
     type Passed = [f64; 0];
     type Row = [f64; COLUMNS];
 

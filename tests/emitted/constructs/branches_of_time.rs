@@ -606,7 +606,7 @@ impl Branches for Model {
 }
 
 impl Checks for Model {
-    type Watched = [bool; 0];
+    type Monitors = [bool; 0];
 }
 
 impl Solved for Model {
@@ -715,7 +715,7 @@ fn drawn(_p: &Params) -> [f64; N] {
 
 impl Timed for Model {
     type Params = Params;
-    type Lead = ();
+    type Continuation = ();
     type Passed = [f64; 0];
     type Row = [f64; COLUMNS];
 

@@ -19,7 +19,7 @@ use runtime::equations::Branches;
 use runtime::equations::Checks;
 use runtime::equations::Equations;
 use runtime::error::Fault;
-use runtime::follow::Leading;
+use runtime::follow::InputContinuation;
 use runtime::pivoting::Pivoting;
 use runtime::pivoting::close;
 use runtime::pivoting::solve_with_pivoting;
@@ -403,7 +403,7 @@ impl Equations for Model {
 impl Branches for Model {}
 
 impl Checks for Model {
-    type Watched = [bool; 0];
+    type Monitors = [bool; 0];
 }
 
 impl Solved for Model {
@@ -512,7 +512,7 @@ fn drawn(_p: &Params) -> [f64; N] {
 
 impl Timed for Model {
     type Params = Params;
-    type Lead = Leading<following::Model, SIGNALS>;
+    type Continuation = InputContinuation<following::Model, SIGNALS>;
     type Passed = [f64; 0];
     type Row = [f64; COLUMNS];
 
@@ -576,9 +576,9 @@ impl Inputs {
     /// What the text's formulas say at a time (s).
     #[must_use]
     pub fn at(t: f64, params: &Params) -> Self {
-        use runtime::way::Led;
+        use runtime::input_path::InputDriven;
 
-        Self::of(&following::Model::by_text(params, t))
+        Self::of(&following::Model::by_formulas(params, t))
     }
 
     #[rustfmt::skip]
@@ -669,17 +669,17 @@ mod following {
     use super::runtime::equations::Checks;
     use super::runtime::equations::Equations;
     use super::runtime::error::Fault;
+    use super::runtime::input_path::InputDriven;
+    use super::runtime::input_path::Signals;
+    use super::runtime::input_path::Slopes;
     use super::runtime::pivoting::Pivoting;
     use super::runtime::pivoting::solve_with_pivoting;
     use super::runtime::solution::Solved;
-    use super::runtime::way::Led;
-    use super::runtime::way::Signals;
-    use super::runtime::way::Slopes;
 
     /// Value, rate and acceleration of each signal by the text's formulas.
     ///
     /// 2 operations.
-    fn by_text(t: f64, _p: &Params) -> [f64; 3 * SIGNALS] {
+    fn by_formulas(t: f64, _p: &Params) -> [f64; 3 * SIGNALS] {
         let mut out = [0.0; 3 * SIGNALS];
         let v1 = 2.0 * t;
         let v2 = v1 + 0.5235987755982988;
@@ -689,8 +689,8 @@ mod following {
         out
     }
 
-    /// A way of the signals.
-    type Way = super::runtime::way::Way<Params, SIGNALS>;
+    /// The path of the signals.
+    type Path = super::runtime::input_path::InputPath<Params, SIGNALS>;
 
     const ENTRIES: usize = 3;
 
@@ -702,10 +702,10 @@ mod following {
         (2, 2),
     ];
 
-    /// The mechanism with its way.
+    /// The mechanism with its path.
     #[derive(Clone, Copy, Debug)]
     pub struct Model {
-        way: Way,
+        path: Path,
     }
 
     /// Number of coordinates that Newton solves for; the others follow.
@@ -734,9 +734,9 @@ mod following {
     /// 0 operations.
     fn solve(_guess: &[f64; TEARS], t: f64, m: &Model, at: &mut Solution) {
         at.begin(t);
-        at.q[2] = m.way.value(0, t) + 0.0;
-        at.qd[2] = m.way.rates[0] + 0.0;
-        let arm_phi_dd = m.way.accelerations[0];
+        at.q[2] = m.path.value(0, t) + 0.0;
+        at.qd[2] = m.path.rates[0] + 0.0;
+        let arm_phi_dd = m.path.accelerations[0];
         at.qdd[2] = arm_phi_dd + 0.0;
         at.along.by_signal[0][2] = 1.0;
     }
@@ -744,7 +744,7 @@ mod following {
     /// As [`super::phi`], with the signals of a way.
     ///
     /// 3 operations.
-    fn phi(q: &[f64; N], t: f64, p: &Way) -> [f64; N] {
+    fn phi(q: &[f64; N], t: f64, p: &Path) -> [f64; N] {
         let mut out = [0.0; N];
         let arm_x = q[0];
         let arm_y = q[1];
@@ -764,7 +764,7 @@ mod following {
     /// As [`super::phi_q`], with the signals of a way.
     ///
     /// 0 operations.
-    fn phi_q(_q: &[f64; N], _t: f64, _p: &Way) -> [f64; ENTRIES] {
+    fn phi_q(_q: &[f64; N], _t: f64, _p: &Path) -> [f64; ENTRIES] {
         let mut out = [0.0; ENTRIES];
         out[0] = -1.0;
         out[1] = -1.0;
@@ -775,7 +775,7 @@ mod following {
     /// As [`super::nu`], with the signals of a way.
     ///
     /// 0 operations.
-    fn nu(_q: &[f64; N], _t: f64, p: &Way) -> [f64; N] {
+    fn nu(_q: &[f64; N], _t: f64, p: &Path) -> [f64; N] {
         let mut out = [0.0; N];
         let turn_d = p.rates[0];
 
@@ -786,7 +786,7 @@ mod following {
     /// As [`super::gamma`], with the signals of a way.
     ///
     /// 0 operations.
-    fn gamma(_q: &[f64; N], _qd: &[f64; N], _t: f64, p: &Way) -> [f64; N] {
+    fn gamma(_q: &[f64; N], _qd: &[f64; N], _t: f64, p: &Path) -> [f64; N] {
         let mut out = [0.0; N];
         let turn_dd = p.accelerations[0];
 
@@ -808,26 +808,26 @@ mod following {
         }
 
         fn phi(&self, q: &Q, t: f64, _sides: &Sides) -> Q {
-            phi(q, t, &self.way)
+            phi(q, t, &self.path)
         }
 
         fn phi_q(&self, q: &Q, t: f64, _sides: &Sides) -> Self::Entries {
-            phi_q(q, t, &self.way)
+            phi_q(q, t, &self.path)
         }
 
         fn nu(&self, q: &Q, t: f64, _sides: &Sides) -> Q {
-            nu(q, t, &self.way)
+            nu(q, t, &self.path)
         }
 
         fn gamma(&self, q: &Q, qd: &Qd, t: f64, _sides: &Sides) -> Qdd {
-            gamma(q, qd, t, &self.way)
+            gamma(q, qd, t, &self.path)
         }
     }
 
     impl Branches for Model {}
 
     impl Checks for Model {
-        type Watched = [bool; 0];
+        type Monitors = [bool; 0];
     }
 
     impl Solved for Model {
@@ -901,7 +901,7 @@ mod following {
     };
 
     /// The right sides of the equations for the derivatives of the coordinates by each signal.
-    fn rights_by_signal(q: &Q, t: f64, p: &Way) -> [Q; SIGNALS] {
+    fn rights_by_signal(q: &Q, t: f64, p: &Path) -> [Q; SIGNALS] {
         let mut all = all_rights_by_signal(q, t, p).into_iter();
         let mut next = || all.next().unwrap_or(f64::NAN);
         core::array::from_fn(|_| core::array::from_fn(|_| next()))
@@ -910,7 +910,7 @@ mod following {
     /// The partial derivatives of the equations by each signal, negated, one behind the other.
     ///
     /// 0 operations.
-    fn all_rights_by_signal(_q: &[f64; N], _t: f64, _p: &Way) -> [f64; N * SIGNALS] {
+    fn all_rights_by_signal(_q: &[f64; N], _t: f64, _p: &Path) -> [f64; N * SIGNALS] {
         let mut out = [0.0; N * SIGNALS];
         out[2] = 1.0;
         out
@@ -937,31 +937,31 @@ mod following {
         }
 
         fn rights(&self, q: &Q, t: f64, _sides: &Sides) -> [Q; SIGNALS] {
-            rights_by_signal(q, t, &self.way)
+            rights_by_signal(q, t, &self.path)
         }
 
         fn measured(&self, _orders: [&Q; 4], _varied: &[f64; 0], _multipliers: &Q, _t: f64) {}
     }
 
-    impl Led<SIGNALS> for Model {
+    impl InputDriven<SIGNALS> for Model {
         type Params = Params;
 
         const LARGEST_CHANGE: [f64; SIGNALS] = [3.141592653589793];
 
-        fn new(way: &Way) -> Self {
-            Self { way: *way }
+        fn new(path: &Path) -> Self {
+            Self { path: *path }
         }
 
-        fn way(&self) -> &Way {
-            &self.way
+        fn path(&self) -> &Path {
+            &self.path
         }
 
-        fn way_mut(&mut self) -> &mut Way {
-            &mut self.way
+        fn path_mut(&mut self) -> &mut Path {
+            &mut self.path
         }
 
-        fn by_text(params: &Params, t: f64) -> Signals<SIGNALS> {
-            let all = by_text(t, params);
+        fn by_formulas(params: &Params, t: f64) -> Signals<SIGNALS> {
+            let all = by_formulas(t, params);
             let get = |k: usize| all.get(k).copied().unwrap_or(f64::NAN);
             core::array::from_fn(|order| core::array::from_fn(|k| get(3 * k + order)))
         }

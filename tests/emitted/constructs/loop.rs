@@ -561,8 +561,8 @@ fn solve(guess: &[f64; TEARS], t: f64, _m: &Model, at: &mut Solution) {
         let v29 = v15 * v22;
         let v30 = v29 - v16 * v25;
         v31 = v30 * v19;
-        newton.see(v28, 7.450580596923828e-9, 1.0);
-        newton.see(v31, 7.450580596923828e-9, 1.0);
+        newton.record(v28, 7.450580596923828e-9, 1.0);
+        newton.record(v31, 7.450580596923828e-9, 1.0);
         if newton.is_done() {
             break;
         }
@@ -686,7 +686,7 @@ impl Equations for Model {
 impl Branches for Model {}
 
 impl Checks for Model {
-    type Watched = [bool; 0];
+    type Monitors = [bool; 0];
 }
 
 impl Solved for Model {
@@ -826,7 +826,7 @@ fn drawn(_p: &Params) -> [f64; N] {
 
 impl Timed for Model {
     type Params = Params;
-    type Lead = ();
+    type Continuation = ();
     type Passed = [f64; 0];
     type Row = [f64; COLUMNS];
 

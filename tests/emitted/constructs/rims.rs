@@ -14,6 +14,9 @@
 
 use runtime::blocks::Blocks;
 use runtime::blocks::work_of;
+use runtime::domain_boundaries::BoundedDomain;
+use runtime::domain_boundaries::check_boundary;
+use runtime::domain_boundaries::first_boundary;
 use runtime::equations::Branches;
 use runtime::equations::Checks;
 use runtime::equations::Equations;
@@ -21,9 +24,6 @@ use runtime::error::Fault;
 use runtime::pivoting::Pivoting;
 use runtime::pivoting::close;
 use runtime::pivoting::solve_with_pivoting;
-use runtime::rims::Rimmed;
-use runtime::rims::first_rim;
-use runtime::rims::look_at_rim;
 use runtime::solution::Solved;
 use runtime::state::Parameters;
 use runtime::state::Time;
@@ -410,7 +410,7 @@ impl Equations for Model {
 impl Branches for Model {}
 
 impl Checks for Model {
-    type Watched = [bool; 0];
+    type Monitors = [bool; 0];
 }
 
 impl Solved for Model {
@@ -511,13 +511,13 @@ impl Pivoting for Model {
 }
 
 /// Number of places where a formula of time may end.
-const RIMS: usize = 1;
+const BOUNDARIES: usize = 1;
 
 /// Quantities that are zero where a formula of time may end, and then their slopes.
 ///
 /// 1 operations.
-fn rims_of_time(t: f64, _p: &Params) -> [f64; 2 * RIMS] {
-    let mut out = [0.0; 2 * RIMS];
+fn domain_gauges(t: f64, _p: &Params) -> [f64; 2 * BOUNDARIES] {
+    let mut out = [0.0; 2 * BOUNDARIES];
     let v1 = 1.0 - t;
 
     out[0] = v1;
@@ -525,11 +525,11 @@ fn rims_of_time(t: f64, _p: &Params) -> [f64; 2 * RIMS] {
     out
 }
 
-impl Rimmed for Model {
-    type Gauges = [f64; 2 * RIMS];
+impl BoundedDomain for Model {
+    type Gauges = [f64; 2 * BOUNDARIES];
 
     fn gauges(&self, t: f64) -> Self::Gauges {
-        rims_of_time(t, &self.params)
+        domain_gauges(t, &self.params)
     }
 }
 
@@ -542,15 +542,15 @@ fn drawn(_p: &Params) -> [f64; N] {
 
 impl Timed for Model {
     type Params = Params;
-    type Lead = ();
-    type Passed = [f64; RIMS];
+    type Continuation = ();
+    type Passed = [f64; BOUNDARIES];
     type Row = [f64; COLUMNS];
 
     const START_TIME: f64 = START_TIME;
     const SPAN: f64 = SPAN;
     const LONGEST_STEP: f64 = LONGEST_STEP;
     const SMALLEST_STEP: f64 = SMALLEST_STEP;
-    const WORK_OF_RIMS: usize = runtime::rims::of_rims::<Self>(RIMS);
+    const WORK_OF_BOUNDARIES: usize = runtime::domain_boundaries::most_work::<Self>(BOUNDARIES);
 
     fn new(params: &Params) -> Self {
         Self { params: *params }
@@ -572,17 +572,22 @@ impl Timed for Model {
         close(self, q, t, work)
     }
 
-    fn first_rim(
+    fn first_boundary(
         &self,
         from: f64,
         to: f64,
         passed: &Self::Passed,
         work: &mut Work,
     ) -> Option<(usize, f64)> {
-        first_rim(self, from, to, passed, work)
+        first_boundary(self, from, to, passed, work)
     }
 
-    fn look_at_rim(state: &mut State, rim: usize, t: f64, work: &mut Work) -> Result<(), Error> {
-        look_at_rim(state, rim, t, work)
+    fn check_boundary(
+        state: &mut State,
+        boundary: usize,
+        t: f64,
+        work: &mut Work,
+    ) -> Result<(), Error> {
+        check_boundary(state, boundary, t, work)
     }
 }

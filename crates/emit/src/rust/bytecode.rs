@@ -24,7 +24,7 @@ impl Writer<'_> {
     pub fn solver_as_numbers(&self, solution: &Solution<'_>, pool: &mut ConstantPool, page: &mut Page) {
         page.docs("Position, velocity and acceleration at a time, by the operations of [`SOLVE`].");
         self.listed(solution, "solve", &[], page, |page| {
-            page.line("listed::solve::<Numbers, REGISTERS>(&LISTING, guess, &inputs, at);");
+            page.line("bytecode_solver::solve::<Numbers, REGISTERS>(&LISTING, guess, &inputs, at);");
         });
         solution.listing(&solution.motion.solver, "", pool, page);
     }
@@ -70,7 +70,7 @@ impl Writer<'_> {
             let first = solution.first_of_more();
             page.line(&format!("let mut all = ExtendedResults {{ at, more: {list}, first: {first} }};"));
             page.line(&format!(
-                "listed::solve::<Numbers, REGISTERS{ending}>(&LISTING{ending}, guess, &inputs, &mut all);"
+                "bytecode_solver::solve::<Numbers, REGISTERS{ending}>(&LISTING{ending}, guess, &inputs, &mut all);"
             ));
         });
         solution.listing(solver, ending, pool, page);
@@ -95,7 +95,7 @@ impl Writer<'_> {
         arguments.extend(more);
         page.line("#[rustfmt::skip]");
         page.function(&Head { kind: "fn", name, arguments: &arguments, result: "" }, |page| {
-            page.line(&format!("use {runtime}::listed;\n"));
+            page.line(&format!("use {runtime}::bytecode_solver;\n"));
             page.line("at.begin(t);");
             let params = match (has_params, is_input_driven) {
                 (false, _) => "&[]",

@@ -3,6 +3,7 @@
 //!
 //! Knows the model and its equations; the steps along a path are the engine's.
 
+mod checked;
 mod context;
 mod messages;
 mod nominal;
