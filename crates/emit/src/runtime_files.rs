@@ -155,7 +155,7 @@ impl RuntimeDeps {
                 Instruction::Pivot { .. } => self.file(if has_lanes { "lane_pivots" } else { "pivots" }),
                 Instruction::Multiplier { .. } if !has_lanes => self.name("limits", "LARGEST_MULTIPLIER"),
                 Instruction::Multiplier { .. } | Instruction::Residual { .. } if has_lanes => {
-                    self.file("lane_residuals")
+                    self.file("lane_residuals");
                 }
                 _ => {}
             }

@@ -110,7 +110,7 @@ fn convert(diagnostic: &Diagnostic, checked: &Checked, sources: &Sources) -> Edi
             true if label.text.is_empty() => {}
             true => details.push(label.text.clone()),
             false => {
-                related.push(Related { location: FileRange::from_span(label.span, sources), text: label.text.clone() })
+                related.push(Related { location: FileRange::from_span(label.span, sources), text: label.text.clone() });
             }
         }
     }

@@ -146,18 +146,7 @@ impl Checked {
         scene.extent = before.scene.extent;
         let (columns, units, kinds) = (before.columns.clone(), before.units.clone(), before.kinds.clone());
         let (stopped, diagnostics, results, texts) = (None, Diagnostics::default(), Vec::new(), before.texts.clone());
-        Some(Visualization {
-            scene,
-            motion,
-            columns,
-            units,
-            kinds,
-            all_rows: 1,
-            stopped,
-            diagnostics: diagnostics,
-            results,
-            texts,
-        })
+        Some(Visualization { scene, motion, columns, units, kinds, all_rows: 1, stopped, diagnostics, results, texts })
     }
 
     /// Draws the motion of a visualization anew, with symbols of a size (m); `None` if the mechanism has errors.

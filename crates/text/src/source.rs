@@ -166,9 +166,11 @@ impl Sources {
     /// Returns the texts with other names for those of options, which `name` gives from the present ones.
     #[must_use]
     pub fn with_option_names(&self, name: impl Fn(&str) -> String) -> Sources {
-        let renamed = |source: &Arc<Source>| match source.is_option {
-            true => Arc::new(Source { name: name(&source.name), ..(**source).clone() }),
-            false => Arc::clone(source),
+        let renamed = |source: &Arc<Source>| {
+            if !source.is_option {
+                return Arc::clone(source);
+            }
+            Arc::new(Source { name: name(&source.name), ..(**source).clone() })
         };
         Sources { files: self.files.iter().map(renamed).collect() }
     }

@@ -307,25 +307,25 @@ fn free_motion_node(at: Anchor, mut shapes: Vec<Shape>) -> Node {
 
 /// Returns one frame for each group of frames that move as one.
 fn distinct_velocities(motion: &[(usize, Pose)], marks: &Marks) -> Vec<(usize, Pose)> {
-    struct Velocity {
+    struct FrameMotion {
         frame: usize,
         velocity: Pose,
         /// Velocity of the position that coincides with the ground's origin.
         at_origin: Vector,
     }
-    let mut distinct: Vec<Velocity> = Vec::new();
+    let mut distinct: Vec<FrameMotion> = Vec::new();
     for &(frame, velocity) in motion.iter().filter(|(frame, _)| *frame < marks.poses.len()) {
         let at_origin = velocity.velocity(&marks.poses[frame], marks.poses[frame].inverse_transform([0.0; 2]));
-        let is_same = |other: &Velocity| {
+        let is_same = |other: &FrameMotion| {
             let size = length(at_origin) + velocity.phi.abs() * marks.unit;
             let off = distance(other.at_origin, at_origin) + (other.velocity.phi - velocity.phi).abs() * marks.unit;
             off <= SAME_VELOCITY * size
         };
         if !distinct.iter().any(is_same) {
-            distinct.push(Velocity { frame, velocity, at_origin });
+            distinct.push(FrameMotion { frame, velocity, at_origin });
         }
     }
-    distinct.into_iter().map(|Velocity { frame, velocity, .. }| (frame, velocity)).collect()
+    distinct.into_iter().map(|FrameMotion { frame, velocity, .. }| (frame, velocity)).collect()
 }
 
 /// Returns whether a frame has three free motions of its own.

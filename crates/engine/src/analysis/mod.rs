@@ -18,6 +18,8 @@
 //! A row is handed out only if the residual of the full `Φ`, scaled, is below the tolerance there; equations that were solved for
 //! a coordinate hold by that.
 
+#![allow(clippy::unnecessary_box_returns)] // a stop travels boxed, as the error of results
+
 mod assemble;
 mod explain;
 mod follow;

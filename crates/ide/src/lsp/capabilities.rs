@@ -143,23 +143,6 @@ pub(super) fn initialize_result(client: &Client) -> Value {
     json!({ "capabilities": capabilities, "serverInfo": { "name": "mechc", "version": env!("CARGO_PKG_VERSION") } })
 }
 
-#[cfg(test)]
-mod tests {
-    use super::Client;
-    use mechc_text::source::Encoding;
-    use serde_json::json;
-
-    #[test]
-    fn utf_8_is_preferred() {
-        let of = |encodings: serde_json::Value| {
-            Client::from_params(&json!({ "capabilities": { "general": { "positionEncodings": encodings } } })).encoding
-        };
-        assert_eq!(of(json!(["utf-16", "utf-8"])), Encoding::Utf8);
-        assert_eq!(of(json!(["utf-32"])), Encoding::Utf16);
-        assert_eq!(Client::from_params(&json!(null)).encoding, Encoding::Utf16);
-    }
-}
-
 /// Returns the types of the legend.
 fn token_types() -> Vec<&'static str> {
     TOKEN_TYPES.iter().map(|(_, name)| *name).collect()
@@ -182,3 +165,20 @@ pub(super) const TOKEN_TYPES: &[(TokenKind, &str)] = &[
     (TokenKind::Unit, "enumMember"),
     (TokenKind::Keyword, "keyword"),
 ];
+
+#[cfg(test)]
+mod tests {
+    use super::Client;
+    use mechc_text::source::Encoding;
+    use serde_json::json;
+
+    #[test]
+    fn utf_8_is_preferred() {
+        let of = |encodings: serde_json::Value| {
+            Client::from_params(&json!({ "capabilities": { "general": { "positionEncodings": encodings } } })).encoding
+        };
+        assert_eq!(of(json!(["utf-16", "utf-8"])), Encoding::Utf8);
+        assert_eq!(of(json!(["utf-32"])), Encoding::Utf16);
+        assert_eq!(Client::from_params(&json!(null)).encoding, Encoding::Utf16);
+    }
+}

@@ -90,7 +90,7 @@ impl StartSolver {
         let guess = position.map_or_else(
             || {
                 let settings = &self.check_options.settings;
-                let estimates = has_parts(&system).then(|| search.estimates_with_parts(system, horizon, settings));
+                let estimates = has_parts(system).then(|| search.estimates_with_parts(system, horizon, settings));
                 InitialGuess::Estimates(estimates)
             },
             InitialGuess::Position,

@@ -36,7 +36,7 @@ fn options_in(text: &str) -> Vec<OptionText<'_>> {
     let is_start = |&(at, _): &(usize, &str)| {
         let is_separate = at == 0 || text[..at].ends_with(char::is_whitespace);
         is_separate
-            && text[..at].matches('\'').count() % 2 == 0
+            && text[..at].matches('\'').count().is_multiple_of(2)
             && text[at + 2..].starts_with(|c: char| c.is_ascii_lowercase())
     };
     let starts: Vec<usize> = text.match_indices("--").filter(is_start).map(|(at, _)| at).collect();

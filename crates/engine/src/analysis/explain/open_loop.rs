@@ -33,12 +33,14 @@ pub struct OpenLoop {
 
 impl OpenLoop {
     /// Returns whether the gap has another order of magnitude than the mechanism.
+    #[must_use]
     pub fn is_far(&self, system: &ConstraintSystem) -> bool {
         let far = if self.kind == CoordinateKind::Length { 100.0 * system.length() } else { std::f64::consts::TAU };
         self.by > far
     }
 
     /// Returns whether no motion brings the two sides of the gap nearer to each other.
+    #[must_use]
     pub fn is_unreachable(&self, system: &ConstraintSystem) -> bool {
         let is_joint = matches!(system.declarations()[self.at].kind, DeclarationKind::Joint(_));
         self.is_far(system) && !(is_joint && self.by.is_finite())

@@ -278,7 +278,7 @@ impl SingularPosition {
 pub struct Warning {
     /// Time (s), or the fraction of a path from 0 to 1 where that stands for time.
     pub t: f64,
-    /// WarningCause.
+    /// Event.
     pub cause: WarningCause,
 }
 
@@ -302,7 +302,7 @@ pub enum WarningCause {
         from: f64,
         /// True if the requested time is earlier: rows and numbers of the event are then those of a path back.
         is_backward: bool,
-        /// WarningCause.
+        /// Event.
         warning: Box<Warning>,
     },
     /// The motion passes near a change point.

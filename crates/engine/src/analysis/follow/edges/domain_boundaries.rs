@@ -1,10 +1,10 @@
-//! DomainBoundaries: the times where a formula comes to the end of what one of its functions takes, as `sqrt((t - 1 s)^2)` does.
+//! Domain boundaries: the times where a formula comes to the end of what one of its functions takes, as `sqrt((t - 1 s)^2)` does.
 //!
 //! No switch tells of such an edge, and at its very time the formula mostly has no derivative. What is known is a quantity,
 //! the gauge, that is zero there, and its slope along the motion. A step is proven by intervals to hold none: the gauge
 //! keeps away from zero, or it goes one way only and has the same sign at both ends. Else its zero is located to
 //! neighbouring doubles, the step ends before it, and both sides are judged by states ever nearer to it
-//! (`analysis/follow/edges/limits.rs`). What agrees on both sides is no edge, and the motion goes on as if nothing had been.
+//! (`crates/engine/src/analysis/follow/edges/one_sided_limits.rs`). What agrees on both sides is no edge, and the motion goes on as if nothing had been.
 
 use super::event_functions::{EventFunctions, Met, Way};
 use super::one_sided_limits::{Nearer, OneSidedLimits, Verdict};
