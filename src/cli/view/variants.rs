@@ -243,7 +243,7 @@ fn without_picture(diagnostics: Diagnostics, template: &Visualization) -> Visual
     scene.named.clear();
     let motion = Motion::still(vec![Pose::default()]);
     let results = template.results.iter().map(|(name, unit, _)| (name.clone(), unit.clone(), None)).collect();
-    Visualization { scene, motion, all_rows: 0, stopped: None, diagnostics: diagnostics, results, ..template.clone() }
+    Visualization { scene, motion, all_rows: 0, stopped: None, diagnostics, results, ..template.clone() }
 }
 
 /// Gives all variants the same size of symbols and a common extent, so that the picture does not jump when a slider moves.
