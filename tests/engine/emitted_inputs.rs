@@ -970,9 +970,8 @@ fn emitted_names(text: &str) -> Vec<[String; 2]> {
         let name: String = declared.chars().take_while(|c| c.is_ascii_alphanumeric() || *c == '_').collect();
         // a function's page may begin with a formula
         let is_item = ["fn", "trait"].contains(&name.as_str());
-        if !is_item && ["pub const ", "pub "].iter().any(|word| pair[1].starts_with(word))
-            || (!is_item && pair[1].ends_with(','))
-        {
+        let is_public = ["pub const ", "pub "].iter().any(|word| pair[1].starts_with(word));
+        if !is_item && (is_public || pair[1].ends_with(',')) {
             found.push([format!("{group} {source}"), name]);
         }
     }
