@@ -51,7 +51,7 @@ impl Parsed {
         Parsed { sources, file, path: path.into(), read }
     }
 
-    /// Reads an edited text of the same file, and only what the edit touches. The outcome equals that of [`Parsed::of`].
+    /// Reads an edited text of the same file, and only what the edit touches. The outcome equals that of [`Parsed::new`].
     #[must_use]
     pub fn edited(&self, text: &str) -> Parsed {
         let current = self.sources.get(self.file);

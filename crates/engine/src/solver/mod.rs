@@ -5,7 +5,7 @@
 //! - Blocks that depend on each other make a component; components are independent.
 //! - In a block, equations with a constant pivot, mostly `±1`, give their coordinate by assignment once the others are solved. A few *tears* remain,
 //!   guessed from the motion so far, with as many equations, which Newton solves.
-//! - The linear systems of Newton, velocity, acceleration and jerk are eliminated symbolically in one order ([`Order`]), with constant folding,
+//! - The linear systems of Newton, velocity, acceleration and jerk are eliminated symbolically in one order (`order`), with constant folding,
 //!   dead-code elimination and register allocation. Velocity and acceleration share the factors.
 //!
 //! A tear's iterates lie on a grid, coarse compared with rounding and fine compared with convergence: the last Newton step begins at the grid point

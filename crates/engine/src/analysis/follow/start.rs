@@ -37,7 +37,7 @@ pub fn start(
 ///
 /// Where the drawing closes clearly better with the drivers where they begin, as of a crank that is not drawn, it means that. Where it closes
 /// neither way, or no way leads on, it is closed with its drivers left out, and driven from there; else it is closed from the estimates with
-/// the drivers where they begin. Both leave the branch in doubt, which [`Started::warnings`] tells.
+/// the drivers where they begin. Both leave the branch in doubt, which [`Started::remarks`] tells.
 ///
 /// # Errors
 /// It cannot be assembled, starts in a singular position, or a formula has no value there.
