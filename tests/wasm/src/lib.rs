@@ -5,7 +5,7 @@
 #[path = "../../support/deep_texts.rs"]
 mod deep_texts;
 
-use deep_texts::{run_all_stages, deep_texts, table};
+use deep_texts::{deep_texts, run_all_stages, table};
 use mechc::{Cancel, Choice, Color, Format, Memory, Parsed, Redundant, render};
 use std::cell::RefCell;
 
