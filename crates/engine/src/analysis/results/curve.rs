@@ -1,12 +1,12 @@
 //! A formula along the motion: its values and time derivatives at states, and what it can be between two of them.
 
+use super::batch_evaluation::{Computed, SmoothFormula};
+use super::extremum_refinement::Sampled;
 use super::guards::{Crossing, Guard, Mark, arguments, guards, slopes};
 use super::loads::{Hidden, Loads};
-use super::places::Places;
-use super::quantity::{Computed, SmoothFormula};
-use super::sizes::{Largest, Sizes};
-use super::smooth::Smooth;
-use super::turn::Sampled;
+use super::magnitudes::{Largest, Sizes};
+use super::smooth_parts::Smooth;
+use super::state_sampler::Places;
 use crate::analysis::state::State;
 use mechc_expr::math::{between, log10};
 use mechc_expr::{Dependence, ExprId, Graph, Node, Symbol, Unary};

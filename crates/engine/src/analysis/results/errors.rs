@@ -1,6 +1,6 @@
 //! Results that have no value.
 
-use super::probe::Trouble;
+use super::interval_search::Trouble;
 use crate::analysis::explain::errors::at;
 use mechc_ir::{Outcome, Reduction};
 use mechc_text::diag::{Code, Diagnostic};

@@ -5,8 +5,8 @@
 //! more than what is known are never looked into, and so a pole in the other direction costs nothing and hides nothing.
 
 use super::curve::{Cell, Found, Point, Verdict};
-use super::probe::{Probe, Scale, Trouble};
-use super::turn::{MOST_LOOKS, Sampled, Settling, Turning};
+use super::extremum_refinement::{MOST_LOOKS, Sampled, Settling, Turning};
+use super::interval_search::{Probe, Scale, Trouble};
 use crate::analysis::state::State;
 use mechc_expr::math::{between, median};
 use mechc_ir::program::Range;

@@ -7,32 +7,35 @@
 //! The motion is followed once more, in the steps that it allows, and looked at between their ends as closely as each
 //! formula needs. No bit of a row depends on it.
 
-mod certain;
+mod batch_evaluation;
 pub mod course;
 mod curve;
 mod errors;
 mod extremum;
+mod extremum_refinement;
 mod guards;
+mod interval_search;
 mod loads;
-mod places;
-mod probe;
+mod magnitudes;
 mod quadrature;
-mod quantities;
-mod quantity;
-mod reduced;
-mod sizes;
-mod smooth;
+mod reductions;
+mod sensitivities;
+mod smooth_formulas;
+mod smooth_parts;
 mod spectral;
-mod turn;
-mod varying;
+mod state_sampler;
+mod validity;
 
 use crate::analysis::assemble::Started;
 use crate::analysis::explain::Stop;
 use crate::analysis::follow::{Follower, SmoothSegment};
 use crate::analysis::state::{Kinematics, State, Times};
 use crate::solver::Solver;
-use certain::Near;
+pub use batch_evaluation::{Computed, SmoothFormula, moved};
 use curve::{Curve, Found};
+pub use extremum_refinement::{MOST_LOOKS, Sampled, Settling, Turning};
+use interval_search::Trouble;
+use magnitudes::Largest;
 use mechc_expr::{ExprId, Graph, Node, Symbol};
 use mechc_ir::structure::Determined;
 use mechc_ir::tolerances::results::places::SHORTEST;
@@ -40,16 +43,13 @@ use mechc_ir::tolerances::results::stretches::{CHUNK, FEW, NUMBERS};
 use mechc_ir::{ConstraintSystem, Outcome, Reduction, ReductionKind};
 use mechc_text::cancel::Cancel;
 use mechc_text::diag::{Diagnostic, Diagnostics};
-use places::Places;
-use probe::Trouble;
-pub use quantities::SmoothFormulas;
-pub use quantity::{Computed, SmoothFormula, moved};
-use reduced::Reduced;
+use reductions::Reduced;
 use rustc_hash::FxHashMap;
-use sizes::Largest;
+pub use smooth_formulas::SmoothFormulas;
 pub use spectral::{Settled, SpectralIntegral};
+use state_sampler::Places;
 use std::sync::Arc;
-pub use turn::{MOST_LOOKS, Sampled, Settling, Turning};
+use validity::Near;
 
 /// What is wrong with the results that an analysis from one time to another (s) is asked for.
 #[must_use]

@@ -2,7 +2,7 @@
 //! derivatives by values within (Lobatto and Kronrod).
 
 use super::curve::{Cell, Found, Point, Verdict};
-use super::probe::{Probe, Scale, Trouble};
+use super::interval_search::{Probe, Scale, Trouble};
 use mechc_expr::math::{integral_of_quintic, log10, pow};
 use mechc_ir::tolerances::results::quadrature::{
     ACCURACY, ALIKE, DIVERGES, FARTHER, LEAST_GROWTH, LOOKS, NOTHING, PART_OF_POLE, POLE_DISTANCE, ROUNDING, SAFETY,

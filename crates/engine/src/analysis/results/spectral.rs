@@ -4,7 +4,7 @@
 //! Source: C. W. Clenshaw, A. R. Curtis, *A method for numerical integration on an automatic computer*, Numerische Mathematik 2, 1960.
 
 use super::curve::{Cell, Found};
-use super::probe::Probe;
+use super::interval_search::Probe;
 use mechc_expr::math::cos;
 use mechc_ir::tolerances::results::quadrature::{ACCURACY, ROUNDING};
 use mechc_ir::tolerances::results::spectral::{ALIKE, FIRST, LAST, LESS};

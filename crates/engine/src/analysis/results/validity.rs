@@ -2,8 +2,8 @@
 
 use super::ResultQuery;
 use super::curve::Found;
-use super::probe::Trouble;
-use super::reduced::Reduced;
+use super::interval_search::Trouble;
+use super::reductions::Reduced;
 use crate::analysis::follow::{Follower, SmoothSegment};
 use crate::analysis::state::Times;
 use mechc_ir::ReductionKind;

@@ -1,7 +1,7 @@
 //! Smooth formulas that results ask of the motion, for variants that go side by side: extrema of them, integrals, and values at some times.
 
+use super::batch_evaluation::SmoothFormula;
 use super::curve::Curve;
-use super::quantity::SmoothFormula;
 use super::{curves, needed, value_of};
 use mechc_expr::ExprId;
 use mechc_ir::{ConstraintSystem, ReductionKind};

@@ -2,10 +2,10 @@
 
 use super::curve::{Cell, Curve, Found, Point};
 use super::extremum::Extremum;
-use super::places::Places;
-use super::probe::{Notes, Probe, Scale, Trouble};
+use super::interval_search::{Notes, Probe, Scale, Trouble};
+use super::magnitudes::Largest;
 use super::quadrature::Integral;
-use super::sizes::Largest;
+use super::state_sampler::Places;
 use crate::analysis::follow::SmoothSegment;
 use crate::analysis::state::{State, shortly_after};
 use mechc_expr::math::median;

@@ -1,7 +1,7 @@
 //! Looking at a formula between the ends of the motion's steps.
 
 use super::curve::{Cell, Curve, Found, Point, Shift, Verdict};
-use super::places::Places;
+use super::state_sampler::Places;
 use crate::analysis::follow::SmoothSegment;
 use crate::analysis::state::State;
 use mechc_expr::math::{enclose_root, power_of_two_below};

@@ -3,7 +3,7 @@
 //! What is seen from a body that moves is a sum of this kind, of terms that may be much larger than it is itself: what these can be in
 //! a cell says little of what it can be. So it is looked at as the coordinates are, by its own time derivatives at the ends of the cell.
 
-use super::sizes::{Largest, Sizes};
+use super::magnitudes::{Largest, Sizes};
 use crate::analysis::state::State;
 use mechc_expr::{Binary, ExprId, Graph, Node, Symbol, Unary};
 use mechc_ir::program::{Program, Ranges, Register, Registers, Stage};

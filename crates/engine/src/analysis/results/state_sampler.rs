@@ -1,6 +1,6 @@
 //! States within a stretch of the motion, solved for where they are asked for.
 
-use super::varying::Varying;
+use super::sensitivities::Varying;
 use crate::analysis::follow::{SelectedRows, SingleRow, SmoothSegment, quintic_between, state_of_row};
 use crate::analysis::state::{Kinematics, State};
 use crate::solver::{Batch, Solver};
