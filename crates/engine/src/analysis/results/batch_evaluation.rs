@@ -26,12 +26,12 @@ pub struct Computed {
 
 impl Computed {
     /// By a program over so many coordinates, and perhaps more, which leaves what is wanted in some registers.
-    pub(super) fn new(program: Program, registers: Registers, coordinates: usize, wanted: &[Register]) -> Computed {
+    pub(super) fn new(program: Program, registers: Registers, coordinates: usize, requested: &[Register]) -> Computed {
         let mut inputs = Vec::new();
         for (order, first) in program.inputs.coordinates.into_iter().enumerate() {
             inputs.extend((0..coordinates as Register).map(|k| (first + k, k, order)));
         }
-        let operations = program.operations_behind(wanted, Stage::Measures);
+        let operations = program.operations_behind(requested, Stage::Measures);
         Computed { program, registers, operations, inputs, taken: Vec::new() }
     }
 
@@ -39,9 +39,9 @@ impl Computed {
     pub(super) fn behind(
         mut self,
         before: &[[Option<Register>; 4]],
-        (coordinates, wanted): (usize, &[Register]),
+        (coordinates, requested): (usize, &[Register]),
     ) -> Option<Computed> {
-        let is_read = self.is_read(wanted);
+        let is_read = self.is_read(requested);
         for (order, first) in self.program.inputs.coordinates.into_iter().enumerate() {
             for (k, tower) in before.iter().enumerate() {
                 let register = first + (coordinates + k) as Register;
@@ -54,9 +54,9 @@ impl Computed {
     }
 
     /// By register: whether its operations read it, or somebody wants it.
-    fn is_read(&self, wanted: &[Register]) -> Vec<bool> {
+    fn is_read(&self, requested: &[Register]) -> Vec<bool> {
         let mut is_read = vec![false; self.program.registers()];
-        for &register in wanted {
+        for &register in requested {
             is_read[register as usize] = true;
         }
         for &op in &self.operations {
@@ -66,8 +66,8 @@ impl Computed {
     }
 
     /// Leaves out the inputs that nothing reads.
-    fn need(&mut self, wanted: &[Register]) {
-        let is_read = self.is_read(wanted);
+    fn need(&mut self, requested: &[Register]) {
+        let is_read = self.is_read(requested);
         self.inputs.retain(|(register, ..)| is_read[*register as usize]);
     }
 
@@ -101,11 +101,11 @@ impl SmoothFormula {
     pub(super) fn new(mut stages: Vec<Computed>, roots: Vec<Register>, is_length: bool) -> SmoothFormula {
         let count = stages.len();
         for k in 0..count {
-            let wanted = match stages.get(k + 1) {
+            let requested = match stages.get(k + 1) {
                 Some(next) => next.taken.iter().map(|&(_, from)| from).collect(),
                 None => roots.clone(),
             };
-            stages[k].need(&wanted);
+            stages[k].need(&requested);
         }
         SmoothFormula { stages, roots, is_length }
     }
@@ -122,7 +122,7 @@ impl SmoothFormula {
         &self.roots
     }
 
-    /// Whether it is a length, which has a kink where it is zero.
+    /// Returns whether it is a length, which has a kink where it is zero.
     #[must_use]
     pub fn is_length(&self) -> bool {
         self.is_length

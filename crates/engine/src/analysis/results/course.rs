@@ -16,7 +16,7 @@ pub struct Course<'c> {
     pub times: &'c [f64],
     /// What the formula is there.
     pub towers: &'c [Tower],
-    /// Whether it is a length, with a kink where it is zero.
+    /// True if it is a length, with a kink where it is zero.
     pub is_length: bool,
     /// The size of the numbers that values are sums of: what rounding of values goes by.
     pub weight: f64,
@@ -107,11 +107,11 @@ impl Course<'_> {
         self.towers.windows(2).map(|pair| [pair[0], pair[1]]).zip(times)
     }
 
-    /// Whether it is where it was all the time, but for rounding.
+    /// Returns whether it is where it was all the time, but for rounding.
     fn rests(&self) -> bool {
         let (begun, little) = (self.towers[0][0], RESTS * self.weight);
         let is_there = |value: f64| (value - begun).abs() <= little;
-        self.cells().all(|(ends, times)| Limits::of(ends, times).values.into_iter().all(is_there))
+        self.cells().all(|(ends, times)| Limits::new(ends, times).values.into_iter().all(is_there))
     }
 }
 
@@ -135,7 +135,7 @@ struct Limits {
 }
 
 impl Limits {
-    fn of([[v, s, c], [w, r, d]]: [Tower; 2], [from, to]: [f64; 2]) -> Limits {
+    fn new([[v, s, c], [w, r, d]]: [Tower; 2], [from, to]: [f64; 2]) -> Limits {
         let h = to - from;
         let bend = SAFETY * ((r - s) / h - 0.5 * (c + d)).abs();
         let bends = [c.min(d) - bend, c.max(d) + bend];
@@ -148,7 +148,7 @@ impl Limits {
 fn look_into([a, b]: [Tower; 2], [from, to]: [f64; 2]) -> Cell {
     let h = to - from;
     let ([v, s, c], [w, r, d]) = (a, b);
-    let Limits { bends, slopes, values: [_, most] } = Limits::of([a, b], [from, to]);
+    let Limits { bends, slopes, values: [_, most] } = Limits::new([a, b], [from, to]);
     let is_monotone = slopes[0] > 0.0 || slopes[1] < 0.0;
     if is_monotone || bends[0] > 0.0 {
         return Cell::Nothing;

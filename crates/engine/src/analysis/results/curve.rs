@@ -2,11 +2,11 @@
 
 use super::batch_evaluation::{Computed, SmoothFormula};
 use super::extremum_refinement::Sampled;
-use super::guards::{Crossing, Guard, Mark, arguments, guards, slopes};
+use super::guards::{Crossing, Guard, GuardState, arguments, guards, slopes};
 use super::loads::{Hidden, Loads};
-use super::magnitudes::{Largest, Sizes};
+use super::magnitudes::{Largest, Magnitudes};
 use super::smooth_parts::Smooth;
-use super::state_sampler::Places;
+use super::state_sampler::StateSampler;
 use crate::analysis::state::State;
 use mechc_expr::math::{between, log10};
 use mechc_expr::{Dependence, ExprId, Graph, Node, Symbol, Unary};
@@ -48,7 +48,7 @@ pub(super) struct Curve {
     /// The loads that the forces in the formula come from.
     loads: Loads,
     /// How large what moves is, and how large the guards' arguments are at the ends of steps.
-    sizes: Sizes,
+    sizes: Magnitudes,
     largest_arguments: Vec<f64>,
     /// How often it has been computed.
     looks: usize,
@@ -88,7 +88,7 @@ pub(super) enum Moving {
 }
 
 impl Moving {
-    fn of(symbol: Symbol) -> Option<Moving> {
+    fn from_symbol(symbol: Symbol) -> Option<Moving> {
         match symbol {
             Symbol::Coordinate { index, .. } => Some(Moving::Coordinate(index as usize)),
             Symbol::Varied { index, variation, .. } => Some(Moving::Varied { variation, index: index as usize }),
@@ -100,7 +100,7 @@ impl Moving {
         }
     }
 
-    /// Whether it is a force, or how one changes: of these only the value is known.
+    /// Returns whether it is a force, or how one changes: of these only the value is known.
     fn is_of_forces(self) -> bool {
         matches!(self, Moving::Multiplier(_) | Moving::VariedMultiplier { .. })
     }
@@ -128,14 +128,14 @@ pub(super) struct Point {
     /// The loads, of a formula that holds forces.
     loads: Vec<f64>,
     /// By guard.
-    marks: Vec<Mark>,
-    /// Whether it lies on the way over a singular position, where velocities and accelerations are those of a curve.
+    marks: Vec<GuardState>,
+    /// True if it lies on the way over a singular position, where velocities and accelerations are those of a curve.
     is_on_bridge: bool,
     pub sample: Sampled,
     /// How far (s) the time that is meant may be from this one, and the value there from the value here.
     pub shift: Shift,
     /// How far (s) from here the guard that crosses its threshold beside may do so as well.
-    pub doubt: f64,
+    pub crossing_error: f64,
 }
 
 /// How far off something may be because its time is not known.
@@ -157,7 +157,7 @@ impl Point {
         self.marks[guard].argument
     }
 
-    /// Whether the formula has a value here.
+    /// Returns whether the formula has a value here.
     pub fn exists(&self) -> bool {
         self.sample.value.is_finite()
     }
@@ -165,14 +165,14 @@ impl Point {
 
 /// A number and how far off it may be.
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub(super) struct Found {
+pub(super) struct Estimate {
     pub value: f64,
     pub off: f64,
 }
 
-impl Found {
+impl Estimate {
     /// No number.
-    pub const NOTHING: Found = Found { value: f64::NAN, off: f64::INFINITY };
+    pub const NOTHING: Estimate = Estimate { value: f64::NAN, off: f64::INFINITY };
 
     /// How many significant digits are certain; 0 where it cannot be told from zero.
     pub fn certain_digits(self) -> u32 {
@@ -199,7 +199,7 @@ pub(super) struct Cell {
     /// these are the formula itself and the loads, of which that is the value too. None where nothing is known yet.
     bends: Option<Rc<[[f64; 2]]>>,
     /// The length (s) of the cell that this is known of, of which this one may be a part.
-    known_over: f64,
+    bends_length: f64,
     /// The point in its middle, if it has been looked at.
     pub middle: Option<Rc<Point>>,
 }
@@ -207,7 +207,7 @@ pub(super) struct Cell {
 impl Cell {
     /// From one point to another, of which nothing between is known yet.
     pub fn new(step: usize, a: &Rc<Point>, b: &Rc<Point>) -> Cell {
-        Cell { step, a: Rc::clone(a), b: Rc::clone(b), bends: None, known_over: f64::INFINITY, middle: None }
+        Cell { step, a: Rc::clone(a), b: Rc::clone(b), bends: None, bends_length: f64::INFINITY, middle: None }
     }
 
     /// Its length (s).
@@ -220,7 +220,7 @@ impl Cell {
         0.5 * self.a.state.t + 0.5 * self.b.state.t
     }
 
-    /// Whether there is no time in it.
+    /// Returns whether there is no time in it.
     pub fn is_empty(&self) -> bool {
         let middle = self.middle();
         middle <= self.a.state.t || middle >= self.b.state.t
@@ -228,7 +228,7 @@ impl Cell {
 
     /// As this one, from one point to another.
     pub fn between(&self, a: &Rc<Point>, b: &Rc<Point>) -> Cell {
-        Cell { bends: self.bends.clone(), known_over: self.known_over, ..Cell::new(self.step, a, b) }
+        Cell { bends: self.bends.clone(), bends_length: self.bends_length, ..Cell::new(self.step, a, b) }
     }
 
     /// Takes the point in its middle, which tells how far values that have no known derivative are from a straight line.
@@ -276,10 +276,10 @@ impl Curve {
         let holds_rates =
             dependence.highest_order() > Some(0) || dependence.highest_varied_order().is_some() || holds_forces;
         let loads = if holds_forces { loads } else { &[] };
-        let (mut graph, found, smooth) = Smooth::out_of(graph, (value, loads), system);
+        let (mut graph, found, smooth) = Smooth::extract_from(graph, (value, loads), system);
         let shape = shape(&graph, found[0], system);
         let derivatives = with_derivatives(&mut graph, found[0], has_jerk);
-        let own = derivatives.len();
+        let local = derivatives.len();
         // ranges are asked for in this order: the formula, its loads, the arguments of guards with their slopes, and the derivatives
         let mut formulas = found.clone();
         let arguments = arguments(&mut graph, &found);
@@ -293,7 +293,8 @@ impl Curve {
         }
         let first = formulas.len();
         formulas.extend_from_slice(&derivatives[1..]);
-        let mut moving: Vec<Moving> = graph.symbols_of_all(&formulas).into_iter().filter_map(Moving::of).collect();
+        let mut moving: Vec<Moving> =
+            graph.symbols_of_all(&formulas).into_iter().filter_map(Moving::from_symbol).collect();
         moving.sort_unstable();
         moving.dedup();
         let coordinates = system.coordinates().len();
@@ -306,19 +307,19 @@ impl Curve {
         // as many places for them as there are coordinates, which are no fewer than the rows
         let multipliers = if system.forces().is_some() { coordinates_and_more } else { 0 };
         let counts = [system.params().len(), coordinates_and_more, variations, multipliers];
-        let (program, places, nodes) = Program::from_formulas_with_nodes(&graph, counts, &formulas);
+        let (program, outputs, nodes) = Program::from_formulas_with_nodes(&graph, counts, &formulas);
         let params = system.param_values();
         let registers = program.start(&params);
-        let values = &places[..found.len()];
+        let values = &outputs[..found.len()];
         let guards = guards((&mut graph, &program), values, &nodes, &witnesses);
         let loads = Loads::new(&values[1..]);
         let roots: Vec<Register> =
-            (0..own).map(|order| places[if order == 0 { 0 } else { first + order - 1 }]).collect();
+            (0..local).map(|order| outputs[if order == 0 { 0 } else { first + order - 1 }]).collect();
         let operations = program.operations_behind(&[&roots[..], &values[1..]].concat(), Stage::Measures);
         Curve {
-            sizes: Sizes::new(kinds),
+            sizes: Magnitudes::new(kinds),
             largest_arguments: vec![0.0; guards.len()],
-            ranges: Ranges::new(&program, &registers, &places, Stage::Measures, false),
+            ranges: Ranges::new(&program, &registers, &outputs, Stage::Measures, false),
             program,
             registers,
             roots,
@@ -348,32 +349,32 @@ impl Curve {
         self.roots.len() - 1
     }
 
-    /// Whether it changes with the motion, and not with time alone.
+    /// Returns whether it changes with the motion, and not with time alone.
     pub fn moves(&self) -> bool {
         !self.moving.is_empty()
     }
 
-    /// Whether it holds derivatives of the coordinates.
+    /// Returns whether it holds derivatives of the coordinates.
     pub fn holds_rates(&self) -> bool {
         self.holds_rates
     }
 
-    /// Whether it holds something of which one order alone is known, so that a cell has to be looked at in its middle.
+    /// Returns whether it holds something of which one order alone is known, so that a cell has to be looked at in its middle.
     pub fn needs_middles(&self) -> bool {
         self.holds_forces || self.moving.iter().map(|of| self.orders(*of)).any(|[from, to]| from == to)
     }
 
-    /// Whether it holds forces, of which only values are known.
+    /// Returns whether it holds forces, of which only values are known.
     pub fn holds_forces(&self) -> bool {
         self.holds_forces
     }
 
-    /// Whether it holds what has no bound where the equations are singular: forces, or derivatives by parameters.
+    /// Returns whether it holds what has no bound where the equations are singular: forces, or derivatives by parameters.
     pub fn may_be_singular(&self) -> bool {
         self.holds_forces || self.is_varied()
     }
 
-    /// Whether it is nothing but what is smooth, or a length of that, with a slope: so that its extrema can be settled.
+    /// Returns whether it is nothing but what is smooth, or a length of that, with a slope: so that its extrema can be settled.
     pub fn settles(&self) -> bool {
         self.derivatives() > 0 && self.shape != Shape::Other
     }
@@ -384,42 +385,42 @@ impl Curve {
             return None;
         }
         let is_length = self.shape == Shape::Length;
-        let (own, roots) = (Computed::new(self.program, self.registers, self.coordinates, &self.roots), self.roots);
+        let (local, roots) = (Computed::new(self.program, self.registers, self.coordinates, &self.roots), self.roots);
         if self.smooth.count() == 0 {
-            return Some(SmoothFormula::new(vec![own], roots, is_length));
+            return Some(SmoothFormula::new(vec![local], roots, is_length));
         }
         let ((program, registers), towers) = self.smooth.into_towers();
-        let own = own.behind(&towers, (self.coordinates, &roots))?;
-        let wanted: Vec<Register> = towers.iter().flatten().flatten().copied().collect();
-        let smooth = Computed::new(program, registers, self.coordinates, &wanted);
-        Some(SmoothFormula::new(vec![smooth, own], roots, is_length))
+        let local = local.behind(&towers, (self.coordinates, &roots))?;
+        let requested: Vec<Register> = towers.iter().flatten().flatten().copied().collect();
+        let smooth = Computed::new(program, registers, self.coordinates, &requested);
+        Some(SmoothFormula::new(vec![smooth, local], roots, is_length))
     }
 
     /// At a state of the stretch that was entered.
-    pub fn at(&mut self, state: State, places: &mut Places) -> Rc<Point> {
-        let is_on_bridge = places.is_on_bridge(state.t);
+    pub fn at(&mut self, state: State, sampler: &mut StateSampler) -> Rc<Point> {
+        let is_on_bridge = sampler.is_on_bridge(state.t);
         if self.is_varied() {
-            places.vary(&state);
+            sampler.vary(&state);
         }
         if self.holds_forces {
-            places.find_multipliers(&state);
+            sampler.find_multipliers(&state);
         }
         self.smooth.look(&state);
         let tower = |moving: &Moving| match *moving {
             Moving::Coordinate(k) if k >= self.coordinates => self.smooth.tower(k - self.coordinates),
             Moving::Coordinate(k) => state.tower(k),
             Moving::Varied { variation, index } => {
-                let [place, first, second] = places.variation(variation, index);
+                let [place, first, second] = sampler.variation(variation, index);
                 [place, first, second, 0.0]
             }
-            Moving::Multiplier(row) => [places.multiplier(row), 0.0, 0.0, 0.0],
-            Moving::VariedMultiplier { variation, row } => [places.varied_multiplier(variation, row), 0.0, 0.0, 0.0],
+            Moving::Multiplier(row) => [sampler.multiplier(row), 0.0, 0.0, 0.0],
+            Moving::VariedMultiplier { variation, row } => [sampler.varied_multiplier(variation, row), 0.0, 0.0, 0.0],
         };
         let moving: Vec<[f64; 4]> = self.moving.iter().map(tower).collect();
         self.run(state.t, &moving);
         let value = |order: usize| self.roots.get(order).map_or(f64::NAN, |&root| self.registers.get(root));
         let sample = Sampled { value: value(0), first: value(1), second: value(2) };
-        let marks: Vec<Mark> = self.guards.iter().map(|guard| guard.mark(&self.registers)).collect();
+        let marks: Vec<GuardState> = self.guards.iter().map(|guard| guard.mark(&self.registers)).collect();
         moving.iter().enumerate().for_each(|(k, tower)| self.sizes.note(k, tower));
         let loads = self.loads.values(&self.registers);
         if self.loads.count() > 0 && self.looks.is_multiple_of(EVERY) {
@@ -427,7 +428,16 @@ impl Curve {
             self.loads.look_at_rounding((&self.program, &self.registers), &mut self.ranges);
         }
         self.looks += 1;
-        Rc::new(Point { state, moving, loads, marks, is_on_bridge, sample, shift: Shift::default(), doubt: 0.0 })
+        Rc::new(Point {
+            state,
+            moving,
+            loads,
+            marks,
+            is_on_bridge,
+            sample,
+            shift: Shift::default(),
+            crossing_error: 0.0,
+        })
     }
 
     /// Takes note of how large the coordinates of the mechanism are.
@@ -487,17 +497,17 @@ impl Curve {
     }
 
     /// The value at a point, and how far off it may be.
-    pub fn found(&mut self, point: &Point) -> Found {
-        Found { value: point.sample.value, off: self.uncertainty(point) }
+    pub fn estimate(&mut self, point: &Point) -> Estimate {
+        Estimate { value: point.sample.value, off: self.uncertainty(point) }
     }
 
-    /// Whether rounding alone decides at a point on which side of its threshold a guard is.
+    /// Returns whether rounding alone decides at a point on which side of its threshold a guard is.
     pub fn is_rounding(&mut self, guard: usize, point: &Point) -> bool {
         self.set_rounding(point);
         self.guards[guard].is_within_rounding(&self.ranges, point.marks[guard])
     }
 
-    /// Whether rounding alone decides on which side of its threshold some guard is at a point.
+    /// Returns whether rounding alone decides on which side of its threshold some guard is at a point.
     pub fn is_undecided(&mut self, point: &Point) -> bool {
         if self.guards.is_empty() {
             return false;
@@ -514,18 +524,18 @@ impl Curve {
         0.5 * (high - low)
     }
 
-    /// Whether the argument of a guard is known at a point, beside what it usually is.
+    /// Returns whether the argument of a guard is known at a point, beside what it usually is.
     fn knows_argument(&mut self, guard: usize, point: &Point) -> bool {
         2.0 * self.rounding_of_argument(guard, point) <= NEAR * self.largest_arguments[guard]
     }
 
-    /// Whether a guard of the formula is exactly at its threshold, and not so at another point beside: the formula may have a value of its own there.
+    /// Returns whether a guard of the formula is exactly at its threshold, and not so at another point beside: the formula may have a value of its own there.
     pub fn is_at_threshold(&self, point: &Point, beside: &Point) -> bool {
         let marks = point.marks.iter().zip(&beside.marks);
         self.guards
             .iter()
             .zip(marks)
-            .any(|(guard, (mark, beside))| guard.is_at_threshold(*mark) && mark.is_beside(beside))
+            .any(|(guard, (mark, beside))| guard.is_at_threshold(*mark) && mark.differs_from(beside))
     }
 
     /// Computes the formula and its derivatives at a time (s).
@@ -554,14 +564,14 @@ impl Curve {
         self.moving.iter().any(|moving| matches!(moving, Moving::Varied { .. } | Moving::VariedMultiplier { .. }))
     }
 
-    /// Whether a cell is too wide for anything to be known of what is smooth in it.
+    /// Returns whether a cell is too wide for anything to be known of what is smooth in it.
     pub fn turns_far(&self, cell: &Cell) -> bool {
         self.smooth.turns_far([&cell.a.state, &cell.b.state])
     }
 
     /// Encloses the formula in a cell: what it can be there, and whether it is smooth, but for some guards.
     pub fn enclose(&mut self, cell: &mut Cell, ignored: &[usize]) -> (Verdict, Range) {
-        (cell.bends, cell.known_over) = (Some(self.bends_of(cell)), cell.length());
+        (cell.bends, cell.bends_length) = (Some(self.bends_of(cell)), cell.length());
         self.set_cell(cell);
         let mut held = vec![false; self.guards.len()];
         for &guard in ignored {
@@ -611,7 +621,7 @@ impl Curve {
         }
     }
 
-    /// Whether the argument of a guard rises or falls all the way through the cell.
+    /// Returns whether the argument of a guard rises or falls all the way through the cell.
     fn is_monotone(&mut self, guard: usize) -> bool {
         let Some([argument, slope]) = self.guards[guard].witness else { return false };
         let argument = self.ranges.range(&self.program, &self.registers, argument);
@@ -635,11 +645,11 @@ impl Curve {
             let is_short = cell.length() <= self.short && cell.a.exists() && cell.b.exists();
             return if is_short && is_resolved { by_values() } else { range };
         }
-        let told = |k: usize| around(cell.a.loads[k], cell.b.loads[k], bends[1 + k][0]);
+        let bounds = |k: usize| around(cell.a.loads[k], cell.b.loads[k], bends[1 + k][0]);
         let up_to = |most: f64| Range { low: -most, high: most, is_resolved: false, ..range };
-        match loads.hidden((program, registers), ranges, told) {
-            Hidden::Anything => up_to(f64::INFINITY),
-            Hidden::Something(beyond) => up_to(f64::min(MAX_AMPLIFICATION * beyond, f64::MAX)),
+        match loads.hidden((program, registers), ranges, bounds) {
+            Hidden::Unbounded => up_to(f64::INFINITY),
+            Hidden::AtMost(beyond) => up_to(f64::min(MAX_AMPLIFICATION * beyond, f64::MAX)),
             Hidden::Nothing if is_resolved => by_values(),
             Hidden::Nothing => range,
         }
@@ -695,7 +705,7 @@ impl Curve {
         let h = cell.length();
         let known = |k: usize| cell.bends.as_ref().map_or([f64::INFINITY; 2], |bends| bends[k]);
         // over very short cells differences are rounding, and what is known of the longer one becomes less with the square of the length
-        let part = h / cell.known_over;
+        let part = h / cell.bends_length;
         let less = f64::min(LESS * part * part, 1.0);
         let of = |(k, of): (usize, &Moving)| {
             let (a, b) = (&cell.a.moving[k], &cell.b.moving[k]);
@@ -721,9 +731,9 @@ impl Curve {
             [order, to] if order == to => [off(&|point: &Point| point.moving[k][order]); 2],
             _ => cell.bends.as_ref().map_or([f64::INFINITY; 2], |bends| bends[k]),
         };
-        let own = [off(&|point: &Point| point.sample.value); 2];
+        let local = [off(&|point: &Point| point.sample.value); 2];
         let of_loads = (0..self.loads.count()).map(|k| [off(&|point: &Point| point.loads[k]); 2]);
-        self.moving.iter().enumerate().map(of_moving).chain([own]).chain(of_loads).collect()
+        self.moving.iter().enumerate().map(of_moving).chain([local]).chain(of_loads).collect()
     }
 
     /// How far a guard's argument is from the threshold between two points.
@@ -764,7 +774,7 @@ impl Curve {
     }
 }
 
-/// Whether all that a formula holds is known along the motion.
+/// Returns whether all that a formula holds is known along the motion.
 fn is_known(graph: &Graph, formula: ExprId, has_jerk: bool) -> bool {
     let dependence = graph.dependence(formula);
     !dependence.on(Dependence::FORCES) && (has_jerk || dependence.highest_order() != Some(3))

@@ -1,7 +1,7 @@
 //! Looking at a formula between the ends of the motion's steps.
 
-use super::curve::{Cell, Curve, Found, Point, Shift, Verdict};
-use super::state_sampler::Places;
+use super::curve::{Cell, Curve, Estimate, Point, Shift, Verdict};
+use super::state_sampler::StateSampler;
 use crate::analysis::follow::SmoothSegment;
 use crate::analysis::state::State;
 use mechc_expr::math::{enclose_root, power_of_two_below};
@@ -38,7 +38,7 @@ impl Scale {
 
 /// Why there is no number.
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub enum Trouble {
+pub enum NoValueCause {
     /// The formula has no value at a time (s) that is asked for.
     Missing(f64),
     /// It has none at any time from this one (s) on.
@@ -53,15 +53,15 @@ pub enum Trouble {
     Window(f64),
 }
 
-impl Trouble {
+impl NoValueCause {
     pub fn t(self) -> f64 {
         match self {
-            Trouble::Missing(t)
-            | Trouble::Nowhere(t)
-            | Trouble::Unbounded(t)
-            | Trouble::Unknown(t)
-            | Trouble::Uncertain(t)
-            | Trouble::Window(t) => t,
+            NoValueCause::Missing(t)
+            | NoValueCause::Nowhere(t)
+            | NoValueCause::Unbounded(t)
+            | NoValueCause::Unknown(t)
+            | NoValueCause::Uncertain(t)
+            | NoValueCause::Window(t) => t,
         }
     }
 }
@@ -69,7 +69,7 @@ impl Trouble {
 /// What came up while a formula was looked at.
 #[derive(Clone, Copy, Default, Debug)]
 pub(super) struct Notes {
-    pub trouble: Option<Trouble>,
+    pub cause: Option<NoValueCause>,
     /// The first time (s) at which the formula has no value.
     pub missing: Option<f64>,
     /// How much has been looked at, and how much may be.
@@ -79,13 +79,13 @@ pub(super) struct Notes {
 
 impl Notes {
     /// Takes note of why there is no number; what comes first in time counts.
-    pub fn meet(&mut self, trouble: Trouble) {
-        if self.trouble.is_none_or(|known| trouble.t() < known.t()) {
-            self.trouble = Some(trouble);
+    pub fn meet(&mut self, cause: NoValueCause) {
+        if self.cause.is_none_or(|known| cause.t() < known.t()) {
+            self.cause = Some(cause);
         }
     }
 
-    /// Whether as much has been looked at as may be.
+    /// Returns whether as much has been looked at as may be.
     pub fn are_exhausted(&self) -> bool {
         self.cells > self.most
     }
@@ -99,9 +99,9 @@ impl Notes {
 }
 
 /// A formula in some steps of the motion.
-pub(super) struct Probe<'r> {
+pub(super) struct IntervalSearch<'r> {
     pub curve: &'r mut Curve,
-    places: &'r mut Places,
+    sampler: &'r mut StateSampler,
     pub steps: &'r [SmoothSegment],
     /// From one time to another (s): the formula is looked at nowhere else.
     pub window: [f64; 2],
@@ -113,24 +113,24 @@ pub(super) struct Probe<'r> {
     pub range: f64,
     /// In a cell that is no longer than this (s) values may be nothing but rounding.
     pub short: f64,
-    /// Whether it matters when guards cross their thresholds.
+    /// True if it matters when guards cross their thresholds.
     pub is_timed: bool,
     /// The guard that was found to cross its threshold last, when (s), and how far off (s) that may be.
-    doubted: Option<(usize, f64, f64)>,
+    last_crossing: Option<(usize, f64, f64)>,
 }
 
-impl<'r> Probe<'r> {
+impl<'r> IntervalSearch<'r> {
     pub fn new(
         (curve, notes): (&'r mut Curve, &'r mut Notes),
-        places: &'r mut Places,
+        sampler: &'r mut StateSampler,
         steps: &'r [SmoothSegment],
         (window, span): ([f64; 2], f64),
-    ) -> Probe<'r> {
+    ) -> IntervalSearch<'r> {
         curve.set_short(SHORT * span);
         notes.most = notes.most.max(MOST_CELLS) + MOST_OF_A_STEP * steps.len();
-        Probe {
+        IntervalSearch {
             curve,
-            places,
+            sampler,
             steps,
             window,
             entered: None,
@@ -139,13 +139,13 @@ impl<'r> Probe<'r> {
             range: 0.0,
             short: SHORT * span,
             is_timed: false,
-            doubted: None,
+            last_crossing: None,
         }
     }
 
     fn enter(&mut self, step: usize) {
         if self.entered != Some(step) {
-            self.places.enter(&self.steps[step]);
+            self.sampler.enter(&self.steps[step]);
             self.entered = Some(step);
         }
     }
@@ -156,7 +156,7 @@ impl<'r> Probe<'r> {
         if let Some(bridge) = &self.steps[step].bridge
             && self.curve.may_be_singular()
         {
-            self.notes.meet(Trouble::Uncertain(bridge.at));
+            self.notes.meet(NoValueCause::Uncertain(bridge.at));
         }
         self.notes.miss(t);
     }
@@ -164,7 +164,7 @@ impl<'r> Probe<'r> {
     /// The formula at a state of a step.
     pub fn at(&mut self, step: usize, state: State) -> Rc<Point> {
         self.enter(step);
-        self.curve.at(state, self.places)
+        self.curve.at(state, self.sampler)
     }
 
     /// The formula at a time (s) within a cell; none where the motion cannot be solved for.
@@ -175,8 +175,8 @@ impl<'r> Probe<'r> {
     /// The formula at a time (s) within a cell, with the bits that rows have there; none where that cannot be had.
     pub fn exact_point(&mut self, cell: &Cell, t: f64) -> Option<Rc<Point>> {
         self.enter(cell.step);
-        let state = self.places.solve_exactly(&self.steps[cell.step], [&cell.a.state, &cell.b.state], t)?;
-        Some(self.curve.at(state, self.places))
+        let state = self.sampler.solve_exactly(&self.steps[cell.step], [&cell.a.state, &cell.b.state], t)?;
+        Some(self.curve.at(state, self.sampler))
     }
 
     /// The formula at a time (s) of a step.
@@ -189,7 +189,7 @@ impl<'r> Probe<'r> {
     }
 
     /// The formula at a time (s) in a step or in those before and behind it; none beyond an edge or the window, or where the motion cannot be solved for.
-    pub fn point_beside(&mut self, mut step: usize, t: f64) -> Option<Rc<Point>> {
+    pub fn point_near(&mut self, mut step: usize, t: f64) -> Option<Rc<Point>> {
         let steps = self.steps;
         while step > 0 && t < steps[step].from.t && !steps[step].begins_at_edge {
             step -= 1;
@@ -204,14 +204,20 @@ impl<'r> Probe<'r> {
 
     /// The formula at three times beside a point, before (−1) or behind it (1), each [`FACTOR`] times as far away as the one before; the first of these
     /// is no nearer than a width (s), and so far away that the value is more than rounding. None where there are no such times near by.
-    pub fn beside(&mut self, step: usize, point: &Point, (way, width): (f64, f64), scale: Scale) -> Option<[Found; 3]> {
+    pub fn samples_near(
+        &mut self,
+        step: usize,
+        point: &Point,
+        (direction, width): (f64, f64),
+        scale: Scale,
+    ) -> Option<[Estimate; 3]> {
         let mut far = FACTOR * self.shortest.max(width).max(point.shift.time);
         loop {
-            let mut found = [Found::NOTHING; 3];
+            let mut found = [Estimate::NOTHING; 3];
             let mut distance = far;
             for found in &mut found {
-                let there = self.point_beside(step, point.state.t + way * distance)?;
-                *found = self.curve.found(&there);
+                let there = self.point_near(step, point.state.t + direction * distance)?;
+                *found = self.curve.estimate(&there);
                 distance *= FACTOR;
             }
             if found[0].off <= scale.gap(RELIABLE).max(RELIABLE * found[0].value.abs()) {
@@ -228,22 +234,22 @@ impl<'r> Probe<'r> {
         self.enter(step);
         let state = if self.curve.moves() {
             self.notes.cells += SOLVED;
-            let solved = self.places.solve(&self.steps[step], [a, b], t);
+            let solved = self.sampler.solve(&self.steps[step], [a, b], t);
             if solved.is_none() && b.t - a.t > self.shortest * OPAQUE / SHORTEST {
-                self.notes.meet(Trouble::Unknown(t));
+                self.notes.meet(NoValueCause::Unknown(t));
             }
             solved?
         } else {
             self.notes.cells += 1;
             State { t, ..a.clone() }
         };
-        Some(self.curve.at(state, self.places))
+        Some(self.curve.at(state, self.sampler))
     }
 
     /// The state beside one of a step, as rows have it; none where that cannot be had.
     pub fn settled(&mut self, step: usize, near: &State, t: f64) -> Option<State> {
         self.enter(step);
-        self.places.settled(&self.steps[step], near, t)
+        self.sampler.settled(&self.steps[step], near, t)
     }
 
     /// What is known of the formula in a cell; nothing where the states at its ends do not tell the motion between.
@@ -256,7 +262,7 @@ impl<'r> Probe<'r> {
         let may_be_singular = bridge.is_some_and(|bridge| is_within(bridge.at) || bridge.again.is_some_and(is_within));
         let is_known = !self.curve.moves()
             || !may_be_singular
-                && self.places.signals_are_resolved([cell.a.state.t, cell.b.state.t])
+                && self.sampler.signals_are_resolved([cell.a.state.t, cell.b.state.t])
                 && !self.curve.turns_far(cell);
         if is_known {
             let mut ignored = Vec::new();
@@ -304,7 +310,7 @@ impl<'r> Probe<'r> {
         is_rounding(self.curve, &middle).then(|| [&cell.a, &middle, &cell.b].map(|point| point.sample.value))
     }
 
-    /// Whether a formula has no value in a short cell, as far as its ends and its middle show, where rounding alone decides about a guard: a quotient
+    /// Returns whether a formula has no value in a short cell, as far as its ends and its middle show, where rounding alone decides about a guard: a quotient
     /// of two that both rest, which no range tells of.
     fn is_hole(&mut self, cell: &Cell) -> bool {
         let is_short = cell.length() <= self.short && !self.is_shortest(cell);
@@ -313,7 +319,7 @@ impl<'r> Probe<'r> {
         are_missing && self.point(cell, cell.middle()).is_none_or(|middle| !middle.exists())
     }
 
-    /// Whether a cell is too short to be cut.
+    /// Returns whether a cell is too short to be cut.
     pub fn is_shortest(&self, cell: &Cell) -> bool {
         cell.length() <= self.shortest || cell.is_empty()
     }
@@ -343,18 +349,21 @@ impl<'r> Probe<'r> {
             Some((is_behind, offs[usize::from(is_behind)].abs()))
         })?;
         if self.is_timed {
-            let doubt = match self.doubted {
+            let crossing_error = match self.last_crossing {
                 // beside another crossing of the same guard, in what is rounding there
-                Some((other, t, doubt)) if other == guard && (before.state.t - t).abs() <= doubt => doubt,
+                Some((other, t, crossing_error)) if other == guard && (before.state.t - t).abs() <= crossing_error => {
+                    crossing_error
+                }
                 _ => {
-                    let of = |(end, way): (&Rc<Point>, f64)| self.doubt(cell.step, guard, end, way);
+                    let of =
+                        |(end, direction): (&Rc<Point>, f64)| self.crossing_error(cell.step, guard, end, direction);
                     let doubts = [(&before, -1.0), (&behind, 1.0)].map(of);
                     f64::min(doubts[0], doubts[1])
                 }
             };
-            self.doubted = Some((guard, before.state.t, doubt));
+            self.last_crossing = Some((guard, before.state.t, crossing_error));
             for end in [&mut before, &mut behind] {
-                Rc::make_mut(end).doubt = doubt;
+                Rc::make_mut(end).crossing_error = crossing_error;
             }
         }
         let jump = (before.sample.value - behind.sample.value).abs();
@@ -364,18 +373,18 @@ impl<'r> Probe<'r> {
             self.shift(cell.step, &mut before, -beside);
             self.shift(cell.step, &mut behind, beside);
         }
-        self.see_hole(cell.step, [&mut before, &mut behind]);
+        self.record_hole(cell.step, [&mut before, &mut behind]);
         let part = |a: &Rc<Point>, b: &Rc<Point>| (b.state.t > a.state.t).then(|| cell.between(a, b));
         Some([part(&cell.a, &before), part(&before, &behind), part(&behind, &cell.b)])
     }
 
     /// How far (s) from a point beside a crossing the guard may cross its threshold as well, before (−1) or behind it (1): rounding of its argument
     /// beside how fast that changes.
-    fn doubt(&mut self, step: usize, guard: usize, end: &Point, way: f64) -> f64 {
+    fn crossing_error(&mut self, step: usize, guard: usize, end: &Point, direction: f64) -> f64 {
         let off = self.curve.rounding_of_argument(guard, end);
         let mut width = FACTOR * FACTOR * self.shortest;
         while width <= self.short {
-            let Some(there) = self.point_beside(step, end.state.t + way * width) else { break };
+            let Some(there) = self.point_near(step, end.state.t + direction * width) else { break };
             let change = (there.argument(guard) - end.argument(guard)).abs();
             if change >= FACTOR * off {
                 return width * off / change;
@@ -387,23 +396,23 @@ impl<'r> Probe<'r> {
 
     /// Where the formula has a value on one side alone of a crossing, and has one again farther on: rounding may have hidden it there, and what it goes
     /// to is known no better than it changes over as long as that.
-    fn see_hole(&mut self, step: usize, [before, behind]: [&mut Rc<Point>; 2]) {
+    fn record_hole(&mut self, step: usize, [before, behind]: [&mut Rc<Point>; 2]) {
         let (known, missing) = match [before.exists(), behind.exists()] {
             [true, false] => (before, &*behind),
             [false, true] => (behind, &*before),
             _ => return,
         };
-        let way = (missing.state.t - known.state.t).signum();
+        let direction = (missing.state.t - known.state.t).signum();
         let mut width = self.shortest;
         while width <= self.shortest * OPAQUE / SHORTEST {
-            let t = missing.state.t + way * width;
+            let t = missing.state.t + direction * width;
             let is_end = t <= self.window[0] || t >= self.window[1];
-            let there = self.point_beside(step, t);
+            let there = self.point_near(step, t);
             if there.is_none() && !is_end {
                 return;
             }
             if is_end || there.is_some_and(|there| there.exists()) {
-                self.shift(step, known, -way * width);
+                self.shift(step, known, -direction * width);
                 return;
             }
             width *= 4.0;
@@ -412,7 +421,7 @@ impl<'r> Probe<'r> {
 
     /// Takes note that a point may be meant for a time that is so much (s) beside its own.
     pub fn shift(&mut self, step: usize, point: &mut Rc<Point>, beside: f64) {
-        let there = self.point_beside(step, point.state.t + beside);
+        let there = self.point_near(step, point.state.t + beside);
         let value = there.map_or(f64::INFINITY, |there| (there.sample.value - point.sample.value).abs());
         Rc::make_mut(point).shift = Shift { time: beside.abs(), value };
     }

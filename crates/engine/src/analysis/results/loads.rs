@@ -11,9 +11,9 @@ use mechc_ir::tolerances::results::loads::{LITTLE, ROUNDINGS, SEEN};
 pub(super) enum Hidden {
     Nothing,
     /// A load may go by so much beyond what is told of it.
-    Something(f64),
+    AtMost(f64),
     /// A load may be as large as it likes.
-    Anything,
+    Unbounded,
 }
 
 /// All loads of a mechanism. Their ranges are those of the formulas 1, 2, … of a [`Ranges`].
@@ -65,19 +65,19 @@ impl Loads {
         &mut self,
         (program, registers): (&Program, &Registers),
         ranges: &mut Ranges,
-        told: impl Fn(usize) -> [f64; 2],
+        bounds: impl Fn(usize) -> [f64; 2],
     ) -> Hidden {
         let mut hidden = Hidden::Nothing;
         for (k, load) in self.each.iter().enumerate() {
             let range = ranges.range(program, registers, 1 + k);
-            let beyond = beyond(range, told(k));
+            let beyond = beyond(range, bounds(k));
             if !beyond.is_finite() {
-                return Hidden::Anything;
+                return Hidden::Unbounded;
             }
             let most = if range.is_resolved { SEEN } else { LITTLE };
             if beyond > f64::max(most * load.largest, ROUNDINGS * load.rounding) {
-                let so_far = if let Hidden::Something(most) = hidden { most } else { 0.0 };
-                hidden = Hidden::Something(beyond.max(so_far));
+                let so_far = if let Hidden::AtMost(most) = hidden { most } else { 0.0 };
+                hidden = Hidden::AtMost(beyond.max(so_far));
             }
         }
         hidden

@@ -42,7 +42,7 @@ impl Largest {
 }
 
 /// The largest magnitudes that were seen of some things that move, each with three time derivatives: rounding goes by these.
-pub(super) struct Sizes {
+pub(super) struct Magnitudes {
     largest: Vec<[f64; 4]>,
     /// What kind of coordinate each one is, if it is one.
     kinds: Vec<Option<CoordinateKind>>,
@@ -50,10 +50,10 @@ pub(super) struct Sizes {
     of_all: Largest,
 }
 
-impl Sizes {
+impl Magnitudes {
     /// For things of these kinds; none is no coordinate.
-    pub fn new(kinds: Vec<Option<CoordinateKind>>) -> Sizes {
-        Sizes { largest: vec![[0.0; 4]; kinds.len()], kinds, of_all: Largest::default() }
+    pub fn new(kinds: Vec<Option<CoordinateKind>>) -> Magnitudes {
+        Magnitudes { largest: vec![[0.0; 4]; kinds.len()], kinds, of_all: Largest::default() }
     }
 
     /// Takes note of one of them with its derivatives.

@@ -32,9 +32,9 @@ use crate::analysis::follow::{Follower, SmoothSegment};
 use crate::analysis::state::{Kinematics, State, Times};
 use crate::solver::Solver;
 pub use batch_evaluation::{Computed, SmoothFormula, moved};
-use curve::{Curve, Found};
+use curve::{Curve, Estimate};
 pub use extremum_refinement::{MOST_LOOKS, Sampled, Settling, Turning};
-use interval_search::Trouble;
+use interval_search::NoValueCause;
 use magnitudes::Largest;
 use mechc_expr::{ExprId, Graph, Node, Symbol};
 use mechc_ir::structure::Determined;
@@ -43,13 +43,13 @@ use mechc_ir::tolerances::results::stretches::{CHUNK, FEW, NUMBERS};
 use mechc_ir::{ConstraintSystem, Outcome, Reduction, ReductionKind};
 use mechc_text::cancel::Cancel;
 use mechc_text::diag::{Diagnostic, Diagnostics};
-use reductions::Reduced;
+use reductions::FormulaReductions;
 use rustc_hash::FxHashMap;
 pub use smooth_formulas::SmoothFormulas;
 pub use spectral::{Settled, SpectralIntegral};
-use state_sampler::Places;
+use state_sampler::StateSampler;
 use std::sync::Arc;
-use validity::Near;
+use validity::SingularIntervals;
 
 /// What is wrong with the results that an analysis from one time to another (s) is asked for.
 #[must_use]
@@ -86,7 +86,7 @@ pub struct Answers {
     pub digits: Vec<u32>,
     /// Why some have none.
     pub notes: Vec<Diagnostic>,
-    /// Whether the motion was followed to its end, nowhere near a singular position, and holds no forces: so it has a row at any time.
+    /// True if the motion was followed to its end, nowhere near a singular position, and holds no forces: so it has a row at any time.
     pub has_all_rows: bool,
 }
 
@@ -111,17 +111,17 @@ impl Started {
 
 /// The motion in some chunks of its stretches, and what follows from it.
 struct Analysis {
-    asked: ResultQuery,
+    query: ResultQuery,
     determined: Arc<Determined>,
     /// By reduction: its number, or why there is none.
-    found: Vec<Option<Result<Found, Trouble>>>,
+    estimates: Vec<Option<Result<Estimate, NoValueCause>>>,
     /// By reduction: the first time (s) that it leaves out, where its formula has no value.
     missing: Vec<Option<f64>>,
     /// The steps of the motion, once they are known and are not too many to be kept.
     steps: Option<Vec<SmoothSegment>>,
     /// What solves for states between these.
-    places: Option<Places>,
-    near: Near,
+    sampler: Option<StateSampler>,
+    singular: SingularIntervals,
     /// How large the coordinates are in the motion so far.
     largest: Largest,
 }
@@ -134,13 +134,13 @@ impl ResultQuery {
         let count = determined.system().results().reductions.len();
         let cancel = self.cancel.clone();
         let mut analysis = Analysis {
-            asked: self,
+            query: self,
             determined,
-            found: vec![None; count],
+            estimates: vec![None; count],
             missing: vec![None; count],
             steps: None,
-            places: None,
-            near: Near::new(),
+            sampler: None,
+            singular: SingularIntervals::new(),
             largest: Largest::default(),
         };
         while let Some(level) = analysis.next_level() {
@@ -175,14 +175,14 @@ impl Analysis {
         let determined = Arc::clone(&self.determined);
         let system = determined.system();
         let mut level = Vec::new();
-        let open: Vec<usize> = (0..self.found.len()).filter(|&k| self.found[k].is_none()).collect();
+        let open: Vec<usize> = (0..self.estimates.len()).filter(|&k| self.estimates[k].is_none()).collect();
         for k in open {
             let reduction = &system.results().reductions[k];
             let mut needed = needed(system.graph(), reduction.of);
             needed.extend(times(reduction).flat_map(|time| self::needed(system.graph(), time)));
-            if let Some(trouble) = needed.iter().find_map(|&other| self.found[other].and_then(Result::err)) {
-                self.found[k] = Some(Err(trouble));
-            } else if needed.iter().all(|&other| self.found[other].is_some()) {
+            if let Some(cause) = needed.iter().find_map(|&other| self.estimates[other].and_then(Result::err)) {
+                self.estimates[k] = Some(Err(cause));
+            } else if needed.iter().all(|&other| self.estimates[other].is_some()) {
                 level.push(k);
             }
         }
@@ -193,70 +193,70 @@ impl Analysis {
     fn follow(&mut self, level: &[usize]) -> Result<(), Box<Stop>> {
         let determined = Arc::clone(&self.determined);
         let system = determined.system();
-        let mut asked: Vec<(usize, Reduction, [f64; 2])> = Vec::with_capacity(level.len());
+        let mut requests: Vec<(usize, Reduction, [f64; 2])> = Vec::with_capacity(level.len());
         for &k in level {
             let reduction = system.results().reductions[k];
             match self.window(&reduction) {
-                Ok(window) => asked.push((k, reduction, window)),
-                Err(trouble) => self.found[k] = Some(Err(trouble)),
+                Ok(window) => requests.push((k, reduction, window)),
+                Err(cause) => self.estimates[k] = Some(Err(cause)),
             }
         }
         let of: Vec<(ExprId, [u64; 2])> =
-            asked.iter().map(|(_, reduction, window)| (reduction.of, window.map(f64::to_bits))).collect();
-        let known = |k: usize| self.found[k].and_then(Result::ok).map_or(0.0, |found| found.value);
-        let new_places = || Places::new(self.asked.kinematics.clone(), self.asked.solver.clone());
-        let mut places = self.places.take().unwrap_or_else(new_places);
-        let (all, curve_of) = curves(system, &of, known, places.variations());
-        let mut all: Vec<Reduced> =
-            all.into_iter().map(|(curve, window)| Reduced::new(curve, window.map(f64::from_bits))).collect();
+            requests.iter().map(|(_, reduction, window)| (reduction.of, window.map(f64::to_bits))).collect();
+        let known = |k: usize| self.estimates[k].and_then(Result::ok).map_or(0.0, |found| found.value);
+        let new_places = || StateSampler::new(self.query.kinematics.clone(), self.query.solver.clone());
+        let mut sampler = self.sampler.take().unwrap_or_else(new_places);
+        let (all, curve_of) = curves(system, &of, known, sampler.variations());
+        let mut all: Vec<FormulaReductions> =
+            all.into_iter().map(|(curve, window)| FormulaReductions::new(curve, window.map(f64::from_bits))).collect();
         let at = |reduction: &Reduction| match reduction.kind {
             ReductionKind::At(at) => self.value(at, false),
             _ => f64::NAN,
         };
-        let at: Vec<f64> = asked.iter().map(|(_, reduction, _)| at(reduction)).collect();
-        for (((_, reduction, _), &of), &at) in asked.iter().zip(&curve_of).zip(&at) {
-            all[of].ask(reduction.kind, at);
+        let at: Vec<f64> = requests.iter().map(|(_, reduction, _)| at(reduction)).collect();
+        for (((_, reduction, _), &of), &at) in requests.iter().zip(&curve_of).zip(&at) {
+            all[of].request(reduction.kind, at);
         }
-        self.look(&mut all, &mut places)?;
-        self.places = Some(places);
-        for (((k, reduction, _), &of), &at) in asked.iter().zip(&curve_of).zip(&at) {
-            self.found[*k] = Some(self.asked.certain(&all[of], (reduction.kind, at), &self.near));
+        self.look(&mut all, &mut sampler)?;
+        self.sampler = Some(sampler);
+        for (((k, reduction, _), &of), &at) in requests.iter().zip(&curve_of).zip(&at) {
+            self.estimates[*k] = Some(self.query.certain(&all[of], (reduction.kind, at), &self.singular));
             self.missing[*k] = all[of].missing(reduction.kind);
         }
         Ok(())
     }
 
     /// The times (s) that a reduction is over.
-    fn window(&self, reduction: &Reduction) -> Result<[f64; 2], Trouble> {
-        let [from, to] = self.asked.interval;
+    fn window(&self, reduction: &Reduction) -> Result<[f64; 2], NoValueCause> {
+        let [from, to] = self.query.interval;
         let bound = |bound: Option<ExprId>, end: f64| bound.map_or(end, |bound| self.value(bound, false));
         let window = [bound(reduction.window[0], from), bound(reduction.window[1], to)];
         match window.into_iter().find(|t| !(from <= *t && *t <= to)) {
-            Some(t) => Err(Trouble::Window(t)),
-            None if window[1] < window[0] => Err(Trouble::Window(window[1])),
+            Some(t) => Err(NoValueCause::Window(t)),
+            None if window[1] < window[0] => Err(NoValueCause::Window(window[1])),
             None => Ok(window),
         }
     }
 
     /// Looks at formulas along the whole motion, which is followed once if its steps can be kept.
-    fn look(&mut self, all: &mut [Reduced], places: &mut Places) -> Result<(), Box<Stop>> {
-        let [from, to] = self.asked.interval;
+    fn look(&mut self, all: &mut [FormulaReductions], sampler: &mut StateSampler) -> Result<(), Box<Stop>> {
+        let [from, to] = self.query.interval;
         let span = to - from;
         if let Some(steps) = &self.steps {
             for reduced in all.iter_mut() {
-                reduced.look((steps, self.largest), places, span);
+                reduced.look((steps, self.largest), sampler, span);
             }
             return Ok(());
         }
-        let mut motion = self.asked.motion(Times::listed(from, vec![to]));
+        let mut motion = self.query.motion(Times::listed(from, vec![to]));
         let (mut steps, mut is_whole) = (Vec::new(), true);
-        self.near = Near::new();
+        self.singular = SingularIntervals::new();
         let determined = Arc::clone(&self.determined);
-        while !self.asked.cancel.is_cancelled() {
+        while !self.query.cancel.is_cancelled() {
             let next = motion.next_segment()?;
             let is_end = next.is_none();
             if let Some(step) = next {
-                self.near.take_note(&step, &motion);
+                self.singular.take_note(&step, &motion);
                 for state in [&step.from, &step.to] {
                     self.largest
                         .note(state, determined.system().coordinates().iter().map(|coordinate| coordinate.kind));
@@ -264,18 +264,18 @@ impl Analysis {
                 push_step(&mut steps, step);
             }
             if is_end && span <= 0.0 {
-                places.enter_where(&motion.switches());
+                sampler.enter_where(&motion.switches());
                 for reduced in all.iter_mut() {
-                    reduced.look_at_start(motion.here(), places);
+                    reduced.look_at_start(motion.here(), sampler);
                 }
                 return Ok(());
             }
             // steps towards a singular position are replaced once the way over it is known
             let is_full = steps.len() >= CHUNK.min(1 + NUMBERS / (1 + motion.here().q.len()));
             if is_end || (is_full && motion.was_clear_here()) {
-                steps = cut_where_unlike(steps, places);
+                steps = cut_where_unlike(steps, sampler);
                 for reduced in all.iter_mut() {
-                    reduced.look((&steps, self.largest), places, span);
+                    reduced.look((&steps, self.largest), sampler, span);
                 }
                 if is_end {
                     self.steps = is_whole.then_some(steps);
@@ -310,7 +310,7 @@ impl Analysis {
     fn value_with(&self, formula: ExprId, unknown_is_false: bool, (off, times): (usize, f64)) -> f64 {
         let system = self.system();
         let found = |k: usize| {
-            let found = self.found[k].and_then(Result::ok).unwrap_or(Found::NOTHING);
+            let found = self.estimates[k].and_then(Result::ok).unwrap_or(Estimate::NOTHING);
             found.value + if k == off { times * found.off } else { 0.0 }
         };
         value_of(system.graph(), (formula, unknown_is_false), |k| system.params()[k as usize].value, found)
@@ -318,7 +318,7 @@ impl Analysis {
 
     /// The value of an outcome, and how far off it may be, by how far off each reduction in it may be; not a number where one that cannot be told
     /// from zero is divided by.
-    fn found(&self, outcome: &Outcome, needed: &[usize]) -> Found {
+    fn estimate(&self, outcome: &Outcome, needed: &[usize]) -> Estimate {
         let (formula, is_false) = (outcome.value, outcome.unknown_is_false);
         let value = self.value(formula, is_false);
         let mut off = 0.0;
@@ -329,26 +329,26 @@ impl Analysis {
             let is_bent = (more + less).abs() > 0.5 * (more - less).abs();
             // whichever way it is off: what goes to one side alone is another branch
             if is_of_time && f64::min(more.abs(), less.abs()) >= 0.5 * value.abs() && is_bent {
-                return Found::NOTHING;
+                return Estimate::NOTHING;
             }
         }
-        Found { value, off }
+        Estimate { value, off }
     }
 
     fn answers(&self) -> Answers {
         let system = self.system();
-        let was_followed = self.places.is_some();
-        let has_all_rows = was_followed && self.near.is_clear() && system.forces().is_none();
+        let was_followed = self.sampler.is_some();
+        let has_all_rows = was_followed && self.singular.is_clear() && system.forces().is_none();
         let mut answers = Answers { has_all_rows, ..Answers::default() };
         for outcome in &system.results().outcomes {
             let needed = needed(system.graph(), outcome.value);
-            let found = self.found(outcome, &needed);
+            let found = self.estimate(outcome, &needed);
             let value = found.value;
             if !value.is_finite() {
-                let trouble = needed.into_iter().find_map(|k| self.found[k].and_then(Result::err));
+                let cause = needed.into_iter().find_map(|k| self.estimates[k].and_then(Result::err));
                 answers.values.push(None);
                 answers.digits.push(0);
-                answers.notes.push(errors::result_without_value(outcome, trouble));
+                answers.notes.push(errors::result_without_value(outcome, cause));
                 continue;
             }
             let digits = found.certain_digits();
@@ -385,8 +385,8 @@ fn push_step(steps: &mut Vec<SmoothSegment>, mut step: SmoothSegment) {
 }
 
 /// Cuts steps in which the motion is not what the states at both ends tell: a driver may come and go within one.
-fn cut_where_unlike(steps: Vec<SmoothSegment>, places: &mut Places) -> Vec<SmoothSegment> {
-    if !places.has_signals() {
+fn cut_where_unlike(steps: Vec<SmoothSegment>, sampler: &mut StateSampler) -> Vec<SmoothSegment> {
+    if !sampler.has_signals() {
         return steps;
     }
     let mut found = Vec::with_capacity(steps.len());
@@ -394,7 +394,7 @@ fn cut_where_unlike(steps: Vec<SmoothSegment>, places: &mut Places) -> Vec<Smoot
         let shortest = SHORTEST * (step.to.t - step.from.t);
         let mut open = vec![step];
         while let Some(step) = open.pop() {
-            match places.unlike(&step).filter(|_| step.to.t - step.from.t > shortest) {
+            match sampler.unlike(&step).filter(|_| step.to.t - step.from.t > shortest) {
                 Some(within) => open.extend(step.cut_at(within).into_iter().rev()),
                 None => found.push(step),
             }
@@ -407,7 +407,7 @@ fn cut_where_unlike(steps: Vec<SmoothSegment>, places: &mut Places) -> Vec<Smoot
 /// many variations.
 fn curves<W: Copy + PartialEq>(
     system: &ConstraintSystem,
-    asked: &[(ExprId, W)],
+    requests: &[(ExprId, W)],
     found: impl Fn(usize) -> f64,
     variations: usize,
 ) -> (Vec<(Curve, W)>, Vec<usize>) {
@@ -415,7 +415,7 @@ fn curves<W: Copy + PartialEq>(
     graph.import_tables(system.graph(), &mut known, Graph::symbol);
     let mut curve_of: Vec<usize> = Vec::new();
     let mut ids: Vec<(ExprId, W)> = Vec::new();
-    for (of, window) in asked {
+    for (of, window) in requests {
         graph.import(system.graph(), &[*of], &mut known, |graph, symbol| match symbol {
             Symbol::Named(k) => graph.constant(found(k as usize)),
             other => graph.symbol(other),

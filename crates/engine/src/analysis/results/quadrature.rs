@@ -1,8 +1,8 @@
 //! Integrals over time, by formulas that take value and derivatives of both ends of a cell (Euler and Maclaurin); of what has no
 //! derivatives by values within (Lobatto and Kronrod).
 
-use super::curve::{Cell, Found, Point, Verdict};
-use super::interval_search::{Probe, Scale, Trouble};
+use super::curve::{Cell, Estimate, Point, Verdict};
+use super::interval_search::{IntervalSearch, NoValueCause, Scale};
 use mechc_expr::math::{integral_of_quintic, log10, pow};
 use mechc_ir::tolerances::results::quadrature::{
     ACCURACY, ALIKE, DIVERGES, FARTHER, LEAST_GROWTH, LOOKS, NOTHING, PART_OF_POLE, POLE_DISTANCE, ROUNDING, SAFETY,
@@ -50,9 +50,9 @@ fn within(found: f64, [least, most]: [f64; 2]) -> f64 {
 
 impl Integral {
     /// The integral, and how far off it may be.
-    pub fn found(&self) -> Found {
+    pub fn estimate(&self) -> Estimate {
         let hidden = if self.hidden > 0.0 { self.hidden / self.time } else { 0.0 };
-        Found { value: self.sum, off: self.off + (ROUNDING + hidden) * (self.size + (self.usual * self.time).abs()) }
+        Estimate { value: self.sum, off: self.off + (ROUNDING + hidden) * (self.size + (self.usual * self.time).abs()) }
     }
 
     /// For how long (s) the formula has a value.
@@ -82,7 +82,7 @@ impl Integral {
     }
 
     /// One that is known, over some time (s).
-    pub fn known(found: Found, time: f64) -> Integral {
+    pub fn from_estimate(found: Estimate, time: f64) -> Integral {
         Integral { sum: found.value, off: found.off, time, ..Integral::default() }
     }
 
@@ -125,7 +125,7 @@ impl Ord for Part {
     }
 }
 
-impl Probe<'_> {
+impl IntervalSearch<'_> {
     /// Adds the integral of the formula over some cells. What may be farthest off is made better first, until all together is good enough beside the
     /// integral of how far the formula is from a value that is usual.
     pub(super) fn integrate(&mut self, cells: &[Cell], usual: f64, scale: Scale, integral: &mut Integral) {
@@ -155,7 +155,7 @@ impl Probe<'_> {
         let mut left = 0;
         loop {
             if left == 0 {
-                if self.notes.trouble.is_some() || self.notes.are_exhausted() || !is_open(&parts, integral) {
+                if self.notes.cause.is_some() || self.notes.are_exhausted() || !is_open(&parts, integral) {
                     break;
                 }
                 left = parts.len().div_ceil(LOOKS);
@@ -170,7 +170,7 @@ impl Probe<'_> {
         parts.sort_unstable_by(|a, b| a.from.total_cmp(&b.from));
         for part in parts {
             if self.notes.are_exhausted() && part.off == f64::INFINITY {
-                self.notes.meet(Trouble::Unknown(part.from));
+                self.notes.meet(NoValueCause::Unknown(part.from));
             }
             integral.add(part.found, part.off, part.length);
         }
@@ -234,16 +234,16 @@ impl Probe<'_> {
         }
     }
 
-    /// Whether rounding may make more of the value at a point than values differ elsewhere, if there is one.
+    /// Returns whether rounding may make more of the value at a point than values differ elsewhere, if there is one.
     fn is_noise(&mut self, point: &Point) -> bool {
         if !point.exists() {
             return true;
         }
-        let found = self.curve.found(point);
+        let found = self.curve.estimate(point);
         found.certain_digits() == 0 && found.off > NOTHING
     }
 
-    /// As [`Probe::integrate`], over a cell too short to be cut. What there is of an integral in one with a pole is counted on both sides of it.
+    /// As [`IntervalSearch::integrate`], over a cell too short to be cut. What there is of an integral in one with a pole is counted on both sides of it.
     fn integrate_shortest(&mut self, cell: &Cell, integral: &mut Integral) {
         let h = cell.length();
         let values = [&cell.a, &cell.b].map(|point| point.sample.value);
@@ -259,7 +259,7 @@ impl Probe<'_> {
         let largest = known.iter().fold(0.0, |largest, value| f64::max(largest, (value - integral.usual).abs()));
         if let [a, b] = known[..] {
             // of a jump that may as well be beside
-            let beside = hidden.max(cell.a.doubt).max(cell.b.doubt);
+            let beside = hidden.max(cell.a.crossing_error).max(cell.b.crossing_error);
             integral.off += (a - b).abs() * beside.min(self.short);
         }
         let growth = self.growth_into(cell, integral.usual);
@@ -285,7 +285,7 @@ impl Probe<'_> {
         let sides = [(&cell.a, -1.0), (&cell.b, 1.0)].map(|(end, way)| {
             let way = way * cell.length().max(end.shift.time);
             let mut off_at = |far: f64| {
-                let there = self.point_beside(cell.step, end.state.t + far * way);
+                let there = self.point_near(cell.step, end.state.t + far * way);
                 there.map_or(f64::NAN, |there| off(&there))
             };
             let near = off_at(FARTHER[0]);
@@ -347,7 +347,7 @@ impl Probe<'_> {
         }
     }
 
-    /// As [`Probe::rule`], by values alone; infinitely far off where one cannot be had.
+    /// As [`IntervalSearch::rule`], by values alone; infinitely far off where one cannot be had.
     fn rule_of_values(&mut self, cell: &Cell, middle: &Point) -> (f64, f64) {
         let half = 0.5 * cell.length();
         let ends = cell.a.sample.value + cell.b.sample.value;

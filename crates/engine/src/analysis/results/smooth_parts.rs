@@ -3,7 +3,7 @@
 //! What is seen from a body that moves is a sum of this kind, of terms that may be much larger than it is itself: what these can be in
 //! a cell says little of what it can be. So it is looked at as the coordinates are, by its own time derivatives at the ends of the cell.
 
-use super::magnitudes::{Largest, Sizes};
+use super::magnitudes::{Largest, Magnitudes};
 use crate::analysis::state::State;
 use mechc_expr::{Binary, ExprId, Graph, Node, Symbol, Unary};
 use mechc_ir::program::{Program, Ranges, Register, Registers, Stage};
@@ -29,7 +29,7 @@ enum Kind {
 }
 
 /// Something smooth within a formula.
-struct Found {
+struct SmoothPart {
     /// What of the formula it stands for.
     of: ExprId,
     /// It, or the square of what it stands for: a length goes to zero with a kink, its square does not.
@@ -45,7 +45,7 @@ pub(super) struct Smooth {
     registers: Registers,
     /// The ranges of these, and how large the coordinates are.
     ranges: Ranges,
-    sizes: Sizes,
+    sizes: Magnitudes,
     /// Of each, where its value and its time derivatives are: at the order that its value has as a coordinate, and behind it.
     towers: Vec<[Option<Register>; 4]>,
     /// Of each, the order at which it stands, and whether it is a square.
@@ -60,27 +60,27 @@ pub(super) struct Smooth {
 impl Smooth {
     /// A formula in a graph of its own, in which what is smooth of it stands as further coordinates, behind those that there are; others
     /// behind it in that graph; and what is smooth.
-    pub fn out_of(
+    pub fn extract_from(
         graph: &mut Graph,
         (value, others): (ExprId, &[ExprId]),
         system: &ConstraintSystem,
     ) -> (Graph, Vec<ExprId>, Smooth) {
         let kinds = kinds(graph, value, system);
         let found = largest(graph, value, &kinds);
-        let (mut own, mut known) = (Graph::new(), FxHashMap::default());
-        own.import_tables(graph, &mut known, Graph::symbol);
+        let (mut local, mut known) = (Graph::new(), FxHashMap::default());
+        local.import_tables(graph, &mut known, Graph::symbol);
         let mut towers = Vec::with_capacity(found.len());
         let first = system.coordinates().len();
-        for (k, &Found { of, value, is_square, order }) in found.iter().enumerate() {
-            let stands = own.symbol(Symbol::Coordinate { index: (first + k) as u32, order });
-            known.insert(of, if is_square { own.unary(Unary::Sqrt, stands) } else { stands });
+        for (k, &SmoothPart { of, value, is_square, order }) in found.iter().enumerate() {
+            let stands = local.symbol(Symbol::Coordinate { index: (first + k) as u32, order });
+            known.insert(of, if is_square { local.unary(Unary::Sqrt, stands) } else { stands });
             towers.push(tower(graph, value, order, system.jerk().is_some()));
         }
         let kinds: Vec<(usize, bool)> = found.iter().map(|found| (usize::from(found.order), found.is_square)).collect();
-        let wanted = [&[value], others].concat();
-        own.import(graph, &wanted, &mut known, Graph::symbol);
-        let formulas = wanted.iter().map(|id| known[id]).collect();
-        (own, formulas, Smooth::new(graph, &towers, kinds, system))
+        let requested = [&[value], others].concat();
+        local.import(graph, &requested, &mut known, Graph::symbol);
+        let formulas = requested.iter().map(|id| known[id]).collect();
+        (local, formulas, Smooth::new(graph, &towers, kinds, system))
     }
 
     fn new(
@@ -103,7 +103,7 @@ impl Smooth {
         let turns = coordinates.iter().copied().filter(is_turn).collect();
         let all_turns = (0..system.coordinates().len()).filter(is_turn).collect();
         let ranges = Ranges::new(&program, &registers, &all, Stage::Measures, false);
-        let sizes = Sizes::new(coordinates.iter().map(|&k| Some(system.coordinates()[k].kind)).collect());
+        let sizes = Magnitudes::new(coordinates.iter().map(|&k| Some(system.coordinates()[k].kind)).collect());
         Smooth { program, registers, ranges, sizes, towers, kinds, coordinates, turns, all_turns }
     }
 
@@ -172,7 +172,7 @@ impl Smooth {
         ((self.program, self.registers), self.towers)
     }
 
-    /// Whether a body turns too far between two states for them to tell what its sine is between, or any body what a place is that goes about
+    /// Returns whether a body turns too far between two states for them to tell what its sine is between, or any body what a place is that goes about
     /// with it: a driven one is where it was after a whole turn, and nothing else tells of that.
     pub fn turns_far(&self, [a, b]: [&State; 2]) -> bool {
         let turned = |&k: &usize| {
@@ -251,7 +251,7 @@ impl Kind {
 }
 
 /// The largest formulas within a formula that are smooth, and that are more than a coordinate.
-fn largest(graph: &mut Graph, value: ExprId, kinds: &FxHashMap<ExprId, Kind>) -> Vec<Found> {
+fn largest(graph: &mut Graph, value: ExprId, kinds: &FxHashMap<ExprId, Kind>) -> Vec<SmoothPart> {
     let (mut found, mut open) = (Vec::new(), vec![value]);
     let mut seen = rustc_hash::FxHashSet::default();
     while let Some(id) = open.pop() {
@@ -259,13 +259,13 @@ fn largest(graph: &mut Graph, value: ExprId, kinds: &FxHashMap<ExprId, Kind>) ->
         if !seen.insert(id) || matches!(node, Node::Symbol(_)) {
             continue;
         }
-        let whole = |order: u8| Found { of: id, value: id, is_square: false, order };
+        let whole = |order: u8| SmoothPart { of: id, value: id, is_square: false, order };
         match kinds[&id] {
             Kind::Constant => {}
             Kind::Turn => found.push(whole(0)),
             Kind::Smooth { order, .. } => found.push(whole(order)),
             Kind::Other => match square(graph, node, kinds) {
-                Some((value, order)) => found.push(Found { value, is_square: true, ..whole(order) }),
+                Some((value, order)) => found.push(SmoothPart { value, is_square: true, ..whole(order) }),
                 None => open.extend_from_slice(node.children().as_slice()),
             },
         }
@@ -292,7 +292,7 @@ fn square(graph: &mut Graph, length: Node, kinds: &FxHashMap<ExprId, Kind>) -> O
     }
 }
 
-/// Whether a formula is a sum of squares, as it is written.
+/// Returns whether a formula is a sum of squares, as it is written.
 fn is_sum_of_squares(graph: &Graph, formula: ExprId) -> bool {
     match graph.node(formula) {
         Node::Add(a, b) => is_sum_of_squares(graph, a) && is_sum_of_squares(graph, b),

@@ -3,8 +3,8 @@
 //!
 //! Source: C. W. Clenshaw, A. R. Curtis, *A method for numerical integration on an automatic computer*, Numerische Mathematik 2, 1960.
 
-use super::curve::{Cell, Found};
-use super::interval_search::Probe;
+use super::curve::{Cell, Estimate};
+use super::interval_search::IntervalSearch;
 use mechc_expr::math::cos;
 use mechc_ir::tolerances::results::quadrature::{ACCURACY, ROUNDING};
 use mechc_ir::tolerances::results::spectral::{ALIKE, FIRST, LAST, LESS};
@@ -113,9 +113,9 @@ fn weights(level: usize) -> &'static [f64] {
     })
 }
 
-impl Probe<'_> {
+impl IntervalSearch<'_> {
     /// The integral of a formula that settles over cells that follow on each other without edges; none where so many times are not enough.
-    pub(super) fn integrate_whole(&mut self, cells: &[Cell]) -> Option<Found> {
+    pub(super) fn integrate_whole(&mut self, cells: &[Cell]) -> Option<Estimate> {
         let (first, last) = (cells.first()?, cells.last()?);
         let mut integral = SpectralIntegral::new([first.a.state.t, last.b.state.t]);
         loop {
@@ -137,7 +137,7 @@ impl Probe<'_> {
             let by_steps = || cells.iter().map(|cell| self.rule_of_ends(&cell.a, &cell.b)).sum();
             match integral.go_on(ALIKE, by_steps) {
                 Settled::On => {}
-                Settled::Known([value, off]) => return Some(Found { value, off }),
+                Settled::Known([value, off]) => return Some(Estimate { value, off }),
                 Settled::Lost => return None,
             }
         }

@@ -1,6 +1,6 @@
 //! States within a stretch of the motion, solved for where they are asked for.
 
-use super::sensitivities::Varying;
+use super::sensitivities::Sensitivities;
 use crate::analysis::follow::{SelectedRows, SingleRow, SmoothSegment, quintic_between, state_of_row};
 use crate::analysis::state::{Kinematics, State};
 use crate::solver::{Batch, Solver};
@@ -12,7 +12,7 @@ use rustc_hash::FxHashMap;
 use std::sync::Arc;
 
 /// What solves for states between the ends of stretches.
-pub(super) struct Places {
+pub(super) struct StateSampler {
     kinematics: Kinematics,
     /// The equations that are solved, if they are others than those at the start.
     chosen: Option<Arc<SelectedRows>>,
@@ -29,10 +29,10 @@ pub(super) struct Places {
     /// What time alone asks of the equations.
     signals: Ranges,
     signal_count: usize,
-    /// Whether the equations are such that states can be settled.
+    /// True if the equations are such that states can be settled.
     is_plain: bool,
     /// What finds derivatives by inputs and parameters, where results hold any.
-    varying: Option<Varying>,
+    sensitivities: Option<Sensitivities>,
     /// When the stretch begins (s), and what has been solved for, by that and by time: several formulas ask for the same.
     begins: f64,
     solved: FxHashMap<[u64; 2], Solved>,
@@ -46,8 +46,8 @@ struct Solved {
     multipliers: Vec<f64>,
 }
 
-impl Places {
-    pub fn new(kinematics: Kinematics, solver: Option<Arc<Solver>>) -> Places {
+impl StateSampler {
+    pub fn new(kinematics: Kinematics, solver: Option<Arc<Solver>>) -> StateSampler {
         let n = kinematics.system().coordinates().len();
         let registers: Vec<Register> = kinematics.signals().iter().map(|signal| signal.register).collect();
         let (program, values) = kinematics.program();
@@ -57,7 +57,7 @@ impl Places {
             let alone = SingleRow::new(&kinematics, &solver);
             (solver, alone)
         });
-        Places {
+        StateSampler {
             curve: vec![[0.0; 6]; n],
             delta: vec![0.0; n],
             bounds: vec![0.0; kinematics.system().rows().len()],
@@ -67,7 +67,7 @@ impl Places {
             signal_count: registers.len(),
             solver,
             is_plain: kinematics.is_plain(),
-            varying: Varying::of(&kinematics),
+            sensitivities: Sensitivities::from_motion(&kinematics),
             chosen: None,
             first,
             begins: f64::NAN,
@@ -79,7 +79,7 @@ impl Places {
 
     /// How many variations formulas may hold.
     pub fn variations(&self) -> usize {
-        self.varying.as_ref().map_or(0, Varying::count)
+        self.sensitivities.as_ref().map_or(0, Sensitivities::count)
     }
 
     /// Goes over to a stretch.
@@ -96,7 +96,7 @@ impl Places {
     /// Goes over to the equations that are solved in a stretch.
     fn change_equations(&mut self, stretch: &SmoothSegment) {
         let is_same = match (&self.chosen, &stretch.chosen) {
-            (Some(own), Some(other)) => Arc::ptr_eq(own, other),
+            (Some(local), Some(other)) => Arc::ptr_eq(local, other),
             (None, None) => true,
             _ => false,
         };
@@ -109,21 +109,21 @@ impl Places {
                 let mut kinematics = chosen.kinematics(&first);
                 kinematics.restore(&stretch.from);
                 kinematics.choose_orders();
-                Places::new(kinematics, chosen.solver.clone())
+                StateSampler::new(kinematics, chosen.solver.clone())
             }
-            None => Places::new(first.clone(), solver.clone()),
+            None => StateSampler::new(first.clone(), solver.clone()),
         };
-        *self = Places { chosen: stretch.chosen.clone(), first: (first, solver), ..other };
+        *self = StateSampler { chosen: stretch.chosen.clone(), first: (first, solver), ..other };
     }
 
     /// Goes over to where the switches of the equations have some results, for variations alone.
     pub fn enter_where(&mut self, switches: &[f64]) {
-        if let Some(varying) = &mut self.varying {
-            varying.enter(switches);
+        if let Some(sensitivities) = &mut self.sensitivities {
+            sensitivities.set_switches(switches);
         }
     }
 
-    /// Whether a time (s) lies on the way over a singular position, in the stretch that was entered last.
+    /// Returns whether a time (s) lies on the way over a singular position, in the stretch that was entered last.
     pub fn is_on_bridge(&self, t: f64) -> bool {
         let [from, to] = self.bridge;
         from <= t && t <= to
@@ -131,8 +131,8 @@ impl Places {
 
     /// Finds the variations at a state of the stretch.
     pub fn vary(&mut self, state: &State) {
-        if let Some(varying) = &mut self.varying {
-            varying.go_to(state);
+        if let Some(sensitivities) = &mut self.sensitivities {
+            sensitivities.solve_at(state);
         }
     }
 
@@ -169,23 +169,25 @@ impl Places {
 
     /// How the multiplier of a row changes in a variation, which has been found.
     pub fn varied_multiplier(&self, number: u32, row: usize) -> f64 {
-        let of = |varying: &Varying| self.row(row).map_or(0.0, |row| varying.varied_multiplier(number, row));
-        self.varying.as_ref().map_or(f64::NAN, of)
+        let of = |sensitivities: &Sensitivities| {
+            self.row(row).map_or(0.0, |row| sensitivities.varied_multiplier(number, row))
+        };
+        self.sensitivities.as_ref().map_or(f64::NAN, of)
     }
 
     /// How a coordinate, its velocity and its acceleration change in a variation, which has been found.
     pub fn variation(&self, number: u32, coordinate: usize) -> [f64; 3] {
-        self.varying.as_ref().map_or([f64::NAN; 3], |varying| varying.variation(number, coordinate))
+        self.sensitivities.as_ref().map_or([f64::NAN; 3], |sensitivities| sensitivities.variation(number, coordinate))
     }
 
-    /// Whether what time alone asks of the equations changes so little between two times (s) that the states there tell all.
+    /// Returns whether what time alone asks of the equations changes so little between two times (s) that the states there tell all.
     pub fn signals_are_resolved(&mut self, times: [f64; 2]) -> bool {
         self.signals.set_times(times);
         let (program, registers) = self.kinematics.program();
         (0..self.signal_count).all(|k| self.signals.range(program, registers, k).is_resolved)
     }
 
-    /// Whether time alone decides about the motion, and not as a straight line.
+    /// Returns whether time alone decides about the motion, and not as a straight line.
     pub fn has_signals(&self) -> bool {
         self.signal_count > 0
     }
@@ -202,8 +204,8 @@ impl Places {
             let off = |order: usize| ((b[order - 1] - a[order - 1]) / h - 0.5 * (a[order] + b[order])).abs();
             // what rests at zero is as good as what is usual
             let size = self.kinematics.system().coordinates()[k].scale.max(a[0].abs()).max(b[0].abs());
-            let told = h * h * off(2) + LITTLE * size;
-            (within.q[k] - along(&quintic_between(from, to, k, h), x)).abs() > told
+            let allowed = h * h * off(2) + LITTLE * size;
+            (within.q[k] - along(&quintic_between(from, to, k, h), x)).abs() > allowed
         };
         (0..within.q.len()).any(is_unlike).then_some(within)
     }
@@ -226,7 +228,7 @@ impl Places {
         self.solve_from(state, None)
     }
 
-    /// As [`Places::solve`], with the bits that rows have there; none where that cannot be had.
+    /// As [`StateSampler::solve`], with the bits that rows have there; none where that cannot be had.
     pub fn solve_exactly(&mut self, stretch: &SmoothSegment, [a, b]: [&State; 2], t: f64) -> Option<State> {
         let key = self.key(t);
         if let Some(known) = self.solved.get(&key) {
@@ -244,7 +246,7 @@ impl Places {
         Some(state)
     }
 
-    /// Whether the equations are such that states can be settled.
+    /// Returns whether the equations are such that states can be settled.
     pub fn is_plain(&self) -> bool {
         self.is_plain
     }

@@ -1,23 +1,23 @@
 //! Whether numbers found near a singular position are worth as much as rows are: where a row would be refused, no result is told.
 
 use super::ResultQuery;
-use super::curve::Found;
-use super::interval_search::Trouble;
-use super::reductions::Reduced;
+use super::curve::Estimate;
+use super::interval_search::NoValueCause;
+use super::reductions::FormulaReductions;
 use crate::analysis::follow::{Follower, SmoothSegment};
 use crate::analysis::state::Times;
 use mechc_ir::ReductionKind;
 
 /// Where the motion is not clear of singular positions: from one time to another (s), in order.
-pub(super) struct Near {
+pub(super) struct SingularIntervals {
     stretches: Vec<[f64; 2]>,
     was_clear: bool,
 }
 
-impl Near {
+impl SingularIntervals {
     /// Nothing has been seen.
-    pub fn new() -> Near {
-        Near { stretches: Vec::new(), was_clear: true }
+    pub fn new() -> SingularIntervals {
+        SingularIntervals { stretches: Vec::new(), was_clear: true }
     }
 
     /// Takes note of a stretch that the motion has just gone over.
@@ -29,7 +29,7 @@ impl Near {
         self.was_clear = is_clear;
     }
 
-    /// Whether the motion is clear of singular positions all over.
+    /// Returns whether the motion is clear of singular positions all over.
     pub fn is_clear(&self) -> bool {
         self.stretches.is_empty()
     }
@@ -51,24 +51,32 @@ impl ResultQuery {
     /// What was found of a formula, or why that is nothing, where it can be trusted as the rows at the times that it is of.
     pub(super) fn certain(
         &self,
-        of: &Reduced,
+        of: &FormulaReductions,
         (kind, at): (ReductionKind, f64),
-        near: &Near,
-    ) -> Result<Found, Trouble> {
+        near: &SingularIntervals,
+    ) -> Result<Estimate, NoValueCause> {
         let found = of.outcome(kind, at);
         match found {
             Err(
-                trouble @ (Trouble::Missing(_) | Trouble::Nowhere(_) | Trouble::Unbounded(_) | Trouble::Uncertain(_)),
-            ) => Err(trouble),
+                cause @ (NoValueCause::Missing(_)
+                | NoValueCause::Nowhere(_)
+                | NoValueCause::Unbounded(_)
+                | NoValueCause::Uncertain(_)),
+            ) => Err(cause),
             _ => self.is_certain(of, (kind, at), near).and(found),
         }
     }
 
-    /// Whether what was found of a formula can be trusted as the rows at the times that it is of.
+    /// Returns whether what was found of a formula can be trusted as the rows at the times that it is of.
     ///
     /// # Errors
     /// Where a row would be refused.
-    fn is_certain(&self, of: &Reduced, (kind, at): (ReductionKind, f64), near: &Near) -> Result<(), Trouble> {
+    fn is_certain(
+        &self,
+        of: &FormulaReductions,
+        (kind, at): (ReductionKind, f64),
+        near: &SingularIntervals,
+    ) -> Result<(), NoValueCause> {
         if near.is_clear() || !of.moves() {
             return Ok(());
         }
@@ -87,10 +95,10 @@ impl ResultQuery {
         if near.holds(time) { self.has_rows_at(vec![time]) } else { Ok(()) }
     }
 
-    /// Whether the motion has rows at some times (s), which rise.
-    fn has_rows_at(&self, times: Vec<f64>) -> Result<(), Trouble> {
+    /// Returns whether the motion has rows at some times (s), which rise.
+    fn has_rows_at(&self, times: Vec<f64>) -> Result<(), NoValueCause> {
         let mut motion = self.motion(Times::listed(self.interval[0], times.clone()));
         let refused = times.into_iter().find(|_| !matches!(motion.next_row(), Some(Ok(_))));
-        refused.map_or(Ok(()), |t| Err(Trouble::Uncertain(t)))
+        refused.map_or(Ok(()), |t| Err(NoValueCause::Uncertain(t)))
     }
 }
