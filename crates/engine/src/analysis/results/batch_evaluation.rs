@@ -5,9 +5,9 @@ use mechc_ir::tolerances::results::curve::MOVED;
 
 /// A formula along the motion, and its time derivatives.
 pub struct SmoothFormula {
-    /// What is computed one after the other: what of it is smooth, and what follows from that.
+    /// The computations in order: first the smooth parts, then what depends on them.
     stages: Vec<Computed>,
-    /// Where the last of these leaves its value and time derivatives, as many as there are: two at least.
+    /// The registers of the last stage that hold the value and its time derivatives: two at least.
     roots: Vec<Register>,
     is_length: bool,
 }
@@ -18,14 +18,14 @@ pub struct Computed {
     registers: Registers,
     /// The operations that what is wanted follows from.
     operations: Vec<Op>,
-    /// Where a coordinate, differentiated so many times by time, is to stand.
+    /// Register, order of time derivative and number of each coordinate that is read.
     inputs: Vec<(Register, u32, usize)>,
-    /// Where that is to stand which was left in a register of what was computed before.
+    /// Register here and register of the stage before, for each value that is taken over.
     taken: Vec<(Register, Register)>,
 }
 
 impl Computed {
-    /// By a program over so many coordinates, and perhaps more, which leaves what is wanted in some registers.
+    /// A computation by a program over `coordinates` coordinates, and perhaps further ones, with the requested results in some registers.
     pub(super) fn new(program: Program, registers: Registers, coordinates: usize, requested: &[Register]) -> Computed {
         let mut inputs = Vec::new();
         for (order, first) in program.inputs.coordinates.into_iter().enumerate() {
@@ -35,7 +35,7 @@ impl Computed {
         Computed { program, registers, operations, inputs, taken: Vec::new() }
     }
 
-    /// The same with what was computed before as further coordinates, by where that is left with its time derivatives; none where one is missing.
+    /// Adds results of the stage before as further coordinates, given by the registers of each value and its time derivatives. `None` if one is missing.
     pub(super) fn behind(
         mut self,
         before: &[[Option<Register>; 4]],
@@ -53,7 +53,7 @@ impl Computed {
         Some(self)
     }
 
-    /// By register: whether its operations read it, or somebody wants it.
+    /// Returns, by register, whether an operation reads it or it is requested.
     fn is_read(&self, requested: &[Register]) -> Vec<bool> {
         let mut is_read = vec![false; self.program.registers()];
         for &register in requested {
@@ -83,13 +83,13 @@ impl Computed {
         [self.program.stage(Stage::Prologue), &self.operations]
     }
 
-    /// Where a coordinate is to stand, by its number, differentiated so many times by time.
+    /// Returns register, order of time derivative and number of each coordinate that is read.
     #[must_use]
     pub fn inputs(&self) -> &[(Register, u32, usize)] {
         &self.inputs
     }
 
-    /// Where that is to stand which was left in a register of what was computed before.
+    /// Returns register here and register of the stage before, for each value that is taken over.
     #[must_use]
     pub fn taken(&self) -> &[(Register, Register)] {
         &self.taken
@@ -97,7 +97,7 @@ impl Computed {
 }
 
 impl SmoothFormula {
-    /// Of what is computed one after the other, the last of which leaves a value and its derivatives in some registers.
+    /// A formula computed in stages, the last of which leaves the value and its derivatives in `roots`.
     pub(super) fn new(mut stages: Vec<Computed>, roots: Vec<Register>, is_length: bool) -> SmoothFormula {
         let count = stages.len();
         for k in 0..count {
@@ -110,13 +110,13 @@ impl SmoothFormula {
         SmoothFormula { stages, roots, is_length }
     }
 
-    /// What is computed one after the other.
+    /// Returns the computations in order.
     #[must_use]
     pub fn stages(&self) -> &[Computed] {
         &self.stages
     }
 
-    /// Where the last of these leaves its value and its time derivatives, as many as there are.
+    /// Returns the registers of the last stage that hold the value and its time derivatives.
     #[must_use]
     pub fn roots(&self) -> &[Register] {
         &self.roots
@@ -129,7 +129,7 @@ impl SmoothFormula {
     }
 }
 
-/// What a coordinate, by its number, is taken times to see how much a formula makes of rounding, in one of some ways.
+/// Returns the factor by which a coordinate is perturbed to measure how a formula amplifies rounding, for one of several perturbations.
 #[must_use]
 pub fn moved(k: usize, way: u32) -> f64 {
     // up and down without a pattern that a formula could have

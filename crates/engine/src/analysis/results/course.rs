@@ -14,20 +14,20 @@ pub type Tower = [f64; 3];
 pub struct Course<'c> {
     /// The times of steps (s), two at least.
     pub times: &'c [f64],
-    /// What the formula is there.
+    /// The value, slope and second derivative at each of them.
     pub towers: &'c [Tower],
     /// True if it is a length, with a kink where it is zero.
     pub is_length: bool,
     /// The size of the numbers that values are sums of: what rounding of values goes by.
     pub weight: f64,
-    /// How near to a singular position they come, which rounding grows with.
+    /// The nearness to a singular position, with which rounding grows.
     pub nearness: f64,
 }
 
-/// Where an extremum is.
+/// The location of an extremum.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub enum Place {
-    /// At the first or the last time (s).
+    /// The first or the last time (s).
     End(f64),
     /// About a time (s) between.
     Turn(f64),
@@ -35,9 +35,9 @@ pub enum Place {
     Rest,
 }
 
-/// What a cell may hold.
+/// The contents of a cell.
 enum Cell {
-    /// Nothing that is larger than both its ends.
+    /// No value larger than both its ends.
     Nothing,
     /// One extremum, more or less at a time (s), with a value that may be off by so much, and a second derivative.
     Turn { t: f64, value: f64, off: f64, bend: f64 },
@@ -50,7 +50,7 @@ struct Best {
     place: Option<Place>,
     value: f64,
     off: f64,
-    /// What no other one is above.
+    /// An upper bound of all other candidates.
     others: f64,
 }
 
@@ -66,7 +66,7 @@ impl Best {
 }
 
 impl Course<'_> {
-    /// Where the largest value is, or the least; nothing where that is in doubt.
+    /// Returns the location of the largest or least value, or `None` if it is in doubt.
     #[must_use]
     pub fn extreme(&self, largest: bool) -> Option<Place> {
         if self.rests() {
@@ -101,7 +101,7 @@ impl Course<'_> {
         best.place.filter(|_| range > 0.0 && is_alone && is_finite)
     }
 
-    /// From step to step: what it is at both, and their times (s).
+    /// Returns the cells between steps: the towers at both ends, and their times (s).
     fn cells(&self) -> impl Iterator<Item = ([Tower; 2], [f64; 2])> {
         let times = self.times.windows(2).map(|pair| [pair[0], pair[1]]);
         self.towers.windows(2).map(|pair| [pair[0], pair[1]]).zip(times)
@@ -127,7 +127,7 @@ fn kink([a, b]: [Tower; 2], [from, to]: [f64; 2]) -> Option<Cell> {
     (!is_far).then(|| Cell::Unknown(if most.is_finite() { most } else { f64::INFINITY }))
 }
 
-/// What a formula may be between two steps.
+/// Bounds of a formula between two steps.
 struct Limits {
     bends: [f64; 2],
     slopes: [f64; 2],
@@ -144,7 +144,7 @@ impl Limits {
     }
 }
 
-/// What there may be between two steps, above both of them.
+/// Classifies the cell between two steps by values above both its ends.
 fn look_into([a, b]: [Tower; 2], [from, to]: [f64; 2]) -> Cell {
     let h = to - from;
     let ([v, s, c], [w, r, d]) = (a, b);

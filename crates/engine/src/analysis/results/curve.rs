@@ -54,17 +54,17 @@ pub(super) struct Curve {
     looks: usize,
 }
 
-/// Of what shape a formula is.
+/// The shape of a formula.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 enum Shape {
-    /// Nothing but what is smooth.
+    /// A smooth formula.
     Smooth,
     /// The length of something smooth, or a root of it, but for a factor that rests.
     Length,
     Other,
 }
 
-/// What changes with the motion.
+/// A quantity that changes with the motion.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub(super) enum Moving {
     /// A coordinate, or what moves as smoothly.
@@ -78,7 +78,7 @@ pub(super) enum Moving {
     },
     /// The multiplier of a row, of which only the value is known.
     Multiplier(usize),
-    /// How that changes, likewise.
+    /// The derivative of a multiplier in a variation, of which only the value is known.
     VariedMultiplier {
         /// The variation's number.
         variation: u32,
@@ -105,7 +105,7 @@ impl Moving {
         matches!(self, Moving::Multiplier(_) | Moving::VariedMultiplier { .. })
     }
 
-    /// Where it and its time derivatives go, as many as there are.
+    /// Returns the registers of the quantity and its time derivatives, as far as they exist.
     fn registers(self, inputs: &Inputs) -> [Option<Register>; 4] {
         match self {
             Moving::Coordinate(index) => inputs.coordinates.map(|first| Some(first + index as Register)),
@@ -127,7 +127,7 @@ pub(super) struct Point {
     moving: Vec<[f64; 4]>,
     /// The loads, of a formula that holds forces.
     loads: Vec<f64>,
-    /// By guard.
+    /// The states of the guards.
     marks: Vec<GuardState>,
     /// True if it lies on the way over a singular position, where velocities and accelerations are those of a curve.
     is_on_bridge: bool,
@@ -138,7 +138,7 @@ pub(super) struct Point {
     pub crossing_error: f64,
 }
 
-/// How far off something may be because its time is not known.
+/// Errors that follow from an uncertain time.
 #[derive(Clone, Copy, Default, PartialEq, Debug)]
 pub(super) struct Shift {
     /// In time (s).
@@ -174,7 +174,7 @@ impl Estimate {
     /// No number.
     pub const NOTHING: Estimate = Estimate { value: f64::NAN, off: f64::INFINITY };
 
-    /// How many significant digits are certain; 0 where it cannot be told from zero.
+    /// Returns the number of certain significant digits; 0 if the value cannot be told from zero.
     pub fn certain_digits(self) -> u32 {
         let part = self.off / self.value.abs();
         if part.is_nan() {
@@ -188,7 +188,7 @@ impl Estimate {
     }
 }
 
-/// What lies between two points of a step of the motion.
+/// The interval between two points of a step of the motion.
 #[derive(Clone)]
 pub(super) struct Cell {
     /// The number of the step.
@@ -205,7 +205,7 @@ pub(super) struct Cell {
 }
 
 impl Cell {
-    /// From one point to another, of which nothing between is known yet.
+    /// A cell from one point to another, without bounds of what lies between.
     pub fn new(step: usize, a: &Rc<Point>, b: &Rc<Point>) -> Cell {
         Cell { step, a: Rc::clone(a), b: Rc::clone(b), bends: None, bends_length: f64::INFINITY, middle: None }
     }
@@ -226,7 +226,7 @@ impl Cell {
         middle <= self.a.state.t || middle >= self.b.state.t
     }
 
-    /// As this one, from one point to another.
+    /// Returns a cell from one point to another, with the bounds of this one.
     pub fn between(&self, a: &Rc<Point>, b: &Rc<Point>) -> Cell {
         Cell { bends: self.bends.clone(), bends_length: self.bends_length, ..Cell::new(self.step, a, b) }
     }
@@ -244,7 +244,7 @@ impl Cell {
     }
 }
 
-/// What is known of a formula in a cell.
+/// The classification of a formula in a cell.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(super) enum Verdict {
     /// No guard crosses its threshold.
@@ -255,7 +255,7 @@ pub(super) enum Verdict {
     Missing,
     /// Rounding alone decides on which side of its threshold a guard is.
     Rounding,
-    /// The same, where the formula has one value whichever side that is.
+    /// Rounding alone decides on which side a guard is, but the formula has one value on either side.
     Alike,
     /// Too little is known; of a guard, by its number, whether it crosses, if there is one.
     Open(Option<usize>),
@@ -344,7 +344,7 @@ impl Curve {
         self.short = short;
     }
 
-    /// How many time derivatives it has: 0 to 2.
+    /// Returns the number of time derivatives: 0 to 2.
     pub fn derivatives(&self) -> usize {
         self.roots.len() - 1
     }
@@ -379,7 +379,7 @@ impl Curve {
         self.derivatives() > 0 && self.shape != Shape::Other
     }
 
-    /// The same for variants side by side; none where it is anything else.
+    /// Returns the formula for evaluation in batches, or `None` if it does not settle.
     pub fn into_quantity(self) -> Option<SmoothFormula> {
         if !self.settles() {
             return None;
@@ -396,7 +396,7 @@ impl Curve {
         Some(SmoothFormula::new(vec![smooth, local], roots, is_length))
     }
 
-    /// At a state of the stretch that was entered.
+    /// Evaluates the formula at a state of the segment that was entered.
     pub fn at(&mut self, state: State, sampler: &mut StateSampler) -> Rc<Point> {
         let is_on_bridge = sampler.is_on_bridge(state.t);
         if self.is_varied() {
@@ -482,7 +482,7 @@ impl Curve {
         self.ranges.range(&self.program, &self.registers, self.loads.count());
     }
 
-    /// How far off the value at a point may be.
+    /// Returns a bound of the error of the value at a point.
     pub fn uncertainty(&mut self, point: &Point) -> f64 {
         self.set_rounding(point);
         for (guard, mark) in self.guards.iter().zip(&point.marks) {
@@ -517,7 +517,7 @@ impl Curve {
         guards.any(|(guard, mark)| guard.is_within_rounding(&self.ranges, *mark))
     }
 
-    /// How far off the argument of a guard may be at a point.
+    /// Returns a bound of the error of a guard's argument at a point.
     pub fn rounding_of_argument(&mut self, guard: usize, point: &Point) -> f64 {
         self.set_rounding(point);
         let [low, high] = self.guards[guard].argument(&self.ranges);
@@ -552,7 +552,7 @@ impl Curve {
         self.program.run_operations(&self.operations, &mut self.registers);
     }
 
-    /// Of what moves and is never below zero: at which order it stands.
+    /// Returns the order at which a quantity stands that is a square, and so never below zero.
     fn order_of_square(&self, of: Moving) -> Option<usize> {
         match of {
             Moving::Coordinate(k) if k >= self.coordinates => self.smooth.square(k - self.coordinates),

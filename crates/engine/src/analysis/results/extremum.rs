@@ -1,7 +1,7 @@
 //! The largest value of a formula and its first time, by branch and bound.
 //!
 //! The cell that may hold the largest value is looked at first: it is cut where a guard crosses its threshold, or in two, until the formula rises
-//! or falls all the way through it, or until its slope passes zero in it just once, at a candidate that is then solved for. Cells that cannot hold
+//! or falls all the way through it, or until its slope passes zero in it just once, at a time that is then solved for. Cells that cannot hold
 //! more than what is known are never looked into, and so a pole in the other direction costs nothing and hides nothing.
 
 use super::curve::{Cell, Estimate, Point, Verdict};
@@ -31,7 +31,7 @@ pub(super) struct Extremum {
     /// The value that this is known of, times the sign, how far off it may be, and its time (s).
     best_estimate: Estimate,
     best_at: f64,
-    /// Where it may be: extrema, edges and ends, with their values times the sign.
+    /// The candidates: extrema, edges and ends, with their values times the sign.
     candidates: Vec<Candidate>,
     /// The largest of these.
     largest: f64,
@@ -46,12 +46,12 @@ pub(super) struct Extremum {
 #[derive(Clone, Copy, Debug)]
 struct Candidate {
     t: f64,
-    /// How far off that may be (s), beyond what its kind tells.
+    /// A bound of the error of the time (s), beyond that of the kind.
     time_error: f64,
     value: f64,
-    /// How far off that may be.
+    /// A bound of the error of the value.
     off: f64,
-    /// What the value is at least.
+    /// A lower bound of the value.
     least: f64,
     kind: CandidateKind,
 }
@@ -68,11 +68,11 @@ impl Candidate {
     }
 }
 
-/// How much is known of an extremum.
+/// The kind of a candidate, which decides how accurate its time is.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 enum CandidateKind {
     Edge,
-    /// Where the slope passes zero.
+    /// A zero of the slope.
     Turn,
     /// The largest that was seen of a formula whose slope is not known.
     Sample,
@@ -104,7 +104,7 @@ impl PartialOrd for OpenCell {
 }
 
 impl Ord for OpenCell {
-    /// By the largest value that they may hold; what is earlier comes first.
+    /// Orders cells by the largest value that they may hold; of equal ones the earlier is greater.
     fn cmp(&self, other: &OpenCell) -> Ordering {
         let t = |open: &OpenCell| open.cell.a.state.t;
         self.upper.total_cmp(&other.upper).then(t(other).total_cmp(&t(self)))
@@ -313,7 +313,7 @@ impl IntervalSearch<'_> {
         scale
     }
 
-    /// Looks for earlier candidates where the value is the same.
+    /// Looks for earlier times with the same value.
     fn search_in_time(&mut self, mut open: Vec<OpenCell>, extremum: &mut Extremum, scale: Scale) {
         open.retain(|open| open.upper >= extremum.best - scale.alike());
         open.sort_by(|a, b| b.cell.a.state.t.total_cmp(&a.cell.a.state.t));
@@ -466,7 +466,7 @@ impl IntervalSearch<'_> {
     }
 
     /// Takes note of a cell of which no range is known, if the formula grows towards it without bound, from before or from behind: it gains no less
-    /// from one candidate to the next, which come near by equal factors.
+    /// from one sample to the next, which come near by equal factors.
     fn record_growth(&mut self, cell: &Cell, extremum: &mut Extremum, scale: Scale) {
         for (point, direction) in [(&cell.a, -1.0), (&cell.b, 1.0)] {
             let Some(candidates) = self.samples_near(cell.step, point, (direction, cell.length()), scale) else {
@@ -669,7 +669,7 @@ impl IntervalSearch<'_> {
     }
 }
 
-/// Where the straight line through the slopes at both ends of a cell is zero (s).
+/// Returns the time (s) at which the straight line through the slopes at both ends of a cell is zero.
 fn chord(cell: &Cell, sign: f64) -> f64 {
     let [a, b] = [&cell.a, &cell.b].map(|point| sign * point.sample.first);
     cell.a.state.t + cell.length() * a / (a - b)

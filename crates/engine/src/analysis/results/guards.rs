@@ -46,7 +46,7 @@ fn branch_of_tangent(a: f64) -> f64 {
     (a / PI + 0.5).floor()
 }
 
-/// Where a guard is at a state.
+/// The state of a guard: the side of its threshold, and its argument.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(super) struct GuardState {
     /// The side of the threshold, or the number of the step or piece.
@@ -64,7 +64,7 @@ impl GuardState {
     }
 }
 
-/// How a guard is in a cell.
+/// The behavior of a guard in a cell.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Crossing {
     /// The guard stays on its side.
@@ -93,7 +93,7 @@ impl Guard {
         })
     }
 
-    /// Where the guard is, by the registers of a program that has been run.
+    /// Returns the guard's state, from the registers of a program that has been run.
     pub fn mark(&self, registers: &Registers) -> GuardState {
         let get = |register: Register| registers.get(register);
         let sign = |x: f64| if x == 0.0 { 0.0 } else { x.signum() };
@@ -125,7 +125,7 @@ impl Guard {
         self.ends && is_beyond
     }
 
-    /// How far the argument is from the threshold between two sides, at both; not a number where several thresholds lie between.
+    /// Returns the distances of both arguments from the threshold between two sides; NaN if several thresholds lie between.
     pub fn distances(&self, marks: [GuardState; 2], registers: &Registers) -> [f64; 2] {
         let later = marks[0].side.max(marks[1].side);
         let is_next = (marks[0].side - marks[1].side).abs() <= 1.0;
@@ -150,7 +150,7 @@ impl Guard {
         }
     }
 
-    /// How the guard is between two states, by the ranges there.
+    /// Classifies the guard between two states, by the ranges there.
     pub fn crossing(&self, ranges: &Ranges, [a, b]: [GuardState; 2]) -> Crossing {
         let is_decided = match self.kind {
             Kind::Comparison { to, .. } | Kind::Step { to, .. } | Kind::Piece { to, .. } => {
@@ -196,7 +196,7 @@ impl Guard {
         ends[0].total_cmp(&ends[1]).is_ne()
     }
 
-    /// What the argument may be in ranges, less the threshold where there is but one.
+    /// Returns the range of the argument, less the threshold if there is only one.
     pub fn argument(&self, ranges: &Ranges) -> [f64; 2] {
         match self.kind {
             Kind::Comparison { a, b, .. } | Kind::Choice { a, b } => {

@@ -13,7 +13,7 @@ use mechc_ir::tolerances::results::probe::{
 };
 use std::rc::Rc;
 
-/// How large a formula is, as far as that decides what is a difference.
+/// The scale of a formula, which decides what counts as a difference.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(super) struct Scale {
     /// The range of its values, or how far they usually are from the one that is looked for.
@@ -66,13 +66,13 @@ impl NoValueCause {
     }
 }
 
-/// What came up while a formula was looked at.
+/// The findings of a search: causes of missing values, and the work done.
 #[derive(Clone, Copy, Default, Debug)]
 pub(super) struct Notes {
     pub cause: Option<NoValueCause>,
     /// The first time (s) at which the formula has no value.
     pub missing: Option<f64>,
-    /// How much has been looked at, and how much may be.
+    /// The number of cells that were evaluated, and its limit.
     cells: usize,
     most: usize,
 }
@@ -103,13 +103,13 @@ pub(super) struct IntervalSearch<'r> {
     pub curve: &'r mut Curve,
     sampler: &'r mut StateSampler,
     pub steps: &'r [SmoothSegment],
-    /// From one time to another (s): the formula is looked at nowhere else.
+    /// The first and the last time (s) at which the formula is evaluated.
     pub window: [f64; 2],
     entered: Option<usize>,
     pub notes: &'r mut Notes,
     /// No cell is cut that is no longer than this (s).
     pub shortest: f64,
-    /// How far values usually differ.
+    /// The usual difference of values.
     pub range: f64,
     /// In a cell that is no longer than this (s) values may be nothing but rounding.
     pub short: f64,

@@ -6,7 +6,7 @@
 use mechc_ir::program::{Program, Range, Ranges, Register, Registers};
 use mechc_ir::tolerances::results::loads::{LITTLE, ROUNDINGS, SEEN};
 
-/// What loads may do in a cell that its ends and its middle do not tell.
+/// A bound of what loads do in a cell beyond what its ends and its middle show.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(super) enum Hidden {
     Nothing,
@@ -25,7 +25,7 @@ struct Load {
     value: Register,
     /// The largest magnitude that was seen.
     largest: f64,
-    /// How far rounding may be off, the most that was seen.
+    /// The largest effect of rounding that was seen.
     rounding: f64,
 }
 
@@ -36,7 +36,7 @@ impl Loads {
         Loads { each: values.iter().map(load).collect() }
     }
 
-    /// How many there are.
+    /// Returns the number of loads.
     pub fn count(&self) -> usize {
         self.each.len()
     }
@@ -60,7 +60,7 @@ impl Loads {
         }
     }
 
-    /// What they may do beyond what is told of each: between which values it seems to stay.
+    /// Returns how far loads may go beyond `bounds`, the interval in which each seems to stay.
     pub fn hidden(
         &mut self,
         (program, registers): (&Program, &Registers),
@@ -84,7 +84,7 @@ impl Loads {
     }
 }
 
-/// How far a range goes beyond what is told; no number or infinite where it has no end.
+/// Returns how far a range goes beyond an interval; infinite if the range has no end.
 fn beyond(range: Range, [low, high]: [f64; 2]) -> f64 {
     let [below, above] = [low - range.low, range.high - high];
     // what is infinite or no number on one side is so in the sum

@@ -44,14 +44,14 @@ impl Largest {
 /// The largest magnitudes that were seen of some things that move, each with three time derivatives: rounding goes by these.
 pub(super) struct Magnitudes {
     largest: Vec<[f64; 4]>,
-    /// What kind of coordinate each one is, if it is one.
+    /// The kind of each quantity that is a coordinate.
     kinds: Vec<Option<CoordinateKind>>,
-    /// Those of the whole mechanism.
+    /// The magnitudes of the whole mechanism.
     of_all: Largest,
 }
 
 impl Magnitudes {
-    /// For things of these kinds; none is no coordinate.
+    /// Magnitudes of quantities of these kinds; `None` for one that is not a coordinate.
     pub fn new(kinds: Vec<Option<CoordinateKind>>) -> Magnitudes {
         Magnitudes { largest: vec![[0.0; 4]; kinds.len()], kinds, of_all: Largest::default() }
     }

@@ -51,7 +51,7 @@ use state_sampler::StateSampler;
 use std::sync::Arc;
 use validity::SingularIntervals;
 
-/// What is wrong with the results that an analysis from one time to another (s) is asked for.
+/// Returns the faults of the results for an analysis from one time to another (s).
 #[must_use]
 pub fn refused_results(system: &ConstraintSystem, interval @ [from, to]: [f64; 2]) -> Diagnostics {
     let mut diagnostics = Diagnostics::default();
@@ -67,7 +67,7 @@ pub fn refused_results(system: &ConstraintSystem, interval @ [from, to]: [f64; 2
     diagnostics
 }
 
-/// What results are computed from: an assembled mechanism and the times of its analysis.
+/// The input of results: an assembled mechanism and the times of its analysis.
 pub struct ResultQuery {
     kinematics: Kinematics,
     state: State,
@@ -80,9 +80,9 @@ pub struct ResultQuery {
 /// Results in their order, in SI; those that have no value are none.
 #[derive(Clone, PartialEq, Debug, Default)]
 pub struct Answers {
-    /// By result.
+    /// The values by result, in SI.
     pub values: Vec<Option<f64>>,
-    /// By result: how many significant digits are certain, 17 at most; 0 where it has no value, or cannot be told from zero.
+    /// The number of certain significant digits by result, 17 at most; 0 if it has no value or cannot be told from zero.
     pub digits: Vec<u32>,
     /// Why some have none.
     pub notes: Vec<Diagnostic>,
@@ -91,7 +91,7 @@ pub struct Answers {
 }
 
 impl Answers {
-    /// How many digits are certain of all that have a value; 0 where none has.
+    /// Returns the least number of certain digits of all results with a value; 0 if no result has one.
     #[must_use]
     pub fn certain_digits(&self) -> u32 {
         let known = self.values.iter().zip(&self.digits).filter(|(value, _)| value.is_some());
@@ -113,16 +113,16 @@ impl Started {
 struct Analysis {
     query: ResultQuery,
     determined: Arc<Determined>,
-    /// By reduction: its number, or why there is none.
+    /// The estimate of each reduction, or why it has no value.
     estimates: Vec<Option<Result<Estimate, NoValueCause>>>,
-    /// By reduction: the first time (s) that it leaves out, where its formula has no value.
+    /// The first time (s) that each reduction leaves out because its formula has no value.
     missing: Vec<Option<f64>>,
     /// The steps of the motion, once they are known and are not too many to be kept.
     steps: Option<Vec<SmoothSegment>>,
-    /// What solves for states between these.
+    /// The solver of states between the ends of steps.
     sampler: Option<StateSampler>,
     singular: SingularIntervals,
-    /// How large the coordinates are in the motion so far.
+    /// The magnitudes of the coordinates in the motion so far.
     largest: Largest,
 }
 

@@ -26,11 +26,11 @@ const MIDDLE: f64 = 16.0 / 35.0;
 #[derive(Clone, Copy, Default, Debug)]
 pub(super) struct Integral {
     sum: f64,
-    /// How far off it may be.
+    /// A bound of its error.
     off: f64,
-    /// For how long (s) the formula has a value.
+    /// The time (s) during which the formula has a value.
     time: f64,
-    /// For how long (s) it has none that rounding may have hidden.
+    /// The time (s) without a value that rounding may have hidden.
     hidden: f64,
     /// The time of the analysis (s).
     span: f64,
@@ -55,12 +55,12 @@ impl Integral {
         Estimate { value: self.sum, off: self.off + (ROUNDING + hidden) * (self.size + (self.usual * self.time).abs()) }
     }
 
-    /// For how long (s) the formula has a value.
+    /// Returns the time (s) during which the formula has a value.
     pub fn time(&self) -> f64 {
         self.time
     }
 
-    /// How far the formula is on average from a value that is usual.
+    /// Returns the average distance of the formula from a usual value.
     pub fn deviation(&self) -> f64 {
         self.size / self.time
     }
@@ -119,7 +119,7 @@ impl PartialOrd for Part {
 }
 
 impl Ord for Part {
-    /// By how far off they may be; what is earlier comes first.
+    /// Orders parts by their error bounds; of equal ones the earlier is greater.
     fn cmp(&self, other: &Part) -> Ordering {
         self.off.total_cmp(&other.off).then(other.from.total_cmp(&self.from))
     }

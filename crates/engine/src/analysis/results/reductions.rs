@@ -19,17 +19,17 @@ use std::rc::Rc;
 /// A formula that is looked at over a part of the motion, and what is found of it.
 pub(super) struct FormulaReductions {
     curve: Curve,
-    /// From one time to another (s).
+    /// The first and the last time (s).
     window: [f64; 2],
     extrema: [Option<Extremum>; 2],
     integral: Option<Integral>,
-    /// What came up while these were looked for, in this order.
+    /// The findings of the two extrema and of the integral, in this order.
     notes: [Notes; 3],
     /// Times (s) at which its value is asked for, and the values.
     times: Vec<RequestedValue>,
     /// Its values at the ends of steps.
     samples: Vec<Estimate>,
-    /// As the extremum's search has left it, by which one.
+    /// The scales that the searches of the extrema ended with.
     scales: [Option<Scale>; 2],
 }
 
@@ -199,7 +199,7 @@ impl FormulaReductions {
         }
     }
 
-    /// How large the formula is, by what was seen at the ends of steps.
+    /// Returns the scale of the formula, by its values at the ends of steps.
     fn scale(&self, span: f64) -> Scale {
         let low = self.samples.iter().map(|found| found.value).fold(f64::INFINITY, f64::min);
         let high = self.samples.iter().map(|found| found.value).fold(f64::NEG_INFINITY, f64::max);
@@ -236,7 +236,7 @@ impl FormulaReductions {
         }
     }
 
-    /// An end of a step, or a time (s) that is as good as that, with the bits that rows have there where nothing is in crossing_error.
+    /// An end of a step, or a time (s) that is as good as that, with the bits that rows have there where nothing is in doubt.
     fn end(&self, state: &State, t: f64, stretch: &SmoothSegment, sampler: &mut StateSampler) -> State {
         let settled = self.curve.settles().then(|| sampler.settled(stretch, state, t));
         settled.flatten().unwrap_or_else(|| state.clone())

@@ -6,15 +6,15 @@ use super::{curves, needed, value_of};
 use mechc_expr::ExprId;
 use mechc_ir::{ConstraintSystem, ReductionKind};
 
-/// What all results of a mechanism ask of it.
+/// The smooth formulas of all results of a mechanism.
 pub struct SmoothFormulas {
     each: Vec<SmoothFormula>,
-    /// By reduction: which of these it is of, and which number of it.
+    /// The formula of each reduction, by its number, and the kind of the reduction.
     reductions: Vec<(usize, ReductionKind)>,
 }
 
 impl SmoothFormulas {
-    /// Of a system whose equations are smooth; none where results ask for anything else.
+    /// Returns the formulas of a system with smooth equations, or `None` if its results need anything else.
     #[must_use]
     pub fn of(system: &ConstraintSystem) -> Option<SmoothFormulas> {
         let results = system.results();
@@ -45,7 +45,7 @@ impl SmoothFormulas {
         &self.each
     }
 
-    /// By reduction: which of these it is of, and which number of it.
+    /// Returns the formula of each reduction, by its number, and the kind of the reduction.
     #[must_use]
     pub fn reductions(&self) -> &[(usize, ReductionKind)] {
         &self.reductions

@@ -11,7 +11,7 @@ use mechc_ir::tolerances::results::smooth::{MOST_FACTORS, WIDEST_OF_ALL, WIDEST_
 use mechc_ir::{ConstraintSystem, CoordinateKind};
 use rustc_hash::FxHashMap;
 
-/// Of what kind a formula is.
+/// The kind of a formula.
 #[derive(Clone, Copy, PartialEq, Debug)]
 enum Kind {
     /// It does not change.
@@ -22,7 +22,7 @@ enum Kind {
     Smooth {
         /// The highest time derivative of a coordinate in it.
         order: u8,
-        /// How many things that move are multiplied in it at most.
+        /// The largest number of moving factors in a product.
         factors: u32,
     },
     Other,
@@ -30,7 +30,7 @@ enum Kind {
 
 /// Something smooth within a formula.
 struct SmoothPart {
-    /// What of the formula it stands for.
+    /// The part of the formula that it replaces.
     of: ExprId,
     /// It, or the square of what it stands for: a length goes to zero with a kink, its square does not.
     value: ExprId,
@@ -39,7 +39,7 @@ struct SmoothPart {
     order: u8,
 }
 
-/// What is smooth of a formula, with its time derivatives.
+/// The smooth parts of a formula, with their time derivatives.
 pub(super) struct Smooth {
     program: Program,
     registers: Registers,
@@ -48,11 +48,11 @@ pub(super) struct Smooth {
     sizes: Magnitudes,
     /// Of each, where its value and its time derivatives are: at the order that its value has as a coordinate, and behind it.
     towers: Vec<[Option<Register>; 4]>,
-    /// Of each, the order at which it stands, and whether it is a square.
+    /// The order at which each part stands, and whether it is a square.
     kinds: Vec<(usize, bool)>,
     /// The coordinates that they hold.
     coordinates: Vec<usize>,
-    /// Those that are turns, and all turns that there are.
+    /// The angles among these, and all angles of the mechanism.
     turns: Vec<usize>,
     all_turns: Vec<usize>,
 }
@@ -107,12 +107,12 @@ impl Smooth {
         Smooth { program, registers, ranges, sizes, towers, kinds, coordinates, turns, all_turns }
     }
 
-    /// How many there are.
+    /// Returns the number of parts.
     pub fn count(&self) -> usize {
         self.towers.len()
     }
 
-    /// Of one that is a square, and so is never below zero: the order at which it stands.
+    /// Returns the order at which a part stands that is a square, and so never below zero.
     pub fn square(&self, k: usize) -> Option<usize> {
         let (order, is_square) = self.kinds[k];
         is_square.then_some(order)

@@ -22,7 +22,7 @@ pub struct SpectralIntegral {
     values: Vec<f64>,
 }
 
-/// What becomes of an integral once the formula is known at all its times.
+/// The outcome of a refinement, once the formula is known at all times.
 #[derive(Clone, Copy, Debug)]
 pub enum Settled {
     /// It needs twice as many.
@@ -34,7 +34,7 @@ pub enum Settled {
 }
 
 impl SpectralIntegral {
-    /// Over an analysis from one time to another (s).
+    /// An integral over an analysis from one time to another (s).
     #[must_use]
     pub fn new(interval: [f64; 2]) -> SpectralIntegral {
         SpectralIntegral { interval, level: FIRST, values: vec![f64::NAN; (1 << FIRST) + 1] }

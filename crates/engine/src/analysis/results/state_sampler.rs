@@ -11,12 +11,12 @@ use mechc_ir::tolerances::results::stretches::NUMBERS;
 use rustc_hash::FxHashMap;
 use std::sync::Arc;
 
-/// What solves for states between the ends of stretches.
+/// A solver of states between the ends of segments.
 pub(super) struct StateSampler {
     kinematics: Kinematics,
     /// The equations that are solved, if they are others than those at the start.
     chosen: Option<Arc<SelectedRows>>,
-    /// Those at the start, with what solves them.
+    /// The equations at the start, with their solver.
     first: (Kinematics, Option<Arc<Solver>>),
     solver: Option<(Arc<Solver>, SingleRow)>,
     curve: Vec<[f64; 6]>,
@@ -24,14 +24,14 @@ pub(super) struct StateSampler {
     /// By row of Φ, one over what may be left of it; of the stretch, once that has been asked for.
     bounds: Vec<f64>,
     has_bounds: bool,
-    /// From when to when (s) the way over a singular position goes, if the stretch is one.
+    /// The first and the last time (s) of the bridge over a singular position, if the segment is one.
     bridge: [f64; 2],
     /// What time alone asks of the equations.
     signals: Ranges,
     signal_count: usize,
     /// True if the equations are such that states can be settled.
     is_plain: bool,
-    /// What finds derivatives by inputs and parameters, where results hold any.
+    /// The derivatives by inputs and parameters, if results need any.
     sensitivities: Option<Sensitivities>,
     /// When the stretch begins (s), and what has been solved for, by that and by time: several formulas ask for the same.
     begins: f64,
@@ -77,7 +77,7 @@ impl StateSampler {
         }
     }
 
-    /// How many variations formulas may hold.
+    /// Returns the number of variations that formulas may use.
     pub fn variations(&self) -> usize {
         self.sensitivities.as_ref().map_or(0, Sensitivities::count)
     }
@@ -167,7 +167,7 @@ impl StateSampler {
         self.chosen.as_ref().map_or(Some(row), |chosen| chosen.row_in_place_of(row, &first))
     }
 
-    /// How the multiplier of a row changes in a variation, which has been found.
+    /// Returns the derivative of the multiplier of a row in a variation that has been solved for.
     pub fn varied_multiplier(&self, number: u32, row: usize) -> f64 {
         let of = |sensitivities: &Sensitivities| {
             self.row(row).map_or(0.0, |row| sensitivities.varied_multiplier(number, row))
@@ -175,7 +175,7 @@ impl StateSampler {
         self.sensitivities.as_ref().map_or(f64::NAN, of)
     }
 
-    /// How a coordinate, its velocity and its acceleration change in a variation, which has been found.
+    /// Returns the derivatives of a coordinate, its velocity and its acceleration in a variation that has been solved for.
     pub fn variation(&self, number: u32, coordinate: usize) -> [f64; 3] {
         self.sensitivities.as_ref().map_or([f64::NAN; 3], |sensitivities| sensitivities.variation(number, coordinate))
     }

@@ -8,14 +8,14 @@ use crate::analysis::follow::{Follower, SmoothSegment};
 use crate::analysis::state::Times;
 use mechc_ir::ReductionKind;
 
-/// Where the motion is not clear of singular positions: from one time to another (s), in order.
+/// The time intervals (s), in order, in which the motion is not clear of singular positions.
 pub(super) struct SingularIntervals {
     stretches: Vec<[f64; 2]>,
     was_clear: bool,
 }
 
 impl SingularIntervals {
-    /// Nothing has been seen.
+    /// No intervals yet.
     pub fn new() -> SingularIntervals {
         SingularIntervals { stretches: Vec::new(), was_clear: true }
     }
@@ -70,7 +70,7 @@ impl ResultQuery {
     /// Returns whether what was found of a formula can be trusted as the rows at the times that it is of.
     ///
     /// # Errors
-    /// Where a row would be refused.
+    /// Fails where a row would be refused.
     fn is_certain(
         &self,
         of: &FormulaReductions,
