@@ -12,11 +12,11 @@ pub struct SmoothFormula {
     is_length: bool,
 }
 
-/// Something that is computed from coordinates, and from what was computed before.
+/// A computation from coordinates and from results of earlier stages.
 pub struct Computed {
     program: Program,
     registers: Registers,
-    /// The operations that what is wanted follows from.
+    /// The operations behind the requested registers.
     operations: Vec<Op>,
     /// Register, order of time derivative and number of each coordinate that is read.
     inputs: Vec<(Register, u32, usize)>,
@@ -71,13 +71,13 @@ impl Computed {
         self.inputs.retain(|(register, ..)| is_read[*register as usize]);
     }
 
-    /// The program that it is computed by, and the program's registers.
+    /// Returns the program and its registers.
     #[must_use]
     pub fn program(&self) -> (&Program, &Registers) {
         (&self.program, &self.registers)
     }
 
-    /// The operations that follow from parameters alone, and those that follow from coordinates.
+    /// Returns the operations that depend on parameters alone, and those that depend on coordinates.
     #[must_use]
     pub fn operations(&self) -> [&[Op]; 2] {
         [self.program.stage(Stage::Prologue), &self.operations]

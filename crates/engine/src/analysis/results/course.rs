@@ -1,4 +1,4 @@
-//! Where along its course a smooth formula has its largest value, as far as that is beyond doubt: for variants that go side by side, which are
+//! Where along its course a smooth formula has its largest value, as far as that is beyond doubt: for variants that are evaluated in a batch, which are
 //! looked at no more closely. Where it is in doubt a variant is looked at alone, by branch and bound (`extremum.rs`).
 //!
 //! The course is known at steps, with its slope and its second derivative. In a cell between two of them the second derivative stays near the
@@ -29,9 +29,9 @@ pub struct Course<'c> {
 pub enum Place {
     /// The first or the last time (s).
     End(f64),
-    /// About a time (s) between.
+    /// A time (s) between these, approximately.
     Turn(f64),
-    /// Everywhere: it rests.
+    /// All times: the formula is constant.
     Rest,
 }
 
@@ -204,7 +204,7 @@ pub fn find_bends(times: &[f64], towers: &mut [Tower]) {
     }
 }
 
-/// The integral over the course of a formula, by its values and derivatives at steps.
+/// Returns the integral of a formula over its course, from its values and derivatives at steps.
 #[must_use]
 pub fn integral_by_steps(times: &[f64], towers: &[Tower]) -> f64 {
     let cell = |(times, towers): (&[f64], &[Tower])| integral_of_quintic(towers[0], towers[1], times[1] - times[0]);

@@ -123,16 +123,16 @@ impl Moving {
 #[derive(Clone)]
 pub(super) struct Point {
     pub state: State,
-    /// What moves of the formula, each with three time derivatives; one that is not known is 0.
+    /// The moving quantities of the formula, each with three time derivatives; an unknown one is 0.
     moving: Vec<[f64; 4]>,
     /// The loads, of a formula that holds forces.
     loads: Vec<f64>,
     /// The states of the guards.
     marks: Vec<GuardState>,
-    /// True if it lies on the way over a singular position, where velocities and accelerations are those of a curve.
+    /// True if it lies on the bridge over a singular position, where velocities and accelerations are those of a curve.
     is_on_bridge: bool,
     pub sample: Sampled,
-    /// How far (s) the time that is meant may be from this one, and the value there from the value here.
+    /// The difference (s) between the intended time and this one, and that of the values.
     pub shift: Shift,
     /// How far (s) from here the guard that crosses its threshold beside may do so as well.
     pub crossing_error: f64,
@@ -163,7 +163,7 @@ impl Point {
     }
 }
 
-/// A number and how far off it may be.
+/// A number with an error bound.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(super) struct Estimate {
     pub value: f64,
@@ -171,7 +171,7 @@ pub(super) struct Estimate {
 }
 
 impl Estimate {
-    /// No number.
+    /// No value.
     pub const NOTHING: Estimate = Estimate { value: f64::NAN, off: f64::INFINITY };
 
     /// Returns the number of certain significant digits; 0 if the value cannot be told from zero.
@@ -196,7 +196,7 @@ pub(super) struct Cell {
     pub a: Rc<Point>,
     pub b: Rc<Point>,
     /// By what moves of the formula: how far its second and third derivatives are from a straight line; of a force, how far its value is. Behind
-    /// these are the formula itself and the loads, of which that is the value too. None where nothing is known yet.
+    /// these are the formula itself and the loads, of which that is the value too. `None` where nothing is known yet.
     bends: Option<Rc<[[f64; 2]]>>,
     /// The length (s) of the cell that this is known of, of which this one may be a part.
     bends_length: f64,
@@ -210,12 +210,12 @@ impl Cell {
         Cell { step, a: Rc::clone(a), b: Rc::clone(b), bends: None, bends_length: f64::INFINITY, middle: None }
     }
 
-    /// Its length (s).
+    /// Returns its length (s).
     pub fn length(&self) -> f64 {
         self.b.state.t - self.a.state.t
     }
 
-    /// The time in its middle (s).
+    /// Returns the time in its middle (s).
     pub fn middle(&self) -> f64 {
         0.5 * self.a.state.t + 0.5 * self.b.state.t
     }
@@ -237,7 +237,7 @@ impl Cell {
         self.middle = Some(middle);
     }
 
-    /// Its parts on both sides of a point in it.
+    /// Returns its parts on both sides of a point in it.
     pub fn cut(&self, curve: &Curve, at: &Rc<Point>) -> [Cell; 2] {
         let bends = Some(curve.bends_at(self, at));
         [(&self.a, at), (at, &self.b)].map(|(a, b)| Cell { bends: bends.clone(), ..self.between(a, b) })
@@ -339,7 +339,7 @@ impl Curve {
         }
     }
 
-    /// Takes cells for short that are no longer than this (s).
+    /// Sets the length (s) up to which cells count as short.
     pub fn set_short(&mut self, short: f64) {
         self.short = short;
     }
@@ -440,13 +440,13 @@ impl Curve {
         })
     }
 
-    /// Takes note of how large the coordinates of the mechanism are.
+    /// Records how large the coordinates of the mechanism are.
     pub fn note_all(&mut self, of_all: Largest) {
         self.sizes.note_all(of_all);
         self.smooth.note_all(of_all);
     }
 
-    /// Takes note of how large arguments of guards are at a point that is like others: beside a pole they are not.
+    /// Records how large arguments of guards are at a point that is like others: beside a pole they are not.
     pub fn note_arguments(&mut self, point: &Point) {
         for (largest, mark) in self.largest_arguments.iter_mut().zip(&point.marks) {
             if mark.argument.is_finite() {
@@ -496,7 +496,7 @@ impl Curve {
         if off.is_nan() { f64::INFINITY } else { off }
     }
 
-    /// The value at a point, and how far off it may be.
+    /// Returns the value at a point, with its error bound.
     pub fn estimate(&mut self, point: &Point) -> Estimate {
         Estimate { value: point.sample.value, off: self.uncertainty(point) }
     }
@@ -655,7 +655,7 @@ impl Curve {
         }
     }
 
-    /// The range of a time derivative (1 or 2) in the cell that was enclosed last.
+    /// Returns the range of a time derivative (1 or 2) in the cell that was enclosed last.
     pub fn derivative(&mut self, order: usize) -> Range {
         self.ranges.range(&self.program, &self.registers, self.first + order - 1)
     }
@@ -688,7 +688,7 @@ impl Curve {
         }
     }
 
-    /// Of which orders something that moves is known: from one to another.
+    /// Returns the first and the last known order of a moving quantity.
     fn orders(&self, of: Moving) -> [usize; 2] {
         match of {
             Moving::Coordinate(k) => {
@@ -736,7 +736,7 @@ impl Curve {
         self.moving.iter().enumerate().map(of_moving).chain([local]).chain(of_loads).collect()
     }
 
-    /// How far a guard's argument is from the threshold between two points.
+    /// Returns the distances of a guard's argument from the threshold between two points.
     pub fn distances(&self, guard: usize, [a, b]: [&Point; 2]) -> [f64; 2] {
         self.guards[guard].distances([a.marks[guard], b.marks[guard]], &self.registers)
     }

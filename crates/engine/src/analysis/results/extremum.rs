@@ -62,7 +62,7 @@ impl Candidate {
         self.off <= scale.gap(APART)
     }
 
-    /// What the value is at most; of what may be rounding nothing counts but what it is at least.
+    /// Returns an upper bound of the value; if the value may be rounding, its lower bound.
     fn most(&self, scale: Scale) -> f64 {
         if self.is_known(scale) { self.value + self.off } else { self.least }
     }
@@ -131,19 +131,19 @@ impl Extremum {
         }
     }
 
-    /// Asks for its time too.
+    /// Requests its time too.
     pub fn request_time(&mut self) {
         self.is_timed = true;
     }
 
-    /// Takes note of a value at a time (s).
+    /// Records a value at a time (s).
     fn record(&mut self, t: f64, found: Estimate) {
         if self.sign * found.value - found.off > self.best {
             (self.best, self.best_estimate, self.best_at) = (self.sign * found.value - found.off, found, t);
         }
     }
 
-    /// Takes note of an edge or an end, at a time (s).
+    /// Records an edge or an end, at a time (s).
     pub fn note_edge(&mut self, at: Estimate, Estimate { value, off }: Estimate, scale: Scale) {
         let (value, t, time_error) = (self.sign * value, at.value, at.off);
         self.add(Candidate { t, time_error, value, off, least: value - off, kind: CandidateKind::Edge }, scale);
@@ -177,17 +177,17 @@ impl Extremum {
         upper < self.best - scale.alike() || (!self.is_timed && upper <= self.largest + scale.gap(GAP))
     }
 
-    /// The ends of a range, times the sign, in order.
+    /// Returns the ends of a range, times the sign, in order.
     fn oriented(&self, Range { low, high, .. }: Range) -> [f64; 2] {
         if self.sign > 0.0 { [low, high] } else { [-high, -low] }
     }
 
-    /// The values at both ends of a cell, times the sign.
+    /// Returns the values at both ends of a cell, times the sign.
     fn values(&self, cell: &Cell) -> [f64; 2] {
         [&cell.a, &cell.b].map(|point| self.sign * point.sample.value)
     }
 
-    /// A time (s) towards which the formula grows without bound, if there is one.
+    /// Returns a time (s) towards which the formula grows without bound, if there is one.
     pub fn unbounded(&self) -> Option<f64> {
         self.unbounded
     }
@@ -215,7 +215,7 @@ impl Extremum {
         }
     }
 
-    /// Its first time (s).
+    /// Returns its first time (s).
     pub fn time(&self, scale: Scale) -> Estimate {
         let found = |t: f64, part: f64| Estimate { value: t, off: part * scale.span };
         let Some(first) = self.first(scale) else { return found(self.best_at, TIMES_OF_VALUES) };
@@ -234,13 +234,13 @@ impl Extremum {
         }
     }
 
-    /// The candidates with the largest value.
+    /// Returns the candidates with the largest value.
     fn alike(&self, scale: Scale) -> impl Iterator<Item = &Candidate> {
         let least = self.best - scale.alike();
         self.candidates.iter().filter(move |candidate| candidate.most(scale) >= least)
     }
 
-    /// The first of these.
+    /// Returns the first of these.
     fn first(&self, scale: Scale) -> Option<Candidate> {
         let earliest = |known: bool| {
             let those = self.alike(scale).filter(move |candidate| (candidate.kind != CandidateKind::Sample) == known);
@@ -334,7 +334,7 @@ impl IntervalSearch<'_> {
         }
     }
 
-    /// Takes note of the values at both ends of a cell.
+    /// Records the values at both ends of a cell.
     fn record_ends(&mut self, cell: &Cell, extremum: &mut Extremum) {
         for (point, other) in [(&cell.a, &cell.b), (&cell.b, &cell.a)] {
             if !point.exists() {
@@ -410,7 +410,7 @@ impl IntervalSearch<'_> {
         }
     }
 
-    /// Takes note of what is in a cell too short to be cut: an edge to neighbouring times, a cusp, or a pole.
+    /// Records what is in a cell too short to be cut: an edge to neighbouring times, a cusp, or a pole.
     fn close(&mut self, cell: &Cell, range: Range, extremum: &mut Extremum, scale: Scale) {
         let ends = [&cell.a, &cell.b];
         let sign = extremum.sign;
@@ -465,7 +465,7 @@ impl IntervalSearch<'_> {
         })
     }
 
-    /// Takes note of a cell of which no range is known, if the formula grows towards it without bound, from before or from behind: it gains no less
+    /// Records a cell of which no range is known, if the formula grows towards it without bound, from before or from behind: it gains no less
     /// from one sample to the next, which come near by equal factors.
     fn record_growth(&mut self, cell: &Cell, extremum: &mut Extremum, scale: Scale) {
         for (point, direction) in [(&cell.a, -1.0), (&cell.b, 1.0)] {
@@ -525,7 +525,7 @@ impl IntervalSearch<'_> {
         is_small || turns_once || bends_down > 0.0
     }
 
-    /// Where the slope, times the sign, passes from above zero to zero or below: by Newton between bounds.
+    /// Returns a zero of the slope, at which the slope times the sign passes from above zero to zero or below, by Newton between bounds.
     fn solve_for_turn(&mut self, cell: &Cell, extremum: &mut Extremum, scale: Scale) {
         let sign = extremum.sign;
         let slope = |point: &Point| sign * point.sample.first;
@@ -567,7 +567,7 @@ impl IntervalSearch<'_> {
         self.note_turn(cell, &top, turn, extremum, scale);
     }
 
-    /// Takes note of a turn at a time (s), near a point.
+    /// Records a turn at a time (s), near a point.
     fn note_turn(&mut self, cell: &Cell, near: &Point, t: f64, extremum: &mut Extremum, scale: Scale) {
         let off = self.curve.uncertainty(near);
         let settled = self.settled_turn(cell.step, &near.state, t, scale.span);
@@ -577,7 +577,7 @@ impl IntervalSearch<'_> {
             .add(Candidate { t, time_error: 0.0, value, off, least: value - off, kind: CandidateKind::Turn }, scale);
     }
 
-    /// The time (s) and the value of a turn that is near a state and a time, as they are whichever way led there; none where it does not settle, or
+    /// The time (s) and the value of a turn that is near a state and a time, as they are whichever path led there; `None` where it does not settle, or
     /// beyond an edge.
     fn settled_turn(&mut self, step: usize, near: &State, t: f64, span: f64) -> Option<[f64; 2]> {
         if !self.curve.settles() {
@@ -625,7 +625,7 @@ impl IntervalSearch<'_> {
         is_small
     }
 
-    /// The top beside one of the ends of a cell; none where it lies farther away, where another cell has it. It is that of a parabola through
+    /// The top beside one of the ends of a cell; `None` where it lies farther away, where another cell has it. It is that of a parabola through
     /// three points, as far apart as these ends at first, and then ever closer.
     fn top_beside(&mut self, cell: &Cell, near: &Rc<Point>, sign: f64, scale: Scale) -> Option<Candidate> {
         let [from, to] = [&self.steps[cell.step].from, &self.steps[cell.step].to].map(|state| state.t);

@@ -41,7 +41,7 @@ enum Kind {
     Tangent { a: Register },
 }
 
-/// The number of the pole of a tangent before an argument.
+/// Returns the number of the pole of a tangent before an argument.
 fn branch_of_tangent(a: f64) -> f64 {
     (a / PI + 0.5).floor()
 }
@@ -270,7 +270,7 @@ fn ends(op: Op) -> bool {
     )
 }
 
-/// Formulas whose time derivatives tell whether guards cross their thresholds at most once: what is compared, and the like.
+/// Returns the formulas whose time derivatives show whether guards cross their thresholds at most once, such as differences that are compared.
 pub(super) fn arguments(graph: &mut Graph, formulas: &[ExprId]) -> Vec<ExprId> {
     let mut arguments = Vec::new();
     for id in graph.reachable(formulas) {
@@ -371,7 +371,7 @@ pub(super) fn guards(
     found
 }
 
-/// The time derivatives of some formulas, which may not be known.
+/// Returns the time derivatives of some formulas, as far as they are known.
 pub(super) fn slopes(
     graph: &mut Graph,
     formulas: &[ExprId],
@@ -385,7 +385,7 @@ pub(super) fn slopes(
         .collect()
 }
 
-/// The result of a comparison of two registers, and the sign of their difference with which it is true.
+/// Returns the result of a comparison of two registers, and the sign of their difference with which it is true.
 fn compared(op: &Op, a: Register, b: Register) -> Option<(Register, f64)> {
     match *op {
         Op::Compare { comparison: Comparison::Less | Comparison::LessEqual, to, a: x, b: y } => match (x, y) {

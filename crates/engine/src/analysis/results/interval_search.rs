@@ -25,18 +25,18 @@ pub(super) struct Scale {
 }
 
 impl Scale {
-    /// Values that differ by no more than this are the same: what rounding makes of a value that rests is no change.
+    /// Returns the difference up to which values count as equal: rounding of a constant value is no change.
     pub fn alike(self) -> f64 {
         self.gap(ALIKE)
     }
 
-    /// A part of the range, but no less than what rounding makes of a value.
+    /// Returns a part of the range, but no less than the rounding of a value.
     pub fn gap(self, part: f64) -> f64 {
         f64::max(part * self.range, ROUNDING * self.weight).max(NOTHING)
     }
 }
 
-/// Why there is no number.
+/// The reason why a reduction has no value.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub enum NoValueCause {
     /// The formula has no value at a time (s) that is asked for.
@@ -78,19 +78,19 @@ pub(super) struct Notes {
 }
 
 impl Notes {
-    /// Takes note of why there is no number; what comes first in time counts.
+    /// Records why there is no value; the earliest time counts.
     pub fn meet(&mut self, cause: NoValueCause) {
         if self.cause.is_none_or(|known| cause.t() < known.t()) {
             self.cause = Some(cause);
         }
     }
 
-    /// Returns whether as much has been looked at as may be.
+    /// Returns whether the limit of evaluated cells is exceeded.
     pub fn are_exhausted(&self) -> bool {
         self.cells > self.most
     }
 
-    /// Takes note of a time (s) at which the formula has no value.
+    /// Records a time (s) at which the formula has no value.
     pub fn miss(&mut self, t: f64) {
         if self.missing.is_none_or(|known| t < known) {
             self.missing = Some(t);
@@ -98,7 +98,7 @@ impl Notes {
     }
 }
 
-/// A formula in some steps of the motion.
+/// The search in a formula over some steps of the motion.
 pub(super) struct IntervalSearch<'r> {
     pub curve: &'r mut Curve,
     sampler: &'r mut StateSampler,
@@ -115,7 +115,7 @@ pub(super) struct IntervalSearch<'r> {
     pub short: f64,
     /// True if it matters when guards cross their thresholds.
     pub is_timed: bool,
-    /// The guard that was found to cross its threshold last, when (s), and how far off (s) that may be.
+    /// The last guard with a located crossing, the time (s) of that, and its error bound (s).
     last_crossing: Option<(usize, f64, f64)>,
 }
 
@@ -150,7 +150,7 @@ impl<'r> IntervalSearch<'r> {
         }
     }
 
-    /// Takes note of a time (s) of a step at which the formula has no value. Beside a singular position forces and derivatives by parameters are not
+    /// Records a time (s) of a step at which the formula has no value. Beside a singular position forces and derivatives by parameters are not
     /// left out: they may be of any size there.
     pub fn miss(&mut self, step: usize, t: f64) {
         if let Some(bridge) = &self.steps[step].bridge
@@ -161,25 +161,25 @@ impl<'r> IntervalSearch<'r> {
         self.notes.miss(t);
     }
 
-    /// The formula at a state of a step.
+    /// Evaluates the formula at a state of a step.
     pub fn at(&mut self, step: usize, state: State) -> Rc<Point> {
         self.enter(step);
         self.curve.at(state, self.sampler)
     }
 
-    /// The formula at a time (s) within a cell; none where the motion cannot be solved for.
+    /// Evaluates the formula at a time (s) within a cell. `None` if the motion cannot be solved for.
     pub fn point(&mut self, cell: &Cell, t: f64) -> Option<Rc<Point>> {
         self.between(cell.step, [&cell.a.state, &cell.b.state], t)
     }
 
-    /// The formula at a time (s) within a cell, with the bits that rows have there; none where that cannot be had.
+    /// Evaluates the formula at a time (s) within a cell, with the bits of rows. `None` if those cannot be had.
     pub fn exact_point(&mut self, cell: &Cell, t: f64) -> Option<Rc<Point>> {
         self.enter(cell.step);
         let state = self.sampler.solve_exactly(&self.steps[cell.step], [&cell.a.state, &cell.b.state], t)?;
         Some(self.curve.at(state, self.sampler))
     }
 
-    /// The formula at a time (s) of a step.
+    /// Evaluates the formula at a time (s) of a step.
     pub fn point_of_step(&mut self, step: usize, t: f64) -> Option<Rc<Point>> {
         let ends @ [from, to] = [&self.steps[step].from, &self.steps[step].to];
         match [from, to].into_iter().find(|end| end.t.total_cmp(&t).is_eq()) {
@@ -188,7 +188,7 @@ impl<'r> IntervalSearch<'r> {
         }
     }
 
-    /// The formula at a time (s) in a step or in those before and behind it; none beyond an edge or the window, or where the motion cannot be solved for.
+    /// The formula at a time (s) in a step or in those before and behind it; `None` beyond an edge or the window, or where the motion cannot be solved for.
     pub fn point_near(&mut self, mut step: usize, t: f64) -> Option<Rc<Point>> {
         let steps = self.steps;
         while step > 0 && t < steps[step].from.t && !steps[step].begins_at_edge {
@@ -203,7 +203,7 @@ impl<'r> IntervalSearch<'r> {
     }
 
     /// The formula at three times beside a point, before (−1) or behind it (1), each [`FACTOR`] times as far away as the one before; the first of these
-    /// is no nearer than a width (s), and so far away that the value is more than rounding. None where there are no such times near by.
+    /// is no nearer than a width (s), and so far away that the value is more than rounding. `None` where there are no such times near by.
     pub fn samples_near(
         &mut self,
         step: usize,
@@ -246,7 +246,7 @@ impl<'r> IntervalSearch<'r> {
         Some(self.curve.at(state, self.sampler))
     }
 
-    /// The state beside one of a step, as rows have it; none where that cannot be had.
+    /// The state beside one of a step, as rows have it; `None` where that cannot be had.
     pub fn settled(&mut self, step: usize, near: &State, t: f64) -> Option<State> {
         self.enter(step);
         self.sampler.settled(&self.steps[step], near, t)
@@ -324,7 +324,7 @@ impl<'r> IntervalSearch<'r> {
         cell.length() <= self.shortest || cell.is_empty()
     }
 
-    /// The parts of a cell on both sides of its middle; none where the motion cannot be solved for there.
+    /// The parts of a cell on both sides of its middle; `None` where the motion cannot be solved for there.
     pub fn halve(&mut self, cell: &Cell) -> Option<[Cell; 2]> {
         let middle = match &cell.middle {
             Some(middle) => Rc::clone(middle),
@@ -334,7 +334,7 @@ impl<'r> IntervalSearch<'r> {
     }
 
     /// The parts of a cell before and behind the time at which a guard crosses its threshold, and the shortest cell between. A part is missing
-    /// where the crossing is at that end of the cell. None where the motion cannot be solved for.
+    /// where the crossing is at that end of the cell. `None` where the motion cannot be solved for.
     pub fn cut_at_crossing(&mut self, cell: &Cell, guard: usize) -> Option<[Option<Cell>; 3]> {
         let side = cell.a.side(guard);
         let (mut before, mut behind) = (Rc::clone(&cell.a), Rc::clone(&cell.b));
@@ -419,7 +419,7 @@ impl<'r> IntervalSearch<'r> {
         }
     }
 
-    /// Takes note that a point may be meant for a time that is so much (s) beside its own.
+    /// Records that a point may be meant for a time that is so much (s) beside its own.
     pub fn shift(&mut self, step: usize, point: &mut Rc<Point>, beside: f64) {
         let there = self.point_near(step, point.state.t + beside);
         let value = there.map_or(f64::INFINITY, |there| (there.sample.value - point.sample.value).abs());

@@ -10,9 +10,9 @@ use mechc_ir::tolerances::results::loads::{LITTLE, ROUNDINGS, SEEN};
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(super) enum Hidden {
     Nothing,
-    /// A load may go by so much beyond what is told of it.
+    /// A load may exceed its bounds by this much.
     AtMost(f64),
-    /// A load may be as large as it likes.
+    /// A load has no bound.
     Unbounded,
 }
 
@@ -41,7 +41,7 @@ impl Loads {
         self.each.len()
     }
 
-    /// Their values at a state that the program has just been run at.
+    /// Returns their values at a state that the program has just been run at.
     pub fn values(&mut self, registers: &Registers) -> Vec<f64> {
         let value = |load: &mut Load| {
             let value = registers.get(load.value);
@@ -51,7 +51,7 @@ impl Loads {
         self.each.iter_mut().map(value).collect()
     }
 
-    /// Takes note of what rounding makes of them at a state that ranges were set to.
+    /// Records what rounding makes of them at a state that ranges were set to.
     pub fn look_at_rounding(&mut self, (program, registers): (&Program, &Registers), ranges: &mut Ranges) {
         for (k, load) in self.each.iter_mut().enumerate() {
             let range = ranges.range(program, registers, 1 + k);

@@ -13,7 +13,7 @@ pub(super) struct Largest {
 }
 
 impl Largest {
-    /// Takes note of a state's coordinates, of which these are angles.
+    /// Records a state's coordinates, of which these are angles.
     pub fn note(&mut self, state: &State, kinds: impl Iterator<Item = CoordinateKind>) {
         for (k, kind) in kinds.enumerate() {
             let largest = match kind {
@@ -56,7 +56,7 @@ impl Magnitudes {
         Magnitudes { largest: vec![[0.0; 4]; kinds.len()], kinds, of_all: Largest::default() }
     }
 
-    /// Takes note of one of them with its derivatives.
+    /// Records one of them with its derivatives.
     pub fn note(&mut self, k: usize, tower: &[f64; 4]) {
         for (largest, value) in self.largest[k].iter_mut().zip(tower) {
             if value.is_finite() {
@@ -65,7 +65,7 @@ impl Magnitudes {
         }
     }
 
-    /// Takes note of how large the coordinates of the mechanism are.
+    /// Records how large the coordinates of the mechanism are.
     pub fn note_all(&mut self, of_all: Largest) {
         self.of_all = of_all;
     }

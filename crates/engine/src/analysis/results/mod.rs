@@ -1,7 +1,7 @@
 //! Results: numbers for the whole analysis, which do not depend on the rows that are asked for.
 //!
 //! ```text
-//! Started ──▶ its own Motion ──▶ stretches ──▶ extremes, integrals, values ──▶ reductions ──▶ results
+//! Started ──▶ its own Motion ──▶ segments ──▶ extremes, integrals, values ──▶ reductions ──▶ results
 //! ```
 //!
 //! The motion is followed once more, in the steps that it allows, and looked at between their ends as closely as each
@@ -77,14 +77,14 @@ pub struct ResultQuery {
     cancel: Cancel,
 }
 
-/// Results in their order, in SI; those that have no value are none.
+/// The values of the results, in their order.
 #[derive(Clone, PartialEq, Debug, Default)]
 pub struct Answers {
     /// The values by result, in SI.
     pub values: Vec<Option<f64>>,
     /// The number of certain significant digits by result, 17 at most; 0 if it has no value or cannot be told from zero.
     pub digits: Vec<u32>,
-    /// Why some have none.
+    /// Notes on results without a value, with gaps or with few certain digits.
     pub notes: Vec<Diagnostic>,
     /// True if the motion was followed to its end, nowhere near a singular position, and holds no forces: so it has a row at any time.
     pub has_all_rows: bool,
@@ -109,7 +109,7 @@ impl Started {
     }
 }
 
-/// The motion in some chunks of its stretches, and what follows from it.
+/// The motion in some chunks of its segments, and what follows from it.
 struct Analysis {
     query: ResultQuery,
     determined: Arc<Determined>,
@@ -127,7 +127,7 @@ struct Analysis {
 }
 
 impl ResultQuery {
-    /// The results, by following the motion once more; nothing where that is cancelled.
+    /// Computes the results by following the motion once more. Returns `None` if that is cancelled.
     #[must_use]
     pub fn answer(self) -> Option<Answers> {
         let determined = self.kinematics.determined();
@@ -155,7 +155,7 @@ impl ResultQuery {
         Some(analysis.answers())
     }
 
-    /// A motion of its own to some times.
+    /// Returns a follower of its own to some times.
     fn motion(&self, times: Times) -> Follower {
         let mut motion = Follower::new((self.kinematics.clone(), self.state.clone(), self.solver.clone()), times);
         if self.pass {
@@ -170,7 +170,7 @@ impl Analysis {
         self.determined.system()
     }
 
-    /// The reductions that can be found now: those in their formulas are known. None where all are.
+    /// Returns the reductions that can be computed now, because those in their formulas are resolved, or `None` if no reduction is left.
     fn next_level(&mut self) -> Option<Vec<usize>> {
         let determined = Arc::clone(&self.determined);
         let system = determined.system();
@@ -189,7 +189,7 @@ impl Analysis {
         (!level.is_empty()).then_some(level)
     }
 
-    /// Looks at the motion for some reductions.
+    /// Follows the motion for some reductions.
     fn follow(&mut self, level: &[usize]) -> Result<(), Box<Stop>> {
         let determined = Arc::clone(&self.determined);
         let system = determined.system();
@@ -226,7 +226,7 @@ impl Analysis {
         Ok(())
     }
 
-    /// The times (s) that a reduction is over.
+    /// Returns the window (s) of a reduction.
     fn window(&self, reduction: &Reduction) -> Result<[f64; 2], NoValueCause> {
         let [from, to] = self.query.interval;
         let bound = |bound: Option<ExprId>, end: f64| bound.map_or(end, |bound| self.value(bound, false));
@@ -238,7 +238,7 @@ impl Analysis {
         }
     }
 
-    /// Looks at formulas along the whole motion, which is followed once if its steps can be kept.
+    /// Evaluates formulas along the whole motion, which is followed once if its steps can be kept.
     fn look(&mut self, all: &mut [FormulaReductions], sampler: &mut StateSampler) -> Result<(), Box<Stop>> {
         let [from, to] = self.query.interval;
         let span = to - from;
@@ -287,7 +287,7 @@ impl Analysis {
         Ok(())
     }
 
-    /// No results: the motion ends before the analysis does.
+    /// Returns answers without values, because the motion ends before the analysis does.
     fn without_motion(&self, stop: &Stop) -> Answers {
         let outcomes = &self.system().results().outcomes;
         let notes = outcomes
@@ -301,12 +301,12 @@ impl Analysis {
         }
     }
 
-    /// The value of a formula of parameters and of reductions that are known; no number where one has none.
+    /// Returns the value of a formula of parameters and resolved reductions; NaN if one of them has none.
     fn value(&self, formula: ExprId, unknown_is_false: bool) -> f64 {
         self.value_with(formula, unknown_is_false, (usize::MAX, 0.0))
     }
 
-    /// As [`Analysis::value`], with one reduction off by so many times what it may be.
+    /// Returns the value of a formula with the reduction `off` moved by `times` times its error bound.
     fn value_with(&self, formula: ExprId, unknown_is_false: bool, (off, times): (usize, f64)) -> f64 {
         let system = self.system();
         let found = |k: usize| {
@@ -384,7 +384,7 @@ fn push_step(steps: &mut Vec<SmoothSegment>, mut step: SmoothSegment) {
     steps.push(step);
 }
 
-/// Cuts steps in which the motion is not what the states at both ends tell: a driver may come and go within one.
+/// Cuts steps in which the states at both ends do not determine the motion: a driver may start and stop within one.
 fn cut_where_unlike(steps: Vec<SmoothSegment>, sampler: &mut StateSampler) -> Vec<SmoothSegment> {
     if !sampler.has_signals() {
         return steps;
@@ -434,7 +434,7 @@ fn curves<W: Copy + PartialEq>(
     (ids.into_iter().map(curve).collect(), curve_of)
 }
 
-/// The value of a formula of parameters and of reductions that are found; no number where one has none.
+/// Returns the value of a formula of parameters and reductions; NaN if one of them has none.
 fn value_of(
     graph: &Graph,
     (formula, unknown_is_false): (ExprId, bool),
@@ -455,13 +455,13 @@ fn value_of(
     }
 }
 
-/// The formulas of the times (s) that a reduction speaks of: that of a value, those of a window.
+/// Returns the formulas of the times (s) in a reduction: that of a value, those of a window.
 fn times(reduction: &Reduction) -> impl Iterator<Item = ExprId> {
     let at = if let ReductionKind::At(at) = reduction.kind { Some(at) } else { None };
     at.into_iter().chain(reduction.window.into_iter().flatten())
 }
 
-/// The reductions that a formula holds.
+/// Returns the reductions that a formula contains.
 fn needed(graph: &Graph, formula: ExprId) -> Vec<usize> {
     let of = |symbol: Symbol| match symbol {
         Symbol::Named(k) => Some(k as usize),

@@ -300,7 +300,7 @@ impl IntervalSearch<'_> {
     }
 
     /// The integral over a short cell with a pole of the formula at one end, and how far off it may be: the formula goes with a power of the
-    /// distance from the pole, by its values at three distances. None where it is not like that.
+    /// distance from the pole, by its values at three distances. `None` where it is not like that.
     fn integrate_beside_pole(&mut self, cell: &Cell) -> Option<[f64; 2]> {
         let size = |point: &Point| if point.exists() { point.sample.value.abs() } else { f64::INFINITY };
         let (pole, far) = if size(&cell.a) > size(&cell.b) { (&cell.a, &cell.b) } else { (&cell.b, &cell.a) };

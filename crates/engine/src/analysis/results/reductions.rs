@@ -16,7 +16,7 @@ use mechc_ir::tolerances::results::probe::{FACTOR, SHORTEST};
 use mechc_ir::tolerances::results::stretches::{LARGEST, SMALL};
 use std::rc::Rc;
 
-/// A formula that is looked at over a part of the motion, and what is found of it.
+/// A formula over a part of the motion, and its reductions.
 pub(super) struct FormulaReductions {
     curve: Curve,
     /// The first and the last time (s).
@@ -25,7 +25,7 @@ pub(super) struct FormulaReductions {
     integral: Option<Integral>,
     /// The findings of the two extrema and of the integral, in this order.
     notes: [Notes; 3],
-    /// Times (s) at which its value is asked for, and the values.
+    /// The times (s) at which values are requested, and the values.
     times: Vec<RequestedValue>,
     /// Its values at the ends of steps.
     samples: Vec<Estimate>,
@@ -33,7 +33,7 @@ pub(super) struct FormulaReductions {
     scales: [Option<Scale>; 2],
 }
 
-/// A time (s) at which the value of a formula is asked for.
+/// A value that is requested at a time (s).
 struct RequestedValue {
     t: f64,
     /// The formula there, once the motion has come there.
@@ -55,7 +55,7 @@ impl FormulaReductions {
         }
     }
 
-    /// Takes note of what is asked for; a value at a time is asked for with that (s).
+    /// Adds a reduction; `at` is the time (s) of a value at a time.
     pub fn request(&mut self, kind: ReductionKind, at: f64) {
         let ([from, to], is_moment) = (self.window, self.is_moment());
         let mut time = |t: f64| {
@@ -90,7 +90,7 @@ impl FormulaReductions {
         self.window
     }
 
-    /// What a reduction is, or why it is nothing; a value at a time is asked for with that (s).
+    /// Returns the estimate of a reduction, or why it has no value; `at` is the time (s) of a value at a time.
     pub fn outcome(&self, kind: ReductionKind, at: f64) -> Result<Estimate, NoValueCause> {
         let [from, to] = self.window;
         if let Some(cause) = self.notes_of(kind).and_then(|notes| notes.cause) {
@@ -154,12 +154,12 @@ impl FormulaReductions {
         }
     }
 
-    /// The first time (s) at which the formula has no value, which was left out.
+    /// Returns the first time (s) without a value, which was left out.
     pub fn missing(&self, kind: ReductionKind) -> Option<f64> {
         self.notes_of(kind).and_then(|notes| notes.missing)
     }
 
-    /// What came up while a reduction was looked for; none where that is a value at one time.
+    /// Returns the findings of a reduction, or `None` for a value at one time.
     fn notes_of(&self, kind: ReductionKind) -> Option<&Notes> {
         match kind {
             ReductionKind::Extreme { largest, .. } => Some(&self.notes[usize::from(largest)]),
@@ -180,7 +180,7 @@ impl FormulaReductions {
         self.curve.moves()
     }
 
-    /// Returns whether nothing is asked but values at some times.
+    /// Returns whether only values at some times are requested.
     fn is_of_times_alone(&self) -> bool {
         self.extrema.iter().all(Option::is_none) && self.integral.is_none()
     }
@@ -190,7 +190,7 @@ impl FormulaReductions {
         self.curve.holds_rates()
     }
 
-    /// The first time (s) of the largest or least value.
+    /// Returns the first time (s) of the largest or least value.
     pub fn time_of_extreme(&self, largest: bool) -> f64 {
         let which = usize::from(largest);
         match (&self.extrema[which], self.scales[which]) {
@@ -217,42 +217,42 @@ impl FormulaReductions {
     }
 
     /// Takes in the values at times that lie in a step.
-    fn take_times(&mut self, stretch: &SmoothSegment, sampler: &mut StateSampler) {
+    fn take_times(&mut self, segment: &SmoothSegment, sampler: &mut StateSampler) {
         for k in 0..self.times.len() {
             let t = self.times[k].t;
             let behind = shortly_after(t);
-            if behind < stretch.from.t || t > stretch.to.t {
+            if behind < segment.from.t || t > segment.to.t {
                 continue;
             }
-            let state = if t <= stretch.from.t {
-                Some(self.end(&stretch.from, t, stretch, sampler))
-            } else if t >= stretch.to.t {
-                Some(self.end(&stretch.to, t, stretch, sampler))
+            let state = if t <= segment.from.t {
+                Some(self.end(&segment.from, t, segment, sampler))
+            } else if t >= segment.to.t {
+                Some(self.end(&segment.to, t, segment, sampler))
             } else {
-                sampler.solve(stretch, [&stretch.from, &stretch.to], t)
+                sampler.solve(segment, [&segment.from, &segment.to], t)
             };
             // of an edge the later side counts, which comes later
-            self.times[k].point = state.map(|state| self.edge(state, t, stretch, sampler));
+            self.times[k].point = state.map(|state| self.edge(state, t, segment, sampler));
         }
     }
 
     /// An end of a step, or a time (s) that is as good as that, with the bits that rows have there where nothing is in doubt.
-    fn end(&self, state: &State, t: f64, stretch: &SmoothSegment, sampler: &mut StateSampler) -> State {
-        let settled = self.curve.settles().then(|| sampler.settled(stretch, state, t));
+    fn end(&self, state: &State, t: f64, segment: &SmoothSegment, sampler: &mut StateSampler) -> State {
+        let settled = self.curve.settles().then(|| sampler.settled(segment, state, t));
         settled.flatten().unwrap_or_else(|| state.clone())
     }
 
     /// The formula at a state of a time (s) in a step. Where rounding alone decides on which side of a jump an end of the window is, it is that of
     /// within.
-    fn edge(&mut self, state: State, t: f64, stretch: &SmoothSegment, sampler: &mut StateSampler) -> Rc<Point> {
+    fn edge(&mut self, state: State, t: f64, segment: &SmoothSegment, sampler: &mut StateSampler) -> Rc<Point> {
         let point = self.curve.at(state, sampler);
         let [from, to] = self.window;
         let inward = [(t <= from, 1.0), (t >= to, -1.0)].into_iter().find(|(is_end, _)| *is_end);
         let Some((_, direction)) = inward.filter(|_| self.curve.is_undecided(&point)) else { return point };
         let [near, far] = [FACTOR, FACTOR * FACTOR].map(|beside| {
             let t = point.state.t + direction * beside * SHORTEST * (to - from);
-            let is_within = stretch.from.t <= t && t <= stretch.to.t;
-            let state = if is_within { sampler.solve(stretch, [&stretch.from, &stretch.to], t) } else { None };
+            let is_within = segment.from.t <= t && t <= segment.to.t;
+            let state = if is_within { sampler.solve(segment, [&segment.from, &segment.to], t) } else { None };
             state.map(|state| self.curve.at(state, sampler))
         });
         let (Some(near), Some(far)) = (near, far) else { return point };
@@ -335,7 +335,7 @@ impl FormulaReductions {
         }
     }
 
-    /// A step, with the formula at both ends; none where only values at some times are asked for.
+    /// A step, with the formula at both ends; `None` where only values at some times are asked for.
     fn cell(&mut self, number: usize, steps: &[SmoothSegment], sampler: &mut StateSampler) -> Option<Cell> {
         let step = &steps[number];
         sampler.enter(step);
@@ -371,7 +371,7 @@ impl FormulaReductions {
         Some(Cell::new(number, &from, &to))
     }
 
-    /// Takes note of the values at the ends of steps.
+    /// Records the values at the ends of steps.
     fn take_samples(&mut self, cells: &[Cell], steps: &[SmoothSegment]) {
         for cell in cells {
             // but for edges, a step begins where the one before has ended

@@ -7,7 +7,7 @@ use mechc_ir::program::{Program, Register, Registers, Stage};
 /// The derivatives of coordinates and multipliers by inputs and parameters at a state.
 pub(super) struct Sensitivities {
     kinematics: Kinematics,
-    /// Returns whether equations that were left out go on to hold; none where none was.
+    /// Returns whether equations that were left out go on to hold; `None` where none was.
     dropped: Option<DroppedEquations>,
 }
 

@@ -1,4 +1,4 @@
-//! Smooth formulas that results ask of the motion, for variants that go side by side: extrema of them, integrals, and values at some times.
+//! Smooth formulas that results ask of the motion, for variants that are evaluated in a batch: extrema of them, integrals, and values at some times.
 
 use super::batch_evaluation::SmoothFormula;
 use super::curve::Curve;
@@ -39,7 +39,7 @@ impl SmoothFormulas {
         Some(SmoothFormulas { each: each?, reductions })
     }
 
-    /// The formulas.
+    /// Returns the formulas.
     #[must_use]
     pub fn each(&self) -> &[SmoothFormula] {
         &self.each

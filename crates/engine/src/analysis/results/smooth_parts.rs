@@ -118,12 +118,12 @@ impl Smooth {
         is_square.then_some(order)
     }
 
-    /// The order at which one of them stands: it has no derivatives below.
+    /// Returns the order at which a part stands: it has no derivatives below.
     pub fn order(&self, k: usize) -> usize {
         self.kinds[k].0
     }
 
-    /// Takes note of how large the coordinates of the mechanism are.
+    /// Records how large the coordinates of the mechanism are.
     pub fn note_all(&mut self, of_all: Largest) {
         self.sizes.note_all(of_all);
     }
@@ -159,7 +159,7 @@ impl Smooth {
         self.ranges.run_all(&self.program, &self.registers);
     }
 
-    /// The ranges of one of them and of its time derivatives that were found last, by their orders.
+    /// Returns the ranges of a part and of its time derivatives that were found last, by their orders.
     pub fn ranges(&self, k: usize) -> [[f64; 2]; 4] {
         self.towers[k].map(|register| {
             let [low, high] = register.map_or([0.0; 2], |register| self.ranges.interval(register));
@@ -191,7 +191,7 @@ fn coordinate_of(symbol: Symbol) -> Option<usize> {
     }
 }
 
-/// Of all that a formula is made of.
+/// Returns the kinds of all nodes behind a formula.
 fn kinds(graph: &Graph, value: ExprId, system: &ConstraintSystem) -> FxHashMap<ExprId, Kind> {
     let mut kinds = FxHashMap::default();
     for id in graph.reachable(&[value]) {
@@ -223,7 +223,7 @@ fn kind_of(node: Node, system: &ConstraintSystem, of: impl Fn(ExprId) -> Kind) -
 }
 
 impl Kind {
-    /// The highest time derivative, and the number of factors.
+    /// Returns the highest time derivative, and the number of factors.
     fn smooth(self) -> Option<(u8, u32)> {
         match self {
             Kind::Constant => Some((0, 0)),

@@ -11,7 +11,7 @@ use mechc_ir::tolerances::results::spectral::{ALIKE, FIRST, LAST, LESS};
 use std::f64::consts::PI;
 use std::sync::OnceLock;
 
-/// An integral on its way to as many times as it needs.
+/// An integral with a growing number of sample times.
 #[derive(Clone, Debug)]
 pub struct SpectralIntegral {
     /// The first and the last time (s).
@@ -25,11 +25,11 @@ pub struct SpectralIntegral {
 /// The outcome of a refinement, once the formula is known at all times.
 #[derive(Clone, Copy, Debug)]
 pub enum Settled {
-    /// It needs twice as many.
+    /// The integral needs twice as many samples.
     On,
-    /// The integral, and how far off it may be.
+    /// The integral and its error bound.
     Known([f64; 2]),
-    /// So many are not enough, or the steps of the motion tell otherwise.
+    /// The largest number of samples is not enough, or the steps of the motion contradict the integral.
     Lost,
 }
 
@@ -58,7 +58,7 @@ impl SpectralIntegral {
         })
     }
 
-    /// Takes the value at a time, by its number.
+    /// Records the value at a time, by its number.
     pub fn take(&mut self, k: usize, value: f64) {
         self.values[k] = value;
     }
@@ -94,7 +94,7 @@ impl SpectralIntegral {
     }
 }
 
-/// What values at times weigh in the integral from −1 to 1, of which there are as many intervals as a power of two.
+/// Returns the weights of 2^`level` + 1 samples for the integral from −1 to 1.
 fn weights(level: usize) -> &'static [f64] {
     static WEIGHTS: [OnceLock<Box<[f64]>>; LAST + 1] = [const { OnceLock::new() }; LAST + 1];
     WEIGHTS[level].get_or_init(|| {
@@ -114,7 +114,7 @@ fn weights(level: usize) -> &'static [f64] {
 }
 
 impl IntervalSearch<'_> {
-    /// The integral of a formula that settles over cells that follow on each other without edges; none where so many times are not enough.
+    /// The integral of a formula that settles over cells that follow on each other without edges; `None` where so many times are not enough.
     pub(super) fn integrate_whole(&mut self, cells: &[Cell]) -> Option<Estimate> {
         let (first, last) = (cells.first()?, cells.last()?);
         let mut integral = SpectralIntegral::new([first.a.state.t, last.b.state.t]);

@@ -1,4 +1,4 @@
-//! States within a stretch of the motion, solved for where they are asked for.
+//! States within a segment of the motion, solved for where they are asked for.
 
 use super::sensitivities::Sensitivities;
 use crate::analysis::follow::{SelectedRows, SingleRow, SmoothSegment, quintic_between, state_of_row};
@@ -14,14 +14,14 @@ use std::sync::Arc;
 /// A solver of states between the ends of segments.
 pub(super) struct StateSampler {
     kinematics: Kinematics,
-    /// The equations that are solved, if they are others than those at the start.
+    /// The equations that are solved, if they differ from those at the start.
     chosen: Option<Arc<SelectedRows>>,
     /// The equations at the start, with their solver.
     first: (Kinematics, Option<Arc<Solver>>),
     solver: Option<(Arc<Solver>, SingleRow)>,
     curve: Vec<[f64; 6]>,
     delta: Vec<f64>,
-    /// By row of Φ, one over what may be left of it; of the stretch, once that has been asked for.
+    /// By row of Φ, one over what may be left of it; of the segment, once that has been asked for.
     bounds: Vec<f64>,
     has_bounds: bool,
     /// The first and the last time (s) of the bridge over a singular position, if the segment is one.
@@ -33,14 +33,14 @@ pub(super) struct StateSampler {
     is_plain: bool,
     /// The derivatives by inputs and parameters, if results need any.
     sensitivities: Option<Sensitivities>,
-    /// When the stretch begins (s), and what has been solved for, by that and by time: several formulas ask for the same.
+    /// When the segment begins (s), and what has been solved for, by that and by time: several formulas ask for the same.
     begins: f64,
     solved: FxHashMap<[u64; 2], Solved>,
-    /// Which of these has the multipliers that were found last; none where the kinematics have them.
+    /// The key of the state whose multipliers were found last; `None` if the kinematics have them.
     with_multipliers: Option<[u64; 2]>,
 }
 
-/// A state that was solved for, with its multipliers once somebody has asked for them.
+/// A solved state, with its multipliers once they have been requested.
 struct Solved {
     state: State,
     multipliers: Vec<f64>,
@@ -82,20 +82,20 @@ impl StateSampler {
         self.sensitivities.as_ref().map_or(0, Sensitivities::count)
     }
 
-    /// Goes over to a stretch.
-    pub fn enter(&mut self, stretch: &SmoothSegment) {
-        self.change_equations(stretch);
+    /// Enters a segment.
+    pub fn enter(&mut self, segment: &SmoothSegment) {
+        self.change_equations(segment);
         self.kinematics.freeze(true, true);
-        self.kinematics.set_switches(&stretch.switches);
+        self.kinematics.set_switches(&segment.switches);
         self.has_bounds = false;
-        self.begins = stretch.from.t;
-        self.bridge = stretch.bridge.as_ref().map_or([f64::NAN; 2], |bridge| [bridge.from.t, bridge.to.t]);
-        self.enter_where(&stretch.switches);
+        self.begins = segment.from.t;
+        self.bridge = segment.bridge.as_ref().map_or([f64::NAN; 2], |bridge| [bridge.from.t, bridge.to.t]);
+        self.enter_where(&segment.switches);
     }
 
-    /// Goes over to the equations that are solved in a stretch.
-    fn change_equations(&mut self, stretch: &SmoothSegment) {
-        let is_same = match (&self.chosen, &stretch.chosen) {
+    /// Switches to the equations of a segment.
+    fn change_equations(&mut self, segment: &SmoothSegment) {
+        let is_same = match (&self.chosen, &segment.chosen) {
             (Some(local), Some(other)) => Arc::ptr_eq(local, other),
             (None, None) => true,
             _ => false,
@@ -104,39 +104,39 @@ impl StateSampler {
             return;
         }
         let (first, solver) = self.first.clone();
-        let other = match &stretch.chosen {
+        let other = match &segment.chosen {
             Some(chosen) => {
                 let mut kinematics = chosen.kinematics(&first);
-                kinematics.restore(&stretch.from);
+                kinematics.restore(&segment.from);
                 kinematics.choose_orders();
                 StateSampler::new(kinematics, chosen.solver.clone())
             }
             None => StateSampler::new(first.clone(), solver.clone()),
         };
-        *self = StateSampler { chosen: stretch.chosen.clone(), first: (first, solver), ..other };
+        *self = StateSampler { chosen: segment.chosen.clone(), first: (first, solver), ..other };
     }
 
-    /// Goes over to where the switches of the equations have some results, for variations alone.
+    /// Sets the results of the equations' switches, for variations alone.
     pub fn enter_where(&mut self, switches: &[f64]) {
         if let Some(sensitivities) = &mut self.sensitivities {
             sensitivities.set_switches(switches);
         }
     }
 
-    /// Returns whether a time (s) lies on the way over a singular position, in the stretch that was entered last.
+    /// Returns whether a time (s) lies on the bridge over a singular position, in the segment that was entered last.
     pub fn is_on_bridge(&self, t: f64) -> bool {
         let [from, to] = self.bridge;
         from <= t && t <= to
     }
 
-    /// Finds the variations at a state of the stretch.
+    /// Finds the variations at a state of the segment.
     pub fn vary(&mut self, state: &State) {
         if let Some(sensitivities) = &mut self.sensitivities {
             sensitivities.solve_at(state);
         }
     }
 
-    /// Finds the multipliers at a state of the stretch.
+    /// Finds the multipliers at a state of the segment.
     pub fn find_multipliers(&mut self, state: &State) {
         let key = self.key(state.t);
         let known = self.solved.get_mut(&key).filter(|solved| solved.state == *state);
@@ -161,7 +161,7 @@ impl StateSampler {
         [self.begins, t].map(f64::to_bits)
     }
 
-    /// A row of the equations at the start among those that are solved; none where it is left out.
+    /// A row of the equations at the start among those that are solved; `None` where it is left out.
     fn row(&self, row: usize) -> Option<usize> {
         let first = self.first.0.determined();
         self.chosen.as_ref().map_or(Some(row), |chosen| chosen.row_in_place_of(row, &first))
@@ -192,12 +192,12 @@ impl StateSampler {
         self.signal_count > 0
     }
 
-    /// A state within a stretch that is not what both its ends tell; none if it is.
-    pub fn unlike(&mut self, stretch: &SmoothSegment) -> Option<State> {
-        let SmoothSegment { from, to, bridge: None, .. } = stretch else { return None };
+    /// Returns a state within a segment that differs from what both ends predict, or `None` if there is none.
+    pub fn unlike(&mut self, segment: &SmoothSegment) -> Option<State> {
+        let SmoothSegment { from, to, bridge: None, .. } = segment else { return None };
         let h = to.t - from.t;
-        self.enter(stretch);
-        let within = self.solve(stretch, [from, to], from.t + WITHIN * h)?;
+        self.enter(segment);
+        let within = self.solve(segment, [from, to], from.t + WITHIN * h)?;
         let x = (within.t - from.t) / h;
         let is_unlike = |k: usize| {
             let (a, b) = (from.tower(k), to.tower(k));
@@ -210,13 +210,13 @@ impl StateSampler {
         (0..within.q.len()).any(is_unlike).then_some(within)
     }
 
-    /// The state at a time (s) between two states of a stretch; none where it cannot be solved for.
-    pub fn solve(&mut self, stretch: &SmoothSegment, [a, b]: [&State; 2], t: f64) -> Option<State> {
-        if let Some(bridge) = stretch.bridge.as_ref().filter(|bridge| t > bridge.from.t) {
+    /// The state at a time (s) between two states of a segment; `None` where it cannot be solved for.
+    pub fn solve(&mut self, segment: &SmoothSegment, [a, b]: [&State; 2], t: f64) -> Option<State> {
+        if let Some(bridge) = segment.bridge.as_ref().filter(|bridge| t > bridge.from.t) {
             let on_bridge = bridge.best_state_at(t);
             return self.solve_from(on_bridge.clone(), Some(SOLVABLE)).or(Some(on_bridge));
         }
-        if let Some(state) = self.solve_exactly(stretch, [a, b], t) {
+        if let Some(state) = self.solve_exactly(segment, [a, b], t) {
             return Some(state);
         }
         let h = b.t - a.t;
@@ -228,8 +228,8 @@ impl StateSampler {
         self.solve_from(state, None)
     }
 
-    /// As [`StateSampler::solve`], with the bits that rows have there; none where that cannot be had.
-    pub fn solve_exactly(&mut self, stretch: &SmoothSegment, [a, b]: [&State; 2], t: f64) -> Option<State> {
+    /// As [`StateSampler::solve`], with the bits that rows have there; `None` where that cannot be had.
+    pub fn solve_exactly(&mut self, segment: &SmoothSegment, [a, b]: [&State; 2], t: f64) -> Option<State> {
         let key = self.key(t);
         if let Some(known) = self.solved.get(&key) {
             return Some(known.state.clone());
@@ -238,7 +238,7 @@ impl StateSampler {
         for (k, curve) in self.curve.iter_mut().enumerate() {
             *curve = quintic_between(a, b, k, h);
         }
-        let state = self.solve_by_lanes(stretch, a, (t, h))?;
+        let state = self.solve_by_lanes(segment, a, (t, h))?;
         if self.solved.len() * (1 + state.q.len()) > NUMBERS {
             self.solved.clear();
         }
@@ -251,10 +251,10 @@ impl StateSampler {
         self.is_plain
     }
 
-    /// The state at a time (s) that is a little beside that of a state of the stretch, as rows have it: its bits depend on the time alone, and
-    /// not on the way that led there. None where the equations are not smooth everywhere, or where it cannot be had.
-    pub fn settled(&mut self, stretch: &SmoothSegment, near: &State, t: f64) -> Option<State> {
-        if !self.is_plain || stretch.bridge.is_some() {
+    /// The state at a time (s) that is a little beside that of a state of the segment, as rows have it: its bits depend on the time alone, and
+    /// not on the path that led there. `None` where the equations are not smooth everywhere, or where it cannot be had.
+    pub fn settled(&mut self, segment: &SmoothSegment, near: &State, t: f64) -> Option<State> {
+        if !self.is_plain || segment.bridge.is_some() {
             return None;
         }
         // the curve is a parabola, so that its length says nothing
@@ -262,13 +262,13 @@ impl StateSampler {
         for (k, curve) in self.curve.iter_mut().enumerate() {
             *curve = [near.q[k], near.qd[k] * h, 0.5 * near.qdd[k] * h * h, 0.0, 0.0, 0.0];
         }
-        self.solve_by_lanes(stretch, near, (t, h))
+        self.solve_by_lanes(segment, near, (t, h))
     }
 
-    /// The state at a time (s) of the stretch, from the curve that leads on from one in a time `h` (s); none where it does not hold.
-    fn solve_by_lanes(&mut self, stretch: &SmoothSegment, from: &State, (t, h): (f64, f64)) -> Option<State> {
+    /// The state at a time (s) of the segment, from the curve that leads on from one in a time `h` (s); `None` where it does not hold.
+    fn solve_by_lanes(&mut self, segment: &SmoothSegment, from: &State, (t, h): (f64, f64)) -> Option<State> {
         if !self.has_bounds {
-            self.kinematics.restore(&stretch.from);
+            self.kinematics.restore(&segment.from);
             self.kinematics.write_bounds(&mut self.bounds);
             self.has_bounds = true;
         }
@@ -280,7 +280,7 @@ impl StateSampler {
         (holds && is_finite).then(|| state_of_row(layout, alone.row(), from, t))
     }
 
-    /// Newton from a position; none where it does not arrive, or is nearer to a singular position than a limit.
+    /// Newton from a position; `None` where it does not arrive, or is nearer to a singular position than a limit.
     fn solve_from(&mut self, mut state: State, limit: Option<f64>) -> Option<State> {
         self.kinematics.set_time(state.t);
         self.kinematics.set_position(&state.q).ok()?;

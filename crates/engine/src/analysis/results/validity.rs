@@ -1,4 +1,4 @@
-//! Whether numbers found near a singular position are worth as much as rows are: where a row would be refused, no result is told.
+//! Whether numbers found near a singular position are worth as much as rows are: where a row would be refused, no result is reported.
 
 use super::ResultQuery;
 use super::curve::Estimate;
@@ -10,45 +10,45 @@ use mechc_ir::ReductionKind;
 
 /// The time intervals (s), in order, in which the motion is not clear of singular positions.
 pub(super) struct SingularIntervals {
-    stretches: Vec<[f64; 2]>,
+    intervals: Vec<[f64; 2]>,
     was_clear: bool,
 }
 
 impl SingularIntervals {
     /// No intervals yet.
     pub fn new() -> SingularIntervals {
-        SingularIntervals { stretches: Vec::new(), was_clear: true }
+        SingularIntervals { intervals: Vec::new(), was_clear: true }
     }
 
-    /// Takes note of a stretch that the motion has just gone over.
-    pub fn take_note(&mut self, stretch: &SmoothSegment, motion: &Follower) {
+    /// Records a segment that the motion has just gone over.
+    pub fn take_note(&mut self, segment: &SmoothSegment, motion: &Follower) {
         let is_clear = motion.was_clear_here();
-        if !(is_clear && self.was_clear && stretch.bridge.is_none()) {
-            self.stretches.push([stretch.from.t, stretch.to.t]);
+        if !(is_clear && self.was_clear && segment.bridge.is_none()) {
+            self.intervals.push([segment.from.t, segment.to.t]);
         }
         self.was_clear = is_clear;
     }
 
     /// Returns whether the motion is clear of singular positions all over.
     pub fn is_clear(&self) -> bool {
-        self.stretches.is_empty()
+        self.intervals.is_empty()
     }
 
     fn holds(&self, t: f64) -> bool {
-        let behind = self.stretches.partition_point(|[_, to]| *to < t);
-        self.stretches.get(behind).is_some_and(|[from, _]| *from <= t)
+        let behind = self.intervals.partition_point(|[_, to]| *to < t);
+        self.intervals.get(behind).is_some_and(|[from, _]| *from <= t)
     }
 
-    /// The ends of these stretches (s), in order.
+    /// Returns the ends of these intervals (s), in order.
     fn ends(&self) -> Vec<f64> {
-        let mut ends = self.stretches.as_flattened().to_vec();
+        let mut ends = self.intervals.as_flattened().to_vec();
         ends.dedup_by(|a, b| a.total_cmp(b).is_eq());
         ends
     }
 }
 
 impl ResultQuery {
-    /// What was found of a formula, or why that is nothing, where it can be trusted as the rows at the times that it is of.
+    /// Returns the estimate of a reduction, or why it has no value, if it is as reliable as the rows at its times.
     pub(super) fn certain(
         &self,
         of: &FormulaReductions,
@@ -67,7 +67,7 @@ impl ResultQuery {
         }
     }
 
-    /// Returns whether what was found of a formula can be trusted as the rows at the times that it is of.
+    /// Checks that an estimate is as reliable as the rows at its times.
     ///
     /// # Errors
     /// Fails where a row would be refused.
