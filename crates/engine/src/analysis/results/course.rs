@@ -115,8 +115,8 @@ impl Course<'_> {
     }
 }
 
-/// What there may be between two steps of a length that comes too near to zero, where it has a kink. Its square has none: where that is near zero
-/// its second derivative tells how fast what it is the length of goes.
+/// Returns an upper bound in a cell of a length that comes too near to its kink at zero. Its square has no kink: near zero its second derivative
+/// shows the speed.
 fn kink([a, b]: [Tower; 2], [from, to]: [f64; 2]) -> Option<Cell> {
     let h = to - from;
     let fastest = (b[0] * b[1] - a[0] * a[1]) / h;

@@ -26,7 +26,7 @@ const VARIED_ORDERS: u32 = 3;
 pub(super) struct Curve {
     program: Program,
     registers: Registers,
-    /// Where the formula and its time derivatives are left, as many as are known; and the operations that these, and the loads, follow from.
+    /// The registers of the formula and its known time derivatives; and the operations behind these and the loads.
     roots: Vec<Register>,
     operations: Vec<Op>,
     /// Ranges of the formula, of the loads behind it, of the arguments of guards with their slopes, and of the formula's time derivatives.
@@ -34,9 +34,9 @@ pub(super) struct Curve {
     /// The number of the first time derivative among these.
     first: usize,
     guards: Vec<Guard>,
-    /// What moves of all that the formula or its derivatives hold.
+    /// The moving quantities in the formula and its derivatives.
     moving: Vec<Moving>,
-    /// What of it stands behind the coordinates of the system, of which there are so many.
+    /// The smooth parts of the formula, which follow the `coordinates` coordinates of the system.
     smooth: Smooth,
     coordinates: usize,
     has_jerk: bool,
@@ -47,10 +47,10 @@ pub(super) struct Curve {
     short: f64,
     /// The loads that the forces in the formula come from.
     loads: Loads,
-    /// How large what moves is, and how large the guards' arguments are at the ends of steps.
+    /// The magnitudes of the moving quantities, and those of the guards' arguments at the ends of steps.
     sizes: Magnitudes,
     largest_arguments: Vec<f64>,
-    /// How often it has been computed.
+    /// The number of evaluations.
     looks: usize,
 }
 
@@ -134,7 +134,7 @@ pub(super) struct Point {
     pub sample: Sampled,
     /// The difference (s) between the intended time and this one, and that of the values.
     pub shift: Shift,
-    /// How far (s) from here the guard that crosses its threshold beside may do so as well.
+    /// The error bound (s) of the time at which the guard crosses its threshold near this point.
     pub crossing_error: f64,
 }
 
@@ -167,16 +167,16 @@ impl Point {
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(super) struct Estimate {
     pub value: f64,
-    pub off: f64,
+    pub error: f64,
 }
 
 impl Estimate {
     /// No value.
-    pub const NOTHING: Estimate = Estimate { value: f64::NAN, off: f64::INFINITY };
+    pub const NOTHING: Estimate = Estimate { value: f64::NAN, error: f64::INFINITY };
 
     /// Returns the number of certain significant digits; 0 if the value cannot be told from zero.
     pub fn certain_digits(self) -> u32 {
-        let part = self.off / self.value.abs();
+        let part = self.error / self.value.abs();
         if part.is_nan() {
             return 0;
         }
@@ -492,13 +492,13 @@ impl Curve {
             }
         }
         let Range { low, high, .. } = self.ranges.range(&self.program, &self.registers, 0);
-        let off = 0.5 * (high - low) + point.shift.value;
-        if off.is_nan() { f64::INFINITY } else { off }
+        let error = 0.5 * (high - low) + point.shift.value;
+        if error.is_nan() { f64::INFINITY } else { error }
     }
 
     /// Returns the value at a point, with its error bound.
     pub fn estimate(&mut self, point: &Point) -> Estimate {
-        Estimate { value: point.sample.value, off: self.uncertainty(point) }
+        Estimate { value: point.sample.value, error: self.uncertainty(point) }
     }
 
     /// Returns whether rounding alone decides at a point on which side of its threshold a guard is.
@@ -709,12 +709,12 @@ impl Curve {
         let less = f64::min(LESS * part * part, 1.0);
         let of = |(k, of): (usize, &Moving)| {
             let (a, b) = (&cell.a.moving[k], &cell.b.moving[k]);
-            let off = |order: usize| ((b[order - 1] - a[order - 1]) / h - 0.5 * (a[order] + b[order])).abs();
+            let error = |order: usize| ((b[order - 1] - a[order - 1]) / h - 0.5 * (a[order] + b[order])).abs();
             let bends = match self.orders(*of) {
                 [from, to] if from == to => return known(k),
-                [2, _] => [h * (0.125 * (b[3] - a[3]).abs() + off(3)), 2.0 * off(3)],
-                [_, 3] => [off(2) + h * (0.125 * (b[3] - a[3]).abs() + off(3)), 2.0 * off(3)],
-                _ => [2.0 * off(2), 0.0],
+                [2, _] => [h * (0.125 * (b[3] - a[3]).abs() + error(3)), 2.0 * error(3)],
+                [_, 3] => [error(2) + h * (0.125 * (b[3] - a[3]).abs() + error(3)), 2.0 * error(3)],
+                _ => [2.0 * error(2), 0.0],
             };
             [0, 1].map(|order| f64::min(bends[order], if less > 0.0 { less * known(k)[order] } else { f64::INFINITY }))
         };
@@ -726,13 +726,13 @@ impl Curve {
     fn bends_at(&self, cell: &Cell, at: &Point) -> Rc<[[f64; 2]]> {
         let (a, b) = (&*cell.a, &*cell.b);
         let x = (at.state.t - a.state.t) / (b.state.t - a.state.t);
-        let off = |of: &dyn Fn(&Point) -> f64| (of(at) - (1.0 - x) * of(a) - x * of(b)).abs();
+        let error = |of: &dyn Fn(&Point) -> f64| (of(at) - (1.0 - x) * of(a) - x * of(b)).abs();
         let of_moving = |(k, of): (usize, &Moving)| match self.orders(*of) {
-            [order, to] if order == to => [off(&|point: &Point| point.moving[k][order]); 2],
+            [order, to] if order == to => [error(&|point: &Point| point.moving[k][order]); 2],
             _ => cell.bends.as_ref().map_or([f64::INFINITY; 2], |bends| bends[k]),
         };
-        let local = [off(&|point: &Point| point.sample.value); 2];
-        let of_loads = (0..self.loads.count()).map(|k| [off(&|point: &Point| point.loads[k]); 2]);
+        let local = [error(&|point: &Point| point.sample.value); 2];
+        let of_loads = (0..self.loads.count()).map(|k| [error(&|point: &Point| point.loads[k]); 2]);
         self.moving.iter().enumerate().map(of_moving).chain([local]).chain(of_loads).collect()
     }
 
@@ -780,7 +780,7 @@ fn is_known(graph: &Graph, formula: ExprId, has_jerk: bool) -> bool {
     !dependence.on(Dependence::FORCES) && (has_jerk || dependence.highest_order() != Some(3))
 }
 
-/// Of what shape a formula over coordinates of a system is, behind which further smooth ones stand.
+/// Returns the shape of a formula over the coordinates of a system and further smooth ones.
 fn shape(graph: &Graph, formula: ExprId, system: &ConstraintSystem) -> Shape {
     let moving = |id: ExprId| match graph.node(id) {
         Node::Symbol(Symbol::Coordinate { index, .. }) => Some(index as usize),

@@ -26,9 +26,9 @@ pub(super) struct Extremum {
     sign: f64,
     /// True if its time is asked for.
     is_timed: bool,
-    /// What the largest value is at least, times the sign: of what is off by more than others less counts.
+    /// A lower bound of the largest value, times the sign.
     best: f64,
-    /// The value that this is known of, times the sign, how far off it may be, and its time (s).
+    /// The estimate behind this bound, and its time (s).
     best_estimate: Estimate,
     best_at: f64,
     /// The candidates: extrema, edges and ends, with their values times the sign.
@@ -39,7 +39,7 @@ pub(super) struct Extremum {
     unbounded: Option<f64>,
     /// True if it is bounded as far as ranges tell.
     is_bounded: bool,
-    /// How much larger it may be than what was found, where not all could be looked at.
+    /// A bound of how far the extremum may exceed the best value, if the search was not finished.
     unknown: f64,
 }
 
@@ -50,7 +50,7 @@ struct Candidate {
     time_error: f64,
     value: f64,
     /// A bound of the error of the value.
-    off: f64,
+    error: f64,
     /// A lower bound of the value.
     least: f64,
     kind: CandidateKind,
@@ -59,12 +59,12 @@ struct Candidate {
 impl Candidate {
     /// Returns whether the value is more than rounding.
     fn is_known(&self, scale: Scale) -> bool {
-        self.off <= scale.gap(APART)
+        self.error <= scale.gap(APART)
     }
 
     /// Returns an upper bound of the value; if the value may be rounding, its lower bound.
     fn most(&self, scale: Scale) -> f64 {
-        if self.is_known(scale) { self.value + self.off } else { self.least }
+        if self.is_known(scale) { self.value + self.error } else { self.least }
     }
 }
 
@@ -138,22 +138,22 @@ impl Extremum {
 
     /// Records a value at a time (s).
     fn record(&mut self, t: f64, found: Estimate) {
-        if self.sign * found.value - found.off > self.best {
-            (self.best, self.best_estimate, self.best_at) = (self.sign * found.value - found.off, found, t);
+        if self.sign * found.value - found.error > self.best {
+            (self.best, self.best_estimate, self.best_at) = (self.sign * found.value - found.error, found, t);
         }
     }
 
     /// Records an edge or an end, at a time (s).
-    pub fn note_edge(&mut self, at: Estimate, Estimate { value, off }: Estimate, scale: Scale) {
-        let (value, t, time_error) = (self.sign * value, at.value, at.off);
-        self.add(Candidate { t, time_error, value, off, least: value - off, kind: CandidateKind::Edge }, scale);
+    pub fn note_edge(&mut self, at: Estimate, Estimate { value, error }: Estimate, scale: Scale) {
+        let (value, t, time_error) = (self.sign * value, at.value, at.error);
+        self.add(Candidate { t, time_error, value, error, least: value - error, kind: CandidateKind::Edge }, scale);
     }
 
     fn add(&mut self, found: Candidate, scale: Scale) {
         if !found.value.is_finite() {
             return;
         }
-        self.record(found.t, Estimate { value: self.sign * found.value, off: found.value - found.least });
+        self.record(found.t, Estimate { value: self.sign * found.value, error: found.value - found.least });
         if found.most(scale) < self.best - scale.alike() {
             return;
         }
@@ -206,10 +206,10 @@ impl Extremum {
         let candidate = known.max_by(|a, b| a.value.total_cmp(&b.value));
         match candidate {
             Some(candidate) if self.best <= candidate.most(scale) + scale.gap(GAP) => {
-                Estimate { value: self.sign * candidate.value, off: candidate.off.max(self.unknown) }
+                Estimate { value: self.sign * candidate.value, error: candidate.error.max(self.unknown) }
             }
             _ => Estimate {
-                off: self.best_estimate.off.max(scale.gap(GAP_OF_VALUES)).max(self.unknown),
+                error: self.best_estimate.error.max(scale.gap(GAP_OF_VALUES)).max(self.unknown),
                 ..self.best_estimate
             },
         }
@@ -217,7 +217,7 @@ impl Extremum {
 
     /// Returns its first time (s).
     pub fn time(&self, scale: Scale) -> Estimate {
-        let found = |t: f64, part: f64| Estimate { value: t, off: part * scale.span };
+        let found = |t: f64, part: f64| Estimate { value: t, error: part * scale.span };
         let Some(first) = self.first(scale) else { return found(self.best_at, TIMES_OF_VALUES) };
         let is_it = |next: &&Candidate| {
             let beside = if first.kind == CandidateKind::Turn { BESIDE } else { FACTOR * SHORTEST };
@@ -227,7 +227,7 @@ impl Extremum {
         let candidate = self.alike(scale).find(is_it).unwrap_or(&first);
         match candidate.kind {
             CandidateKind::Edge => {
-                Estimate { value: candidate.t, off: f64::max(SHORTEST * scale.span, candidate.time_error) }
+                Estimate { value: candidate.t, error: f64::max(SHORTEST * scale.span, candidate.time_error) }
             }
             CandidateKind::Turn => found(candidate.t, TIMES),
             CandidateKind::Sample => found(candidate.t, TIMES_OF_VALUES),
@@ -249,12 +249,12 @@ impl Extremum {
         earliest(true).or_else(|| earliest(false))
     }
 
-    /// How far values usually are from the largest one: what is a difference goes by that, and not by what a pole in the other direction makes
-    /// of a few.
+    /// Returns the median distance of values from the largest one, which a pole in the other direction does not distort.
     fn spread(&self, samples: &[Estimate], rounding: f64) -> f64 {
-        let off = |found: &Estimate| ((self.best - self.sign * found.value).abs(), found.off.max(rounding));
-        let different = samples.iter().map(off).filter(|(off, rounding)| off > rounding && off.is_finite());
-        median(different.map(|(off, _)| off).collect())
+        let distance = |found: &Estimate| ((self.best - self.sign * found.value).abs(), found.error.max(rounding));
+        let different =
+            samples.iter().map(distance).filter(|(distance, rounding)| distance > rounding && distance.is_finite());
+        median(different.map(|(distance, _)| distance).collect())
     }
 }
 
@@ -396,8 +396,8 @@ impl IntervalSearch<'_> {
                 let Some(halves) = self.halve(cell) else { return };
                 if cell.length() <= self.short && halves[0].b.exists() {
                     // where rounding alone makes it as large, nothing is found by cutting on
-                    let off = self.curve.uncertainty(&halves[0].b);
-                    if off >= 0.5 * (open.upper - extremum.best) {
+                    let error = self.curve.uncertainty(&halves[0].b);
+                    if error >= 0.5 * (open.upper - extremum.best) {
                         self.close(cell, open.range, extremum, scale);
                         return;
                     }
@@ -436,15 +436,15 @@ impl IntervalSearch<'_> {
             if goes_on && step <= scale.gap(GAP) {
                 extremum.record(point.state.t, found);
             } else {
-                let off = cell.length().max(point.shift.time).max(point.crossing_error);
-                extremum.note_edge(Estimate { value: point.state.t, off }, found, scale);
+                let error = cell.length().max(point.shift.time).max(point.crossing_error);
+                extremum.note_edge(Estimate { value: point.state.t, error }, found, scale);
             }
         }
         for value in self.curve.between_points(&cell.a, &cell.b) {
             if sign * value >= extremum.best - scale.alike() && self.goes_to(value, cell, scale) {
-                let off = cell.length().max(cell.b.shift.time).max(cell.b.crossing_error);
-                let at = Estimate { value: cell.b.state.t, off };
-                extremum.note_edge(at, Estimate { value, off: KNOWN * value.abs() }, scale);
+                let error = cell.length().max(cell.b.shift.time).max(cell.b.crossing_error);
+                let at = Estimate { value: cell.b.state.t, error };
+                extremum.note_edge(at, Estimate { value, error: KNOWN * value.abs() }, scale);
             }
         }
         // it may end where it has become too large
@@ -460,7 +460,7 @@ impl IntervalSearch<'_> {
         [(&cell.a, -1.0), (&cell.b, 1.0)].into_iter().any(|(point, direction)| {
             self.samples_near(cell.step, point, (direction, cell.length()), scale).is_some_and(|[near, far, _]| {
                 let [left, before] = [near, far].map(|found| (found.value - value).abs());
-                left <= CONVERGES * before + near.off + far.off
+                left <= CONVERGES * before + near.error + far.error
             })
         })
     }
@@ -472,10 +472,11 @@ impl IntervalSearch<'_> {
             let Some(candidates) = self.samples_near(cell.step, point, (direction, cell.length()), scale) else {
                 continue;
             };
-            let gain = |near: Estimate, far: Estimate| (extremum.sign * (near.value - far.value), near.off + far.off);
-            let ((last, off), (before, off_before)) =
+            let gain =
+                |near: Estimate, far: Estimate| (extremum.sign * (near.value - far.value), near.error + far.error);
+            let ((last, error), (before, error_before)) =
                 (gain(candidates[0], candidates[1]), gain(candidates[1], candidates[2]));
-            if before > off_before && off <= before && last + off >= CONVERGES * before {
+            if before > error_before && error <= before && last + error >= CONVERGES * before {
                 extremum.unbounded = Some(cell.b.state.t);
             }
         }
@@ -569,12 +570,14 @@ impl IntervalSearch<'_> {
 
     /// Records a turn at a time (s), near a point.
     fn note_turn(&mut self, cell: &Cell, near: &Point, t: f64, extremum: &mut Extremum, scale: Scale) {
-        let off = self.curve.uncertainty(near);
+        let error = self.curve.uncertainty(near);
         let settled = self.settled_turn(cell.step, &near.state, t, scale.span);
         let [t, value] = settled.unwrap_or([t, near.sample.value]);
         let value = extremum.sign * value;
-        extremum
-            .add(Candidate { t, time_error: 0.0, value, off, least: value - off, kind: CandidateKind::Turn }, scale);
+        extremum.add(
+            Candidate { t, time_error: 0.0, value, error, least: value - error, kind: CandidateKind::Turn },
+            scale,
+        );
     }
 
     /// The time (s) and the value of a turn that is near a state and a time, as they are whichever path led there; `None` where it does not settle, or
@@ -614,10 +617,10 @@ impl IntervalSearch<'_> {
         let is_small = upper <= f64::max(a, b).min(extremum.best) + scale.gap(GAP_OF_VALUES);
         if is_small && f64::max(a, b) >= extremum.best - scale.alike() {
             let (point, value) = if b > a { (&cell.b, b) } else { (&cell.a, a) };
-            let off = scale.gap(GAP_OF_VALUES);
+            let error = scale.gap(GAP_OF_VALUES);
             let t = point.state.t;
             extremum
-                .add(Candidate { t, time_error: 0.0, value, off, least: value, kind: CandidateKind::Sample }, scale);
+                .add(Candidate { t, time_error: 0.0, value, error, least: value, kind: CandidateKind::Sample }, scale);
             if let Some(top) = self.top_beside(cell, point, extremum.sign, scale) {
                 extremum.add(top, scale);
             }
@@ -643,19 +646,19 @@ impl IntervalSearch<'_> {
                 }
                 break;
             }
-            let off = -rise / bend;
-            if off.abs() > FARTHEST {
+            let offset = -rise / bend;
+            if offset.abs() > FARTHEST {
                 return None;
             }
-            t = (center + off * h).clamp(from, to);
+            t = (center + offset * h).clamp(from, to);
             if apart <= finest {
                 break;
             }
             apart = finest.max(CLOSER * apart);
         }
         let [value] = self.values_at(cell.step, [t], sign)?;
-        let off = scale.gap(GAP_OF_VALUES);
-        Some(Candidate { t, time_error: 0.0, value, off, least: value, kind: CandidateKind::Turn })
+        let error = scale.gap(GAP_OF_VALUES);
+        Some(Candidate { t, time_error: 0.0, value, error, least: value, kind: CandidateKind::Turn })
     }
 
     /// The formula at some times (s) of a step, times the sign.

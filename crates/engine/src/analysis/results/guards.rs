@@ -15,7 +15,7 @@ use std::f64::consts::PI;
 #[derive(Clone, Debug)]
 pub(super) struct Guard {
     kind: Kind,
-    /// Of a choice: the comparisons of the same two registers that derivatives hold, and the side on which each is true.
+    /// The comparisons of the registers of a choice that derivatives contain, and the side on which each is true.
     comparisons: Vec<(Register, f64)>,
     /// True if a function has no value on one side: below zero, or beyond −1 and 1.
     ends: bool,

@@ -220,7 +220,7 @@ impl<'r> IntervalSearch<'r> {
                 *found = self.curve.estimate(&there);
                 distance *= FACTOR;
             }
-            if found[0].off <= scale.gap(RELIABLE).max(RELIABLE * found[0].value.abs()) {
+            if found[0].error <= scale.gap(RELIABLE).max(RELIABLE * found[0].value.abs()) {
                 return Some(found);
             }
             far *= FACTOR;
@@ -252,7 +252,7 @@ impl<'r> IntervalSearch<'r> {
         self.sampler.settled(&self.steps[step], near, t)
     }
 
-    /// What is known of the formula in a cell; nothing where the states at its ends do not tell the motion between.
+    /// Classifies and encloses the formula in a cell; open if the states at its ends do not determine the motion between.
     pub fn enclose(&mut self, cell: &mut Cell) -> (Verdict, Range) {
         self.enter(cell.step);
         self.notes.cells += 1;
@@ -378,24 +378,24 @@ impl<'r> IntervalSearch<'r> {
         Some([part(&cell.a, &before), part(&before, &behind), part(&behind, &cell.b)])
     }
 
-    /// How far (s) from a point beside a crossing the guard may cross its threshold as well, before (−1) or behind it (1): rounding of its argument
-    /// beside how fast that changes.
+    /// Returns the error bound (s) of a crossing near a point, before (−1) or behind it (1): the rounding of the guard's argument divided by its
+    /// rate.
     fn crossing_error(&mut self, step: usize, guard: usize, end: &Point, direction: f64) -> f64 {
-        let off = self.curve.rounding_of_argument(guard, end);
+        let error = self.curve.rounding_of_argument(guard, end);
         let mut width = FACTOR * FACTOR * self.shortest;
         while width <= self.short {
             let Some(there) = self.point_near(step, end.state.t + direction * width) else { break };
             let change = (there.argument(guard) - end.argument(guard)).abs();
-            if change >= FACTOR * off {
-                return width * off / change;
+            if change >= FACTOR * error {
+                return width * error / change;
             }
             width *= FACTOR;
         }
         f64::INFINITY
     }
 
-    /// Where the formula has a value on one side alone of a crossing, and has one again farther on: rounding may have hidden it there, and what it goes
-    /// to is known no better than it changes over as long as that.
+    /// Widens the error bound of a crossing with a value on one side only and a value again farther on: rounding may have hidden it there, so its
+    /// limit is known no better than it changes over that distance.
     fn record_hole(&mut self, step: usize, [before, behind]: [&mut Rc<Point>; 2]) {
         let (known, missing) = match [before.exists(), behind.exists()] {
             [true, false] => (before, &*behind),

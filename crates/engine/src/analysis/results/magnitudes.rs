@@ -70,8 +70,8 @@ impl Magnitudes {
         self.of_all = of_all;
     }
 
-    /// Of each one at a state, given with its derivatives by their orders, the intervals that they are in, if they are off by such parts of the
-    /// largest: values and their derivatives.
+    /// Returns, for each quantity, the intervals of its value and derivatives at a state, if their errors are these parts of the largest
+    /// magnitudes.
     pub fn around<'s>(
         &'s self,
         towers: impl IntoIterator<Item = [f64; 4]> + 's,

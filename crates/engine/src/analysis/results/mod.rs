@@ -100,8 +100,8 @@ impl Answers {
 }
 
 impl Started {
-    /// What is needed to compute the results of an analysis from one time to another (s), the first of which it is assembled
-    /// at; `pass` goes on beyond bifurcations. The flag ends the work.
+    /// Returns the query of results over an interval (s), at the start of which the mechanism is assembled; `pass` continues beyond
+    /// bifurcations. `cancel` ends the work.
     #[must_use]
     pub fn asked(&self, interval: [f64; 2], pass: bool, cancel: &Cancel) -> ResultQuery {
         let (kinematics, state, solver) = self.parts();
@@ -306,25 +306,25 @@ impl Analysis {
         self.value_with(formula, unknown_is_false, (usize::MAX, 0.0))
     }
 
-    /// Returns the value of a formula with the reduction `off` moved by `times` times its error bound.
-    fn value_with(&self, formula: ExprId, unknown_is_false: bool, (off, times): (usize, f64)) -> f64 {
+    /// Returns the value of a formula with the reduction `varied` moved by `times` times its error bound.
+    fn value_with(&self, formula: ExprId, unknown_is_false: bool, (varied, times): (usize, f64)) -> f64 {
         let system = self.system();
         let found = |k: usize| {
             let found = self.estimates[k].and_then(Result::ok).unwrap_or(Estimate::NOTHING);
-            found.value + if k == off { times * found.off } else { 0.0 }
+            found.value + if k == varied { times * found.error } else { 0.0 }
         };
         value_of(system.graph(), (formula, unknown_is_false), |k| system.params()[k as usize].value, found)
     }
 
-    /// The value of an outcome, and how far off it may be, by how far off each reduction in it may be; not a number where one that cannot be told
-    /// from zero is divided by.
+    /// Returns the estimate of an outcome, with an error bound from those of its reductions; no value if it divides by a reduction that cannot be
+    /// told from zero.
     fn estimate(&self, outcome: &Outcome, needed: &[usize]) -> Estimate {
         let (formula, is_false) = (outcome.value, outcome.unknown_is_false);
         let value = self.value(formula, is_false);
-        let mut off = 0.0;
+        let mut error = 0.0;
         for &k in needed {
             let [more, less] = [1.0, -1.0].map(|times| self.value_with(formula, is_false, (k, times)) - value);
-            off += f64::max(more.abs(), less.abs());
+            error += f64::max(more.abs(), less.abs());
             let is_of_time = matches!(self.system().results().reductions[k].kind, ReductionKind::At(_));
             let is_bent = (more + less).abs() > 0.5 * (more - less).abs();
             // whichever way it is off: what goes to one side alone is another branch
@@ -332,7 +332,7 @@ impl Analysis {
                 return Estimate::NOTHING;
             }
         }
-        Estimate { value, off }
+        Estimate { value, error }
     }
 
     fn answers(&self) -> Answers {
@@ -403,8 +403,8 @@ fn cut_where_unlike(steps: Vec<SmoothSegment>, sampler: &mut StateSampler) -> Ve
     found
 }
 
-/// The formulas of some reductions with what they are over, each once, and which is whose; with the reductions that they hold, as far as these are known, and over so
-/// many variations.
+/// Returns the distinct formulas of some reductions with their windows, and the index of each reduction's formula. Reductions that a formula
+/// contains are replaced by their values as far as these are known.
 fn curves<W: Copy + PartialEq>(
     system: &ConstraintSystem,
     requests: &[(ExprId, W)],

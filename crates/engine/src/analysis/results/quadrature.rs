@@ -27,7 +27,7 @@ const MIDDLE: f64 = 16.0 / 35.0;
 pub(super) struct Integral {
     sum: f64,
     /// A bound of its error.
-    off: f64,
+    error: f64,
     /// The time (s) during which the formula has a value.
     time: f64,
     /// The time (s) without a value that rounding may have hidden.
@@ -52,7 +52,10 @@ impl Integral {
     /// The integral, and how far off it may be.
     pub fn estimate(&self) -> Estimate {
         let hidden = if self.hidden > 0.0 { self.hidden / self.time } else { 0.0 };
-        Estimate { value: self.sum, off: self.off + (ROUNDING + hidden) * (self.size + (self.usual * self.time).abs()) }
+        Estimate {
+            value: self.sum,
+            error: self.error + (ROUNDING + hidden) * (self.size + (self.usual * self.time).abs()),
+        }
     }
 
     /// Returns the time (s) during which the formula has a value.
@@ -83,13 +86,13 @@ impl Integral {
 
     /// One that is known, over some time (s).
     pub fn from_estimate(found: Estimate, time: f64) -> Integral {
-        Integral { sum: found.value, off: found.off, time, ..Integral::default() }
+        Integral { sum: found.value, error: found.error, time, ..Integral::default() }
     }
 
-    fn add(&mut self, sum: f64, off: f64, time: f64) {
+    fn add(&mut self, sum: f64, error: f64, time: f64) {
         self.sum += sum;
         self.size += (sum - self.usual * time).abs();
-        self.off += off;
+        self.error += error;
         self.time += time;
     }
 }
@@ -101,7 +104,7 @@ struct Part {
     from: f64,
     length: f64,
     found: f64,
-    off: f64,
+    error: f64,
 }
 
 impl PartialEq for Part {
@@ -121,7 +124,7 @@ impl PartialOrd for Part {
 impl Ord for Part {
     /// Orders parts by their error bounds; of equal ones the earlier is greater.
     fn cmp(&self, other: &Part) -> Ordering {
-        self.off.total_cmp(&other.off).then(other.from.total_cmp(&self.from))
+        self.error.total_cmp(&other.error).then(other.from.total_cmp(&self.from))
     }
 }
 
@@ -139,16 +142,16 @@ impl IntervalSearch<'_> {
             let [before, behind] = [&pair[0].b, &pair[1].a];
             let jump = (before.sample.value - behind.sample.value).abs();
             if behind.shift.time > 0.0 && jump.is_finite() {
-                integral.off += jump * behind.shift.time;
+                integral.error += jump * behind.shift.time;
             }
         }
         let is_open = |parts: &BinaryHeap<Part>, integral: &Integral| {
-            let (mut off, mut size) = (0.0, 0.0);
+            let (mut error, mut size) = (0.0, 0.0);
             for part in parts {
-                off += part.off;
-                size += if part.off.is_finite() { (part.found - usual * part.length).abs() } else { 0.0 };
+                error += part.error;
+                size += if part.error.is_finite() { (part.found - usual * part.length).abs() } else { 0.0 };
             }
-            let is_far_off = off > f64::max(ACCURACY * size, ROUNDING * scale.weight * scale.span).max(NOTHING);
+            let is_far_off = error > f64::max(ACCURACY * size, ROUNDING * scale.weight * scale.span).max(NOTHING);
             is_far_off && integral.unbounded_beside(size).is_none()
         };
         // all together is looked at no more often than some have been cut
@@ -169,10 +172,10 @@ impl IntervalSearch<'_> {
         let mut parts = parts.into_vec();
         parts.sort_unstable_by(|a, b| a.from.total_cmp(&b.from));
         for part in parts {
-            if self.notes.are_exhausted() && part.off == f64::INFINITY {
+            if self.notes.are_exhausted() && part.error == f64::INFINITY {
                 self.notes.meet(NoValueCause::Unknown(part.from));
             }
-            integral.add(part.found, part.off, part.length);
+            integral.add(part.found, part.error, part.length);
         }
     }
 
@@ -186,9 +189,9 @@ impl IntervalSearch<'_> {
                 continue;
             }
             if h <= POLE_DISTANCE * integral.span
-                && let Some([sum, off]) = self.integrate_beside_pole(&cell)
+                && let Some([sum, error]) = self.integrate_beside_pole(&cell)
             {
-                integral.add(sum, off, h);
+                integral.add(sum, error, h);
                 continue;
             }
             let (verdict, range) = self.enclose(&mut cell);
@@ -221,16 +224,16 @@ impl IntervalSearch<'_> {
                 continue;
             }
             let values = points.map(|point| point.sample.value);
-            let (mut found, mut off) = (0.0, f64::INFINITY);
+            let (mut found, mut error) = (0.0, f64::INFINITY);
             if values.iter().all(|value| value.is_finite()) {
-                let (sum, error) = self.rule(&cell, &halves);
+                let (sum, rule_error) = self.rule(&cell, &halves);
                 found = within(sum, [range.low * h, range.high * h]);
                 let largest = values.iter().fold(0.0, |largest, value| f64::max(largest, value.abs()));
                 let rounding = ROUNDING * largest * h;
-                let by_rule = if is_smooth { error - rounding } else { f64::INFINITY };
-                off = by_rule.min((range.high - range.low) * h).max(0.0);
+                let by_rule = if is_smooth { rule_error - rounding } else { f64::INFINITY };
+                error = by_rule.min((range.high - range.low) * h).max(0.0);
             }
-            parts.push(Part { halves, from: cell.a.state.t, length: h, found, off });
+            parts.push(Part { halves, from: cell.a.state.t, length: h, found, error });
         }
     }
 
@@ -240,7 +243,7 @@ impl IntervalSearch<'_> {
             return true;
         }
         let found = self.curve.estimate(point);
-        found.certain_digits() == 0 && found.off > NOTHING
+        found.certain_digits() == 0 && found.error > NOTHING
     }
 
     /// As [`IntervalSearch::integrate`], over a cell too short to be cut. What there is of an integral in one with a pole is counted on both sides of it.
@@ -260,7 +263,7 @@ impl IntervalSearch<'_> {
         if let [a, b] = known[..] {
             // of a jump that may as well be beside
             let beside = hidden.max(cell.a.crossing_error).max(cell.b.crossing_error);
-            integral.off += (a - b).abs() * beside.min(self.short);
+            integral.error += (a - b).abs() * beside.min(self.short);
         }
         let growth = self.growth_into(cell, integral.usual);
         if growth > LEAST_GROWTH && !known.is_empty() {
@@ -281,15 +284,15 @@ impl IntervalSearch<'_> {
     /// The factor by which the formula grows, from a value that is usual, whenever the way to a shortest cell becomes half as long; 1 where it does
     /// not go on to grow into the cell: a pole does so, and a jump does not.
     fn growth_into(&mut self, cell: &Cell, usual: f64) -> f64 {
-        let off = |point: &Point| (point.sample.value - usual).abs();
+        let error = |point: &Point| (point.sample.value - usual).abs();
         let sides = [(&cell.a, -1.0), (&cell.b, 1.0)].map(|(end, way)| {
             let way = way * cell.length().max(end.shift.time);
             let mut off_at = |far: f64| {
                 let there = self.point_near(cell.step, end.state.t + far * way);
-                there.map_or(f64::NAN, |there| off(&there))
+                there.map_or(f64::NAN, |there| error(&there))
             };
             let near = off_at(FARTHER[0]);
-            if end.exists() && off(end) <= LEAST_GROWTH * near {
+            if end.exists() && error(end) <= LEAST_GROWTH * near {
                 return 1.0;
             }
             let far = off_at(FARTHER[1]);
@@ -362,10 +365,10 @@ impl IntervalSearch<'_> {
             let size = (ends - 2.0 * fine).abs()
                 + (2.0 * middle.sample.value - ends).abs()
                 + (middle.sample.value - 0.5 * fine).abs();
-            let off = (fine - rough).abs();
+            let error = (fine - rough).abs();
             // the finer rule is of an order that is higher by half
-            let part = (SURER * off / size).sqrt();
-            return (half * fine, half * off * if part < 1.0 { part } else { 1.0 });
+            let part = (SURER * error / size).sqrt();
+            return (half * fine, half * error * if part < 1.0 { part } else { 1.0 });
         }
         (0.5 * half * (ends + 2.0 * middle.sample.value), f64::INFINITY)
     }

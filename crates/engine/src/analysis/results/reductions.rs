@@ -98,7 +98,7 @@ impl FormulaReductions {
         }
         let of_time = |t: f64| {
             let found = self.times.iter().find(|asked| asked.t.total_cmp(&t).is_eq()).map(|asked| asked.found);
-            let found = found.filter(|found| found.value.is_finite() && found.off < f64::INFINITY);
+            let found = found.filter(|found| found.value.is_finite() && found.error < f64::INFINITY);
             let found = found.ok_or(NoValueCause::Missing(t))?;
             let scale = self.scale(0.0);
             // what is nothing was found to be that
@@ -107,10 +107,10 @@ impl FormulaReductions {
         };
         match kind {
             ReductionKind::Extreme { when: true, .. } if self.is_moment() => {
-                of_time(from).map(|_| Estimate { value: from, off: 0.0 })
+                of_time(from).map(|_| Estimate { value: from, error: 0.0 })
             }
             ReductionKind::Extreme { .. } | ReductionKind::Mean if self.is_moment() => of_time(from),
-            ReductionKind::Integral if self.is_moment() => Ok(Estimate { value: 0.0, off: 0.0 }),
+            ReductionKind::Integral if self.is_moment() => Ok(Estimate { value: 0.0, error: 0.0 }),
             ReductionKind::Extreme { largest, when } => {
                 let which = usize::from(largest);
                 let (Some(extremum), Some(scale)) = (&self.extrema[which], self.scales[which]) else {
@@ -130,7 +130,7 @@ impl FormulaReductions {
                 }
                 let found = if when { extremum.time(scale) } else { value };
                 // rounding alone may decide when it is
-                let is_known = !when || found.off < f64::INFINITY;
+                let is_known = !when || found.error < f64::INFINITY;
                 if is_known { Ok(found) } else { Err(NoValueCause::Unknown(found.value)) }
             }
             ReductionKind::Mean | ReductionKind::Integral => {
@@ -141,11 +141,11 @@ impl FormulaReductions {
                 }
                 let over = if kind == ReductionKind::Mean { integral.time() } else { 1.0 };
                 let found = integral.estimate();
-                let mean = Estimate { value: found.value / integral.time(), off: found.off / integral.time() };
+                let mean = Estimate { value: found.value / integral.time(), error: found.error / integral.time() };
                 if self.is_uncertain(mean, integral.deviation(), self.scale(0.0)) {
                     return Err(integral.grows_at().map_or(NoValueCause::Unknown(from), NoValueCause::Unbounded));
                 }
-                let found = Estimate { value: found.value / over, off: found.off / over };
+                let found = Estimate { value: found.value / over, error: found.error / over };
                 if found.value.is_finite() { Ok(found) } else { Err(NoValueCause::Unknown(from)) }
             }
             ReductionKind::First => of_time(from),
@@ -204,7 +204,7 @@ impl FormulaReductions {
         let low = self.samples.iter().map(|found| found.value).fold(f64::INFINITY, f64::min);
         let high = self.samples.iter().map(|found| found.value).fold(f64::NEG_INFINITY, f64::max);
         // what a pole makes of a few values says nothing of the others' rounding, and neither do those that are nothing
-        let weights = self.samples.iter().map(|found| f64::max(found.off / ROUNDING, found.value.abs()));
+        let weights = self.samples.iter().map(|found| f64::max(found.error / ROUNDING, found.value.abs()));
         let weight = median(weights.filter(|weight| *weight > 0.0 && weight.is_finite()).collect());
         Scale { range: f64::max(high - low, 0.0), weight, span }
     }
@@ -213,7 +213,7 @@ impl FormulaReductions {
     /// are sums of.
     fn is_uncertain(&self, found: Estimate, differ: f64, scale: Scale) -> bool {
         let usual = median(self.samples.iter().map(|found| found.value.abs()).collect());
-        found.certain_digits() == 0 && found.off > SMALL * usual.max(scale.weight).max(differ)
+        found.certain_digits() == 0 && found.error > SMALL * usual.max(scale.weight).max(differ)
     }
 
     /// Takes in the values at times that lie in a step.
@@ -261,8 +261,8 @@ impl FormulaReductions {
             return near;
         }
         // what has no jump goes on as it comes; of a pole nothing is known
-        let off = self.curve.uncertainty(&point) + self.curve.uncertainty(&near);
-        if step <= 2.0 * change + off {
+        let error = self.curve.uncertainty(&point) + self.curve.uncertainty(&near);
+        if step <= 2.0 * change + error {
             return point;
         }
         // it is a little within, and so as far off as that changes it
@@ -315,7 +315,7 @@ impl FormulaReductions {
                 let [is_begin, is_end] = edges(&steps[cell.step], [cell.a.state.t, cell.b.state.t], window);
                 for (_, point) in [(is_begin, &cell.a), (is_end, &cell.b)].into_iter().filter(|(is_edge, _)| *is_edge) {
                     let found = search.curve.estimate(point);
-                    extremum.note_edge(Estimate { value: point.state.t, off: point.shift.time }, found, scale);
+                    extremum.note_edge(Estimate { value: point.state.t, error: point.shift.time }, found, scale);
                 }
             }
             *kept = Some(search.search(&cells, samples, extremum, scale));
@@ -344,7 +344,7 @@ impl FormulaReductions {
             // how large it becomes
             let point = self.curve.at(step.to.clone(), sampler);
             if point.exists() {
-                self.samples.push(Estimate { value: point.sample.value, off: 0.0 });
+                self.samples.push(Estimate { value: point.sample.value, error: 0.0 });
             }
             return None;
         }

@@ -46,7 +46,7 @@ pub(super) struct Smooth {
     /// The ranges of these, and how large the coordinates are.
     ranges: Ranges,
     sizes: Magnitudes,
-    /// Of each, where its value and its time derivatives are: at the order that its value has as a coordinate, and behind it.
+    /// The registers of each part and its time derivatives, starting at the order that its value has as a coordinate.
     towers: Vec<[Option<Register>; 4]>,
     /// The order at which each part stands, and whether it is a square.
     kinds: Vec<(usize, bool)>,

@@ -137,7 +137,7 @@ impl IntervalSearch<'_> {
             let by_steps = || cells.iter().map(|cell| self.rule_of_ends(&cell.a, &cell.b)).sum();
             match integral.go_on(ALIKE, by_steps) {
                 Settled::On => {}
-                Settled::Known([value, off]) => return Some(Estimate { value, off }),
+                Settled::Known([value, off]) => return Some(Estimate { value, error: off }),
                 Settled::Lost => return None,
             }
         }

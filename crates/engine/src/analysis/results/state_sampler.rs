@@ -21,19 +21,19 @@ pub(super) struct StateSampler {
     solver: Option<(Arc<Solver>, SingleRow)>,
     curve: Vec<[f64; 6]>,
     delta: Vec<f64>,
-    /// By row of Φ, one over what may be left of it; of the segment, once that has been asked for.
+    /// One over the allowed residual of each row of Φ in the segment, if `has_bounds`.
     bounds: Vec<f64>,
     has_bounds: bool,
     /// The first and the last time (s) of the bridge over a singular position, if the segment is one.
     bridge: [f64; 2],
-    /// What time alone asks of the equations.
+    /// The terms of the equations that depend on time alone.
     signals: Ranges,
     signal_count: usize,
     /// True if the equations are such that states can be settled.
     is_plain: bool,
     /// The derivatives by inputs and parameters, if results need any.
     sensitivities: Option<Sensitivities>,
-    /// When the segment begins (s), and what has been solved for, by that and by time: several formulas ask for the same.
+    /// The start of the segment (s), and the solved states by that and by time: several formulas request the same.
     begins: f64,
     solved: FxHashMap<[u64; 2], Solved>,
     /// The key of the state whose multipliers were found last; `None` if the kinematics have them.
