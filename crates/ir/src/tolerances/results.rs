@@ -22,7 +22,7 @@ pub mod interval_eval {
     pub const MOST_PIECES: f64 = 64.0;
 }
 
-/// States within a step (`crates/engine/src/analysis/results/places.rs`).
+/// States within a step (`crates/engine/src/analysis/results/state_sampler.rs`).
 pub mod places {
     /// Maximum number of corrections of a position, where the solver cannot be used.
     pub const ITERATIONS: usize = 10;
@@ -37,7 +37,7 @@ pub mod places {
     pub const SOLVABLE: f64 = 4e-3;
 }
 
-/// Cells (`crates/engine/src/analysis/results/probe.rs`).
+/// Cells (`crates/engine/src/analysis/results/interval_search.rs`).
 pub mod probe {
     /// Maximum number of cells that are divided for one formula; a cell whose middle has to be solved for counts as several.
     pub const MOST_CELLS: usize = 400_000;
@@ -105,7 +105,7 @@ pub mod extremum {
     pub const BESIDE: f64 = 1e-7;
 }
 
-/// Refinement of extrema (`crates/engine/src/analysis/results/turn.rs`).
+/// Refinement of extrema (`crates/engine/src/analysis/results/extremum_refinement.rs`).
 pub mod turns {
     /// Width of a cell of the time grid, as a part of the span, rounded down to a power of two.
     pub const CELL: f64 = 1.0 / 16_777_216.0;
@@ -121,7 +121,7 @@ pub mod turns {
     pub const APART: f64 = 64.0;
 }
 
-/// Products that are treated like coordinates (`crates/engine/src/analysis/results/smooth.rs`).
+/// Products that are treated like coordinates (`crates/engine/src/analysis/results/smooth_parts.rs`).
 pub mod smooth {
     /// Maximum number of factors.
     pub const MOST_FACTORS: u32 = 6;

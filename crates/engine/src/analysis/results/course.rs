@@ -1,4 +1,4 @@
-//! Where along its course a smooth formula has its largest value, as far as that is beyond doubt: for variants that go side by side, which are
+//! Where along its course a smooth formula has its largest value, as far as that is beyond doubt: for variants that are evaluated in a batch, which are
 //! looked at no more closely. Where it is in doubt a variant is looked at alone, by branch and bound (`extremum.rs`).
 //!
 //! The course is known at steps, with its slope and its second derivative. In a cell between two of them the second derivative stays near the
@@ -14,30 +14,30 @@ pub type Tower = [f64; 3];
 pub struct Course<'c> {
     /// The times of steps (s), two at least.
     pub times: &'c [f64],
-    /// What the formula is there.
+    /// The value, slope and second derivative at each of them.
     pub towers: &'c [Tower],
-    /// Whether it is a length, with a kink where it is zero.
+    /// True if it is a length, with a kink where it is zero.
     pub is_length: bool,
     /// The size of the numbers that values are sums of: what rounding of values goes by.
     pub weight: f64,
-    /// How near to a singular position they come, which rounding grows with.
+    /// The nearness to a singular position, with which rounding grows.
     pub nearness: f64,
 }
 
-/// Where an extremum is.
+/// The location of an extremum.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub enum Place {
-    /// At the first or the last time (s).
+    /// The first or the last time (s).
     End(f64),
-    /// About a time (s) between.
+    /// A time (s) between these, approximately.
     Turn(f64),
-    /// Everywhere: it rests.
+    /// All times: the formula is constant.
     Rest,
 }
 
-/// What a cell may hold.
+/// The contents of a cell.
 enum Cell {
-    /// Nothing that is larger than both its ends.
+    /// No value larger than both its ends.
     Nothing,
     /// One extremum, more or less at a time (s), with a value that may be off by so much, and a second derivative.
     Turn { t: f64, value: f64, off: f64, bend: f64 },
@@ -50,7 +50,7 @@ struct Best {
     place: Option<Place>,
     value: f64,
     off: f64,
-    /// What no other one is above.
+    /// An upper bound of all other candidates.
     others: f64,
 }
 
@@ -66,7 +66,7 @@ impl Best {
 }
 
 impl Course<'_> {
-    /// Where the largest value is, or the least; nothing where that is in doubt.
+    /// Returns the location of the largest or least value, or `None` if it is in doubt.
     #[must_use]
     pub fn extreme(&self, largest: bool) -> Option<Place> {
         if self.rests() {
@@ -101,22 +101,22 @@ impl Course<'_> {
         best.place.filter(|_| range > 0.0 && is_alone && is_finite)
     }
 
-    /// From step to step: what it is at both, and their times (s).
+    /// Returns the cells between steps: the towers at both ends, and their times (s).
     fn cells(&self) -> impl Iterator<Item = ([Tower; 2], [f64; 2])> {
         let times = self.times.windows(2).map(|pair| [pair[0], pair[1]]);
         self.towers.windows(2).map(|pair| [pair[0], pair[1]]).zip(times)
     }
 
-    /// Whether it is where it was all the time, but for rounding.
+    /// Returns whether it is where it was all the time, but for rounding.
     fn rests(&self) -> bool {
         let (begun, little) = (self.towers[0][0], RESTS * self.weight);
         let is_there = |value: f64| (value - begun).abs() <= little;
-        self.cells().all(|(ends, times)| Limits::of(ends, times).values.into_iter().all(is_there))
+        self.cells().all(|(ends, times)| Limits::new(ends, times).values.into_iter().all(is_there))
     }
 }
 
-/// What there may be between two steps of a length that comes too near to zero, where it has a kink. Its square has none: where that is near zero
-/// its second derivative tells how fast what it is the length of goes.
+/// Returns an upper bound in a cell of a length that comes too near to its kink at zero. Its square has no kink: near zero its second derivative
+/// shows the speed.
 fn kink([a, b]: [Tower; 2], [from, to]: [f64; 2]) -> Option<Cell> {
     let h = to - from;
     let fastest = (b[0] * b[1] - a[0] * a[1]) / h;
@@ -127,7 +127,7 @@ fn kink([a, b]: [Tower; 2], [from, to]: [f64; 2]) -> Option<Cell> {
     (!is_far).then(|| Cell::Unknown(if most.is_finite() { most } else { f64::INFINITY }))
 }
 
-/// What a formula may be between two steps.
+/// Bounds of a formula between two steps.
 struct Limits {
     bends: [f64; 2],
     slopes: [f64; 2],
@@ -135,7 +135,7 @@ struct Limits {
 }
 
 impl Limits {
-    fn of([[v, s, c], [w, r, d]]: [Tower; 2], [from, to]: [f64; 2]) -> Limits {
+    fn new([[v, s, c], [w, r, d]]: [Tower; 2], [from, to]: [f64; 2]) -> Limits {
         let h = to - from;
         let bend = SAFETY * ((r - s) / h - 0.5 * (c + d)).abs();
         let bends = [c.min(d) - bend, c.max(d) + bend];
@@ -144,11 +144,11 @@ impl Limits {
     }
 }
 
-/// What there may be between two steps, above both of them.
+/// Classifies the cell between two steps by values above both its ends.
 fn look_into([a, b]: [Tower; 2], [from, to]: [f64; 2]) -> Cell {
     let h = to - from;
     let ([v, s, c], [w, r, d]) = (a, b);
-    let Limits { bends, slopes, values: [_, most] } = Limits::of([a, b], [from, to]);
+    let Limits { bends, slopes, values: [_, most] } = Limits::new([a, b], [from, to]);
     let is_monotone = slopes[0] > 0.0 || slopes[1] < 0.0;
     if is_monotone || bends[0] > 0.0 {
         return Cell::Nothing;
@@ -204,7 +204,7 @@ pub fn find_bends(times: &[f64], towers: &mut [Tower]) {
     }
 }
 
-/// The integral over the course of a formula, by its values and derivatives at steps.
+/// Returns the integral of a formula over its course, from its values and derivatives at steps.
 #[must_use]
 pub fn integral_by_steps(times: &[f64], towers: &[Tower]) -> f64 {
     let cell = |(times, towers): (&[f64], &[Tower])| integral_of_quintic(towers[0], towers[1], times[1] - times[0]);

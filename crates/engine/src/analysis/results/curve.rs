@@ -1,12 +1,12 @@
 //! A formula along the motion: its values and time derivatives at states, and what it can be between two of them.
 
-use super::guards::{Crossing, Guard, Mark, arguments, guards, slopes};
+use super::batch_evaluation::{Computed, SmoothFormula};
+use super::extremum_refinement::Sampled;
+use super::guards::{Crossing, Guard, GuardState, arguments, guards, slopes};
 use super::loads::{Hidden, Loads};
-use super::places::Places;
-use super::quantity::{Computed, SmoothFormula};
-use super::sizes::{Largest, Sizes};
-use super::smooth::Smooth;
-use super::turn::Sampled;
+use super::magnitudes::{Largest, Magnitudes};
+use super::smooth_parts::Smooth;
+use super::state_sampler::StateSampler;
 use crate::analysis::state::State;
 use mechc_expr::math::{between, log10};
 use mechc_expr::{Dependence, ExprId, Graph, Node, Symbol, Unary};
@@ -26,7 +26,7 @@ const VARIED_ORDERS: u32 = 3;
 pub(super) struct Curve {
     program: Program,
     registers: Registers,
-    /// Where the formula and its time derivatives are left, as many as are known; and the operations that these, and the loads, follow from.
+    /// The registers of the formula and its known time derivatives; and the operations behind these and the loads.
     roots: Vec<Register>,
     operations: Vec<Op>,
     /// Ranges of the formula, of the loads behind it, of the arguments of guards with their slopes, and of the formula's time derivatives.
@@ -34,9 +34,9 @@ pub(super) struct Curve {
     /// The number of the first time derivative among these.
     first: usize,
     guards: Vec<Guard>,
-    /// What moves of all that the formula or its derivatives hold.
+    /// The moving quantities in the formula and its derivatives.
     moving: Vec<Moving>,
-    /// What of it stands behind the coordinates of the system, of which there are so many.
+    /// The smooth parts of the formula, which follow the `coordinates` coordinates of the system.
     smooth: Smooth,
     coordinates: usize,
     has_jerk: bool,
@@ -47,24 +47,24 @@ pub(super) struct Curve {
     short: f64,
     /// The loads that the forces in the formula come from.
     loads: Loads,
-    /// How large what moves is, and how large the guards' arguments are at the ends of steps.
-    sizes: Sizes,
+    /// The magnitudes of the moving quantities, and those of the guards' arguments at the ends of steps.
+    sizes: Magnitudes,
     largest_arguments: Vec<f64>,
-    /// How often it has been computed.
+    /// The number of evaluations.
     looks: usize,
 }
 
-/// Of what shape a formula is.
+/// The shape of a formula.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 enum Shape {
-    /// Nothing but what is smooth.
+    /// A smooth formula.
     Smooth,
     /// The length of something smooth, or a root of it, but for a factor that rests.
     Length,
     Other,
 }
 
-/// What changes with the motion.
+/// A quantity that changes with the motion.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub(super) enum Moving {
     /// A coordinate, or what moves as smoothly.
@@ -78,7 +78,7 @@ pub(super) enum Moving {
     },
     /// The multiplier of a row, of which only the value is known.
     Multiplier(usize),
-    /// How that changes, likewise.
+    /// The derivative of a multiplier in a variation, of which only the value is known.
     VariedMultiplier {
         /// The variation's number.
         variation: u32,
@@ -88,7 +88,7 @@ pub(super) enum Moving {
 }
 
 impl Moving {
-    fn of(symbol: Symbol) -> Option<Moving> {
+    fn from_symbol(symbol: Symbol) -> Option<Moving> {
         match symbol {
             Symbol::Coordinate { index, .. } => Some(Moving::Coordinate(index as usize)),
             Symbol::Varied { index, variation, .. } => Some(Moving::Varied { variation, index: index as usize }),
@@ -100,12 +100,12 @@ impl Moving {
         }
     }
 
-    /// Whether it is a force, or how one changes: of these only the value is known.
+    /// Returns whether it is a force, or how one changes: of these only the value is known.
     fn is_of_forces(self) -> bool {
         matches!(self, Moving::Multiplier(_) | Moving::VariedMultiplier { .. })
     }
 
-    /// Where it and its time derivatives go, as many as there are.
+    /// Returns the registers of the quantity and its time derivatives, as far as they exist.
     fn registers(self, inputs: &Inputs) -> [Option<Register>; 4] {
         match self {
             Moving::Coordinate(index) => inputs.coordinates.map(|first| Some(first + index as Register)),
@@ -123,22 +123,22 @@ impl Moving {
 #[derive(Clone)]
 pub(super) struct Point {
     pub state: State,
-    /// What moves of the formula, each with three time derivatives; one that is not known is 0.
+    /// The moving quantities of the formula, each with three time derivatives; an unknown one is 0.
     moving: Vec<[f64; 4]>,
     /// The loads, of a formula that holds forces.
     loads: Vec<f64>,
-    /// By guard.
-    marks: Vec<Mark>,
-    /// Whether it lies on the way over a singular position, where velocities and accelerations are those of a curve.
+    /// The states of the guards.
+    marks: Vec<GuardState>,
+    /// True if it lies on the bridge over a singular position, where velocities and accelerations are those of a curve.
     is_on_bridge: bool,
     pub sample: Sampled,
-    /// How far (s) the time that is meant may be from this one, and the value there from the value here.
+    /// The difference (s) between the intended time and this one, and that of the values.
     pub shift: Shift,
-    /// How far (s) from here the guard that crosses its threshold beside may do so as well.
-    pub doubt: f64,
+    /// The error bound (s) of the time at which the guard crosses its threshold near this point.
+    pub crossing_error: f64,
 }
 
-/// How far off something may be because its time is not known.
+/// Errors that follow from an uncertain time.
 #[derive(Clone, Copy, Default, PartialEq, Debug)]
 pub(super) struct Shift {
     /// In time (s).
@@ -157,26 +157,26 @@ impl Point {
         self.marks[guard].argument
     }
 
-    /// Whether the formula has a value here.
+    /// Returns whether the formula has a value here.
     pub fn exists(&self) -> bool {
         self.sample.value.is_finite()
     }
 }
 
-/// A number and how far off it may be.
+/// A number with an error bound.
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub(super) struct Found {
+pub(super) struct Estimate {
     pub value: f64,
-    pub off: f64,
+    pub error: f64,
 }
 
-impl Found {
-    /// No number.
-    pub const NOTHING: Found = Found { value: f64::NAN, off: f64::INFINITY };
+impl Estimate {
+    /// No value.
+    pub const NOTHING: Estimate = Estimate { value: f64::NAN, error: f64::INFINITY };
 
-    /// How many significant digits are certain; 0 where it cannot be told from zero.
+    /// Returns the number of certain significant digits; 0 if the value cannot be told from zero.
     pub fn certain_digits(self) -> u32 {
-        let part = self.off / self.value.abs();
+        let part = self.error / self.value.abs();
         if part.is_nan() {
             return 0;
         }
@@ -188,7 +188,7 @@ impl Found {
     }
 }
 
-/// What lies between two points of a step of the motion.
+/// The interval between two points of a step of the motion.
 #[derive(Clone)]
 pub(super) struct Cell {
     /// The number of the step.
@@ -196,39 +196,39 @@ pub(super) struct Cell {
     pub a: Rc<Point>,
     pub b: Rc<Point>,
     /// By what moves of the formula: how far its second and third derivatives are from a straight line; of a force, how far its value is. Behind
-    /// these are the formula itself and the loads, of which that is the value too. None where nothing is known yet.
+    /// these are the formula itself and the loads, of which that is the value too. `None` where nothing is known yet.
     bends: Option<Rc<[[f64; 2]]>>,
     /// The length (s) of the cell that this is known of, of which this one may be a part.
-    known_over: f64,
+    bends_length: f64,
     /// The point in its middle, if it has been looked at.
     pub middle: Option<Rc<Point>>,
 }
 
 impl Cell {
-    /// From one point to another, of which nothing between is known yet.
+    /// A cell from one point to another, without bounds of what lies between.
     pub fn new(step: usize, a: &Rc<Point>, b: &Rc<Point>) -> Cell {
-        Cell { step, a: Rc::clone(a), b: Rc::clone(b), bends: None, known_over: f64::INFINITY, middle: None }
+        Cell { step, a: Rc::clone(a), b: Rc::clone(b), bends: None, bends_length: f64::INFINITY, middle: None }
     }
 
-    /// Its length (s).
+    /// Returns its length (s).
     pub fn length(&self) -> f64 {
         self.b.state.t - self.a.state.t
     }
 
-    /// The time in its middle (s).
+    /// Returns the time in its middle (s).
     pub fn middle(&self) -> f64 {
         0.5 * self.a.state.t + 0.5 * self.b.state.t
     }
 
-    /// Whether there is no time in it.
+    /// Returns whether there is no time in it.
     pub fn is_empty(&self) -> bool {
         let middle = self.middle();
         middle <= self.a.state.t || middle >= self.b.state.t
     }
 
-    /// As this one, from one point to another.
+    /// Returns a cell from one point to another, with the bounds of this one.
     pub fn between(&self, a: &Rc<Point>, b: &Rc<Point>) -> Cell {
-        Cell { bends: self.bends.clone(), known_over: self.known_over, ..Cell::new(self.step, a, b) }
+        Cell { bends: self.bends.clone(), bends_length: self.bends_length, ..Cell::new(self.step, a, b) }
     }
 
     /// Takes the point in its middle, which tells how far values that have no known derivative are from a straight line.
@@ -237,14 +237,14 @@ impl Cell {
         self.middle = Some(middle);
     }
 
-    /// Its parts on both sides of a point in it.
+    /// Returns its parts on both sides of a point in it.
     pub fn cut(&self, curve: &Curve, at: &Rc<Point>) -> [Cell; 2] {
         let bends = Some(curve.bends_at(self, at));
         [(&self.a, at), (at, &self.b)].map(|(a, b)| Cell { bends: bends.clone(), ..self.between(a, b) })
     }
 }
 
-/// What is known of a formula in a cell.
+/// The classification of a formula in a cell.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(super) enum Verdict {
     /// No guard crosses its threshold.
@@ -255,7 +255,7 @@ pub(super) enum Verdict {
     Missing,
     /// Rounding alone decides on which side of its threshold a guard is.
     Rounding,
-    /// The same, where the formula has one value whichever side that is.
+    /// Rounding alone decides on which side a guard is, but the formula has one value on either side.
     Alike,
     /// Too little is known; of a guard, by its number, whether it crosses, if there is one.
     Open(Option<usize>),
@@ -276,10 +276,10 @@ impl Curve {
         let holds_rates =
             dependence.highest_order() > Some(0) || dependence.highest_varied_order().is_some() || holds_forces;
         let loads = if holds_forces { loads } else { &[] };
-        let (mut graph, found, smooth) = Smooth::out_of(graph, (value, loads), system);
+        let (mut graph, found, smooth) = Smooth::extract_from(graph, (value, loads), system);
         let shape = shape(&graph, found[0], system);
         let derivatives = with_derivatives(&mut graph, found[0], has_jerk);
-        let own = derivatives.len();
+        let local = derivatives.len();
         // ranges are asked for in this order: the formula, its loads, the arguments of guards with their slopes, and the derivatives
         let mut formulas = found.clone();
         let arguments = arguments(&mut graph, &found);
@@ -293,7 +293,8 @@ impl Curve {
         }
         let first = formulas.len();
         formulas.extend_from_slice(&derivatives[1..]);
-        let mut moving: Vec<Moving> = graph.symbols_of_all(&formulas).into_iter().filter_map(Moving::of).collect();
+        let mut moving: Vec<Moving> =
+            graph.symbols_of_all(&formulas).into_iter().filter_map(Moving::from_symbol).collect();
         moving.sort_unstable();
         moving.dedup();
         let coordinates = system.coordinates().len();
@@ -306,19 +307,19 @@ impl Curve {
         // as many places for them as there are coordinates, which are no fewer than the rows
         let multipliers = if system.forces().is_some() { coordinates_and_more } else { 0 };
         let counts = [system.params().len(), coordinates_and_more, variations, multipliers];
-        let (program, places, nodes) = Program::from_formulas_with_nodes(&graph, counts, &formulas);
+        let (program, outputs, nodes) = Program::from_formulas_with_nodes(&graph, counts, &formulas);
         let params = system.param_values();
         let registers = program.start(&params);
-        let values = &places[..found.len()];
+        let values = &outputs[..found.len()];
         let guards = guards((&mut graph, &program), values, &nodes, &witnesses);
         let loads = Loads::new(&values[1..]);
         let roots: Vec<Register> =
-            (0..own).map(|order| places[if order == 0 { 0 } else { first + order - 1 }]).collect();
+            (0..local).map(|order| outputs[if order == 0 { 0 } else { first + order - 1 }]).collect();
         let operations = program.operations_behind(&[&roots[..], &values[1..]].concat(), Stage::Measures);
         Curve {
-            sizes: Sizes::new(kinds),
+            sizes: Magnitudes::new(kinds),
             largest_arguments: vec![0.0; guards.len()],
-            ranges: Ranges::new(&program, &registers, &places, Stage::Measures, false),
+            ranges: Ranges::new(&program, &registers, &outputs, Stage::Measures, false),
             program,
             registers,
             roots,
@@ -338,88 +339,88 @@ impl Curve {
         }
     }
 
-    /// Takes cells for short that are no longer than this (s).
+    /// Sets the length (s) up to which cells count as short.
     pub fn set_short(&mut self, short: f64) {
         self.short = short;
     }
 
-    /// How many time derivatives it has: 0 to 2.
+    /// Returns the number of time derivatives: 0 to 2.
     pub fn derivatives(&self) -> usize {
         self.roots.len() - 1
     }
 
-    /// Whether it changes with the motion, and not with time alone.
+    /// Returns whether it changes with the motion, and not with time alone.
     pub fn moves(&self) -> bool {
         !self.moving.is_empty()
     }
 
-    /// Whether it holds derivatives of the coordinates.
+    /// Returns whether it holds derivatives of the coordinates.
     pub fn holds_rates(&self) -> bool {
         self.holds_rates
     }
 
-    /// Whether it holds something of which one order alone is known, so that a cell has to be looked at in its middle.
+    /// Returns whether it holds something of which one order alone is known, so that a cell has to be looked at in its middle.
     pub fn needs_middles(&self) -> bool {
         self.holds_forces || self.moving.iter().map(|of| self.orders(*of)).any(|[from, to]| from == to)
     }
 
-    /// Whether it holds forces, of which only values are known.
+    /// Returns whether it holds forces, of which only values are known.
     pub fn holds_forces(&self) -> bool {
         self.holds_forces
     }
 
-    /// Whether it holds what has no bound where the equations are singular: forces, or derivatives by parameters.
+    /// Returns whether it holds what has no bound where the equations are singular: forces, or derivatives by parameters.
     pub fn may_be_singular(&self) -> bool {
         self.holds_forces || self.is_varied()
     }
 
-    /// Whether it is nothing but what is smooth, or a length of that, with a slope: so that its extrema can be settled.
+    /// Returns whether it is nothing but what is smooth, or a length of that, with a slope: so that its extrema can be settled.
     pub fn settles(&self) -> bool {
         self.derivatives() > 0 && self.shape != Shape::Other
     }
 
-    /// The same for variants side by side; none where it is anything else.
+    /// Returns the formula for evaluation in batches, or `None` if it does not settle.
     pub fn into_quantity(self) -> Option<SmoothFormula> {
         if !self.settles() {
             return None;
         }
         let is_length = self.shape == Shape::Length;
-        let (own, roots) = (Computed::new(self.program, self.registers, self.coordinates, &self.roots), self.roots);
+        let (local, roots) = (Computed::new(self.program, self.registers, self.coordinates, &self.roots), self.roots);
         if self.smooth.count() == 0 {
-            return Some(SmoothFormula::new(vec![own], roots, is_length));
+            return Some(SmoothFormula::new(vec![local], roots, is_length));
         }
         let ((program, registers), towers) = self.smooth.into_towers();
-        let own = own.behind(&towers, (self.coordinates, &roots))?;
-        let wanted: Vec<Register> = towers.iter().flatten().flatten().copied().collect();
-        let smooth = Computed::new(program, registers, self.coordinates, &wanted);
-        Some(SmoothFormula::new(vec![smooth, own], roots, is_length))
+        let local = local.behind(&towers, (self.coordinates, &roots))?;
+        let requested: Vec<Register> = towers.iter().flatten().flatten().copied().collect();
+        let smooth = Computed::new(program, registers, self.coordinates, &requested);
+        Some(SmoothFormula::new(vec![smooth, local], roots, is_length))
     }
 
-    /// At a state of the stretch that was entered.
-    pub fn at(&mut self, state: State, places: &mut Places) -> Rc<Point> {
-        let is_on_bridge = places.is_on_bridge(state.t);
+    /// Evaluates the formula at a state of the segment that was entered.
+    pub fn at(&mut self, state: State, sampler: &mut StateSampler) -> Rc<Point> {
+        let is_on_bridge = sampler.is_on_bridge(state.t);
         if self.is_varied() {
-            places.vary(&state);
+            sampler.vary(&state);
         }
         if self.holds_forces {
-            places.find_multipliers(&state);
+            sampler.find_multipliers(&state);
         }
         self.smooth.look(&state);
         let tower = |moving: &Moving| match *moving {
             Moving::Coordinate(k) if k >= self.coordinates => self.smooth.tower(k - self.coordinates),
             Moving::Coordinate(k) => state.tower(k),
             Moving::Varied { variation, index } => {
-                let [place, first, second] = places.variation(variation, index);
+                let [place, first, second] = sampler.variation(variation, index);
                 [place, first, second, 0.0]
             }
-            Moving::Multiplier(row) => [places.multiplier(row), 0.0, 0.0, 0.0],
-            Moving::VariedMultiplier { variation, row } => [places.varied_multiplier(variation, row), 0.0, 0.0, 0.0],
+            Moving::Multiplier(row) => [sampler.multiplier(row), 0.0, 0.0, 0.0],
+            Moving::VariedMultiplier { variation, row } => [sampler.varied_multiplier(variation, row), 0.0, 0.0, 0.0],
         };
         let moving: Vec<[f64; 4]> = self.moving.iter().map(tower).collect();
         self.run(state.t, &moving);
         let value = |order: usize| self.roots.get(order).map_or(f64::NAN, |&root| self.registers.get(root));
         let sample = Sampled { value: value(0), first: value(1), second: value(2) };
-        let marks: Vec<Mark> = self.guards.iter().map(|guard| guard.mark(&self.registers)).collect();
+        let marks: Vec<GuardState> = self.guards.iter().map(|guard| guard.mark(&self.registers)).collect();
         moving.iter().enumerate().for_each(|(k, tower)| self.sizes.note(k, tower));
         let loads = self.loads.values(&self.registers);
         if self.loads.count() > 0 && self.looks.is_multiple_of(EVERY) {
@@ -427,16 +428,25 @@ impl Curve {
             self.loads.look_at_rounding((&self.program, &self.registers), &mut self.ranges);
         }
         self.looks += 1;
-        Rc::new(Point { state, moving, loads, marks, is_on_bridge, sample, shift: Shift::default(), doubt: 0.0 })
+        Rc::new(Point {
+            state,
+            moving,
+            loads,
+            marks,
+            is_on_bridge,
+            sample,
+            shift: Shift::default(),
+            crossing_error: 0.0,
+        })
     }
 
-    /// Takes note of how large the coordinates of the mechanism are.
+    /// Records how large the coordinates of the mechanism are.
     pub fn note_all(&mut self, of_all: Largest) {
         self.sizes.note_all(of_all);
         self.smooth.note_all(of_all);
     }
 
-    /// Takes note of how large arguments of guards are at a point that is like others: beside a pole they are not.
+    /// Records how large arguments of guards are at a point that is like others: beside a pole they are not.
     pub fn note_arguments(&mut self, point: &Point) {
         for (largest, mark) in self.largest_arguments.iter_mut().zip(&point.marks) {
             if mark.argument.is_finite() {
@@ -472,7 +482,7 @@ impl Curve {
         self.ranges.range(&self.program, &self.registers, self.loads.count());
     }
 
-    /// How far off the value at a point may be.
+    /// Returns a bound of the error of the value at a point.
     pub fn uncertainty(&mut self, point: &Point) -> f64 {
         self.set_rounding(point);
         for (guard, mark) in self.guards.iter().zip(&point.marks) {
@@ -482,22 +492,22 @@ impl Curve {
             }
         }
         let Range { low, high, .. } = self.ranges.range(&self.program, &self.registers, 0);
-        let off = 0.5 * (high - low) + point.shift.value;
-        if off.is_nan() { f64::INFINITY } else { off }
+        let error = 0.5 * (high - low) + point.shift.value;
+        if error.is_nan() { f64::INFINITY } else { error }
     }
 
-    /// The value at a point, and how far off it may be.
-    pub fn found(&mut self, point: &Point) -> Found {
-        Found { value: point.sample.value, off: self.uncertainty(point) }
+    /// Returns the value at a point, with its error bound.
+    pub fn estimate(&mut self, point: &Point) -> Estimate {
+        Estimate { value: point.sample.value, error: self.uncertainty(point) }
     }
 
-    /// Whether rounding alone decides at a point on which side of its threshold a guard is.
+    /// Returns whether rounding alone decides at a point on which side of its threshold a guard is.
     pub fn is_rounding(&mut self, guard: usize, point: &Point) -> bool {
         self.set_rounding(point);
         self.guards[guard].is_within_rounding(&self.ranges, point.marks[guard])
     }
 
-    /// Whether rounding alone decides on which side of its threshold some guard is at a point.
+    /// Returns whether rounding alone decides on which side of its threshold some guard is at a point.
     pub fn is_undecided(&mut self, point: &Point) -> bool {
         if self.guards.is_empty() {
             return false;
@@ -507,25 +517,25 @@ impl Curve {
         guards.any(|(guard, mark)| guard.is_within_rounding(&self.ranges, *mark))
     }
 
-    /// How far off the argument of a guard may be at a point.
+    /// Returns a bound of the error of a guard's argument at a point.
     pub fn rounding_of_argument(&mut self, guard: usize, point: &Point) -> f64 {
         self.set_rounding(point);
         let [low, high] = self.guards[guard].argument(&self.ranges);
         0.5 * (high - low)
     }
 
-    /// Whether the argument of a guard is known at a point, beside what it usually is.
+    /// Returns whether the argument of a guard is known at a point, beside what it usually is.
     fn knows_argument(&mut self, guard: usize, point: &Point) -> bool {
         2.0 * self.rounding_of_argument(guard, point) <= NEAR * self.largest_arguments[guard]
     }
 
-    /// Whether a guard of the formula is exactly at its threshold, and not so at another point beside: the formula may have a value of its own there.
+    /// Returns whether a guard of the formula is exactly at its threshold, and not so at another point beside: the formula may have a value of its own there.
     pub fn is_at_threshold(&self, point: &Point, beside: &Point) -> bool {
         let marks = point.marks.iter().zip(&beside.marks);
         self.guards
             .iter()
             .zip(marks)
-            .any(|(guard, (mark, beside))| guard.is_at_threshold(*mark) && mark.is_beside(beside))
+            .any(|(guard, (mark, beside))| guard.is_at_threshold(*mark) && mark.differs_from(beside))
     }
 
     /// Computes the formula and its derivatives at a time (s).
@@ -542,7 +552,7 @@ impl Curve {
         self.program.run_operations(&self.operations, &mut self.registers);
     }
 
-    /// Of what moves and is never below zero: at which order it stands.
+    /// Returns the order at which a quantity stands that is a square, and so never below zero.
     fn order_of_square(&self, of: Moving) -> Option<usize> {
         match of {
             Moving::Coordinate(k) if k >= self.coordinates => self.smooth.square(k - self.coordinates),
@@ -554,14 +564,14 @@ impl Curve {
         self.moving.iter().any(|moving| matches!(moving, Moving::Varied { .. } | Moving::VariedMultiplier { .. }))
     }
 
-    /// Whether a cell is too wide for anything to be known of what is smooth in it.
+    /// Returns whether a cell is too wide for anything to be known of what is smooth in it.
     pub fn turns_far(&self, cell: &Cell) -> bool {
         self.smooth.turns_far([&cell.a.state, &cell.b.state])
     }
 
     /// Encloses the formula in a cell: what it can be there, and whether it is smooth, but for some guards.
     pub fn enclose(&mut self, cell: &mut Cell, ignored: &[usize]) -> (Verdict, Range) {
-        (cell.bends, cell.known_over) = (Some(self.bends_of(cell)), cell.length());
+        (cell.bends, cell.bends_length) = (Some(self.bends_of(cell)), cell.length());
         self.set_cell(cell);
         let mut held = vec![false; self.guards.len()];
         for &guard in ignored {
@@ -611,7 +621,7 @@ impl Curve {
         }
     }
 
-    /// Whether the argument of a guard rises or falls all the way through the cell.
+    /// Returns whether the argument of a guard rises or falls all the way through the cell.
     fn is_monotone(&mut self, guard: usize) -> bool {
         let Some([argument, slope]) = self.guards[guard].witness else { return false };
         let argument = self.ranges.range(&self.program, &self.registers, argument);
@@ -635,17 +645,17 @@ impl Curve {
             let is_short = cell.length() <= self.short && cell.a.exists() && cell.b.exists();
             return if is_short && is_resolved { by_values() } else { range };
         }
-        let told = |k: usize| around(cell.a.loads[k], cell.b.loads[k], bends[1 + k][0]);
+        let bounds = |k: usize| around(cell.a.loads[k], cell.b.loads[k], bends[1 + k][0]);
         let up_to = |most: f64| Range { low: -most, high: most, is_resolved: false, ..range };
-        match loads.hidden((program, registers), ranges, told) {
-            Hidden::Anything => up_to(f64::INFINITY),
-            Hidden::Something(beyond) => up_to(f64::min(MAX_AMPLIFICATION * beyond, f64::MAX)),
+        match loads.hidden((program, registers), ranges, bounds) {
+            Hidden::Unbounded => up_to(f64::INFINITY),
+            Hidden::AtMost(beyond) => up_to(f64::min(MAX_AMPLIFICATION * beyond, f64::MAX)),
             Hidden::Nothing if is_resolved => by_values(),
             Hidden::Nothing => range,
         }
     }
 
-    /// The range of a time derivative (1 or 2) in the cell that was enclosed last.
+    /// Returns the range of a time derivative (1 or 2) in the cell that was enclosed last.
     pub fn derivative(&mut self, order: usize) -> Range {
         self.ranges.range(&self.program, &self.registers, self.first + order - 1)
     }
@@ -678,7 +688,7 @@ impl Curve {
         }
     }
 
-    /// Of which orders something that moves is known: from one to another.
+    /// Returns the first and the last known order of a moving quantity.
     fn orders(&self, of: Moving) -> [usize; 2] {
         match of {
             Moving::Coordinate(k) => {
@@ -695,16 +705,16 @@ impl Curve {
         let h = cell.length();
         let known = |k: usize| cell.bends.as_ref().map_or([f64::INFINITY; 2], |bends| bends[k]);
         // over very short cells differences are rounding, and what is known of the longer one becomes less with the square of the length
-        let part = h / cell.known_over;
+        let part = h / cell.bends_length;
         let less = f64::min(LESS * part * part, 1.0);
         let of = |(k, of): (usize, &Moving)| {
             let (a, b) = (&cell.a.moving[k], &cell.b.moving[k]);
-            let off = |order: usize| ((b[order - 1] - a[order - 1]) / h - 0.5 * (a[order] + b[order])).abs();
+            let error = |order: usize| ((b[order - 1] - a[order - 1]) / h - 0.5 * (a[order] + b[order])).abs();
             let bends = match self.orders(*of) {
                 [from, to] if from == to => return known(k),
-                [2, _] => [h * (0.125 * (b[3] - a[3]).abs() + off(3)), 2.0 * off(3)],
-                [_, 3] => [off(2) + h * (0.125 * (b[3] - a[3]).abs() + off(3)), 2.0 * off(3)],
-                _ => [2.0 * off(2), 0.0],
+                [2, _] => [h * (0.125 * (b[3] - a[3]).abs() + error(3)), 2.0 * error(3)],
+                [_, 3] => [error(2) + h * (0.125 * (b[3] - a[3]).abs() + error(3)), 2.0 * error(3)],
+                _ => [2.0 * error(2), 0.0],
             };
             [0, 1].map(|order| f64::min(bends[order], if less > 0.0 { less * known(k)[order] } else { f64::INFINITY }))
         };
@@ -716,17 +726,17 @@ impl Curve {
     fn bends_at(&self, cell: &Cell, at: &Point) -> Rc<[[f64; 2]]> {
         let (a, b) = (&*cell.a, &*cell.b);
         let x = (at.state.t - a.state.t) / (b.state.t - a.state.t);
-        let off = |of: &dyn Fn(&Point) -> f64| (of(at) - (1.0 - x) * of(a) - x * of(b)).abs();
+        let error = |of: &dyn Fn(&Point) -> f64| (of(at) - (1.0 - x) * of(a) - x * of(b)).abs();
         let of_moving = |(k, of): (usize, &Moving)| match self.orders(*of) {
-            [order, to] if order == to => [off(&|point: &Point| point.moving[k][order]); 2],
+            [order, to] if order == to => [error(&|point: &Point| point.moving[k][order]); 2],
             _ => cell.bends.as_ref().map_or([f64::INFINITY; 2], |bends| bends[k]),
         };
-        let own = [off(&|point: &Point| point.sample.value); 2];
-        let of_loads = (0..self.loads.count()).map(|k| [off(&|point: &Point| point.loads[k]); 2]);
-        self.moving.iter().enumerate().map(of_moving).chain([own]).chain(of_loads).collect()
+        let local = [error(&|point: &Point| point.sample.value); 2];
+        let of_loads = (0..self.loads.count()).map(|k| [error(&|point: &Point| point.loads[k]); 2]);
+        self.moving.iter().enumerate().map(of_moving).chain([local]).chain(of_loads).collect()
     }
 
-    /// How far a guard's argument is from the threshold between two points.
+    /// Returns the distances of a guard's argument from the threshold between two points.
     pub fn distances(&self, guard: usize, [a, b]: [&Point; 2]) -> [f64; 2] {
         self.guards[guard].distances([a.marks[guard], b.marks[guard]], &self.registers)
     }
@@ -764,13 +774,13 @@ impl Curve {
     }
 }
 
-/// Whether all that a formula holds is known along the motion.
+/// Returns whether all that a formula holds is known along the motion.
 fn is_known(graph: &Graph, formula: ExprId, has_jerk: bool) -> bool {
     let dependence = graph.dependence(formula);
     !dependence.on(Dependence::FORCES) && (has_jerk || dependence.highest_order() != Some(3))
 }
 
-/// Of what shape a formula over coordinates of a system is, behind which further smooth ones stand.
+/// Returns the shape of a formula over the coordinates of a system and further smooth ones.
 fn shape(graph: &Graph, formula: ExprId, system: &ConstraintSystem) -> Shape {
     let moving = |id: ExprId| match graph.node(id) {
         Node::Symbol(Symbol::Coordinate { index, .. }) => Some(index as usize),

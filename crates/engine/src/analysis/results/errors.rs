@@ -1,37 +1,37 @@
 //! Results that have no value.
 
-use super::probe::Trouble;
+use super::interval_search::NoValueCause;
 use crate::analysis::explain::errors::at;
 use mechc_ir::{Outcome, Reduction};
 use mechc_text::diag::{Code, Diagnostic};
 
 /// A formula in it has no value at some time, or it could not be found out; or else its own formula is not finite.
-pub fn result_without_value(outcome: &Outcome, trouble: Option<Trouble>) -> Diagnostic {
+pub fn result_without_value(outcome: &Outcome, cause: Option<NoValueCause>) -> Diagnostic {
     let name = &outcome.name;
-    let (message, label) = match trouble {
-        Some(Trouble::Missing(t)) => (
+    let (message, label) = match cause {
+        Some(NoValueCause::Missing(t)) => (
             format!("result `{name}` has no value: what it speaks of has none at {}", at(t)),
             "infinite or undefined there",
         ),
-        Some(Trouble::Nowhere(_)) => {
+        Some(NoValueCause::Nowhere(_)) => {
             (format!("result `{name}` has no value: what it speaks of has none at any time"), "infinite or undefined")
         }
-        Some(Trouble::Unbounded(t)) => (
+        Some(NoValueCause::Unbounded(t)) => (
             format!("result `{name}` has no value: what it speaks of grows without bound at {}", at(t)),
             "infinite there",
         ),
-        Some(Trouble::Window(t)) => (
+        Some(NoValueCause::Window(t)) => (
             format!(
                 "result `{name}` has no value: its window does not lie in the analysis, or ends before it begins, at {}",
                 at(t)
             ),
             "no time of the analysis",
         ),
-        Some(Trouble::Unknown(t)) => (
+        Some(NoValueCause::Unknown(t)) => (
             format!("result `{name}` has no value: none of its digits is certain around {}", at(t)),
             "not certain enough",
         ),
-        Some(Trouble::Uncertain(t)) => (
+        Some(NoValueCause::Uncertain(t)) => (
             format!("result `{name}` has no value: the position at {} is too near to a singular one", at(t)),
             "more rounding than digits there",
         ),
@@ -42,8 +42,8 @@ pub fn result_without_value(outcome: &Outcome, trouble: Option<Trouble>) -> Diag
         None => (format!("result `{name}` has no value"), "its formula is infinite or undefined"),
     };
     let diagnostic = Diagnostic::new(Code::N0604, message).at(outcome.span, label);
-    match trouble {
-        Some(trouble) => diagnostic.datum("t", trouble.t()),
+    match cause {
+        Some(cause) => diagnostic.datum("t", cause.t()),
         None => diagnostic,
     }
 }

@@ -1,12 +1,12 @@
 //! The largest value of a formula and its first time, by branch and bound.
 //!
 //! The cell that may hold the largest value is looked at first: it is cut where a guard crosses its threshold, or in two, until the formula rises
-//! or falls all the way through it, or until its slope passes zero in it just once, at a place that is then solved for. Cells that cannot hold
+//! or falls all the way through it, or until its slope passes zero in it just once, at a time that is then solved for. Cells that cannot hold
 //! more than what is known are never looked into, and so a pole in the other direction costs nothing and hides nothing.
 
-use super::curve::{Cell, Found, Point, Verdict};
-use super::probe::{Probe, Scale, Trouble};
-use super::turn::{MOST_LOOKS, Sampled, Settling, Turning};
+use super::curve::{Cell, Estimate, Point, Verdict};
+use super::extremum_refinement::{MOST_LOOKS, Sampled, Settling, Turning};
+use super::interval_search::{IntervalSearch, NoValueCause, Scale};
 use crate::analysis::state::State;
 use mechc_expr::math::{between, median};
 use mechc_ir::program::Range;
@@ -24,62 +24,62 @@ use std::rc::Rc;
 pub(super) struct Extremum {
     /// 1, or −1 for the least value.
     sign: f64,
-    /// Whether its time is asked for.
+    /// True if its time is asked for.
     is_timed: bool,
-    /// What the largest value is at least, times the sign: of what is off by more than others less counts.
+    /// A lower bound of the largest value, times the sign.
     best: f64,
-    /// The value that this is known of, times the sign, how far off it may be, and its time (s).
-    best_found: Found,
+    /// The estimate behind this bound, and its time (s).
+    best_estimate: Estimate,
     best_at: f64,
-    /// Where it may be: extrema, edges and ends, with their values times the sign.
-    places: Vec<Place>,
+    /// The candidates: extrema, edges and ends, with their values times the sign.
+    candidates: Vec<Candidate>,
     /// The largest of these.
     largest: f64,
     /// A time (s) towards which the formula grows without bound.
     unbounded: Option<f64>,
-    /// Whether it is bounded as far as ranges tell.
+    /// True if it is bounded as far as ranges tell.
     is_bounded: bool,
-    /// How much larger it may be than what was found, where not all could be looked at.
+    /// A bound of how far the extremum may exceed the best value, if the search was not finished.
     unknown: f64,
 }
 
 #[derive(Clone, Copy, Debug)]
-struct Place {
+struct Candidate {
     t: f64,
-    /// How far off that may be (s), beyond what its kind tells.
-    off_in_time: f64,
+    /// A bound of the error of the time (s), beyond that of the kind.
+    time_error: f64,
     value: f64,
-    /// How far off that may be.
-    off: f64,
-    /// What the value is at least.
+    /// A bound of the error of the value.
+    error: f64,
+    /// A lower bound of the value.
     least: f64,
-    kind: Kind,
+    kind: CandidateKind,
 }
 
-impl Place {
-    /// Whether the value is more than rounding.
+impl Candidate {
+    /// Returns whether the value is more than rounding.
     fn is_known(&self, scale: Scale) -> bool {
-        self.off <= scale.gap(APART)
+        self.error <= scale.gap(APART)
     }
 
-    /// What the value is at most; of what may be rounding nothing counts but what it is at least.
+    /// Returns an upper bound of the value; if the value may be rounding, its lower bound.
     fn most(&self, scale: Scale) -> f64 {
-        if self.is_known(scale) { self.value + self.off } else { self.least }
+        if self.is_known(scale) { self.value + self.error } else { self.least }
     }
 }
 
-/// How much is known of an extremum.
+/// The kind of a candidate, which decides how accurate its time is.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-enum Kind {
+enum CandidateKind {
     Edge,
-    /// Where the slope passes zero.
+    /// A zero of the slope.
     Turn,
     /// The largest that was seen of a formula whose slope is not known.
-    Seen,
+    Sample,
 }
 
 /// A cell that waits to be looked into, with what is known of the formula in it.
-struct Open {
+struct OpenCell {
     cell: Cell,
     verdict: Verdict,
     range: Range,
@@ -89,24 +89,24 @@ struct Open {
     upper: f64,
 }
 
-impl PartialEq for Open {
-    fn eq(&self, other: &Open) -> bool {
+impl PartialEq for OpenCell {
+    fn eq(&self, other: &OpenCell) -> bool {
         self.cmp(other).is_eq()
     }
 }
 
-impl Eq for Open {}
+impl Eq for OpenCell {}
 
-impl PartialOrd for Open {
-    fn partial_cmp(&self, other: &Open) -> Option<Ordering> {
+impl PartialOrd for OpenCell {
+    fn partial_cmp(&self, other: &OpenCell) -> Option<Ordering> {
         Some(self.cmp(other))
     }
 }
 
-impl Ord for Open {
-    /// By the largest value that they may hold; what is earlier comes first.
-    fn cmp(&self, other: &Open) -> Ordering {
-        let t = |open: &Open| open.cell.a.state.t;
+impl Ord for OpenCell {
+    /// Orders cells by the largest value that they may hold; of equal ones the earlier is greater.
+    fn cmp(&self, other: &OpenCell) -> Ordering {
+        let t = |open: &OpenCell| open.cell.a.state.t;
         self.upper.total_cmp(&other.upper).then(t(other).total_cmp(&t(self)))
     }
 }
@@ -115,15 +115,15 @@ impl Extremum {
     pub fn new(largest: bool) -> Extremum {
         let sign = if largest { 1.0 } else { -1.0 };
         let nothing = f64::NEG_INFINITY;
-        let (places, unbounded) = (Vec::new(), None);
-        let (best_found, best_at) = (Found::NOTHING, f64::NAN);
+        let (candidates, unbounded) = (Vec::new(), None);
+        let (best_estimate, best_at) = (Estimate::NOTHING, f64::NAN);
         Extremum {
             sign,
             is_timed: false,
             best: nothing,
-            best_found,
+            best_estimate,
             best_at,
-            places,
+            candidates,
             largest: nothing,
             unbounded,
             is_bounded: true,
@@ -131,131 +131,142 @@ impl Extremum {
         }
     }
 
-    /// Asks for its time too.
-    pub fn ask_for_time(&mut self) {
+    /// Requests its time too.
+    pub fn request_time(&mut self) {
         self.is_timed = true;
     }
 
-    /// Takes note of a value at a time (s).
-    fn see(&mut self, t: f64, found: Found) {
-        if self.sign * found.value - found.off > self.best {
-            (self.best, self.best_found, self.best_at) = (self.sign * found.value - found.off, found, t);
+    /// Records a value at a time (s).
+    fn record(&mut self, t: f64, found: Estimate) {
+        if self.sign * found.value - found.error > self.best {
+            (self.best, self.best_estimate, self.best_at) = (self.sign * found.value - found.error, found, t);
         }
     }
 
-    /// Takes note of an edge or an end, at a time (s).
-    pub fn note_edge(&mut self, at: Found, Found { value, off }: Found, scale: Scale) {
-        let (value, t, off_in_time) = (self.sign * value, at.value, at.off);
-        self.add(Place { t, off_in_time, value, off, least: value - off, kind: Kind::Edge }, scale);
+    /// Records an edge or an end, at a time (s).
+    pub fn note_edge(&mut self, at: Estimate, Estimate { value, error }: Estimate, scale: Scale) {
+        let (value, t, time_error) = (self.sign * value, at.value, at.error);
+        self.add(Candidate { t, time_error, value, error, least: value - error, kind: CandidateKind::Edge }, scale);
     }
 
-    fn add(&mut self, found: Place, scale: Scale) {
+    fn add(&mut self, found: Candidate, scale: Scale) {
         if !found.value.is_finite() {
             return;
         }
-        self.see(found.t, Found { value: self.sign * found.value, off: found.value - found.least });
+        self.record(found.t, Estimate { value: self.sign * found.value, error: found.value - found.least });
         if found.most(scale) < self.best - scale.alike() {
             return;
         }
         // what was only seen is not as good as what may be found beside it
-        if found.kind != Kind::Seen && found.least > self.largest {
+        if found.kind != CandidateKind::Sample && found.least > self.largest {
             self.largest = found.least;
             let least = found.value - scale.alike();
-            self.places.retain(|known| known.most(scale) >= least);
+            self.candidates.retain(|known| known.most(scale) >= least);
         }
-        self.places.push(found);
+        self.candidates.push(found);
     }
 
-    /// Whether values that are no larger than this are of no interest any more.
+    /// Returns whether values that are no larger than this are of no interest any more.
     fn is_above(&self, upper: f64, scale: Scale) -> bool {
         let gap = scale.gap(GAP);
         upper < self.best - scale.alike() - gap || upper <= self.largest + gap
     }
 
-    /// Whether values that are no larger than this cannot be the extremum, nor, where its time is asked for, agree with it.
+    /// Returns whether values that are no larger than this cannot be the extremum, nor, where its time is asked for, agree with it.
     fn is_out_of_question(&self, upper: f64, scale: Scale) -> bool {
         upper < self.best - scale.alike() || (!self.is_timed && upper <= self.largest + scale.gap(GAP))
     }
 
-    /// The ends of a range, times the sign, in order.
+    /// Returns the ends of a range, times the sign, in order.
     fn oriented(&self, Range { low, high, .. }: Range) -> [f64; 2] {
         if self.sign > 0.0 { [low, high] } else { [-high, -low] }
     }
 
-    /// The values at both ends of a cell, times the sign.
+    /// Returns the values at both ends of a cell, times the sign.
     fn values(&self, cell: &Cell) -> [f64; 2] {
         [&cell.a, &cell.b].map(|point| self.sign * point.sample.value)
     }
 
-    /// A time (s) towards which the formula grows without bound, if there is one.
+    /// Returns a time (s) towards which the formula grows without bound, if there is one.
     pub fn unbounded(&self) -> Option<f64> {
         self.unbounded
     }
 
-    /// Whether it is bounded as far as ranges tell.
+    /// Returns whether it is bounded as far as ranges tell.
     pub fn is_bounded(&self) -> bool {
         self.is_bounded
     }
 
     /// The largest value: that of an extremum, an edge or an end, unless more was seen than can be of it. Not a number where there is none.
-    pub fn value(&self, scale: Scale) -> Found {
-        let known = self.places.iter().filter(|place| {
-            let is_known = place.least >= self.largest || place.is_known(scale);
-            place.kind != Kind::Seen && is_known && place.value >= self.largest
+    pub fn value(&self, scale: Scale) -> Estimate {
+        let known = self.candidates.iter().filter(|candidate| {
+            let is_known = candidate.least >= self.largest || candidate.is_known(scale);
+            candidate.kind != CandidateKind::Sample && is_known && candidate.value >= self.largest
         });
-        let place = known.max_by(|a, b| a.value.total_cmp(&b.value));
-        match place {
-            Some(place) if self.best <= place.most(scale) + scale.gap(GAP) => {
-                Found { value: self.sign * place.value, off: place.off.max(self.unknown) }
+        let candidate = known.max_by(|a, b| a.value.total_cmp(&b.value));
+        match candidate {
+            Some(candidate) if self.best <= candidate.most(scale) + scale.gap(GAP) => {
+                Estimate { value: self.sign * candidate.value, error: candidate.error.max(self.unknown) }
             }
-            _ => Found { off: self.best_found.off.max(scale.gap(GAP_OF_VALUES)).max(self.unknown), ..self.best_found },
+            _ => Estimate {
+                error: self.best_estimate.error.max(scale.gap(GAP_OF_VALUES)).max(self.unknown),
+                ..self.best_estimate
+            },
         }
     }
 
-    /// Its first time (s).
-    pub fn time(&self, scale: Scale) -> Found {
-        let found = |t: f64, part: f64| Found { value: t, off: part * scale.span };
+    /// Returns its first time (s).
+    pub fn time(&self, scale: Scale) -> Estimate {
+        let found = |t: f64, part: f64| Estimate { value: t, error: part * scale.span };
         let Some(first) = self.first(scale) else { return found(self.best_at, TIMES_OF_VALUES) };
-        let is_it = |next: &&Place| {
-            let beside = if first.kind == Kind::Turn { BESIDE } else { FACTOR * SHORTEST };
+        let is_it = |next: &&Candidate| {
+            let beside = if first.kind == CandidateKind::Turn { BESIDE } else { FACTOR * SHORTEST };
             let is_behind = next.t > first.t && next.t - first.t <= beside * scale.span;
-            next.kind == Kind::Edge && is_behind && next.most(scale) >= first.least
+            next.kind == CandidateKind::Edge && is_behind && next.most(scale) >= first.least
         };
-        let place = self.alike(scale).find(is_it).unwrap_or(&first);
-        match place.kind {
-            Kind::Edge => Found { value: place.t, off: f64::max(SHORTEST * scale.span, place.off_in_time) },
-            Kind::Turn => found(place.t, TIMES),
-            Kind::Seen => found(place.t, TIMES_OF_VALUES),
+        let candidate = self.alike(scale).find(is_it).unwrap_or(&first);
+        match candidate.kind {
+            CandidateKind::Edge => {
+                Estimate { value: candidate.t, error: f64::max(SHORTEST * scale.span, candidate.time_error) }
+            }
+            CandidateKind::Turn => found(candidate.t, TIMES),
+            CandidateKind::Sample => found(candidate.t, TIMES_OF_VALUES),
         }
     }
 
-    /// The places with the largest value.
-    fn alike(&self, scale: Scale) -> impl Iterator<Item = &Place> {
+    /// Returns the candidates with the largest value.
+    fn alike(&self, scale: Scale) -> impl Iterator<Item = &Candidate> {
         let least = self.best - scale.alike();
-        self.places.iter().filter(move |place| place.most(scale) >= least)
+        self.candidates.iter().filter(move |candidate| candidate.most(scale) >= least)
     }
 
-    /// The first of these.
-    fn first(&self, scale: Scale) -> Option<Place> {
+    /// Returns the first of these.
+    fn first(&self, scale: Scale) -> Option<Candidate> {
         let earliest = |known: bool| {
-            let those = self.alike(scale).filter(move |place| (place.kind != Kind::Seen) == known);
+            let those = self.alike(scale).filter(move |candidate| (candidate.kind != CandidateKind::Sample) == known);
             those.min_by(|a, b| a.t.total_cmp(&b.t)).copied()
         };
         earliest(true).or_else(|| earliest(false))
     }
 
-    /// How far values usually are from the largest one: what is a difference goes by that, and not by what a pole in the other direction makes
-    /// of a few.
-    fn spread(&self, samples: &[Found], rounding: f64) -> f64 {
-        let off = |found: &Found| ((self.best - self.sign * found.value).abs(), found.off.max(rounding));
-        let different = samples.iter().map(off).filter(|(off, rounding)| off > rounding && off.is_finite());
-        median(different.map(|(off, _)| off).collect())
+    /// Returns the median distance of values from the largest one, which a pole in the other direction does not distort.
+    fn spread(&self, samples: &[Estimate], rounding: f64) -> f64 {
+        let distance = |found: &Estimate| ((self.best - self.sign * found.value).abs(), found.error.max(rounding));
+        let different =
+            samples.iter().map(distance).filter(|(distance, rounding)| distance > rounding && distance.is_finite());
+        median(different.map(|(distance, _)| distance).collect())
     }
 }
 
-impl Probe<'_> {
+impl IntervalSearch<'_> {
     /// Looks for the extremum in some cells, where some values are known and the formula has a scale.
-    pub(super) fn search(&mut self, cells: &[Cell], samples: &[Found], extremum: &mut Extremum, scale: Scale) -> Scale {
+    pub(super) fn search(
+        &mut self,
+        cells: &[Cell],
+        samples: &[Estimate],
+        extremum: &mut Extremum,
+        scale: Scale,
+    ) -> Scale {
         self.is_timed = extremum.is_timed;
         let mut heap = BinaryHeap::new();
         for cell in cells {
@@ -278,7 +289,7 @@ impl Probe<'_> {
             if self.notes.are_exhausted() {
                 extremum.unknown = f64::max(open.upper - extremum.best, 0.0);
                 if extremum.is_timed || extremum.unknown == f64::INFINITY {
-                    self.notes.meet(Trouble::Unknown(open.cell.a.state.t));
+                    self.notes.meet(NoValueCause::Unknown(open.cell.a.state.t));
                 }
                 return scale;
             }
@@ -291,7 +302,7 @@ impl Probe<'_> {
                 }
             }
             self.look_into(&open, extremum, scale, &mut parts);
-            if self.notes.trouble.is_some() || extremum.unbounded.is_some() {
+            if self.notes.cause.is_some() || extremum.unbounded.is_some() {
                 return scale;
             }
             heap.extend(parts.drain(..));
@@ -302,17 +313,17 @@ impl Probe<'_> {
         scale
     }
 
-    /// Looks for earlier places where the value is the same.
-    fn search_in_time(&mut self, mut open: Vec<Open>, extremum: &mut Extremum, scale: Scale) {
+    /// Looks for earlier times with the same value.
+    fn search_in_time(&mut self, mut open: Vec<OpenCell>, extremum: &mut Extremum, scale: Scale) {
         open.retain(|open| open.upper >= extremum.best - scale.alike());
         open.sort_by(|a, b| b.cell.a.state.t.total_cmp(&a.cell.a.state.t));
         let mut parts = Vec::new();
         while let Some(next) = open.pop() {
-            let first = extremum.first(scale).filter(|first| first.kind != Kind::Seen);
+            let first = extremum.first(scale).filter(|first| first.kind != CandidateKind::Sample);
             if self.notes.are_exhausted() {
-                self.notes.meet(Trouble::Unknown(next.cell.a.state.t));
+                self.notes.meet(NoValueCause::Unknown(next.cell.a.state.t));
             }
-            if first.is_some_and(|first| first.t <= next.cell.a.state.t) || self.notes.trouble.is_some() {
+            if first.is_some_and(|first| first.t <= next.cell.a.state.t) || self.notes.cause.is_some() {
                 return;
             }
             if next.upper >= extremum.best - scale.alike() {
@@ -323,19 +334,19 @@ impl Probe<'_> {
         }
     }
 
-    /// Takes note of the values at both ends of a cell.
-    fn see_ends(&mut self, cell: &Cell, extremum: &mut Extremum) {
+    /// Records the values at both ends of a cell.
+    fn record_ends(&mut self, cell: &Cell, extremum: &mut Extremum) {
         for (point, other) in [(&cell.a, &cell.b), (&cell.b, &cell.a)] {
             if !point.exists() {
                 self.miss(cell.step, point.state.t);
             } else if extremum.sign * point.sample.value > extremum.best && !self.curve.is_at_threshold(point, other) {
-                extremum.see(point.state.t, self.curve.found(point));
+                extremum.record(point.state.t, self.curve.estimate(point));
             }
         }
     }
 
     /// Finds out what is known of the formula in a cell.
-    fn open(&mut self, mut cell: Cell, extremum: &mut Extremum, scale: Scale) -> Open {
+    fn open(&mut self, mut cell: Cell, extremum: &mut Extremum, scale: Scale) -> OpenCell {
         let (verdict, range) = self.enclose(&mut cell);
         let is_nothing = matches!(verdict, Verdict::Missing | Verdict::Rounding);
         let mut upper = if is_nothing { f64::NEG_INFINITY } else { extremum.oriented(range)[1] };
@@ -351,15 +362,15 @@ impl Probe<'_> {
         }
         // how far off values may be is found with what the ranges were found with
         if verdict != Verdict::Rounding {
-            self.see_ends(&cell, extremum);
+            self.record_ends(&cell, extremum);
         } else if extremum.oriented(range)[1] == f64::INFINITY {
-            self.see_growth(&cell, extremum, scale);
+            self.record_growth(&cell, extremum, scale);
         }
-        Open { cell, verdict, range, derivatives, upper }
+        OpenCell { cell, verdict, range, derivatives, upper }
     }
 
     /// Looks into a cell: takes note of the extremum in it, or leaves its parts.
-    fn look_into(&mut self, open: &Open, extremum: &mut Extremum, scale: Scale, parts: &mut Vec<Open>) {
+    fn look_into(&mut self, open: &OpenCell, extremum: &mut Extremum, scale: Scale, parts: &mut Vec<OpenCell>) {
         let cell = &open.cell;
         if self.is_shortest(cell) || open.verdict == Verdict::Alike {
             self.close(cell, open.range, extremum, scale);
@@ -385,8 +396,8 @@ impl Probe<'_> {
                 let Some(halves) = self.halve(cell) else { return };
                 if cell.length() <= self.short && halves[0].b.exists() {
                     // where rounding alone makes it as large, nothing is found by cutting on
-                    let off = self.curve.uncertainty(&halves[0].b);
-                    if off >= 0.5 * (open.upper - extremum.best) {
+                    let error = self.curve.uncertainty(&halves[0].b);
+                    if error >= 0.5 * (open.upper - extremum.best) {
                         self.close(cell, open.range, extremum, scale);
                         return;
                     }
@@ -399,7 +410,7 @@ impl Probe<'_> {
         }
     }
 
-    /// Takes note of what is in a cell too short to be cut: an edge to neighbouring times, a cusp, or a pole.
+    /// Records what is in a cell too short to be cut: an edge to neighbouring times, a cusp, or a pole.
     fn close(&mut self, cell: &Cell, range: Range, extremum: &mut Extremum, scale: Scale) {
         let ends = [&cell.a, &cell.b];
         let sign = extremum.sign;
@@ -415,60 +426,64 @@ impl Probe<'_> {
             // a value of its own is that of no side
             let is_apart = self.curve.is_at_threshold(point, other) && step > scale.gap(APART) && {
                 let t = point.state.t + outward * FACTOR * self.shortest;
-                let beside = self.point_beside(cell.step, t);
+                let beside = self.point_near(cell.step, t);
                 beside.is_none_or(|beside| (beside.sample.value - point.sample.value).abs() > scale.gap(APART))
             };
             if !point.exists() || is_apart {
                 continue;
             }
-            let found = self.curve.found(point);
+            let found = self.curve.estimate(point);
             if goes_on && step <= scale.gap(GAP) {
-                extremum.see(point.state.t, found);
+                extremum.record(point.state.t, found);
             } else {
-                let off = cell.length().max(point.shift.time).max(point.doubt);
-                extremum.note_edge(Found { value: point.state.t, off }, found, scale);
+                let error = cell.length().max(point.shift.time).max(point.crossing_error);
+                extremum.note_edge(Estimate { value: point.state.t, error }, found, scale);
             }
         }
         for value in self.curve.between_points(&cell.a, &cell.b) {
             if sign * value >= extremum.best - scale.alike() && self.goes_to(value, cell, scale) {
-                let off = cell.length().max(cell.b.shift.time).max(cell.b.doubt);
-                let at = Found { value: cell.b.state.t, off };
-                extremum.note_edge(at, Found { value, off: KNOWN * value.abs() }, scale);
+                let error = cell.length().max(cell.b.shift.time).max(cell.b.crossing_error);
+                let at = Estimate { value: cell.b.state.t, error };
+                extremum.note_edge(at, Estimate { value, error: KNOWN * value.abs() }, scale);
             }
         }
         // it may end where it has become too large
         let is_beside_hole = cell.a.exists() != cell.b.exists();
         if is_beside_hole || extremum.oriented(range)[1] == f64::INFINITY {
             extremum.is_bounded = false;
-            self.see_growth(cell, extremum, scale);
+            self.record_growth(cell, extremum, scale);
         }
     }
 
-    /// Whether a value is what the formula goes to towards a cell, from before or from behind: it comes nearer to that.
+    /// Returns whether a value is what the formula goes to towards a cell, from before or from behind: it comes nearer to that.
     fn goes_to(&mut self, value: f64, cell: &Cell, scale: Scale) -> bool {
-        [(&cell.a, -1.0), (&cell.b, 1.0)].into_iter().any(|(point, way)| {
-            self.beside(cell.step, point, (way, cell.length()), scale).is_some_and(|[near, far, _]| {
+        [(&cell.a, -1.0), (&cell.b, 1.0)].into_iter().any(|(point, direction)| {
+            self.samples_near(cell.step, point, (direction, cell.length()), scale).is_some_and(|[near, far, _]| {
                 let [left, before] = [near, far].map(|found| (found.value - value).abs());
-                left <= CONVERGES * before + near.off + far.off
+                left <= CONVERGES * before + near.error + far.error
             })
         })
     }
 
-    /// Takes note of a cell of which no range is known, if the formula grows towards it without bound, from before or from behind: it gains no less
-    /// from one place to the next, which come near by equal factors.
-    fn see_growth(&mut self, cell: &Cell, extremum: &mut Extremum, scale: Scale) {
-        for (point, way) in [(&cell.a, -1.0), (&cell.b, 1.0)] {
-            let Some(places) = self.beside(cell.step, point, (way, cell.length()), scale) else { continue };
-            let gain = |near: Found, far: Found| (extremum.sign * (near.value - far.value), near.off + far.off);
-            let ((last, off), (before, off_before)) = (gain(places[0], places[1]), gain(places[1], places[2]));
-            if before > off_before && off <= before && last + off >= CONVERGES * before {
+    /// Records a cell of which no range is known, if the formula grows towards it without bound, from before or from behind: it gains no less
+    /// from one sample to the next, which come near by equal factors.
+    fn record_growth(&mut self, cell: &Cell, extremum: &mut Extremum, scale: Scale) {
+        for (point, direction) in [(&cell.a, -1.0), (&cell.b, 1.0)] {
+            let Some(candidates) = self.samples_near(cell.step, point, (direction, cell.length()), scale) else {
+                continue;
+            };
+            let gain =
+                |near: Estimate, far: Estimate| (extremum.sign * (near.value - far.value), near.error + far.error);
+            let ((last, error), (before, error_before)) =
+                (gain(candidates[0], candidates[1]), gain(candidates[1], candidates[2]));
+            if before > error_before && error <= before && last + error >= CONVERGES * before {
                 extremum.unbounded = Some(cell.b.state.t);
             }
         }
     }
 
-    /// Whether a smooth cell holds nothing more of interest; what it holds has been noted.
-    fn is_done(&mut self, open: &Open, extremum: &mut Extremum, scale: Scale) -> bool {
+    /// Returns whether a smooth cell holds nothing more of interest; what it holds has been noted.
+    fn is_done(&mut self, open: &OpenCell, extremum: &mut Extremum, scale: Scale) -> bool {
         match open.derivatives {
             [Some(first), second] => self.is_done_by_slopes(open, [Some(first), second], extremum, scale),
             [None, _] if self.curve.derivatives() == 0 => {
@@ -478,10 +493,10 @@ impl Probe<'_> {
         }
     }
 
-    /// As [`Probe::is_done`], by what the formula's derivatives can be in the cell.
+    /// As [`IntervalSearch::is_done`], by what the formula's derivatives can be in the cell.
     fn is_done_by_slopes(
         &mut self,
-        Open { cell, upper, .. }: &Open,
+        OpenCell { cell, upper, .. }: &OpenCell,
         derivatives: [Option<Range>; 2],
         extremum: &mut Extremum,
         scale: Scale,
@@ -511,7 +526,7 @@ impl Probe<'_> {
         is_small || turns_once || bends_down > 0.0
     }
 
-    /// Where the slope, times the sign, passes from above zero to zero or below: by Newton between bounds.
+    /// Returns a zero of the slope, at which the slope times the sign passes from above zero to zero or below, by Newton between bounds.
     fn solve_for_turn(&mut self, cell: &Cell, extremum: &mut Extremum, scale: Scale) {
         let sign = extremum.sign;
         let slope = |point: &Point| sign * point.sample.first;
@@ -553,16 +568,19 @@ impl Probe<'_> {
         self.note_turn(cell, &top, turn, extremum, scale);
     }
 
-    /// Takes note of a turn at a time (s), near a point.
+    /// Records a turn at a time (s), near a point.
     fn note_turn(&mut self, cell: &Cell, near: &Point, t: f64, extremum: &mut Extremum, scale: Scale) {
-        let off = self.curve.uncertainty(near);
+        let error = self.curve.uncertainty(near);
         let settled = self.settled_turn(cell.step, &near.state, t, scale.span);
         let [t, value] = settled.unwrap_or([t, near.sample.value]);
         let value = extremum.sign * value;
-        extremum.add(Place { t, off_in_time: 0.0, value, off, least: value - off, kind: Kind::Turn }, scale);
+        extremum.add(
+            Candidate { t, time_error: 0.0, value, error, least: value - error, kind: CandidateKind::Turn },
+            scale,
+        );
     }
 
-    /// The time (s) and the value of a turn that is near a state and a time, as they are whichever way led there; none where it does not settle, or
+    /// The time (s) and the value of a turn that is near a state and a time, as they are whichever path led there; `None` where it does not settle, or
     /// beyond an edge.
     fn settled_turn(&mut self, step: usize, near: &State, t: f64, span: f64) -> Option<[f64; 2]> {
         if !self.curve.settles() {
@@ -592,16 +610,17 @@ impl Probe<'_> {
         }
     }
 
-    /// Whether a cell whose values are no larger than `upper` holds hardly more than the larger of its ends, which is noted then with the
+    /// Returns whether a cell whose values are no larger than `upper` holds hardly more than the larger of its ends, which is noted then with the
     /// top beside it: all that is known of a formula without derivatives.
     fn is_done_by_values(&mut self, cell: &Cell, upper: f64, extremum: &mut Extremum, scale: Scale) -> bool {
         let [a, b] = extremum.values(cell);
         let is_small = upper <= f64::max(a, b).min(extremum.best) + scale.gap(GAP_OF_VALUES);
         if is_small && f64::max(a, b) >= extremum.best - scale.alike() {
             let (point, value) = if b > a { (&cell.b, b) } else { (&cell.a, a) };
-            let off = scale.gap(GAP_OF_VALUES);
+            let error = scale.gap(GAP_OF_VALUES);
             let t = point.state.t;
-            extremum.add(Place { t, off_in_time: 0.0, value, off, least: value, kind: Kind::Seen }, scale);
+            extremum
+                .add(Candidate { t, time_error: 0.0, value, error, least: value, kind: CandidateKind::Sample }, scale);
             if let Some(top) = self.top_beside(cell, point, extremum.sign, scale) {
                 extremum.add(top, scale);
             }
@@ -609,9 +628,9 @@ impl Probe<'_> {
         is_small
     }
 
-    /// The top beside one of the ends of a cell; none where it lies farther away, where another cell has it. It is that of a parabola through
+    /// The top beside one of the ends of a cell; `None` where it lies farther away, where another cell has it. It is that of a parabola through
     /// three points, as far apart as these ends at first, and then ever closer.
-    fn top_beside(&mut self, cell: &Cell, near: &Rc<Point>, sign: f64, scale: Scale) -> Option<Place> {
+    fn top_beside(&mut self, cell: &Cell, near: &Rc<Point>, sign: f64, scale: Scale) -> Option<Candidate> {
         let [from, to] = [&self.steps[cell.step].from, &self.steps[cell.step].to].map(|state| state.t);
         let (mut t, mut apart) = (near.state.t, cell.length());
         let (rounding, finest) = (scale.gap(0.0), FINEST * scale.span);
@@ -627,19 +646,19 @@ impl Probe<'_> {
                 }
                 break;
             }
-            let off = -rise / bend;
-            if off.abs() > FARTHEST {
+            let offset = -rise / bend;
+            if offset.abs() > FARTHEST {
                 return None;
             }
-            t = (center + off * h).clamp(from, to);
+            t = (center + offset * h).clamp(from, to);
             if apart <= finest {
                 break;
             }
             apart = finest.max(CLOSER * apart);
         }
         let [value] = self.values_at(cell.step, [t], sign)?;
-        let off = scale.gap(GAP_OF_VALUES);
-        Some(Place { t, off_in_time: 0.0, value, off, least: value, kind: Kind::Turn })
+        let error = scale.gap(GAP_OF_VALUES);
+        Some(Candidate { t, time_error: 0.0, value, error, least: value, kind: CandidateKind::Turn })
     }
 
     /// The formula at some times (s) of a step, times the sign.
@@ -653,7 +672,7 @@ impl Probe<'_> {
     }
 }
 
-/// Where the straight line through the slopes at both ends of a cell is zero (s).
+/// Returns the time (s) at which the straight line through the slopes at both ends of a cell is zero.
 fn chord(cell: &Cell, sign: f64) -> f64 {
     let [a, b] = [&cell.a, &cell.b].map(|point| sign * point.sample.first);
     cell.a.state.t + cell.length() * a / (a - b)

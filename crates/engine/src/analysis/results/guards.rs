@@ -15,9 +15,9 @@ use std::f64::consts::PI;
 #[derive(Clone, Debug)]
 pub(super) struct Guard {
     kind: Kind,
-    /// Of a choice: the comparisons of the same two registers that derivatives hold, and the side on which each is true.
+    /// The comparisons of the registers of a choice that derivatives contain, and the side on which each is true.
     comparisons: Vec<(Register, f64)>,
-    /// Whether a function has no value on one side: below zero, or beyond −1 and 1.
+    /// True if a function has no value on one side: below zero, or beyond −1 and 1.
     ends: bool,
     /// Among the formulas whose ranges are known: the argument, and its time derivative where it has one.
     pub witness: Option<[usize; 2]>,
@@ -41,14 +41,14 @@ enum Kind {
     Tangent { a: Register },
 }
 
-/// The number of the pole of a tangent before an argument.
+/// Returns the number of the pole of a tangent before an argument.
 fn branch_of_tangent(a: f64) -> f64 {
     (a / PI + 0.5).floor()
 }
 
-/// Where a guard is at a state.
+/// The state of a guard: the side of its threshold, and its argument.
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub(super) struct Mark {
+pub(super) struct GuardState {
     /// The side of the threshold, or the number of the step or piece.
     pub side: f64,
     /// The argument, less the threshold where there is but one.
@@ -57,14 +57,14 @@ pub(super) struct Mark {
     sign: f64,
 }
 
-impl Mark {
-    /// Whether another one is on another side.
-    pub fn is_beside(&self, other: &Mark) -> bool {
+impl GuardState {
+    /// Returns whether another one is on another side.
+    pub fn differs_from(&self, other: &GuardState) -> bool {
         self.side.total_cmp(&other.side).is_ne()
     }
 }
 
-/// How a guard is in a cell.
+/// The behavior of a guard in a cell.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Crossing {
     /// The guard stays on its side.
@@ -76,7 +76,7 @@ pub(super) enum Crossing {
 }
 
 impl Guard {
-    fn of(op: Op, program: &Program) -> Option<Kind> {
+    fn kind_of(op: Op, program: &Program) -> Option<Kind> {
         Some(match op {
             Op::Compare { to, a, b, .. } => Kind::Comparison { to, a, b },
             Op::Unary { function: Unary::Sign, to, a } => Kind::Step { to, a, is_whole: false },
@@ -93,8 +93,8 @@ impl Guard {
         })
     }
 
-    /// Where the guard is, by the registers of a program that has been run.
-    pub fn mark(&self, registers: &Registers) -> Mark {
+    /// Returns the guard's state, from the registers of a program that has been run.
+    pub fn mark(&self, registers: &Registers) -> GuardState {
         let get = |register: Register| registers.get(register);
         let sign = |x: f64| if x == 0.0 { 0.0 } else { x.signum() };
         let (side, argument) = match self.kind {
@@ -105,28 +105,28 @@ impl Guard {
             Kind::Tangent { a } => (branch_of_tangent(get(a)), get(a)),
             Kind::Unit { a } => {
                 let side = f64::from(u8::from(get(a).abs() <= 1.0));
-                return Mark { side, argument: get(a).abs() - 1.0, sign: sign(get(a)) };
+                return GuardState { side, argument: get(a).abs() - 1.0, sign: sign(get(a)) };
             }
         };
-        Mark { side, argument, sign: sign(argument) }
+        GuardState { side, argument, sign: sign(argument) }
     }
 
-    /// Whether the formula may have a value of its own where the guard is: neither that of before nor that of behind.
-    pub fn is_at_threshold(&self, mark: Mark) -> bool {
+    /// Returns whether the formula may have a value of its own where the guard is: neither that of before nor that of behind.
+    pub fn is_at_threshold(&self, mark: GuardState) -> bool {
         match self.kind {
             Kind::Zero { .. } | Kind::Step { is_whole: false, .. } => mark.side == 0.0,
             _ => false,
         }
     }
 
-    /// Whether the formula may have no value where the guard is.
-    pub fn is_beyond_end(&self, mark: Mark) -> bool {
+    /// Returns whether the formula may have no value where the guard is.
+    pub fn is_beyond_end(&self, mark: GuardState) -> bool {
         let is_beyond = if matches!(self.kind, Kind::Unit { .. }) { mark.side == 0.0 } else { mark.side < 0.0 };
         self.ends && is_beyond
     }
 
-    /// How far the argument is from the threshold between two sides, at both; not a number where several thresholds lie between.
-    pub fn distances(&self, marks: [Mark; 2], registers: &Registers) -> [f64; 2] {
+    /// Returns the distances of both arguments from the threshold between two sides; NaN if several thresholds lie between.
+    pub fn distances(&self, marks: [GuardState; 2], registers: &Registers) -> [f64; 2] {
         let later = marks[0].side.max(marks[1].side);
         let is_next = (marks[0].side - marks[1].side).abs() <= 1.0;
         let threshold = match self.kind {
@@ -141,7 +141,7 @@ impl Guard {
         marks.map(|mark| mark.argument - threshold)
     }
 
-    /// Whether a formula depends on the guard, in ranges.
+    /// Returns whether a formula depends on the guard, in ranges.
     pub fn is_live(&self, ranges: &Ranges) -> bool {
         match self.kind {
             Kind::Comparison { to, .. } | Kind::Step { to, .. } | Kind::Piece { to, .. } => ranges.is_live(to),
@@ -150,8 +150,8 @@ impl Guard {
         }
     }
 
-    /// How the guard is between two states, by the ranges there.
-    pub fn crossing(&self, ranges: &Ranges, [a, b]: [Mark; 2]) -> Crossing {
+    /// Classifies the guard between two states, by the ranges there.
+    pub fn crossing(&self, ranges: &Ranges, [a, b]: [GuardState; 2]) -> Crossing {
         let is_decided = match self.kind {
             Kind::Comparison { to, .. } | Kind::Step { to, .. } | Kind::Piece { to, .. } => {
                 let [low, high] = ranges.interval(to);
@@ -183,8 +183,8 @@ impl Guard {
         }
     }
 
-    /// Whether rounding alone decides on which side the guard is at a state, by the ranges of what it is made of there.
-    pub fn is_within_rounding(&self, ranges: &Ranges, mark: Mark) -> bool {
+    /// Returns whether rounding alone decides on which side the guard is at a state, by the ranges of what it is made of there.
+    pub fn is_within_rounding(&self, ranges: &Ranges, mark: GuardState) -> bool {
         let side: fn(f64) -> f64 = match self.kind {
             Kind::Step { is_whole: true, .. } => f64::floor,
             Kind::Tangent { .. } => branch_of_tangent,
@@ -196,7 +196,7 @@ impl Guard {
         ends[0].total_cmp(&ends[1]).is_ne()
     }
 
-    /// What the argument may be in ranges, less the threshold where there is but one.
+    /// Returns the range of the argument, less the threshold if there is only one.
     pub fn argument(&self, ranges: &Ranges) -> [f64; 2] {
         match self.kind {
             Kind::Comparison { a, b, .. } | Kind::Choice { a, b } => {
@@ -233,9 +233,9 @@ impl Guard {
 
     /// A value of the argument at which the formula is not smooth, if it lies between two states beside each other. How large the argument usually
     /// is tells whether it goes there, or jumps.
-    pub fn value_between(&self, [a, b]: [Mark; 2], usual: f64) -> Option<f64> {
+    pub fn value_between(&self, [a, b]: [GuardState; 2], usual: f64) -> Option<f64> {
         let is_between = match self.kind {
-            Kind::Zero { .. } => a.is_beside(&b),
+            Kind::Zero { .. } => a.differs_from(&b),
             Kind::Unit { .. } => a.side.max(b.side) > 0.0,
             _ => false,
         };
@@ -244,7 +244,7 @@ impl Guard {
     }
 
     /// A value of the argument at which the formula is not smooth, and which the argument is near to.
-    pub fn value_near(&self, mark: Mark, usual: f64) -> Option<f64> {
+    pub fn value_near(&self, mark: GuardState, usual: f64) -> Option<f64> {
         let is_near = mark.argument.abs() <= NEAR * usual;
         match self.kind {
             Kind::Zero { .. } if is_near => Some(0.0),
@@ -261,7 +261,7 @@ impl Guard {
     }
 }
 
-/// Whether an operation has no value on one side of a threshold.
+/// Returns whether an operation has no value on one side of a threshold.
 fn ends(op: Op) -> bool {
     matches!(
         op,
@@ -270,7 +270,7 @@ fn ends(op: Op) -> bool {
     )
 }
 
-/// Formulas whose time derivatives tell whether guards cross their thresholds at most once: what is compared, and the like.
+/// Returns the formulas whose time derivatives show whether guards cross their thresholds at most once, such as differences that are compared.
 pub(super) fn arguments(graph: &mut Graph, formulas: &[ExprId]) -> Vec<ExprId> {
     let mut arguments = Vec::new();
     for id in graph.reachable(formulas) {
@@ -333,7 +333,7 @@ pub(super) fn guards(
     };
     let mut found: Vec<Guard> = Vec::new();
     for op in program.operations_behind(roots, Stage::Measures) {
-        let Some(kind) = Guard::of(op, program) else { continue };
+        let Some(kind) = Guard::kind_of(op, program) else { continue };
         let argument = match kind {
             Kind::Comparison { a, b, .. } | Kind::Choice { a, b } => match (node_of(graph, a), node_of(graph, b)) {
                 (Some(a), Some(b)) => Some(graph.sub(a, b)),
@@ -371,7 +371,7 @@ pub(super) fn guards(
     found
 }
 
-/// The time derivatives of some formulas, which may not be known.
+/// Returns the time derivatives of some formulas, as far as they are known.
 pub(super) fn slopes(
     graph: &mut Graph,
     formulas: &[ExprId],
@@ -385,7 +385,7 @@ pub(super) fn slopes(
         .collect()
 }
 
-/// The result of a comparison of two registers, and the sign of their difference with which it is true.
+/// Returns the result of a comparison of two registers, and the sign of their difference with which it is true.
 fn compared(op: &Op, a: Register, b: Register) -> Option<(Register, f64)> {
     match *op {
         Op::Compare { comparison: Comparison::Less | Comparison::LessEqual, to, a: x, b: y } => match (x, y) {

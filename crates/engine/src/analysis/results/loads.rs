@@ -6,14 +6,14 @@
 use mechc_ir::program::{Program, Range, Ranges, Register, Registers};
 use mechc_ir::tolerances::results::loads::{LITTLE, ROUNDINGS, SEEN};
 
-/// What loads may do in a cell that its ends and its middle do not tell.
+/// A bound of what loads do in a cell beyond what its ends and its middle show.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(super) enum Hidden {
     Nothing,
-    /// A load may go by so much beyond what is told of it.
-    Something(f64),
-    /// A load may be as large as it likes.
-    Anything,
+    /// A load may exceed its bounds by this much.
+    AtMost(f64),
+    /// A load has no bound.
+    Unbounded,
 }
 
 /// All loads of a mechanism. Their ranges are those of the formulas 1, 2, … of a [`Ranges`].
@@ -25,7 +25,7 @@ struct Load {
     value: Register,
     /// The largest magnitude that was seen.
     largest: f64,
-    /// How far rounding may be off, the most that was seen.
+    /// The largest effect of rounding that was seen.
     rounding: f64,
 }
 
@@ -36,12 +36,12 @@ impl Loads {
         Loads { each: values.iter().map(load).collect() }
     }
 
-    /// How many there are.
+    /// Returns the number of loads.
     pub fn count(&self) -> usize {
         self.each.len()
     }
 
-    /// Their values at a state that the program has just been run at.
+    /// Returns their values at a state that the program has just been run at.
     pub fn values(&mut self, registers: &Registers) -> Vec<f64> {
         let value = |load: &mut Load| {
             let value = registers.get(load.value);
@@ -51,7 +51,7 @@ impl Loads {
         self.each.iter_mut().map(value).collect()
     }
 
-    /// Takes note of what rounding makes of them at a state that ranges were set to.
+    /// Records what rounding makes of them at a state that ranges were set to.
     pub fn look_at_rounding(&mut self, (program, registers): (&Program, &Registers), ranges: &mut Ranges) {
         for (k, load) in self.each.iter_mut().enumerate() {
             let range = ranges.range(program, registers, 1 + k);
@@ -60,31 +60,31 @@ impl Loads {
         }
     }
 
-    /// What they may do beyond what is told of each: between which values it seems to stay.
+    /// Returns how far loads may go beyond `bounds`, the interval in which each seems to stay.
     pub fn hidden(
         &mut self,
         (program, registers): (&Program, &Registers),
         ranges: &mut Ranges,
-        told: impl Fn(usize) -> [f64; 2],
+        bounds: impl Fn(usize) -> [f64; 2],
     ) -> Hidden {
         let mut hidden = Hidden::Nothing;
         for (k, load) in self.each.iter().enumerate() {
             let range = ranges.range(program, registers, 1 + k);
-            let beyond = beyond(range, told(k));
+            let beyond = beyond(range, bounds(k));
             if !beyond.is_finite() {
-                return Hidden::Anything;
+                return Hidden::Unbounded;
             }
             let most = if range.is_resolved { SEEN } else { LITTLE };
             if beyond > f64::max(most * load.largest, ROUNDINGS * load.rounding) {
-                let so_far = if let Hidden::Something(most) = hidden { most } else { 0.0 };
-                hidden = Hidden::Something(beyond.max(so_far));
+                let so_far = if let Hidden::AtMost(most) = hidden { most } else { 0.0 };
+                hidden = Hidden::AtMost(beyond.max(so_far));
             }
         }
         hidden
     }
 }
 
-/// How far a range goes beyond what is told; no number or infinite where it has no end.
+/// Returns how far a range goes beyond an interval; infinite if the range has no end.
 fn beyond(range: Range, [low, high]: [f64; 2]) -> f64 {
     let [below, above] = [low - range.low, range.high - high];
     // what is infinite or no number on one side is so in the sum

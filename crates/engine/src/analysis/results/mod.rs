@@ -1,38 +1,41 @@
 //! Results: numbers for the whole analysis, which do not depend on the rows that are asked for.
 //!
 //! ```text
-//! Started ──▶ its own Motion ──▶ stretches ──▶ extremes, integrals, values ──▶ reductions ──▶ results
+//! Started ──▶ its own Motion ──▶ segments ──▶ extremes, integrals, values ──▶ reductions ──▶ results
 //! ```
 //!
 //! The motion is followed once more, in the steps that it allows, and looked at between their ends as closely as each
 //! formula needs. No bit of a row depends on it.
 
-mod certain;
+mod batch_evaluation;
 pub mod course;
 mod curve;
 mod errors;
 mod extremum;
+mod extremum_refinement;
 mod guards;
+mod interval_search;
 mod loads;
-mod places;
-mod probe;
+mod magnitudes;
 mod quadrature;
-mod quantities;
-mod quantity;
-mod reduced;
-mod sizes;
-mod smooth;
+mod reductions;
+mod sensitivities;
+mod smooth_formulas;
+mod smooth_parts;
 mod spectral;
-mod turn;
-mod varying;
+mod state_sampler;
+mod validity;
 
 use crate::analysis::assemble::Started;
 use crate::analysis::explain::Stop;
 use crate::analysis::follow::{Follower, SmoothSegment};
 use crate::analysis::state::{Kinematics, State, Times};
 use crate::solver::Solver;
-use certain::Near;
-use curve::{Curve, Found};
+pub use batch_evaluation::{Computed, SmoothFormula, moved};
+use curve::{Curve, Estimate};
+pub use extremum_refinement::{MOST_LOOKS, Sampled, Settling, Turning};
+use interval_search::NoValueCause;
+use magnitudes::Largest;
 use mechc_expr::{ExprId, Graph, Node, Symbol};
 use mechc_ir::structure::Determined;
 use mechc_ir::tolerances::results::places::SHORTEST;
@@ -40,18 +43,15 @@ use mechc_ir::tolerances::results::stretches::{CHUNK, FEW, NUMBERS};
 use mechc_ir::{ConstraintSystem, Outcome, Reduction, ReductionKind};
 use mechc_text::cancel::Cancel;
 use mechc_text::diag::{Diagnostic, Diagnostics};
-use places::Places;
-use probe::Trouble;
-pub use quantities::SmoothFormulas;
-pub use quantity::{Computed, SmoothFormula, moved};
-use reduced::Reduced;
+use reductions::FormulaReductions;
 use rustc_hash::FxHashMap;
-use sizes::Largest;
+pub use smooth_formulas::SmoothFormulas;
 pub use spectral::{Settled, SpectralIntegral};
+use state_sampler::StateSampler;
 use std::sync::Arc;
-pub use turn::{MOST_LOOKS, Sampled, Settling, Turning};
+use validity::SingularIntervals;
 
-/// What is wrong with the results that an analysis from one time to another (s) is asked for.
+/// Returns the faults of the results for an analysis from one time to another (s).
 #[must_use]
 pub fn refused_results(system: &ConstraintSystem, interval @ [from, to]: [f64; 2]) -> Diagnostics {
     let mut diagnostics = Diagnostics::default();
@@ -67,7 +67,7 @@ pub fn refused_results(system: &ConstraintSystem, interval @ [from, to]: [f64; 2
     diagnostics
 }
 
-/// What results are computed from: an assembled mechanism and the times of its analysis.
+/// The input of results: an assembled mechanism and the times of its analysis.
 pub struct ResultQuery {
     kinematics: Kinematics,
     state: State,
@@ -77,21 +77,21 @@ pub struct ResultQuery {
     cancel: Cancel,
 }
 
-/// Results in their order, in SI; those that have no value are none.
+/// The values of the results, in their order.
 #[derive(Clone, PartialEq, Debug, Default)]
 pub struct Answers {
-    /// By result.
+    /// The values by result, in SI.
     pub values: Vec<Option<f64>>,
-    /// By result: how many significant digits are certain, 17 at most; 0 where it has no value, or cannot be told from zero.
+    /// The number of certain significant digits by result, 17 at most; 0 if it has no value or cannot be told from zero.
     pub digits: Vec<u32>,
-    /// Why some have none.
+    /// Notes on results without a value, with gaps or with few certain digits.
     pub notes: Vec<Diagnostic>,
-    /// Whether the motion was followed to its end, nowhere near a singular position, and holds no forces: so it has a row at any time.
+    /// True if the motion was followed to its end, nowhere near a singular position, and holds no forces: so it has a row at any time.
     pub has_all_rows: bool,
 }
 
 impl Answers {
-    /// How many digits are certain of all that have a value; 0 where none has.
+    /// Returns the least number of certain digits of all results with a value; 0 if no result has one.
     #[must_use]
     pub fn certain_digits(&self) -> u32 {
         let known = self.values.iter().zip(&self.digits).filter(|(value, _)| value.is_some());
@@ -100,8 +100,8 @@ impl Answers {
 }
 
 impl Started {
-    /// What is needed to compute the results of an analysis from one time to another (s), the first of which it is assembled
-    /// at; `pass` goes on beyond bifurcations. The flag ends the work.
+    /// Returns the query of results over an interval (s), at the start of which the mechanism is assembled; `pass` continues beyond
+    /// bifurcations. `cancel` ends the work.
     #[must_use]
     pub fn asked(&self, interval: [f64; 2], pass: bool, cancel: &Cancel) -> ResultQuery {
         let (kinematics, state, solver) = self.parts();
@@ -109,38 +109,38 @@ impl Started {
     }
 }
 
-/// The motion in some chunks of its stretches, and what follows from it.
+/// The motion in some chunks of its segments, and what follows from it.
 struct Analysis {
-    asked: ResultQuery,
+    query: ResultQuery,
     determined: Arc<Determined>,
-    /// By reduction: its number, or why there is none.
-    found: Vec<Option<Result<Found, Trouble>>>,
-    /// By reduction: the first time (s) that it leaves out, where its formula has no value.
+    /// The estimate of each reduction, or why it has no value.
+    estimates: Vec<Option<Result<Estimate, NoValueCause>>>,
+    /// The first time (s) that each reduction leaves out because its formula has no value.
     missing: Vec<Option<f64>>,
     /// The steps of the motion, once they are known and are not too many to be kept.
     steps: Option<Vec<SmoothSegment>>,
-    /// What solves for states between these.
-    places: Option<Places>,
-    near: Near,
-    /// How large the coordinates are in the motion so far.
+    /// The solver of states between the ends of steps.
+    sampler: Option<StateSampler>,
+    singular: SingularIntervals,
+    /// The magnitudes of the coordinates in the motion so far.
     largest: Largest,
 }
 
 impl ResultQuery {
-    /// The results, by following the motion once more; nothing where that is cancelled.
+    /// Computes the results by following the motion once more. Returns `None` if that is cancelled.
     #[must_use]
     pub fn answer(self) -> Option<Answers> {
         let determined = self.kinematics.determined();
         let count = determined.system().results().reductions.len();
         let cancel = self.cancel.clone();
         let mut analysis = Analysis {
-            asked: self,
+            query: self,
             determined,
-            found: vec![None; count],
+            estimates: vec![None; count],
             missing: vec![None; count],
             steps: None,
-            places: None,
-            near: Near::new(),
+            sampler: None,
+            singular: SingularIntervals::new(),
             largest: Largest::default(),
         };
         while let Some(level) = analysis.next_level() {
@@ -155,7 +155,7 @@ impl ResultQuery {
         Some(analysis.answers())
     }
 
-    /// A motion of its own to some times.
+    /// Returns a follower of its own to some times.
     fn motion(&self, times: Times) -> Follower {
         let mut motion = Follower::new((self.kinematics.clone(), self.state.clone(), self.solver.clone()), times);
         if self.pass {
@@ -170,93 +170,93 @@ impl Analysis {
         self.determined.system()
     }
 
-    /// The reductions that can be found now: those in their formulas are known. None where all are.
+    /// Returns the reductions that can be computed now, because those in their formulas are resolved, or `None` if no reduction is left.
     fn next_level(&mut self) -> Option<Vec<usize>> {
         let determined = Arc::clone(&self.determined);
         let system = determined.system();
         let mut level = Vec::new();
-        let open: Vec<usize> = (0..self.found.len()).filter(|&k| self.found[k].is_none()).collect();
+        let open: Vec<usize> = (0..self.estimates.len()).filter(|&k| self.estimates[k].is_none()).collect();
         for k in open {
             let reduction = &system.results().reductions[k];
             let mut needed = needed(system.graph(), reduction.of);
             needed.extend(times(reduction).flat_map(|time| self::needed(system.graph(), time)));
-            if let Some(trouble) = needed.iter().find_map(|&other| self.found[other].and_then(Result::err)) {
-                self.found[k] = Some(Err(trouble));
-            } else if needed.iter().all(|&other| self.found[other].is_some()) {
+            if let Some(cause) = needed.iter().find_map(|&other| self.estimates[other].and_then(Result::err)) {
+                self.estimates[k] = Some(Err(cause));
+            } else if needed.iter().all(|&other| self.estimates[other].is_some()) {
                 level.push(k);
             }
         }
         (!level.is_empty()).then_some(level)
     }
 
-    /// Looks at the motion for some reductions.
+    /// Follows the motion for some reductions.
     fn follow(&mut self, level: &[usize]) -> Result<(), Box<Stop>> {
         let determined = Arc::clone(&self.determined);
         let system = determined.system();
-        let mut asked: Vec<(usize, Reduction, [f64; 2])> = Vec::with_capacity(level.len());
+        let mut requests: Vec<(usize, Reduction, [f64; 2])> = Vec::with_capacity(level.len());
         for &k in level {
             let reduction = system.results().reductions[k];
             match self.window(&reduction) {
-                Ok(window) => asked.push((k, reduction, window)),
-                Err(trouble) => self.found[k] = Some(Err(trouble)),
+                Ok(window) => requests.push((k, reduction, window)),
+                Err(cause) => self.estimates[k] = Some(Err(cause)),
             }
         }
         let of: Vec<(ExprId, [u64; 2])> =
-            asked.iter().map(|(_, reduction, window)| (reduction.of, window.map(f64::to_bits))).collect();
-        let known = |k: usize| self.found[k].and_then(Result::ok).map_or(0.0, |found| found.value);
-        let new_places = || Places::new(self.asked.kinematics.clone(), self.asked.solver.clone());
-        let mut places = self.places.take().unwrap_or_else(new_places);
-        let (all, curve_of) = curves(system, &of, known, places.variations());
-        let mut all: Vec<Reduced> =
-            all.into_iter().map(|(curve, window)| Reduced::new(curve, window.map(f64::from_bits))).collect();
+            requests.iter().map(|(_, reduction, window)| (reduction.of, window.map(f64::to_bits))).collect();
+        let known = |k: usize| self.estimates[k].and_then(Result::ok).map_or(0.0, |found| found.value);
+        let new_places = || StateSampler::new(self.query.kinematics.clone(), self.query.solver.clone());
+        let mut sampler = self.sampler.take().unwrap_or_else(new_places);
+        let (all, curve_of) = curves(system, &of, known, sampler.variations());
+        let mut all: Vec<FormulaReductions> =
+            all.into_iter().map(|(curve, window)| FormulaReductions::new(curve, window.map(f64::from_bits))).collect();
         let at = |reduction: &Reduction| match reduction.kind {
             ReductionKind::At(at) => self.value(at, false),
             _ => f64::NAN,
         };
-        let at: Vec<f64> = asked.iter().map(|(_, reduction, _)| at(reduction)).collect();
-        for (((_, reduction, _), &of), &at) in asked.iter().zip(&curve_of).zip(&at) {
-            all[of].ask(reduction.kind, at);
+        let at: Vec<f64> = requests.iter().map(|(_, reduction, _)| at(reduction)).collect();
+        for (((_, reduction, _), &of), &at) in requests.iter().zip(&curve_of).zip(&at) {
+            all[of].request(reduction.kind, at);
         }
-        self.look(&mut all, &mut places)?;
-        self.places = Some(places);
-        for (((k, reduction, _), &of), &at) in asked.iter().zip(&curve_of).zip(&at) {
-            self.found[*k] = Some(self.asked.certain(&all[of], (reduction.kind, at), &self.near));
+        self.look(&mut all, &mut sampler)?;
+        self.sampler = Some(sampler);
+        for (((k, reduction, _), &of), &at) in requests.iter().zip(&curve_of).zip(&at) {
+            self.estimates[*k] = Some(self.query.certain(&all[of], (reduction.kind, at), &self.singular));
             self.missing[*k] = all[of].missing(reduction.kind);
         }
         Ok(())
     }
 
-    /// The times (s) that a reduction is over.
-    fn window(&self, reduction: &Reduction) -> Result<[f64; 2], Trouble> {
-        let [from, to] = self.asked.interval;
+    /// Returns the window (s) of a reduction.
+    fn window(&self, reduction: &Reduction) -> Result<[f64; 2], NoValueCause> {
+        let [from, to] = self.query.interval;
         let bound = |bound: Option<ExprId>, end: f64| bound.map_or(end, |bound| self.value(bound, false));
         let window = [bound(reduction.window[0], from), bound(reduction.window[1], to)];
         match window.into_iter().find(|t| !(from <= *t && *t <= to)) {
-            Some(t) => Err(Trouble::Window(t)),
-            None if window[1] < window[0] => Err(Trouble::Window(window[1])),
+            Some(t) => Err(NoValueCause::Window(t)),
+            None if window[1] < window[0] => Err(NoValueCause::Window(window[1])),
             None => Ok(window),
         }
     }
 
-    /// Looks at formulas along the whole motion, which is followed once if its steps can be kept.
-    fn look(&mut self, all: &mut [Reduced], places: &mut Places) -> Result<(), Box<Stop>> {
-        let [from, to] = self.asked.interval;
+    /// Evaluates formulas along the whole motion, which is followed once if its steps can be kept.
+    fn look(&mut self, all: &mut [FormulaReductions], sampler: &mut StateSampler) -> Result<(), Box<Stop>> {
+        let [from, to] = self.query.interval;
         let span = to - from;
         if let Some(steps) = &self.steps {
             for reduced in all.iter_mut() {
-                reduced.look((steps, self.largest), places, span);
+                reduced.look((steps, self.largest), sampler, span);
             }
             return Ok(());
         }
-        let mut motion = self.asked.motion(Times::listed(from, vec![to]));
+        let mut motion = self.query.motion(Times::listed(from, vec![to]));
         let (mut steps, mut is_whole) = (Vec::new(), true);
-        self.near = Near::new();
+        self.singular = SingularIntervals::new();
         let determined = Arc::clone(&self.determined);
-        while !self.asked.cancel.is_cancelled() {
+        while !self.query.cancel.is_cancelled() {
             let next = motion.next_segment()?;
             let is_end = next.is_none();
             if let Some(step) = next {
-                self.near.take_note(&step, &motion);
+                self.singular.take_note(&step, &motion);
                 for state in [&step.from, &step.to] {
                     self.largest
                         .note(state, determined.system().coordinates().iter().map(|coordinate| coordinate.kind));
@@ -264,18 +264,18 @@ impl Analysis {
                 push_step(&mut steps, step);
             }
             if is_end && span <= 0.0 {
-                places.enter_where(&motion.switches());
+                sampler.enter_where(&motion.switches());
                 for reduced in all.iter_mut() {
-                    reduced.look_at_start(motion.here(), places);
+                    reduced.look_at_start(motion.here(), sampler);
                 }
                 return Ok(());
             }
             // steps towards a singular position are replaced once the way over it is known
             let is_full = steps.len() >= CHUNK.min(1 + NUMBERS / (1 + motion.here().q.len()));
             if is_end || (is_full && motion.was_clear_here()) {
-                steps = cut_where_unlike(steps, places);
+                steps = cut_where_unlike(steps, sampler);
                 for reduced in all.iter_mut() {
-                    reduced.look((&steps, self.largest), places, span);
+                    reduced.look((&steps, self.largest), sampler, span);
                 }
                 if is_end {
                     self.steps = is_whole.then_some(steps);
@@ -287,7 +287,7 @@ impl Analysis {
         Ok(())
     }
 
-    /// No results: the motion ends before the analysis does.
+    /// Returns answers without values, because the motion ends before the analysis does.
     fn without_motion(&self, stop: &Stop) -> Answers {
         let outcomes = &self.system().results().outcomes;
         let notes = outcomes
@@ -301,54 +301,54 @@ impl Analysis {
         }
     }
 
-    /// The value of a formula of parameters and of reductions that are known; no number where one has none.
+    /// Returns the value of a formula of parameters and resolved reductions; NaN if one of them has none.
     fn value(&self, formula: ExprId, unknown_is_false: bool) -> f64 {
         self.value_with(formula, unknown_is_false, (usize::MAX, 0.0))
     }
 
-    /// As [`Analysis::value`], with one reduction off by so many times what it may be.
-    fn value_with(&self, formula: ExprId, unknown_is_false: bool, (off, times): (usize, f64)) -> f64 {
+    /// Returns the value of a formula with the reduction `varied` moved by `times` times its error bound.
+    fn value_with(&self, formula: ExprId, unknown_is_false: bool, (varied, times): (usize, f64)) -> f64 {
         let system = self.system();
         let found = |k: usize| {
-            let found = self.found[k].and_then(Result::ok).unwrap_or(Found::NOTHING);
-            found.value + if k == off { times * found.off } else { 0.0 }
+            let found = self.estimates[k].and_then(Result::ok).unwrap_or(Estimate::NOTHING);
+            found.value + if k == varied { times * found.error } else { 0.0 }
         };
         value_of(system.graph(), (formula, unknown_is_false), |k| system.params()[k as usize].value, found)
     }
 
-    /// The value of an outcome, and how far off it may be, by how far off each reduction in it may be; not a number where one that cannot be told
-    /// from zero is divided by.
-    fn found(&self, outcome: &Outcome, needed: &[usize]) -> Found {
+    /// Returns the estimate of an outcome, with an error bound from those of its reductions; no value if it divides by a reduction that cannot be
+    /// told from zero.
+    fn estimate(&self, outcome: &Outcome, needed: &[usize]) -> Estimate {
         let (formula, is_false) = (outcome.value, outcome.unknown_is_false);
         let value = self.value(formula, is_false);
-        let mut off = 0.0;
+        let mut error = 0.0;
         for &k in needed {
             let [more, less] = [1.0, -1.0].map(|times| self.value_with(formula, is_false, (k, times)) - value);
-            off += f64::max(more.abs(), less.abs());
+            error += f64::max(more.abs(), less.abs());
             let is_of_time = matches!(self.system().results().reductions[k].kind, ReductionKind::At(_));
             let is_bent = (more + less).abs() > 0.5 * (more - less).abs();
             // whichever way it is off: what goes to one side alone is another branch
             if is_of_time && f64::min(more.abs(), less.abs()) >= 0.5 * value.abs() && is_bent {
-                return Found::NOTHING;
+                return Estimate::NOTHING;
             }
         }
-        Found { value, off }
+        Estimate { value, error }
     }
 
     fn answers(&self) -> Answers {
         let system = self.system();
-        let was_followed = self.places.is_some();
-        let has_all_rows = was_followed && self.near.is_clear() && system.forces().is_none();
+        let was_followed = self.sampler.is_some();
+        let has_all_rows = was_followed && self.singular.is_clear() && system.forces().is_none();
         let mut answers = Answers { has_all_rows, ..Answers::default() };
         for outcome in &system.results().outcomes {
             let needed = needed(system.graph(), outcome.value);
-            let found = self.found(outcome, &needed);
+            let found = self.estimate(outcome, &needed);
             let value = found.value;
             if !value.is_finite() {
-                let trouble = needed.into_iter().find_map(|k| self.found[k].and_then(Result::err));
+                let cause = needed.into_iter().find_map(|k| self.estimates[k].and_then(Result::err));
                 answers.values.push(None);
                 answers.digits.push(0);
-                answers.notes.push(errors::result_without_value(outcome, trouble));
+                answers.notes.push(errors::result_without_value(outcome, cause));
                 continue;
             }
             let digits = found.certain_digits();
@@ -384,9 +384,9 @@ fn push_step(steps: &mut Vec<SmoothSegment>, mut step: SmoothSegment) {
     steps.push(step);
 }
 
-/// Cuts steps in which the motion is not what the states at both ends tell: a driver may come and go within one.
-fn cut_where_unlike(steps: Vec<SmoothSegment>, places: &mut Places) -> Vec<SmoothSegment> {
-    if !places.has_signals() {
+/// Cuts steps in which the states at both ends do not determine the motion: a driver may start and stop within one.
+fn cut_where_unlike(steps: Vec<SmoothSegment>, sampler: &mut StateSampler) -> Vec<SmoothSegment> {
+    if !sampler.has_signals() {
         return steps;
     }
     let mut found = Vec::with_capacity(steps.len());
@@ -394,7 +394,7 @@ fn cut_where_unlike(steps: Vec<SmoothSegment>, places: &mut Places) -> Vec<Smoot
         let shortest = SHORTEST * (step.to.t - step.from.t);
         let mut open = vec![step];
         while let Some(step) = open.pop() {
-            match places.unlike(&step).filter(|_| step.to.t - step.from.t > shortest) {
+            match sampler.unlike(&step).filter(|_| step.to.t - step.from.t > shortest) {
                 Some(within) => open.extend(step.cut_at(within).into_iter().rev()),
                 None => found.push(step),
             }
@@ -403,11 +403,11 @@ fn cut_where_unlike(steps: Vec<SmoothSegment>, places: &mut Places) -> Vec<Smoot
     found
 }
 
-/// The formulas of some reductions with what they are over, each once, and which is whose; with the reductions that they hold, as far as these are known, and over so
-/// many variations.
+/// Returns the distinct formulas of some reductions with their windows, and the index of each reduction's formula. Reductions that a formula
+/// contains are replaced by their values as far as these are known.
 fn curves<W: Copy + PartialEq>(
     system: &ConstraintSystem,
-    asked: &[(ExprId, W)],
+    requests: &[(ExprId, W)],
     found: impl Fn(usize) -> f64,
     variations: usize,
 ) -> (Vec<(Curve, W)>, Vec<usize>) {
@@ -415,7 +415,7 @@ fn curves<W: Copy + PartialEq>(
     graph.import_tables(system.graph(), &mut known, Graph::symbol);
     let mut curve_of: Vec<usize> = Vec::new();
     let mut ids: Vec<(ExprId, W)> = Vec::new();
-    for (of, window) in asked {
+    for (of, window) in requests {
         graph.import(system.graph(), &[*of], &mut known, |graph, symbol| match symbol {
             Symbol::Named(k) => graph.constant(found(k as usize)),
             other => graph.symbol(other),
@@ -434,7 +434,7 @@ fn curves<W: Copy + PartialEq>(
     (ids.into_iter().map(curve).collect(), curve_of)
 }
 
-/// The value of a formula of parameters and of reductions that are found; no number where one has none.
+/// Returns the value of a formula of parameters and reductions; NaN if one of them has none.
 fn value_of(
     graph: &Graph,
     (formula, unknown_is_false): (ExprId, bool),
@@ -455,13 +455,13 @@ fn value_of(
     }
 }
 
-/// The formulas of the times (s) that a reduction speaks of: that of a value, those of a window.
+/// Returns the formulas of the times (s) in a reduction: that of a value, those of a window.
 fn times(reduction: &Reduction) -> impl Iterator<Item = ExprId> {
     let at = if let ReductionKind::At(at) = reduction.kind { Some(at) } else { None };
     at.into_iter().chain(reduction.window.into_iter().flatten())
 }
 
-/// The reductions that a formula holds.
+/// Returns the reductions that a formula contains.
 fn needed(graph: &Graph, formula: ExprId) -> Vec<usize> {
     let of = |symbol: Symbol| match symbol {
         Symbol::Named(k) => Some(k as usize),

@@ -1,8 +1,8 @@
 //! Integrals over time, by formulas that take value and derivatives of both ends of a cell (Euler and Maclaurin); of what has no
 //! derivatives by values within (Lobatto and Kronrod).
 
-use super::curve::{Cell, Found, Point, Verdict};
-use super::probe::{Probe, Scale, Trouble};
+use super::curve::{Cell, Estimate, Point, Verdict};
+use super::interval_search::{IntervalSearch, NoValueCause, Scale};
 use mechc_expr::math::{integral_of_quintic, log10, pow};
 use mechc_ir::tolerances::results::quadrature::{
     ACCURACY, ALIKE, DIVERGES, FARTHER, LEAST_GROWTH, LOOKS, NOTHING, PART_OF_POLE, POLE_DISTANCE, ROUNDING, SAFETY,
@@ -26,11 +26,11 @@ const MIDDLE: f64 = 16.0 / 35.0;
 #[derive(Clone, Copy, Default, Debug)]
 pub(super) struct Integral {
     sum: f64,
-    /// How far off it may be.
-    off: f64,
-    /// For how long (s) the formula has a value.
+    /// A bound of its error.
+    error: f64,
+    /// The time (s) during which the formula has a value.
     time: f64,
-    /// For how long (s) it has none that rounding may have hidden.
+    /// The time (s) without a value that rounding may have hidden.
     hidden: f64,
     /// The time of the analysis (s).
     span: f64,
@@ -50,17 +50,20 @@ fn within(found: f64, [least, most]: [f64; 2]) -> f64 {
 
 impl Integral {
     /// The integral, and how far off it may be.
-    pub fn found(&self) -> Found {
+    pub fn estimate(&self) -> Estimate {
         let hidden = if self.hidden > 0.0 { self.hidden / self.time } else { 0.0 };
-        Found { value: self.sum, off: self.off + (ROUNDING + hidden) * (self.size + (self.usual * self.time).abs()) }
+        Estimate {
+            value: self.sum,
+            error: self.error + (ROUNDING + hidden) * (self.size + (self.usual * self.time).abs()),
+        }
     }
 
-    /// For how long (s) the formula has a value.
+    /// Returns the time (s) during which the formula has a value.
     pub fn time(&self) -> f64 {
         self.time
     }
 
-    /// How far the formula is on average from a value that is usual.
+    /// Returns the average distance of the formula from a usual value.
     pub fn deviation(&self) -> f64 {
         self.size / self.time
     }
@@ -82,14 +85,14 @@ impl Integral {
     }
 
     /// One that is known, over some time (s).
-    pub fn known(found: Found, time: f64) -> Integral {
-        Integral { sum: found.value, off: found.off, time, ..Integral::default() }
+    pub fn from_estimate(found: Estimate, time: f64) -> Integral {
+        Integral { sum: found.value, error: found.error, time, ..Integral::default() }
     }
 
-    fn add(&mut self, sum: f64, off: f64, time: f64) {
+    fn add(&mut self, sum: f64, error: f64, time: f64) {
         self.sum += sum;
         self.size += (sum - self.usual * time).abs();
-        self.off += off;
+        self.error += error;
         self.time += time;
     }
 }
@@ -101,7 +104,7 @@ struct Part {
     from: f64,
     length: f64,
     found: f64,
-    off: f64,
+    error: f64,
 }
 
 impl PartialEq for Part {
@@ -119,13 +122,13 @@ impl PartialOrd for Part {
 }
 
 impl Ord for Part {
-    /// By how far off they may be; what is earlier comes first.
+    /// Orders parts by their error bounds; of equal ones the earlier is greater.
     fn cmp(&self, other: &Part) -> Ordering {
-        self.off.total_cmp(&other.off).then(other.from.total_cmp(&self.from))
+        self.error.total_cmp(&other.error).then(other.from.total_cmp(&self.from))
     }
 }
 
-impl Probe<'_> {
+impl IntervalSearch<'_> {
     /// Adds the integral of the formula over some cells. What may be farthest off is made better first, until all together is good enough beside the
     /// integral of how far the formula is from a value that is usual.
     pub(super) fn integrate(&mut self, cells: &[Cell], usual: f64, scale: Scale, integral: &mut Integral) {
@@ -139,23 +142,23 @@ impl Probe<'_> {
             let [before, behind] = [&pair[0].b, &pair[1].a];
             let jump = (before.sample.value - behind.sample.value).abs();
             if behind.shift.time > 0.0 && jump.is_finite() {
-                integral.off += jump * behind.shift.time;
+                integral.error += jump * behind.shift.time;
             }
         }
         let is_open = |parts: &BinaryHeap<Part>, integral: &Integral| {
-            let (mut off, mut size) = (0.0, 0.0);
+            let (mut error, mut size) = (0.0, 0.0);
             for part in parts {
-                off += part.off;
-                size += if part.off.is_finite() { (part.found - usual * part.length).abs() } else { 0.0 };
+                error += part.error;
+                size += if part.error.is_finite() { (part.found - usual * part.length).abs() } else { 0.0 };
             }
-            let is_far_off = off > f64::max(ACCURACY * size, ROUNDING * scale.weight * scale.span).max(NOTHING);
+            let is_far_off = error > f64::max(ACCURACY * size, ROUNDING * scale.weight * scale.span).max(NOTHING);
             is_far_off && integral.unbounded_beside(size).is_none()
         };
         // all together is looked at no more often than some have been cut
         let mut left = 0;
         loop {
             if left == 0 {
-                if self.notes.trouble.is_some() || self.notes.are_exhausted() || !is_open(&parts, integral) {
+                if self.notes.cause.is_some() || self.notes.are_exhausted() || !is_open(&parts, integral) {
                     break;
                 }
                 left = parts.len().div_ceil(LOOKS);
@@ -169,10 +172,10 @@ impl Probe<'_> {
         let mut parts = parts.into_vec();
         parts.sort_unstable_by(|a, b| a.from.total_cmp(&b.from));
         for part in parts {
-            if self.notes.are_exhausted() && part.off == f64::INFINITY {
-                self.notes.meet(Trouble::Unknown(part.from));
+            if self.notes.are_exhausted() && part.error == f64::INFINITY {
+                self.notes.meet(NoValueCause::Unknown(part.from));
             }
-            integral.add(part.found, part.off, part.length);
+            integral.add(part.found, part.error, part.length);
         }
     }
 
@@ -186,9 +189,9 @@ impl Probe<'_> {
                 continue;
             }
             if h <= POLE_DISTANCE * integral.span
-                && let Some([sum, off]) = self.integrate_beside_pole(&cell)
+                && let Some([sum, error]) = self.integrate_beside_pole(&cell)
             {
-                integral.add(sum, off, h);
+                integral.add(sum, error, h);
                 continue;
             }
             let (verdict, range) = self.enclose(&mut cell);
@@ -221,29 +224,29 @@ impl Probe<'_> {
                 continue;
             }
             let values = points.map(|point| point.sample.value);
-            let (mut found, mut off) = (0.0, f64::INFINITY);
+            let (mut found, mut error) = (0.0, f64::INFINITY);
             if values.iter().all(|value| value.is_finite()) {
-                let (sum, error) = self.rule(&cell, &halves);
+                let (sum, rule_error) = self.rule(&cell, &halves);
                 found = within(sum, [range.low * h, range.high * h]);
                 let largest = values.iter().fold(0.0, |largest, value| f64::max(largest, value.abs()));
                 let rounding = ROUNDING * largest * h;
-                let by_rule = if is_smooth { error - rounding } else { f64::INFINITY };
-                off = by_rule.min((range.high - range.low) * h).max(0.0);
+                let by_rule = if is_smooth { rule_error - rounding } else { f64::INFINITY };
+                error = by_rule.min((range.high - range.low) * h).max(0.0);
             }
-            parts.push(Part { halves, from: cell.a.state.t, length: h, found, off });
+            parts.push(Part { halves, from: cell.a.state.t, length: h, found, error });
         }
     }
 
-    /// Whether rounding may make more of the value at a point than values differ elsewhere, if there is one.
+    /// Returns whether rounding may make more of the value at a point than values differ elsewhere, if there is one.
     fn is_noise(&mut self, point: &Point) -> bool {
         if !point.exists() {
             return true;
         }
-        let found = self.curve.found(point);
-        found.certain_digits() == 0 && found.off > NOTHING
+        let found = self.curve.estimate(point);
+        found.certain_digits() == 0 && found.error > NOTHING
     }
 
-    /// As [`Probe::integrate`], over a cell too short to be cut. What there is of an integral in one with a pole is counted on both sides of it.
+    /// As [`IntervalSearch::integrate`], over a cell too short to be cut. What there is of an integral in one with a pole is counted on both sides of it.
     fn integrate_shortest(&mut self, cell: &Cell, integral: &mut Integral) {
         let h = cell.length();
         let values = [&cell.a, &cell.b].map(|point| point.sample.value);
@@ -259,8 +262,8 @@ impl Probe<'_> {
         let largest = known.iter().fold(0.0, |largest, value| f64::max(largest, (value - integral.usual).abs()));
         if let [a, b] = known[..] {
             // of a jump that may as well be beside
-            let beside = hidden.max(cell.a.doubt).max(cell.b.doubt);
-            integral.off += (a - b).abs() * beside.min(self.short);
+            let beside = hidden.max(cell.a.crossing_error).max(cell.b.crossing_error);
+            integral.error += (a - b).abs() * beside.min(self.short);
         }
         let growth = self.growth_into(cell, integral.usual);
         if growth > LEAST_GROWTH && !known.is_empty() {
@@ -281,15 +284,15 @@ impl Probe<'_> {
     /// The factor by which the formula grows, from a value that is usual, whenever the way to a shortest cell becomes half as long; 1 where it does
     /// not go on to grow into the cell: a pole does so, and a jump does not.
     fn growth_into(&mut self, cell: &Cell, usual: f64) -> f64 {
-        let off = |point: &Point| (point.sample.value - usual).abs();
+        let error = |point: &Point| (point.sample.value - usual).abs();
         let sides = [(&cell.a, -1.0), (&cell.b, 1.0)].map(|(end, way)| {
             let way = way * cell.length().max(end.shift.time);
             let mut off_at = |far: f64| {
-                let there = self.point_beside(cell.step, end.state.t + far * way);
-                there.map_or(f64::NAN, |there| off(&there))
+                let there = self.point_near(cell.step, end.state.t + far * way);
+                there.map_or(f64::NAN, |there| error(&there))
             };
             let near = off_at(FARTHER[0]);
-            if end.exists() && off(end) <= LEAST_GROWTH * near {
+            if end.exists() && error(end) <= LEAST_GROWTH * near {
                 return 1.0;
             }
             let far = off_at(FARTHER[1]);
@@ -300,7 +303,7 @@ impl Probe<'_> {
     }
 
     /// The integral over a short cell with a pole of the formula at one end, and how far off it may be: the formula goes with a power of the
-    /// distance from the pole, by its values at three distances. None where it is not like that.
+    /// distance from the pole, by its values at three distances. `None` where it is not like that.
     fn integrate_beside_pole(&mut self, cell: &Cell) -> Option<[f64; 2]> {
         let size = |point: &Point| if point.exists() { point.sample.value.abs() } else { f64::INFINITY };
         let (pole, far) = if size(&cell.a) > size(&cell.b) { (&cell.a, &cell.b) } else { (&cell.b, &cell.a) };
@@ -347,7 +350,7 @@ impl Probe<'_> {
         }
     }
 
-    /// As [`Probe::rule`], by values alone; infinitely far off where one cannot be had.
+    /// As [`IntervalSearch::rule`], by values alone; infinitely far off where one cannot be had.
     fn rule_of_values(&mut self, cell: &Cell, middle: &Point) -> (f64, f64) {
         let half = 0.5 * cell.length();
         let ends = cell.a.sample.value + cell.b.sample.value;
@@ -362,10 +365,10 @@ impl Probe<'_> {
             let size = (ends - 2.0 * fine).abs()
                 + (2.0 * middle.sample.value - ends).abs()
                 + (middle.sample.value - 0.5 * fine).abs();
-            let off = (fine - rough).abs();
+            let error = (fine - rough).abs();
             // the finer rule is of an order that is higher by half
-            let part = (SURER * off / size).sqrt();
-            return (half * fine, half * off * if part < 1.0 { part } else { 1.0 });
+            let part = (SURER * error / size).sqrt();
+            return (half * fine, half * error * if part < 1.0 { part } else { 1.0 });
         }
         (0.5 * half * (ends + 2.0 * middle.sample.value), f64::INFINITY)
     }

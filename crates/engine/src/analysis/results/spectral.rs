@@ -3,15 +3,15 @@
 //!
 //! Source: C. W. Clenshaw, A. R. Curtis, *A method for numerical integration on an automatic computer*, Numerische Mathematik 2, 1960.
 
-use super::curve::{Cell, Found};
-use super::probe::Probe;
+use super::curve::{Cell, Estimate};
+use super::interval_search::IntervalSearch;
 use mechc_expr::math::cos;
 use mechc_ir::tolerances::results::quadrature::{ACCURACY, ROUNDING};
 use mechc_ir::tolerances::results::spectral::{ALIKE, FIRST, LAST, LESS};
 use std::f64::consts::PI;
 use std::sync::OnceLock;
 
-/// An integral on its way to as many times as it needs.
+/// An integral with a growing number of sample times.
 #[derive(Clone, Debug)]
 pub struct SpectralIntegral {
     /// The first and the last time (s).
@@ -22,19 +22,19 @@ pub struct SpectralIntegral {
     values: Vec<f64>,
 }
 
-/// What becomes of an integral once the formula is known at all its times.
+/// The outcome of a refinement, once the formula is known at all times.
 #[derive(Clone, Copy, Debug)]
 pub enum Settled {
-    /// It needs twice as many.
+    /// The integral needs twice as many samples.
     On,
-    /// The integral, and how far off it may be.
+    /// The integral and its error bound.
     Known([f64; 2]),
-    /// So many are not enough, or the steps of the motion tell otherwise.
+    /// The largest number of samples is not enough, or the steps of the motion contradict the integral.
     Lost,
 }
 
 impl SpectralIntegral {
-    /// Over an analysis from one time to another (s).
+    /// An integral over an analysis from one time to another (s).
     #[must_use]
     pub fn new(interval: [f64; 2]) -> SpectralIntegral {
         SpectralIntegral { interval, level: FIRST, values: vec![f64::NAN; (1 << FIRST) + 1] }
@@ -58,7 +58,7 @@ impl SpectralIntegral {
         })
     }
 
-    /// Takes the value at a time, by its number.
+    /// Records the value at a time, by its number.
     pub fn take(&mut self, k: usize, value: f64) {
         self.values[k] = value;
     }
@@ -94,7 +94,7 @@ impl SpectralIntegral {
     }
 }
 
-/// What values at times weigh in the integral from −1 to 1, of which there are as many intervals as a power of two.
+/// Returns the weights of 2^`level` + 1 samples for the integral from −1 to 1.
 fn weights(level: usize) -> &'static [f64] {
     static WEIGHTS: [OnceLock<Box<[f64]>>; LAST + 1] = [const { OnceLock::new() }; LAST + 1];
     WEIGHTS[level].get_or_init(|| {
@@ -113,9 +113,9 @@ fn weights(level: usize) -> &'static [f64] {
     })
 }
 
-impl Probe<'_> {
-    /// The integral of a formula that settles over cells that follow on each other without edges; none where so many times are not enough.
-    pub(super) fn integrate_whole(&mut self, cells: &[Cell]) -> Option<Found> {
+impl IntervalSearch<'_> {
+    /// The integral of a formula that settles over cells that follow on each other without edges; `None` where so many times are not enough.
+    pub(super) fn integrate_whole(&mut self, cells: &[Cell]) -> Option<Estimate> {
         let (first, last) = (cells.first()?, cells.last()?);
         let mut integral = SpectralIntegral::new([first.a.state.t, last.b.state.t]);
         loop {
@@ -137,7 +137,7 @@ impl Probe<'_> {
             let by_steps = || cells.iter().map(|cell| self.rule_of_ends(&cell.a, &cell.b)).sum();
             match integral.go_on(ALIKE, by_steps) {
                 Settled::On => {}
-                Settled::Known([value, off]) => return Some(Found { value, off }),
+                Settled::Known([value, off]) => return Some(Estimate { value, error: off }),
                 Settled::Lost => return None,
             }
         }

@@ -1,6 +1,6 @@
-//! States within a stretch of the motion, solved for where they are asked for.
+//! States within a segment of the motion, solved for where they are asked for.
 
-use super::varying::Varying;
+use super::sensitivities::Sensitivities;
 use crate::analysis::follow::{SelectedRows, SingleRow, SmoothSegment, quintic_between, state_of_row};
 use crate::analysis::state::{Kinematics, State};
 use crate::solver::{Batch, Solver};
@@ -11,43 +11,43 @@ use mechc_ir::tolerances::results::stretches::NUMBERS;
 use rustc_hash::FxHashMap;
 use std::sync::Arc;
 
-/// What solves for states between the ends of stretches.
-pub(super) struct Places {
+/// A solver of states between the ends of segments.
+pub(super) struct StateSampler {
     kinematics: Kinematics,
-    /// The equations that are solved, if they are others than those at the start.
+    /// The equations that are solved, if they differ from those at the start.
     chosen: Option<Arc<SelectedRows>>,
-    /// Those at the start, with what solves them.
+    /// The equations at the start, with their solver.
     first: (Kinematics, Option<Arc<Solver>>),
     solver: Option<(Arc<Solver>, SingleRow)>,
     curve: Vec<[f64; 6]>,
     delta: Vec<f64>,
-    /// By row of Φ, one over what may be left of it; of the stretch, once that has been asked for.
+    /// One over the allowed residual of each row of Φ in the segment, if `has_bounds`.
     bounds: Vec<f64>,
     has_bounds: bool,
-    /// From when to when (s) the way over a singular position goes, if the stretch is one.
+    /// The first and the last time (s) of the bridge over a singular position, if the segment is one.
     bridge: [f64; 2],
-    /// What time alone asks of the equations.
+    /// The terms of the equations that depend on time alone.
     signals: Ranges,
     signal_count: usize,
-    /// Whether the equations are such that states can be settled.
+    /// True if the equations are such that states can be settled.
     is_plain: bool,
-    /// What finds derivatives by inputs and parameters, where results hold any.
-    varying: Option<Varying>,
-    /// When the stretch begins (s), and what has been solved for, by that and by time: several formulas ask for the same.
+    /// The derivatives by inputs and parameters, if results need any.
+    sensitivities: Option<Sensitivities>,
+    /// The start of the segment (s), and the solved states by that and by time: several formulas request the same.
     begins: f64,
     solved: FxHashMap<[u64; 2], Solved>,
-    /// Which of these has the multipliers that were found last; none where the kinematics have them.
+    /// The key of the state whose multipliers were found last; `None` if the kinematics have them.
     with_multipliers: Option<[u64; 2]>,
 }
 
-/// A state that was solved for, with its multipliers once somebody has asked for them.
+/// A solved state, with its multipliers once they have been requested.
 struct Solved {
     state: State,
     multipliers: Vec<f64>,
 }
 
-impl Places {
-    pub fn new(kinematics: Kinematics, solver: Option<Arc<Solver>>) -> Places {
+impl StateSampler {
+    pub fn new(kinematics: Kinematics, solver: Option<Arc<Solver>>) -> StateSampler {
         let n = kinematics.system().coordinates().len();
         let registers: Vec<Register> = kinematics.signals().iter().map(|signal| signal.register).collect();
         let (program, values) = kinematics.program();
@@ -57,7 +57,7 @@ impl Places {
             let alone = SingleRow::new(&kinematics, &solver);
             (solver, alone)
         });
-        Places {
+        StateSampler {
             curve: vec![[0.0; 6]; n],
             delta: vec![0.0; n],
             bounds: vec![0.0; kinematics.system().rows().len()],
@@ -67,7 +67,7 @@ impl Places {
             signal_count: registers.len(),
             solver,
             is_plain: kinematics.is_plain(),
-            varying: Varying::of(&kinematics),
+            sensitivities: Sensitivities::from_motion(&kinematics),
             chosen: None,
             first,
             begins: f64::NAN,
@@ -77,26 +77,26 @@ impl Places {
         }
     }
 
-    /// How many variations formulas may hold.
+    /// Returns the number of variations that formulas may use.
     pub fn variations(&self) -> usize {
-        self.varying.as_ref().map_or(0, Varying::count)
+        self.sensitivities.as_ref().map_or(0, Sensitivities::count)
     }
 
-    /// Goes over to a stretch.
-    pub fn enter(&mut self, stretch: &SmoothSegment) {
-        self.change_equations(stretch);
+    /// Enters a segment.
+    pub fn enter(&mut self, segment: &SmoothSegment) {
+        self.change_equations(segment);
         self.kinematics.freeze(true, true);
-        self.kinematics.set_switches(&stretch.switches);
+        self.kinematics.set_switches(&segment.switches);
         self.has_bounds = false;
-        self.begins = stretch.from.t;
-        self.bridge = stretch.bridge.as_ref().map_or([f64::NAN; 2], |bridge| [bridge.from.t, bridge.to.t]);
-        self.enter_where(&stretch.switches);
+        self.begins = segment.from.t;
+        self.bridge = segment.bridge.as_ref().map_or([f64::NAN; 2], |bridge| [bridge.from.t, bridge.to.t]);
+        self.enter_where(&segment.switches);
     }
 
-    /// Goes over to the equations that are solved in a stretch.
-    fn change_equations(&mut self, stretch: &SmoothSegment) {
-        let is_same = match (&self.chosen, &stretch.chosen) {
-            (Some(own), Some(other)) => Arc::ptr_eq(own, other),
+    /// Switches to the equations of a segment.
+    fn change_equations(&mut self, segment: &SmoothSegment) {
+        let is_same = match (&self.chosen, &segment.chosen) {
+            (Some(local), Some(other)) => Arc::ptr_eq(local, other),
             (None, None) => true,
             _ => false,
         };
@@ -104,39 +104,39 @@ impl Places {
             return;
         }
         let (first, solver) = self.first.clone();
-        let other = match &stretch.chosen {
+        let other = match &segment.chosen {
             Some(chosen) => {
                 let mut kinematics = chosen.kinematics(&first);
-                kinematics.restore(&stretch.from);
+                kinematics.restore(&segment.from);
                 kinematics.choose_orders();
-                Places::new(kinematics, chosen.solver.clone())
+                StateSampler::new(kinematics, chosen.solver.clone())
             }
-            None => Places::new(first.clone(), solver.clone()),
+            None => StateSampler::new(first.clone(), solver.clone()),
         };
-        *self = Places { chosen: stretch.chosen.clone(), first: (first, solver), ..other };
+        *self = StateSampler { chosen: segment.chosen.clone(), first: (first, solver), ..other };
     }
 
-    /// Goes over to where the switches of the equations have some results, for variations alone.
+    /// Sets the results of the equations' switches, for variations alone.
     pub fn enter_where(&mut self, switches: &[f64]) {
-        if let Some(varying) = &mut self.varying {
-            varying.enter(switches);
+        if let Some(sensitivities) = &mut self.sensitivities {
+            sensitivities.set_switches(switches);
         }
     }
 
-    /// Whether a time (s) lies on the way over a singular position, in the stretch that was entered last.
+    /// Returns whether a time (s) lies on the bridge over a singular position, in the segment that was entered last.
     pub fn is_on_bridge(&self, t: f64) -> bool {
         let [from, to] = self.bridge;
         from <= t && t <= to
     }
 
-    /// Finds the variations at a state of the stretch.
+    /// Finds the variations at a state of the segment.
     pub fn vary(&mut self, state: &State) {
-        if let Some(varying) = &mut self.varying {
-            varying.go_to(state);
+        if let Some(sensitivities) = &mut self.sensitivities {
+            sensitivities.solve_at(state);
         }
     }
 
-    /// Finds the multipliers at a state of the stretch.
+    /// Finds the multipliers at a state of the segment.
     pub fn find_multipliers(&mut self, state: &State) {
         let key = self.key(state.t);
         let known = self.solved.get_mut(&key).filter(|solved| solved.state == *state);
@@ -161,60 +161,62 @@ impl Places {
         [self.begins, t].map(f64::to_bits)
     }
 
-    /// A row of the equations at the start among those that are solved; none where it is left out.
+    /// A row of the equations at the start among those that are solved; `None` where it is left out.
     fn row(&self, row: usize) -> Option<usize> {
         let first = self.first.0.determined();
         self.chosen.as_ref().map_or(Some(row), |chosen| chosen.row_in_place_of(row, &first))
     }
 
-    /// How the multiplier of a row changes in a variation, which has been found.
+    /// Returns the derivative of the multiplier of a row in a variation that has been solved for.
     pub fn varied_multiplier(&self, number: u32, row: usize) -> f64 {
-        let of = |varying: &Varying| self.row(row).map_or(0.0, |row| varying.varied_multiplier(number, row));
-        self.varying.as_ref().map_or(f64::NAN, of)
+        let of = |sensitivities: &Sensitivities| {
+            self.row(row).map_or(0.0, |row| sensitivities.varied_multiplier(number, row))
+        };
+        self.sensitivities.as_ref().map_or(f64::NAN, of)
     }
 
-    /// How a coordinate, its velocity and its acceleration change in a variation, which has been found.
+    /// Returns the derivatives of a coordinate, its velocity and its acceleration in a variation that has been solved for.
     pub fn variation(&self, number: u32, coordinate: usize) -> [f64; 3] {
-        self.varying.as_ref().map_or([f64::NAN; 3], |varying| varying.variation(number, coordinate))
+        self.sensitivities.as_ref().map_or([f64::NAN; 3], |sensitivities| sensitivities.variation(number, coordinate))
     }
 
-    /// Whether what time alone asks of the equations changes so little between two times (s) that the states there tell all.
+    /// Returns whether what time alone asks of the equations changes so little between two times (s) that the states there tell all.
     pub fn signals_are_resolved(&mut self, times: [f64; 2]) -> bool {
         self.signals.set_times(times);
         let (program, registers) = self.kinematics.program();
         (0..self.signal_count).all(|k| self.signals.range(program, registers, k).is_resolved)
     }
 
-    /// Whether time alone decides about the motion, and not as a straight line.
+    /// Returns whether time alone decides about the motion, and not as a straight line.
     pub fn has_signals(&self) -> bool {
         self.signal_count > 0
     }
 
-    /// A state within a stretch that is not what both its ends tell; none if it is.
-    pub fn unlike(&mut self, stretch: &SmoothSegment) -> Option<State> {
-        let SmoothSegment { from, to, bridge: None, .. } = stretch else { return None };
+    /// Returns a state within a segment that differs from what both ends predict, or `None` if there is none.
+    pub fn unlike(&mut self, segment: &SmoothSegment) -> Option<State> {
+        let SmoothSegment { from, to, bridge: None, .. } = segment else { return None };
         let h = to.t - from.t;
-        self.enter(stretch);
-        let within = self.solve(stretch, [from, to], from.t + WITHIN * h)?;
+        self.enter(segment);
+        let within = self.solve(segment, [from, to], from.t + WITHIN * h)?;
         let x = (within.t - from.t) / h;
         let is_unlike = |k: usize| {
             let (a, b) = (from.tower(k), to.tower(k));
             let off = |order: usize| ((b[order - 1] - a[order - 1]) / h - 0.5 * (a[order] + b[order])).abs();
             // what rests at zero is as good as what is usual
             let size = self.kinematics.system().coordinates()[k].scale.max(a[0].abs()).max(b[0].abs());
-            let told = h * h * off(2) + LITTLE * size;
-            (within.q[k] - along(&quintic_between(from, to, k, h), x)).abs() > told
+            let allowed = h * h * off(2) + LITTLE * size;
+            (within.q[k] - along(&quintic_between(from, to, k, h), x)).abs() > allowed
         };
         (0..within.q.len()).any(is_unlike).then_some(within)
     }
 
-    /// The state at a time (s) between two states of a stretch; none where it cannot be solved for.
-    pub fn solve(&mut self, stretch: &SmoothSegment, [a, b]: [&State; 2], t: f64) -> Option<State> {
-        if let Some(bridge) = stretch.bridge.as_ref().filter(|bridge| t > bridge.from.t) {
+    /// The state at a time (s) between two states of a segment; `None` where it cannot be solved for.
+    pub fn solve(&mut self, segment: &SmoothSegment, [a, b]: [&State; 2], t: f64) -> Option<State> {
+        if let Some(bridge) = segment.bridge.as_ref().filter(|bridge| t > bridge.from.t) {
             let on_bridge = bridge.best_state_at(t);
             return self.solve_from(on_bridge.clone(), Some(SOLVABLE)).or(Some(on_bridge));
         }
-        if let Some(state) = self.solve_exactly(stretch, [a, b], t) {
+        if let Some(state) = self.solve_exactly(segment, [a, b], t) {
             return Some(state);
         }
         let h = b.t - a.t;
@@ -226,8 +228,8 @@ impl Places {
         self.solve_from(state, None)
     }
 
-    /// As [`Places::solve`], with the bits that rows have there; none where that cannot be had.
-    pub fn solve_exactly(&mut self, stretch: &SmoothSegment, [a, b]: [&State; 2], t: f64) -> Option<State> {
+    /// As [`StateSampler::solve`], with the bits that rows have there; `None` where that cannot be had.
+    pub fn solve_exactly(&mut self, segment: &SmoothSegment, [a, b]: [&State; 2], t: f64) -> Option<State> {
         let key = self.key(t);
         if let Some(known) = self.solved.get(&key) {
             return Some(known.state.clone());
@@ -236,7 +238,7 @@ impl Places {
         for (k, curve) in self.curve.iter_mut().enumerate() {
             *curve = quintic_between(a, b, k, h);
         }
-        let state = self.solve_by_lanes(stretch, a, (t, h))?;
+        let state = self.solve_by_lanes(segment, a, (t, h))?;
         if self.solved.len() * (1 + state.q.len()) > NUMBERS {
             self.solved.clear();
         }
@@ -244,15 +246,15 @@ impl Places {
         Some(state)
     }
 
-    /// Whether the equations are such that states can be settled.
+    /// Returns whether the equations are such that states can be settled.
     pub fn is_plain(&self) -> bool {
         self.is_plain
     }
 
-    /// The state at a time (s) that is a little beside that of a state of the stretch, as rows have it: its bits depend on the time alone, and
-    /// not on the way that led there. None where the equations are not smooth everywhere, or where it cannot be had.
-    pub fn settled(&mut self, stretch: &SmoothSegment, near: &State, t: f64) -> Option<State> {
-        if !self.is_plain || stretch.bridge.is_some() {
+    /// The state at a time (s) that is a little beside that of a state of the segment, as rows have it: its bits depend on the time alone, and
+    /// not on the path that led there. `None` where the equations are not smooth everywhere, or where it cannot be had.
+    pub fn settled(&mut self, segment: &SmoothSegment, near: &State, t: f64) -> Option<State> {
+        if !self.is_plain || segment.bridge.is_some() {
             return None;
         }
         // the curve is a parabola, so that its length says nothing
@@ -260,13 +262,13 @@ impl Places {
         for (k, curve) in self.curve.iter_mut().enumerate() {
             *curve = [near.q[k], near.qd[k] * h, 0.5 * near.qdd[k] * h * h, 0.0, 0.0, 0.0];
         }
-        self.solve_by_lanes(stretch, near, (t, h))
+        self.solve_by_lanes(segment, near, (t, h))
     }
 
-    /// The state at a time (s) of the stretch, from the curve that leads on from one in a time `h` (s); none where it does not hold.
-    fn solve_by_lanes(&mut self, stretch: &SmoothSegment, from: &State, (t, h): (f64, f64)) -> Option<State> {
+    /// The state at a time (s) of the segment, from the curve that leads on from one in a time `h` (s); `None` where it does not hold.
+    fn solve_by_lanes(&mut self, segment: &SmoothSegment, from: &State, (t, h): (f64, f64)) -> Option<State> {
         if !self.has_bounds {
-            self.kinematics.restore(&stretch.from);
+            self.kinematics.restore(&segment.from);
             self.kinematics.write_bounds(&mut self.bounds);
             self.has_bounds = true;
         }
@@ -278,7 +280,7 @@ impl Places {
         (holds && is_finite).then(|| state_of_row(layout, alone.row(), from, t))
     }
 
-    /// Newton from a position; none where it does not arrive, or is nearer to a singular position than a limit.
+    /// Newton from a position; `None` where it does not arrive, or is nearer to a singular position than a limit.
     fn solve_from(&mut self, mut state: State, limit: Option<f64>) -> Option<State> {
         self.kinematics.set_time(state.t);
         self.kinematics.set_position(&state.q).ok()?;

@@ -1,7 +1,7 @@
 //! Looking at a formula between the ends of the motion's steps.
 
-use super::curve::{Cell, Curve, Found, Point, Shift, Verdict};
-use super::places::Places;
+use super::curve::{Cell, Curve, Estimate, Point, Shift, Verdict};
+use super::state_sampler::StateSampler;
 use crate::analysis::follow::SmoothSegment;
 use crate::analysis::state::State;
 use mechc_expr::math::{enclose_root, power_of_two_below};
@@ -13,7 +13,7 @@ use mechc_ir::tolerances::results::probe::{
 };
 use std::rc::Rc;
 
-/// How large a formula is, as far as that decides what is a difference.
+/// The scale of a formula, which decides what counts as a difference.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(super) struct Scale {
     /// The range of its values, or how far they usually are from the one that is looked for.
@@ -25,20 +25,20 @@ pub(super) struct Scale {
 }
 
 impl Scale {
-    /// Values that differ by no more than this are the same: what rounding makes of a value that rests is no change.
+    /// Returns the difference up to which values count as equal: rounding of a constant value is no change.
     pub fn alike(self) -> f64 {
         self.gap(ALIKE)
     }
 
-    /// A part of the range, but no less than what rounding makes of a value.
+    /// Returns a part of the range, but no less than the rounding of a value.
     pub fn gap(self, part: f64) -> f64 {
         f64::max(part * self.range, ROUNDING * self.weight).max(NOTHING)
     }
 }
 
-/// Why there is no number.
+/// The reason why a reduction has no value.
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub enum Trouble {
+pub enum NoValueCause {
     /// The formula has no value at a time (s) that is asked for.
     Missing(f64),
     /// It has none at any time from this one (s) on.
@@ -53,44 +53,44 @@ pub enum Trouble {
     Window(f64),
 }
 
-impl Trouble {
+impl NoValueCause {
     pub fn t(self) -> f64 {
         match self {
-            Trouble::Missing(t)
-            | Trouble::Nowhere(t)
-            | Trouble::Unbounded(t)
-            | Trouble::Unknown(t)
-            | Trouble::Uncertain(t)
-            | Trouble::Window(t) => t,
+            NoValueCause::Missing(t)
+            | NoValueCause::Nowhere(t)
+            | NoValueCause::Unbounded(t)
+            | NoValueCause::Unknown(t)
+            | NoValueCause::Uncertain(t)
+            | NoValueCause::Window(t) => t,
         }
     }
 }
 
-/// What came up while a formula was looked at.
+/// The findings of a search: causes of missing values, and the work done.
 #[derive(Clone, Copy, Default, Debug)]
 pub(super) struct Notes {
-    pub trouble: Option<Trouble>,
+    pub cause: Option<NoValueCause>,
     /// The first time (s) at which the formula has no value.
     pub missing: Option<f64>,
-    /// How much has been looked at, and how much may be.
+    /// The number of cells that were evaluated, and its limit.
     cells: usize,
     most: usize,
 }
 
 impl Notes {
-    /// Takes note of why there is no number; what comes first in time counts.
-    pub fn meet(&mut self, trouble: Trouble) {
-        if self.trouble.is_none_or(|known| trouble.t() < known.t()) {
-            self.trouble = Some(trouble);
+    /// Records why there is no value; the earliest time counts.
+    pub fn meet(&mut self, cause: NoValueCause) {
+        if self.cause.is_none_or(|known| cause.t() < known.t()) {
+            self.cause = Some(cause);
         }
     }
 
-    /// Whether as much has been looked at as may be.
+    /// Returns whether the limit of evaluated cells is exceeded.
     pub fn are_exhausted(&self) -> bool {
         self.cells > self.most
     }
 
-    /// Takes note of a time (s) at which the formula has no value.
+    /// Records a time (s) at which the formula has no value.
     pub fn miss(&mut self, t: f64) {
         if self.missing.is_none_or(|known| t < known) {
             self.missing = Some(t);
@@ -98,39 +98,39 @@ impl Notes {
     }
 }
 
-/// A formula in some steps of the motion.
-pub(super) struct Probe<'r> {
+/// The search in a formula over some steps of the motion.
+pub(super) struct IntervalSearch<'r> {
     pub curve: &'r mut Curve,
-    places: &'r mut Places,
+    sampler: &'r mut StateSampler,
     pub steps: &'r [SmoothSegment],
-    /// From one time to another (s): the formula is looked at nowhere else.
+    /// The first and the last time (s) at which the formula is evaluated.
     pub window: [f64; 2],
     entered: Option<usize>,
     pub notes: &'r mut Notes,
     /// No cell is cut that is no longer than this (s).
     pub shortest: f64,
-    /// How far values usually differ.
+    /// The usual difference of values.
     pub range: f64,
     /// In a cell that is no longer than this (s) values may be nothing but rounding.
     pub short: f64,
-    /// Whether it matters when guards cross their thresholds.
+    /// True if it matters when guards cross their thresholds.
     pub is_timed: bool,
-    /// The guard that was found to cross its threshold last, when (s), and how far off (s) that may be.
-    doubted: Option<(usize, f64, f64)>,
+    /// The last guard with a located crossing, the time (s) of that, and its error bound (s).
+    last_crossing: Option<(usize, f64, f64)>,
 }
 
-impl<'r> Probe<'r> {
+impl<'r> IntervalSearch<'r> {
     pub fn new(
         (curve, notes): (&'r mut Curve, &'r mut Notes),
-        places: &'r mut Places,
+        sampler: &'r mut StateSampler,
         steps: &'r [SmoothSegment],
         (window, span): ([f64; 2], f64),
-    ) -> Probe<'r> {
+    ) -> IntervalSearch<'r> {
         curve.set_short(SHORT * span);
         notes.most = notes.most.max(MOST_CELLS) + MOST_OF_A_STEP * steps.len();
-        Probe {
+        IntervalSearch {
             curve,
-            places,
+            sampler,
             steps,
             window,
             entered: None,
@@ -139,47 +139,47 @@ impl<'r> Probe<'r> {
             range: 0.0,
             short: SHORT * span,
             is_timed: false,
-            doubted: None,
+            last_crossing: None,
         }
     }
 
     fn enter(&mut self, step: usize) {
         if self.entered != Some(step) {
-            self.places.enter(&self.steps[step]);
+            self.sampler.enter(&self.steps[step]);
             self.entered = Some(step);
         }
     }
 
-    /// Takes note of a time (s) of a step at which the formula has no value. Beside a singular position forces and derivatives by parameters are not
+    /// Records a time (s) of a step at which the formula has no value. Beside a singular position forces and derivatives by parameters are not
     /// left out: they may be of any size there.
     pub fn miss(&mut self, step: usize, t: f64) {
         if let Some(bridge) = &self.steps[step].bridge
             && self.curve.may_be_singular()
         {
-            self.notes.meet(Trouble::Uncertain(bridge.at));
+            self.notes.meet(NoValueCause::Uncertain(bridge.at));
         }
         self.notes.miss(t);
     }
 
-    /// The formula at a state of a step.
+    /// Evaluates the formula at a state of a step.
     pub fn at(&mut self, step: usize, state: State) -> Rc<Point> {
         self.enter(step);
-        self.curve.at(state, self.places)
+        self.curve.at(state, self.sampler)
     }
 
-    /// The formula at a time (s) within a cell; none where the motion cannot be solved for.
+    /// Evaluates the formula at a time (s) within a cell. `None` if the motion cannot be solved for.
     pub fn point(&mut self, cell: &Cell, t: f64) -> Option<Rc<Point>> {
         self.between(cell.step, [&cell.a.state, &cell.b.state], t)
     }
 
-    /// The formula at a time (s) within a cell, with the bits that rows have there; none where that cannot be had.
+    /// Evaluates the formula at a time (s) within a cell, with the bits of rows. `None` if those cannot be had.
     pub fn exact_point(&mut self, cell: &Cell, t: f64) -> Option<Rc<Point>> {
         self.enter(cell.step);
-        let state = self.places.solve_exactly(&self.steps[cell.step], [&cell.a.state, &cell.b.state], t)?;
-        Some(self.curve.at(state, self.places))
+        let state = self.sampler.solve_exactly(&self.steps[cell.step], [&cell.a.state, &cell.b.state], t)?;
+        Some(self.curve.at(state, self.sampler))
     }
 
-    /// The formula at a time (s) of a step.
+    /// Evaluates the formula at a time (s) of a step.
     pub fn point_of_step(&mut self, step: usize, t: f64) -> Option<Rc<Point>> {
         let ends @ [from, to] = [&self.steps[step].from, &self.steps[step].to];
         match [from, to].into_iter().find(|end| end.t.total_cmp(&t).is_eq()) {
@@ -188,8 +188,8 @@ impl<'r> Probe<'r> {
         }
     }
 
-    /// The formula at a time (s) in a step or in those before and behind it; none beyond an edge or the window, or where the motion cannot be solved for.
-    pub fn point_beside(&mut self, mut step: usize, t: f64) -> Option<Rc<Point>> {
+    /// The formula at a time (s) in a step or in those before and behind it; `None` beyond an edge or the window, or where the motion cannot be solved for.
+    pub fn point_near(&mut self, mut step: usize, t: f64) -> Option<Rc<Point>> {
         let steps = self.steps;
         while step > 0 && t < steps[step].from.t && !steps[step].begins_at_edge {
             step -= 1;
@@ -203,18 +203,24 @@ impl<'r> Probe<'r> {
     }
 
     /// The formula at three times beside a point, before (−1) or behind it (1), each [`FACTOR`] times as far away as the one before; the first of these
-    /// is no nearer than a width (s), and so far away that the value is more than rounding. None where there are no such times near by.
-    pub fn beside(&mut self, step: usize, point: &Point, (way, width): (f64, f64), scale: Scale) -> Option<[Found; 3]> {
+    /// is no nearer than a width (s), and so far away that the value is more than rounding. `None` where there are no such times near by.
+    pub fn samples_near(
+        &mut self,
+        step: usize,
+        point: &Point,
+        (direction, width): (f64, f64),
+        scale: Scale,
+    ) -> Option<[Estimate; 3]> {
         let mut far = FACTOR * self.shortest.max(width).max(point.shift.time);
         loop {
-            let mut found = [Found::NOTHING; 3];
+            let mut found = [Estimate::NOTHING; 3];
             let mut distance = far;
             for found in &mut found {
-                let there = self.point_beside(step, point.state.t + way * distance)?;
-                *found = self.curve.found(&there);
+                let there = self.point_near(step, point.state.t + direction * distance)?;
+                *found = self.curve.estimate(&there);
                 distance *= FACTOR;
             }
-            if found[0].off <= scale.gap(RELIABLE).max(RELIABLE * found[0].value.abs()) {
+            if found[0].error <= scale.gap(RELIABLE).max(RELIABLE * found[0].value.abs()) {
                 return Some(found);
             }
             far *= FACTOR;
@@ -228,25 +234,25 @@ impl<'r> Probe<'r> {
         self.enter(step);
         let state = if self.curve.moves() {
             self.notes.cells += SOLVED;
-            let solved = self.places.solve(&self.steps[step], [a, b], t);
+            let solved = self.sampler.solve(&self.steps[step], [a, b], t);
             if solved.is_none() && b.t - a.t > self.shortest * OPAQUE / SHORTEST {
-                self.notes.meet(Trouble::Unknown(t));
+                self.notes.meet(NoValueCause::Unknown(t));
             }
             solved?
         } else {
             self.notes.cells += 1;
             State { t, ..a.clone() }
         };
-        Some(self.curve.at(state, self.places))
+        Some(self.curve.at(state, self.sampler))
     }
 
-    /// The state beside one of a step, as rows have it; none where that cannot be had.
+    /// The state beside one of a step, as rows have it; `None` where that cannot be had.
     pub fn settled(&mut self, step: usize, near: &State, t: f64) -> Option<State> {
         self.enter(step);
-        self.places.settled(&self.steps[step], near, t)
+        self.sampler.settled(&self.steps[step], near, t)
     }
 
-    /// What is known of the formula in a cell; nothing where the states at its ends do not tell the motion between.
+    /// Classifies and encloses the formula in a cell; open if the states at its ends do not determine the motion between.
     pub fn enclose(&mut self, cell: &mut Cell) -> (Verdict, Range) {
         self.enter(cell.step);
         self.notes.cells += 1;
@@ -256,7 +262,7 @@ impl<'r> Probe<'r> {
         let may_be_singular = bridge.is_some_and(|bridge| is_within(bridge.at) || bridge.again.is_some_and(is_within));
         let is_known = !self.curve.moves()
             || !may_be_singular
-                && self.places.signals_are_resolved([cell.a.state.t, cell.b.state.t])
+                && self.sampler.signals_are_resolved([cell.a.state.t, cell.b.state.t])
                 && !self.curve.turns_far(cell);
         if is_known {
             let mut ignored = Vec::new();
@@ -304,7 +310,7 @@ impl<'r> Probe<'r> {
         is_rounding(self.curve, &middle).then(|| [&cell.a, &middle, &cell.b].map(|point| point.sample.value))
     }
 
-    /// Whether a formula has no value in a short cell, as far as its ends and its middle show, where rounding alone decides about a guard: a quotient
+    /// Returns whether a formula has no value in a short cell, as far as its ends and its middle show, where rounding alone decides about a guard: a quotient
     /// of two that both rest, which no range tells of.
     fn is_hole(&mut self, cell: &Cell) -> bool {
         let is_short = cell.length() <= self.short && !self.is_shortest(cell);
@@ -313,12 +319,12 @@ impl<'r> Probe<'r> {
         are_missing && self.point(cell, cell.middle()).is_none_or(|middle| !middle.exists())
     }
 
-    /// Whether a cell is too short to be cut.
+    /// Returns whether a cell is too short to be cut.
     pub fn is_shortest(&self, cell: &Cell) -> bool {
         cell.length() <= self.shortest || cell.is_empty()
     }
 
-    /// The parts of a cell on both sides of its middle; none where the motion cannot be solved for there.
+    /// The parts of a cell on both sides of its middle; `None` where the motion cannot be solved for there.
     pub fn halve(&mut self, cell: &Cell) -> Option<[Cell; 2]> {
         let middle = match &cell.middle {
             Some(middle) => Rc::clone(middle),
@@ -328,7 +334,7 @@ impl<'r> Probe<'r> {
     }
 
     /// The parts of a cell before and behind the time at which a guard crosses its threshold, and the shortest cell between. A part is missing
-    /// where the crossing is at that end of the cell. None where the motion cannot be solved for.
+    /// where the crossing is at that end of the cell. `None` where the motion cannot be solved for.
     pub fn cut_at_crossing(&mut self, cell: &Cell, guard: usize) -> Option<[Option<Cell>; 3]> {
         let side = cell.a.side(guard);
         let (mut before, mut behind) = (Rc::clone(&cell.a), Rc::clone(&cell.b));
@@ -343,18 +349,21 @@ impl<'r> Probe<'r> {
             Some((is_behind, offs[usize::from(is_behind)].abs()))
         })?;
         if self.is_timed {
-            let doubt = match self.doubted {
+            let crossing_error = match self.last_crossing {
                 // beside another crossing of the same guard, in what is rounding there
-                Some((other, t, doubt)) if other == guard && (before.state.t - t).abs() <= doubt => doubt,
+                Some((other, t, crossing_error)) if other == guard && (before.state.t - t).abs() <= crossing_error => {
+                    crossing_error
+                }
                 _ => {
-                    let of = |(end, way): (&Rc<Point>, f64)| self.doubt(cell.step, guard, end, way);
+                    let of =
+                        |(end, direction): (&Rc<Point>, f64)| self.crossing_error(cell.step, guard, end, direction);
                     let doubts = [(&before, -1.0), (&behind, 1.0)].map(of);
                     f64::min(doubts[0], doubts[1])
                 }
             };
-            self.doubted = Some((guard, before.state.t, doubt));
+            self.last_crossing = Some((guard, before.state.t, crossing_error));
             for end in [&mut before, &mut behind] {
-                Rc::make_mut(end).doubt = doubt;
+                Rc::make_mut(end).crossing_error = crossing_error;
             }
         }
         let jump = (before.sample.value - behind.sample.value).abs();
@@ -364,55 +373,55 @@ impl<'r> Probe<'r> {
             self.shift(cell.step, &mut before, -beside);
             self.shift(cell.step, &mut behind, beside);
         }
-        self.see_hole(cell.step, [&mut before, &mut behind]);
+        self.record_hole(cell.step, [&mut before, &mut behind]);
         let part = |a: &Rc<Point>, b: &Rc<Point>| (b.state.t > a.state.t).then(|| cell.between(a, b));
         Some([part(&cell.a, &before), part(&before, &behind), part(&behind, &cell.b)])
     }
 
-    /// How far (s) from a point beside a crossing the guard may cross its threshold as well, before (−1) or behind it (1): rounding of its argument
-    /// beside how fast that changes.
-    fn doubt(&mut self, step: usize, guard: usize, end: &Point, way: f64) -> f64 {
-        let off = self.curve.rounding_of_argument(guard, end);
+    /// Returns the error bound (s) of a crossing near a point, before (−1) or behind it (1): the rounding of the guard's argument divided by its
+    /// rate.
+    fn crossing_error(&mut self, step: usize, guard: usize, end: &Point, direction: f64) -> f64 {
+        let error = self.curve.rounding_of_argument(guard, end);
         let mut width = FACTOR * FACTOR * self.shortest;
         while width <= self.short {
-            let Some(there) = self.point_beside(step, end.state.t + way * width) else { break };
+            let Some(there) = self.point_near(step, end.state.t + direction * width) else { break };
             let change = (there.argument(guard) - end.argument(guard)).abs();
-            if change >= FACTOR * off {
-                return width * off / change;
+            if change >= FACTOR * error {
+                return width * error / change;
             }
             width *= FACTOR;
         }
         f64::INFINITY
     }
 
-    /// Where the formula has a value on one side alone of a crossing, and has one again farther on: rounding may have hidden it there, and what it goes
-    /// to is known no better than it changes over as long as that.
-    fn see_hole(&mut self, step: usize, [before, behind]: [&mut Rc<Point>; 2]) {
+    /// Widens the error bound of a crossing with a value on one side only and a value again farther on: rounding may have hidden it there, so its
+    /// limit is known no better than it changes over that distance.
+    fn record_hole(&mut self, step: usize, [before, behind]: [&mut Rc<Point>; 2]) {
         let (known, missing) = match [before.exists(), behind.exists()] {
             [true, false] => (before, &*behind),
             [false, true] => (behind, &*before),
             _ => return,
         };
-        let way = (missing.state.t - known.state.t).signum();
+        let direction = (missing.state.t - known.state.t).signum();
         let mut width = self.shortest;
         while width <= self.shortest * OPAQUE / SHORTEST {
-            let t = missing.state.t + way * width;
+            let t = missing.state.t + direction * width;
             let is_end = t <= self.window[0] || t >= self.window[1];
-            let there = self.point_beside(step, t);
+            let there = self.point_near(step, t);
             if there.is_none() && !is_end {
                 return;
             }
             if is_end || there.is_some_and(|there| there.exists()) {
-                self.shift(step, known, -way * width);
+                self.shift(step, known, -direction * width);
                 return;
             }
             width *= 4.0;
         }
     }
 
-    /// Takes note that a point may be meant for a time that is so much (s) beside its own.
+    /// Records that a point may be meant for a time that is so much (s) beside its own.
     pub fn shift(&mut self, step: usize, point: &mut Rc<Point>, beside: f64) {
-        let there = self.point_beside(step, point.state.t + beside);
+        let there = self.point_near(step, point.state.t + beside);
         let value = there.map_or(f64::INFINITY, |there| (there.sample.value - point.sample.value).abs());
         Rc::make_mut(point).shift = Shift { time: beside.abs(), value };
     }

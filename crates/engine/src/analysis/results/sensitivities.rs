@@ -1,39 +1,39 @@
-//! Derivatives by inputs and parameters at states of the motion: the variations that results hold, of which rows need not know.
+//! Derivatives by inputs and parameters at states of the motion: the variations that results use and rows do not.
 
 use crate::analysis::state::{Kinematics, State};
 use mechc_ir::ConstraintSystem;
 use mechc_ir::program::{Program, Register, Registers, Stage};
 
-/// What finds the variations of coordinates at a state.
-pub(super) struct Varying {
+/// The derivatives of coordinates and multipliers by inputs and parameters at a state.
+pub(super) struct Sensitivities {
     kinematics: Kinematics,
-    /// Whether equations that were left out go on to hold; none where none was.
-    beside: Option<Beside>,
+    /// Returns whether equations that were left out go on to hold; `None` where none was.
+    dropped: Option<DroppedEquations>,
 }
 
-/// What tells whether the equations that were left out hold beside a position.
-struct Beside {
+/// The check that equations left out as redundant still hold when inputs and parameters vary.
+struct DroppedEquations {
     program: Program,
     registers: Registers,
-    /// By the number of a variation: not zero where they do.
+    /// The condition of each variation, by its number: nonzero if the equations hold.
     hold: Vec<(u32, Register)>,
-    /// The variations of which they do not.
+    /// The variations for which the equations do not hold at the last state.
     broken: Vec<u32>,
 }
 
-impl Beside {
-    fn of(system: &ConstraintSystem, variations: usize) -> Option<Beside> {
+impl DroppedEquations {
+    fn new(system: &ConstraintSystem, variations: usize) -> Option<DroppedEquations> {
         let (numbers, formulas): (Vec<u32>, Vec<_>) = system.results().variation_conditions.iter().copied().unzip();
         let counts = [system.params().len(), system.coordinates().len(), variations, 0];
         let (program, roots) = Program::of_formulas(system.graph(), counts, &formulas);
         let params = system.param_values();
         let registers = program.start(&params);
         let hold: Vec<(u32, Register)> = numbers.into_iter().zip(roots).collect();
-        (!hold.is_empty()).then_some(Beside { program, registers, hold, broken: Vec::new() })
+        (!hold.is_empty()).then_some(DroppedEquations { program, registers, hold, broken: Vec::new() })
     }
 
-    /// Looks at a state, of which the variations are known.
-    fn look(&mut self, state: &State, kinematics: &Kinematics) {
+    /// Evaluates the conditions at a state whose variations have been solved for.
+    fn check_at(&mut self, state: &State, kinematics: &Kinematics) {
         let inputs = self.program.inputs;
         self.registers.set(inputs.time, state.t);
         for (first, values) in inputs.coordinates.into_iter().zip([&state.q, &state.qd, &state.qdd, &state.qddd]) {
@@ -53,35 +53,35 @@ impl Beside {
     }
 }
 
-impl Varying {
-    /// Beside the equations of a motion; none where no result needs any.
-    pub fn of(motion: &Kinematics) -> Option<Varying> {
+impl Sensitivities {
+    /// Returns the sensitivities along a motion, or `None` if no result needs any.
+    pub fn from_motion(motion: &Kinematics) -> Option<Sensitivities> {
         let kinematics = motion.with_variations_of_results()?;
-        let beside = Beside::of(motion.system(), kinematics.system().variations().len());
-        Some(Varying { kinematics, beside })
+        let dropped = DroppedEquations::new(motion.system(), kinematics.system().variations().len());
+        Some(Sensitivities { kinematics, dropped })
     }
 
-    /// How many variations there are.
+    /// Returns the number of variations.
     pub fn count(&self) -> usize {
         self.kinematics.system().variations().len()
     }
 
-    /// Goes over to where the switches of the equations have some results.
-    pub fn enter(&mut self, switches: &[f64]) {
+    /// Sets the results of the equations' switches.
+    pub fn set_switches(&mut self, switches: &[f64]) {
         self.kinematics.freeze(true, true);
         self.kinematics.set_switches(switches);
     }
 
-    /// Finds all variations at a state; where they cannot be trusted, or an equation that was left out would cease to hold, they are no
-    /// numbers.
-    pub fn go_to(&mut self, state: &State) {
+    /// Solves for all variations at a state. They are NaN if they cannot be trusted or if an equation that was left out would cease to
+    /// hold.
+    pub fn solve_at(&mut self, state: &State) {
         self.kinematics.vary_at(state);
-        if let Some(beside) = &mut self.beside {
-            beside.look(state, &self.kinematics);
+        if let Some(dropped) = &mut self.dropped {
+            dropped.check_at(state, &self.kinematics);
         }
     }
 
-    /// How a coordinate, its velocity and its acceleration change in a variation.
+    /// Returns the derivatives of a coordinate, its velocity and its acceleration in a variation.
     pub fn variation(&self, number: u32, coordinate: usize) -> [f64; 3] {
         if self.is_broken(number) {
             return [f64::NAN; 3];
@@ -89,12 +89,12 @@ impl Varying {
         self.kinematics.variation(number, coordinate)
     }
 
-    /// How the multiplier of a row changes in a variation.
+    /// Returns the derivative of the multiplier of a row in a variation.
     pub fn varied_multiplier(&self, number: u32, row: usize) -> f64 {
         if self.is_broken(number) { f64::NAN } else { self.kinematics.varied_multiplier(number, row) }
     }
 
     fn is_broken(&self, number: u32) -> bool {
-        self.beside.as_ref().is_some_and(|beside| beside.broken.contains(&number))
+        self.dropped.as_ref().is_some_and(|dropped| dropped.broken.contains(&number))
     }
 }

@@ -1,20 +1,20 @@
-//! Smooth formulas that results ask of the motion, for variants that go side by side: extrema of them, integrals, and values at some times.
+//! Smooth formulas that results ask of the motion, for variants that are evaluated in a batch: extrema of them, integrals, and values at some times.
 
+use super::batch_evaluation::SmoothFormula;
 use super::curve::Curve;
-use super::quantity::SmoothFormula;
 use super::{curves, needed, value_of};
 use mechc_expr::ExprId;
 use mechc_ir::{ConstraintSystem, ReductionKind};
 
-/// What all results of a mechanism ask of it.
+/// The smooth formulas of all results of a mechanism.
 pub struct SmoothFormulas {
     each: Vec<SmoothFormula>,
-    /// By reduction: which of these it is of, and which number of it.
+    /// The formula of each reduction, by its number, and the kind of the reduction.
     reductions: Vec<(usize, ReductionKind)>,
 }
 
 impl SmoothFormulas {
-    /// Of a system whose equations are smooth; none where results ask for anything else.
+    /// Returns the formulas of a system with smooth equations, or `None` if its results need anything else.
     #[must_use]
     pub fn of(system: &ConstraintSystem) -> Option<SmoothFormulas> {
         let results = system.results();
@@ -39,13 +39,13 @@ impl SmoothFormulas {
         Some(SmoothFormulas { each: each?, reductions })
     }
 
-    /// The formulas.
+    /// Returns the formulas.
     #[must_use]
     pub fn each(&self) -> &[SmoothFormula] {
         &self.each
     }
 
-    /// By reduction: which of these it is of, and which number of it.
+    /// Returns the formula of each reduction, by its number, and the kind of the reduction.
     #[must_use]
     pub fn reductions(&self) -> &[(usize, ReductionKind)] {
         &self.reductions

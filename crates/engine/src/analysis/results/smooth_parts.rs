@@ -3,7 +3,7 @@
 //! What is seen from a body that moves is a sum of this kind, of terms that may be much larger than it is itself: what these can be in
 //! a cell says little of what it can be. So it is looked at as the coordinates are, by its own time derivatives at the ends of the cell.
 
-use super::sizes::{Largest, Sizes};
+use super::magnitudes::{Largest, Magnitudes};
 use crate::analysis::state::State;
 use mechc_expr::{Binary, ExprId, Graph, Node, Symbol, Unary};
 use mechc_ir::program::{Program, Ranges, Register, Registers, Stage};
@@ -11,7 +11,7 @@ use mechc_ir::tolerances::results::smooth::{MOST_FACTORS, WIDEST_OF_ALL, WIDEST_
 use mechc_ir::{ConstraintSystem, CoordinateKind};
 use rustc_hash::FxHashMap;
 
-/// Of what kind a formula is.
+/// The kind of a formula.
 #[derive(Clone, Copy, PartialEq, Debug)]
 enum Kind {
     /// It does not change.
@@ -22,15 +22,15 @@ enum Kind {
     Smooth {
         /// The highest time derivative of a coordinate in it.
         order: u8,
-        /// How many things that move are multiplied in it at most.
+        /// The largest number of moving factors in a product.
         factors: u32,
     },
     Other,
 }
 
 /// Something smooth within a formula.
-struct Found {
-    /// What of the formula it stands for.
+struct SmoothPart {
+    /// The part of the formula that it replaces.
     of: ExprId,
     /// It, or the square of what it stands for: a length goes to zero with a kink, its square does not.
     value: ExprId,
@@ -39,20 +39,20 @@ struct Found {
     order: u8,
 }
 
-/// What is smooth of a formula, with its time derivatives.
+/// The smooth parts of a formula, with their time derivatives.
 pub(super) struct Smooth {
     program: Program,
     registers: Registers,
     /// The ranges of these, and how large the coordinates are.
     ranges: Ranges,
-    sizes: Sizes,
-    /// Of each, where its value and its time derivatives are: at the order that its value has as a coordinate, and behind it.
+    sizes: Magnitudes,
+    /// The registers of each part and its time derivatives, starting at the order that its value has as a coordinate.
     towers: Vec<[Option<Register>; 4]>,
-    /// Of each, the order at which it stands, and whether it is a square.
+    /// The order at which each part stands, and whether it is a square.
     kinds: Vec<(usize, bool)>,
     /// The coordinates that they hold.
     coordinates: Vec<usize>,
-    /// Those that are turns, and all turns that there are.
+    /// The angles among these, and all angles of the mechanism.
     turns: Vec<usize>,
     all_turns: Vec<usize>,
 }
@@ -60,27 +60,27 @@ pub(super) struct Smooth {
 impl Smooth {
     /// A formula in a graph of its own, in which what is smooth of it stands as further coordinates, behind those that there are; others
     /// behind it in that graph; and what is smooth.
-    pub fn out_of(
+    pub fn extract_from(
         graph: &mut Graph,
         (value, others): (ExprId, &[ExprId]),
         system: &ConstraintSystem,
     ) -> (Graph, Vec<ExprId>, Smooth) {
         let kinds = kinds(graph, value, system);
         let found = largest(graph, value, &kinds);
-        let (mut own, mut known) = (Graph::new(), FxHashMap::default());
-        own.import_tables(graph, &mut known, Graph::symbol);
+        let (mut local, mut known) = (Graph::new(), FxHashMap::default());
+        local.import_tables(graph, &mut known, Graph::symbol);
         let mut towers = Vec::with_capacity(found.len());
         let first = system.coordinates().len();
-        for (k, &Found { of, value, is_square, order }) in found.iter().enumerate() {
-            let stands = own.symbol(Symbol::Coordinate { index: (first + k) as u32, order });
-            known.insert(of, if is_square { own.unary(Unary::Sqrt, stands) } else { stands });
+        for (k, &SmoothPart { of, value, is_square, order }) in found.iter().enumerate() {
+            let stands = local.symbol(Symbol::Coordinate { index: (first + k) as u32, order });
+            known.insert(of, if is_square { local.unary(Unary::Sqrt, stands) } else { stands });
             towers.push(tower(graph, value, order, system.jerk().is_some()));
         }
         let kinds: Vec<(usize, bool)> = found.iter().map(|found| (usize::from(found.order), found.is_square)).collect();
-        let wanted = [&[value], others].concat();
-        own.import(graph, &wanted, &mut known, Graph::symbol);
-        let formulas = wanted.iter().map(|id| known[id]).collect();
-        (own, formulas, Smooth::new(graph, &towers, kinds, system))
+        let requested = [&[value], others].concat();
+        local.import(graph, &requested, &mut known, Graph::symbol);
+        let formulas = requested.iter().map(|id| known[id]).collect();
+        (local, formulas, Smooth::new(graph, &towers, kinds, system))
     }
 
     fn new(
@@ -103,27 +103,27 @@ impl Smooth {
         let turns = coordinates.iter().copied().filter(is_turn).collect();
         let all_turns = (0..system.coordinates().len()).filter(is_turn).collect();
         let ranges = Ranges::new(&program, &registers, &all, Stage::Measures, false);
-        let sizes = Sizes::new(coordinates.iter().map(|&k| Some(system.coordinates()[k].kind)).collect());
+        let sizes = Magnitudes::new(coordinates.iter().map(|&k| Some(system.coordinates()[k].kind)).collect());
         Smooth { program, registers, ranges, sizes, towers, kinds, coordinates, turns, all_turns }
     }
 
-    /// How many there are.
+    /// Returns the number of parts.
     pub fn count(&self) -> usize {
         self.towers.len()
     }
 
-    /// Of one that is a square, and so is never below zero: the order at which it stands.
+    /// Returns the order at which a part stands that is a square, and so never below zero.
     pub fn square(&self, k: usize) -> Option<usize> {
         let (order, is_square) = self.kinds[k];
         is_square.then_some(order)
     }
 
-    /// The order at which one of them stands: it has no derivatives below.
+    /// Returns the order at which a part stands: it has no derivatives below.
     pub fn order(&self, k: usize) -> usize {
         self.kinds[k].0
     }
 
-    /// Takes note of how large the coordinates of the mechanism are.
+    /// Records how large the coordinates of the mechanism are.
     pub fn note_all(&mut self, of_all: Largest) {
         self.sizes.note_all(of_all);
     }
@@ -159,7 +159,7 @@ impl Smooth {
         self.ranges.run_all(&self.program, &self.registers);
     }
 
-    /// The ranges of one of them and of its time derivatives that were found last, by their orders.
+    /// Returns the ranges of a part and of its time derivatives that were found last, by their orders.
     pub fn ranges(&self, k: usize) -> [[f64; 2]; 4] {
         self.towers[k].map(|register| {
             let [low, high] = register.map_or([0.0; 2], |register| self.ranges.interval(register));
@@ -172,7 +172,7 @@ impl Smooth {
         ((self.program, self.registers), self.towers)
     }
 
-    /// Whether a body turns too far between two states for them to tell what its sine is between, or any body what a place is that goes about
+    /// Returns whether a body turns too far between two states for them to tell what its sine is between, or any body what a place is that goes about
     /// with it: a driven one is where it was after a whole turn, and nothing else tells of that.
     pub fn turns_far(&self, [a, b]: [&State; 2]) -> bool {
         let turned = |&k: &usize| {
@@ -191,7 +191,7 @@ fn coordinate_of(symbol: Symbol) -> Option<usize> {
     }
 }
 
-/// Of all that a formula is made of.
+/// Returns the kinds of all nodes behind a formula.
 fn kinds(graph: &Graph, value: ExprId, system: &ConstraintSystem) -> FxHashMap<ExprId, Kind> {
     let mut kinds = FxHashMap::default();
     for id in graph.reachable(&[value]) {
@@ -223,7 +223,7 @@ fn kind_of(node: Node, system: &ConstraintSystem, of: impl Fn(ExprId) -> Kind) -
 }
 
 impl Kind {
-    /// The highest time derivative, and the number of factors.
+    /// Returns the highest time derivative, and the number of factors.
     fn smooth(self) -> Option<(u8, u32)> {
         match self {
             Kind::Constant => Some((0, 0)),
@@ -251,7 +251,7 @@ impl Kind {
 }
 
 /// The largest formulas within a formula that are smooth, and that are more than a coordinate.
-fn largest(graph: &mut Graph, value: ExprId, kinds: &FxHashMap<ExprId, Kind>) -> Vec<Found> {
+fn largest(graph: &mut Graph, value: ExprId, kinds: &FxHashMap<ExprId, Kind>) -> Vec<SmoothPart> {
     let (mut found, mut open) = (Vec::new(), vec![value]);
     let mut seen = rustc_hash::FxHashSet::default();
     while let Some(id) = open.pop() {
@@ -259,13 +259,13 @@ fn largest(graph: &mut Graph, value: ExprId, kinds: &FxHashMap<ExprId, Kind>) ->
         if !seen.insert(id) || matches!(node, Node::Symbol(_)) {
             continue;
         }
-        let whole = |order: u8| Found { of: id, value: id, is_square: false, order };
+        let whole = |order: u8| SmoothPart { of: id, value: id, is_square: false, order };
         match kinds[&id] {
             Kind::Constant => {}
             Kind::Turn => found.push(whole(0)),
             Kind::Smooth { order, .. } => found.push(whole(order)),
             Kind::Other => match square(graph, node, kinds) {
-                Some((value, order)) => found.push(Found { value, is_square: true, ..whole(order) }),
+                Some((value, order)) => found.push(SmoothPart { value, is_square: true, ..whole(order) }),
                 None => open.extend_from_slice(node.children().as_slice()),
             },
         }
@@ -292,7 +292,7 @@ fn square(graph: &mut Graph, length: Node, kinds: &FxHashMap<ExprId, Kind>) -> O
     }
 }
 
-/// Whether a formula is a sum of squares, as it is written.
+/// Returns whether a formula is a sum of squares, as it is written.
 fn is_sum_of_squares(graph: &Graph, formula: ExprId) -> bool {
     match graph.node(formula) {
         Node::Add(a, b) => is_sum_of_squares(graph, a) && is_sum_of_squares(graph, b),

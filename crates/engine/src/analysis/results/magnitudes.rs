@@ -13,7 +13,7 @@ pub(super) struct Largest {
 }
 
 impl Largest {
-    /// Takes note of a state's coordinates, of which these are angles.
+    /// Records a state's coordinates, of which these are angles.
     pub fn note(&mut self, state: &State, kinds: impl Iterator<Item = CoordinateKind>) {
         for (k, kind) in kinds.enumerate() {
             let largest = match kind {
@@ -42,21 +42,21 @@ impl Largest {
 }
 
 /// The largest magnitudes that were seen of some things that move, each with three time derivatives: rounding goes by these.
-pub(super) struct Sizes {
+pub(super) struct Magnitudes {
     largest: Vec<[f64; 4]>,
-    /// What kind of coordinate each one is, if it is one.
+    /// The kind of each quantity that is a coordinate.
     kinds: Vec<Option<CoordinateKind>>,
-    /// Those of the whole mechanism.
+    /// The magnitudes of the whole mechanism.
     of_all: Largest,
 }
 
-impl Sizes {
-    /// For things of these kinds; none is no coordinate.
-    pub fn new(kinds: Vec<Option<CoordinateKind>>) -> Sizes {
-        Sizes { largest: vec![[0.0; 4]; kinds.len()], kinds, of_all: Largest::default() }
+impl Magnitudes {
+    /// Magnitudes of quantities of these kinds; `None` for one that is not a coordinate.
+    pub fn new(kinds: Vec<Option<CoordinateKind>>) -> Magnitudes {
+        Magnitudes { largest: vec![[0.0; 4]; kinds.len()], kinds, of_all: Largest::default() }
     }
 
-    /// Takes note of one of them with its derivatives.
+    /// Records one of them with its derivatives.
     pub fn note(&mut self, k: usize, tower: &[f64; 4]) {
         for (largest, value) in self.largest[k].iter_mut().zip(tower) {
             if value.is_finite() {
@@ -65,13 +65,13 @@ impl Sizes {
         }
     }
 
-    /// Takes note of how large the coordinates of the mechanism are.
+    /// Records how large the coordinates of the mechanism are.
     pub fn note_all(&mut self, of_all: Largest) {
         self.of_all = of_all;
     }
 
-    /// Of each one at a state, given with its derivatives by their orders, the intervals that they are in, if they are off by such parts of the
-    /// largest: values and their derivatives.
+    /// Returns, for each quantity, the intervals of its value and derivatives at a state, if their errors are these parts of the largest
+    /// magnitudes.
     pub fn around<'s>(
         &'s self,
         towers: impl IntoIterator<Item = [f64; 4]> + 's,

@@ -1,11 +1,11 @@
 //! A formula along the whole motion, and the numbers that are asked of it.
 
-use super::curve::{Cell, Curve, Found, Point};
+use super::curve::{Cell, Curve, Estimate, Point};
 use super::extremum::Extremum;
-use super::places::Places;
-use super::probe::{Notes, Probe, Scale, Trouble};
+use super::interval_search::{IntervalSearch, NoValueCause, Notes, Scale};
+use super::magnitudes::Largest;
 use super::quadrature::Integral;
-use super::sizes::Largest;
+use super::state_sampler::StateSampler;
 use crate::analysis::follow::SmoothSegment;
 use crate::analysis::state::{State, shortly_after};
 use mechc_expr::math::median;
@@ -16,34 +16,34 @@ use mechc_ir::tolerances::results::probe::{FACTOR, SHORTEST};
 use mechc_ir::tolerances::results::stretches::{LARGEST, SMALL};
 use std::rc::Rc;
 
-/// A formula that is looked at over a part of the motion, and what is found of it.
-pub(super) struct Reduced {
+/// A formula over a part of the motion, and its reductions.
+pub(super) struct FormulaReductions {
     curve: Curve,
-    /// From one time to another (s).
+    /// The first and the last time (s).
     window: [f64; 2],
     extrema: [Option<Extremum>; 2],
     integral: Option<Integral>,
-    /// What came up while these were looked for, in this order.
+    /// The findings of the two extrema and of the integral, in this order.
     notes: [Notes; 3],
-    /// Times (s) at which its value is asked for, and the values.
-    times: Vec<ResultQuery>,
+    /// The times (s) at which values are requested, and the values.
+    times: Vec<RequestedValue>,
     /// Its values at the ends of steps.
-    samples: Vec<Found>,
-    /// As the extremum's search has left it, by which one.
+    samples: Vec<Estimate>,
+    /// The scales that the searches of the extrema ended with.
     scales: [Option<Scale>; 2],
 }
 
-/// A time (s) at which the value of a formula is asked for.
-struct ResultQuery {
+/// A value that is requested at a time (s).
+struct RequestedValue {
     t: f64,
     /// The formula there, once the motion has come there.
     point: Option<Rc<Point>>,
-    found: Found,
+    found: Estimate,
 }
 
-impl Reduced {
-    pub fn new(curve: Curve, window: [f64; 2]) -> Reduced {
-        Reduced {
+impl FormulaReductions {
+    pub fn new(curve: Curve, window: [f64; 2]) -> FormulaReductions {
+        FormulaReductions {
             curve,
             window,
             extrema: [None, None],
@@ -55,12 +55,12 @@ impl Reduced {
         }
     }
 
-    /// Takes note of what is asked for; a value at a time is asked for with that (s).
-    pub fn ask(&mut self, kind: ReductionKind, at: f64) {
+    /// Adds a reduction; `at` is the time (s) of a value at a time.
+    pub fn request(&mut self, kind: ReductionKind, at: f64) {
         let ([from, to], is_moment) = (self.window, self.is_moment());
         let mut time = |t: f64| {
             if self.times.iter().all(|known| known.t.total_cmp(&t).is_ne()) {
-                self.times.push(ResultQuery { t, point: None, found: Found::NOTHING });
+                self.times.push(RequestedValue { t, point: None, found: Estimate::NOTHING });
             }
         };
         match kind {
@@ -69,7 +69,7 @@ impl Reduced {
             ReductionKind::Extreme { largest, when } => {
                 let extremum = self.extrema[usize::from(largest)].get_or_insert_with(|| Extremum::new(largest));
                 if when {
-                    extremum.ask_for_time();
+                    extremum.request_time();
                 }
             }
             ReductionKind::Integral if is_moment => {}
@@ -80,7 +80,7 @@ impl Reduced {
         }
     }
 
-    /// Whether it is of a single time.
+    /// Returns whether it is of a single time.
     fn is_moment(&self) -> bool {
         self.window[1] <= self.window[0]
     }
@@ -90,63 +90,63 @@ impl Reduced {
         self.window
     }
 
-    /// What a reduction is, or why it is nothing; a value at a time is asked for with that (s).
-    pub fn outcome(&self, kind: ReductionKind, at: f64) -> Result<Found, Trouble> {
+    /// Returns the estimate of a reduction, or why it has no value; `at` is the time (s) of a value at a time.
+    pub fn outcome(&self, kind: ReductionKind, at: f64) -> Result<Estimate, NoValueCause> {
         let [from, to] = self.window;
-        if let Some(trouble) = self.notes_of(kind).and_then(|notes| notes.trouble) {
-            return Err(trouble);
+        if let Some(cause) = self.notes_of(kind).and_then(|notes| notes.cause) {
+            return Err(cause);
         }
-        let of_time = |wanted: f64| {
-            let found = self.times.iter().find(|asked| asked.t.total_cmp(&wanted).is_eq()).map(|asked| asked.found);
-            let found = found.filter(|found| found.value.is_finite() && found.off < f64::INFINITY);
-            let found = found.ok_or(Trouble::Missing(wanted))?;
+        let of_time = |t: f64| {
+            let found = self.times.iter().find(|asked| asked.t.total_cmp(&t).is_eq()).map(|asked| asked.found);
+            let found = found.filter(|found| found.value.is_finite() && found.error < f64::INFINITY);
+            let found = found.ok_or(NoValueCause::Missing(t))?;
             let scale = self.scale(0.0);
             // what is nothing was found to be that
             let is_uncertain = found.value != 0.0 && self.is_uncertain(found, scale.range, scale);
-            if is_uncertain { Err(Trouble::Unknown(wanted)) } else { Ok(found) }
+            if is_uncertain { Err(NoValueCause::Unknown(t)) } else { Ok(found) }
         };
         match kind {
             ReductionKind::Extreme { when: true, .. } if self.is_moment() => {
-                of_time(from).map(|_| Found { value: from, off: 0.0 })
+                of_time(from).map(|_| Estimate { value: from, error: 0.0 })
             }
             ReductionKind::Extreme { .. } | ReductionKind::Mean if self.is_moment() => of_time(from),
-            ReductionKind::Integral if self.is_moment() => Ok(Found { value: 0.0, off: 0.0 }),
+            ReductionKind::Integral if self.is_moment() => Ok(Estimate { value: 0.0, error: 0.0 }),
             ReductionKind::Extreme { largest, when } => {
                 let which = usize::from(largest);
                 let (Some(extremum), Some(scale)) = (&self.extrema[which], self.scales[which]) else {
-                    return Err(Trouble::Nowhere(from));
+                    return Err(NoValueCause::Nowhere(from));
                 };
                 if let Some(t) = extremum.unbounded() {
-                    return Err(Trouble::Unbounded(t));
+                    return Err(NoValueCause::Unbounded(t));
                 }
                 let value = extremum.value(scale);
                 if !value.value.is_finite() {
-                    return Err(Trouble::Nowhere(from));
+                    return Err(NoValueCause::Nowhere(from));
                 }
                 if value.value.abs() > LARGEST || self.is_uncertain(value, scale.range, scale) {
                     // it may go on to grow where rounding hides it
-                    let why = if extremum.is_bounded() { Trouble::Unknown } else { Trouble::Unbounded };
+                    let why = if extremum.is_bounded() { NoValueCause::Unknown } else { NoValueCause::Unbounded };
                     return Err(why(extremum.time(scale).value));
                 }
                 let found = if when { extremum.time(scale) } else { value };
                 // rounding alone may decide when it is
-                let is_known = !when || found.off < f64::INFINITY;
-                if is_known { Ok(found) } else { Err(Trouble::Unknown(found.value)) }
+                let is_known = !when || found.error < f64::INFINITY;
+                if is_known { Ok(found) } else { Err(NoValueCause::Unknown(found.value)) }
             }
             ReductionKind::Mean | ReductionKind::Integral => {
                 let integral = self.integral.as_ref().filter(|integral| integral.time() > 0.0);
-                let Some(integral) = integral else { return Err(Trouble::Nowhere(from)) };
+                let Some(integral) = integral else { return Err(NoValueCause::Nowhere(from)) };
                 if let Some(t) = integral.unbounded() {
-                    return Err(Trouble::Unbounded(t));
+                    return Err(NoValueCause::Unbounded(t));
                 }
                 let over = if kind == ReductionKind::Mean { integral.time() } else { 1.0 };
-                let found = integral.found();
-                let mean = Found { value: found.value / integral.time(), off: found.off / integral.time() };
+                let found = integral.estimate();
+                let mean = Estimate { value: found.value / integral.time(), error: found.error / integral.time() };
                 if self.is_uncertain(mean, integral.deviation(), self.scale(0.0)) {
-                    return Err(integral.grows_at().map_or(Trouble::Unknown(from), Trouble::Unbounded));
+                    return Err(integral.grows_at().map_or(NoValueCause::Unknown(from), NoValueCause::Unbounded));
                 }
-                let found = Found { value: found.value / over, off: found.off / over };
-                if found.value.is_finite() { Ok(found) } else { Err(Trouble::Unknown(from)) }
+                let found = Estimate { value: found.value / over, error: found.error / over };
+                if found.value.is_finite() { Ok(found) } else { Err(NoValueCause::Unknown(from)) }
             }
             ReductionKind::First => of_time(from),
             ReductionKind::Last => of_time(to),
@@ -154,12 +154,12 @@ impl Reduced {
         }
     }
 
-    /// The first time (s) at which the formula has no value, which was left out.
+    /// Returns the first time (s) without a value, which was left out.
     pub fn missing(&self, kind: ReductionKind) -> Option<f64> {
         self.notes_of(kind).and_then(|notes| notes.missing)
     }
 
-    /// What came up while a reduction was looked for; none where that is a value at one time.
+    /// Returns the findings of a reduction, or `None` for a value at one time.
     fn notes_of(&self, kind: ReductionKind) -> Option<&Notes> {
         match kind {
             ReductionKind::Extreme { largest, .. } => Some(&self.notes[usize::from(largest)]),
@@ -169,28 +169,28 @@ impl Reduced {
     }
 
     /// Takes the state of an analysis of a single time.
-    pub fn look_at_start(&mut self, state: &State, places: &mut Places) {
-        let point = self.curve.at(state.clone(), places);
-        let found = self.curve.found(&point);
+    pub fn look_at_start(&mut self, state: &State, sampler: &mut StateSampler) {
+        let point = self.curve.at(state.clone(), sampler);
+        let found = self.curve.estimate(&point);
         self.times.iter_mut().for_each(|asked| asked.found = found);
     }
 
-    /// Whether it changes with the motion, and not with time alone.
+    /// Returns whether it changes with the motion, and not with time alone.
     pub fn moves(&self) -> bool {
         self.curve.moves()
     }
 
-    /// Whether nothing is asked but values at some times.
+    /// Returns whether only values at some times are requested.
     fn is_of_times_alone(&self) -> bool {
         self.extrema.iter().all(Option::is_none) && self.integral.is_none()
     }
 
-    /// Whether it holds derivatives of the coordinates.
+    /// Returns whether it holds derivatives of the coordinates.
     pub fn holds_rates(&self) -> bool {
         self.curve.holds_rates()
     }
 
-    /// The first time (s) of the largest or least value.
+    /// Returns the first time (s) of the largest or least value.
     pub fn time_of_extreme(&self, largest: bool) -> f64 {
         let which = usize::from(largest);
         match (&self.extrema[which], self.scales[which]) {
@@ -199,61 +199,61 @@ impl Reduced {
         }
     }
 
-    /// How large the formula is, by what was seen at the ends of steps.
+    /// Returns the scale of the formula, by its values at the ends of steps.
     fn scale(&self, span: f64) -> Scale {
         let low = self.samples.iter().map(|found| found.value).fold(f64::INFINITY, f64::min);
         let high = self.samples.iter().map(|found| found.value).fold(f64::NEG_INFINITY, f64::max);
         // what a pole makes of a few values says nothing of the others' rounding, and neither do those that are nothing
-        let weights = self.samples.iter().map(|found| f64::max(found.off / ROUNDING, found.value.abs()));
+        let weights = self.samples.iter().map(|found| f64::max(found.error / ROUNDING, found.value.abs()));
         let weight = median(weights.filter(|weight| *weight > 0.0 && weight.is_finite()).collect());
         Scale { range: f64::max(high - low, 0.0), weight, span }
     }
 
-    /// Whether nothing is certain of a value that is not small beside others, which usually differ so much from it, nor beside the numbers that these
+    /// Returns whether nothing is certain of a value that is not small beside others, which usually differ so much from it, nor beside the numbers that these
     /// are sums of.
-    fn is_uncertain(&self, found: Found, differ: f64, scale: Scale) -> bool {
+    fn is_uncertain(&self, found: Estimate, differ: f64, scale: Scale) -> bool {
         let usual = median(self.samples.iter().map(|found| found.value.abs()).collect());
-        found.certain_digits() == 0 && found.off > SMALL * usual.max(scale.weight).max(differ)
+        found.certain_digits() == 0 && found.error > SMALL * usual.max(scale.weight).max(differ)
     }
 
     /// Takes in the values at times that lie in a step.
-    fn take_times(&mut self, stretch: &SmoothSegment, places: &mut Places) {
+    fn take_times(&mut self, segment: &SmoothSegment, sampler: &mut StateSampler) {
         for k in 0..self.times.len() {
             let t = self.times[k].t;
             let behind = shortly_after(t);
-            if behind < stretch.from.t || t > stretch.to.t {
+            if behind < segment.from.t || t > segment.to.t {
                 continue;
             }
-            let state = if t <= stretch.from.t {
-                Some(self.end(&stretch.from, t, stretch, places))
-            } else if t >= stretch.to.t {
-                Some(self.end(&stretch.to, t, stretch, places))
+            let state = if t <= segment.from.t {
+                Some(self.end(&segment.from, t, segment, sampler))
+            } else if t >= segment.to.t {
+                Some(self.end(&segment.to, t, segment, sampler))
             } else {
-                places.solve(stretch, [&stretch.from, &stretch.to], t)
+                sampler.solve(segment, [&segment.from, &segment.to], t)
             };
             // of an edge the later side counts, which comes later
-            self.times[k].point = state.map(|state| self.edge(state, t, stretch, places));
+            self.times[k].point = state.map(|state| self.edge(state, t, segment, sampler));
         }
     }
 
     /// An end of a step, or a time (s) that is as good as that, with the bits that rows have there where nothing is in doubt.
-    fn end(&self, state: &State, t: f64, stretch: &SmoothSegment, places: &mut Places) -> State {
-        let settled = self.curve.settles().then(|| places.settled(stretch, state, t));
+    fn end(&self, state: &State, t: f64, segment: &SmoothSegment, sampler: &mut StateSampler) -> State {
+        let settled = self.curve.settles().then(|| sampler.settled(segment, state, t));
         settled.flatten().unwrap_or_else(|| state.clone())
     }
 
     /// The formula at a state of a time (s) in a step. Where rounding alone decides on which side of a jump an end of the window is, it is that of
     /// within.
-    fn edge(&mut self, state: State, t: f64, stretch: &SmoothSegment, places: &mut Places) -> Rc<Point> {
-        let point = self.curve.at(state, places);
+    fn edge(&mut self, state: State, t: f64, segment: &SmoothSegment, sampler: &mut StateSampler) -> Rc<Point> {
+        let point = self.curve.at(state, sampler);
         let [from, to] = self.window;
         let inward = [(t <= from, 1.0), (t >= to, -1.0)].into_iter().find(|(is_end, _)| *is_end);
-        let Some((_, way)) = inward.filter(|_| self.curve.is_undecided(&point)) else { return point };
+        let Some((_, direction)) = inward.filter(|_| self.curve.is_undecided(&point)) else { return point };
         let [near, far] = [FACTOR, FACTOR * FACTOR].map(|beside| {
-            let t = point.state.t + way * beside * SHORTEST * (to - from);
-            let is_within = stretch.from.t <= t && t <= stretch.to.t;
-            let state = if is_within { places.solve(stretch, [&stretch.from, &stretch.to], t) } else { None };
-            state.map(|state| self.curve.at(state, places))
+            let t = point.state.t + direction * beside * SHORTEST * (to - from);
+            let is_within = segment.from.t <= t && t <= segment.to.t;
+            let state = if is_within { sampler.solve(segment, [&segment.from, &segment.to], t) } else { None };
+            state.map(|state| self.curve.at(state, sampler))
         });
         let (Some(near), Some(far)) = (near, far) else { return point };
         let [step, change] = [(&point, &near), (&near, &far)].map(|(a, b)| (a.sample.value - b.sample.value).abs());
@@ -261,8 +261,8 @@ impl Reduced {
             return near;
         }
         // what has no jump goes on as it comes; of a pole nothing is known
-        let off = self.curve.uncertainty(&point) + self.curve.uncertainty(&near);
-        if step <= 2.0 * change + off {
+        let error = self.curve.uncertainty(&point) + self.curve.uncertainty(&near);
+        if step <= 2.0 * change + error {
             return point;
         }
         // it is a little within, and so as far off as that changes it
@@ -272,13 +272,13 @@ impl Reduced {
     }
 
     /// Looks at some steps of a mechanism whose coordinates are so large.
-    pub fn look(&mut self, (steps, largest): (&[SmoothSegment], Largest), places: &mut Places, span: f64) {
+    pub fn look(&mut self, (steps, largest): (&[SmoothSegment], Largest), sampler: &mut StateSampler, span: f64) {
         self.curve.note_all(largest);
-        let mut cells: Vec<Cell> = (0..steps.len()).filter_map(|step| self.cell(step, steps, places)).collect();
+        let mut cells: Vec<Cell> = (0..steps.len()).filter_map(|step| self.cell(step, steps, sampler)).collect();
         // rounding goes by the largest that was seen
-        for ResultQuery { point, found, .. } in &mut self.times {
+        for RequestedValue { point, found, .. } in &mut self.times {
             if let Some(point) = point {
-                *found = self.curve.found(point);
+                *found = self.curve.estimate(point);
             }
         }
         if cells.is_empty() {
@@ -287,63 +287,64 @@ impl Reduced {
         self.take_samples(&cells, steps);
         let scale = self.scale(span);
         let window = self.window;
-        let Reduced { curve, notes, extrema, integral, samples, scales, .. } = self;
+        let FormulaReductions { curve, notes, extrema, integral, samples, scales, .. } = self;
         let [of_least, of_largest, of_integral] = notes;
         if curve.needs_middles() {
-            let mut probe = Probe::new((&mut *curve, &mut *of_integral), &mut *places, steps, (window, span));
+            let mut search =
+                IntervalSearch::new((&mut *curve, &mut *of_integral), &mut *sampler, steps, (window, span));
             for cell in &mut cells {
-                if let Some(middle) = probe.point(cell, cell.middle()) {
-                    cell.take_middle(probe.curve, middle);
+                if let Some(middle) = search.point(cell, cell.middle()) {
+                    cell.take_middle(search.curve, middle);
                 }
-                if probe.curve.holds_forces() {
+                if search.curve.holds_forces() {
                     // a load may jump where the motion says, whose last digits are rounding
                     let step = &steps[cell.step];
                     if step.begins_at_edge && cell.a.state.t > window[0] {
-                        probe.shift(cell.step, &mut cell.a, TIMES * span);
+                        search.shift(cell.step, &mut cell.a, TIMES * span);
                     }
                     if step.ends_at_edge && cell.b.state.t < window[1] {
-                        probe.shift(cell.step, &mut cell.b, -TIMES * span);
+                        search.shift(cell.step, &mut cell.b, -TIMES * span);
                     }
                 }
             }
         }
         for ((extremum, kept), notes) in extrema.iter_mut().zip(scales).zip([of_least, of_largest]) {
             let Some(extremum) = extremum else { continue };
-            let mut probe = Probe::new((&mut *curve, notes), &mut *places, steps, (window, span));
+            let mut search = IntervalSearch::new((&mut *curve, notes), &mut *sampler, steps, (window, span));
             for cell in &cells {
                 let [is_begin, is_end] = edges(&steps[cell.step], [cell.a.state.t, cell.b.state.t], window);
                 for (_, point) in [(is_begin, &cell.a), (is_end, &cell.b)].into_iter().filter(|(is_edge, _)| *is_edge) {
-                    let found = probe.curve.found(point);
-                    extremum.note_edge(Found { value: point.state.t, off: point.shift.time }, found, scale);
+                    let found = search.curve.estimate(point);
+                    extremum.note_edge(Estimate { value: point.state.t, error: point.shift.time }, found, scale);
                 }
             }
-            *kept = Some(probe.search(&cells, samples, extremum, scale));
+            *kept = Some(search.search(&cells, samples, extremum, scale));
         }
         if let Some(integral) = integral {
-            let is_smooth = curve.settles() && places.is_plain() && steps.iter().all(|step| step.bridge.is_none());
+            let is_smooth = curve.settles() && sampler.is_plain() && steps.iter().all(|step| step.bridge.is_none());
             let is_whole = cells[0].a.state.t <= window[0] && cells[cells.len() - 1].b.state.t >= window[1];
             let has_edges = cells[1..].iter().any(|cell| steps[cell.step].begins_at_edge);
-            let mut probe = Probe::new((curve, of_integral), places, steps, (window, span));
-            let known = if is_smooth && is_whole && !has_edges { probe.integrate_whole(&cells) } else { None };
+            let mut search = IntervalSearch::new((curve, of_integral), sampler, steps, (window, span));
+            let known = if is_smooth && is_whole && !has_edges { search.integrate_whole(&cells) } else { None };
             if let Some(known) = known {
-                *integral = Integral::known(known, window[1] - window[0]);
+                *integral = Integral::from_estimate(known, window[1] - window[0]);
             } else {
                 let usual = median(samples.iter().map(|found| found.value).collect());
-                probe.integrate(&cells, usual, scale, integral);
+                search.integrate(&cells, usual, scale, integral);
             }
         }
     }
 
-    /// A step, with the formula at both ends; none where only values at some times are asked for.
-    fn cell(&mut self, number: usize, steps: &[SmoothSegment], places: &mut Places) -> Option<Cell> {
+    /// A step, with the formula at both ends; `None` where only values at some times are asked for.
+    fn cell(&mut self, number: usize, steps: &[SmoothSegment], sampler: &mut StateSampler) -> Option<Cell> {
         let step = &steps[number];
-        places.enter(step);
-        self.take_times(step, places);
+        sampler.enter(step);
+        self.take_times(step, sampler);
         if self.is_of_times_alone() {
             // how large it becomes
-            let point = self.curve.at(step.to.clone(), places);
+            let point = self.curve.at(step.to.clone(), sampler);
             if point.exists() {
-                self.samples.push(Found { value: point.sample.value, off: 0.0 });
+                self.samples.push(Estimate { value: point.sample.value, error: 0.0 });
             }
             return None;
         }
@@ -355,22 +356,22 @@ impl Reduced {
         let ends = [(&step.from, from, is_begin), (&step.to, to, is_end)];
         let mut points = ends.into_iter().map(|(state, t, is_edge)| {
             let state = if state.t.total_cmp(&t).is_ne() {
-                places.solve(step, [&step.from, &step.to], t)?
+                sampler.solve(step, [&step.from, &step.to], t)?
             } else if is_edge {
-                self.end(state, state.t, step, places)
+                self.end(state, state.t, step, sampler)
             } else {
                 state.clone()
             };
-            Some(if is_edge { self.edge(state, t, step, places) } else { self.curve.at(state, places) })
+            Some(if is_edge { self.edge(state, t, step, sampler) } else { self.curve.at(state, sampler) })
         });
         let (Some(Some(from)), Some(Some(to))) = (points.next(), points.next()) else {
-            self.notes.iter_mut().for_each(|notes| notes.meet(Trouble::Unknown(from)));
+            self.notes.iter_mut().for_each(|notes| notes.meet(NoValueCause::Unknown(from)));
             return None;
         };
         Some(Cell::new(number, &from, &to))
     }
 
-    /// Takes note of the values at the ends of steps.
+    /// Records the values at the ends of steps.
     fn take_samples(&mut self, cells: &[Cell], steps: &[SmoothSegment]) {
         for cell in cells {
             // but for edges, a step begins where the one before has ended
@@ -378,7 +379,7 @@ impl Reduced {
             for point in is_begin.then_some(&cell.a).into_iter().chain([&cell.b]) {
                 if point.exists() {
                     self.curve.note_arguments(point);
-                    let found = self.curve.found(point);
+                    let found = self.curve.estimate(point);
                     self.samples.push(found);
                 } else {
                     self.notes.iter_mut().for_each(|notes| notes.miss(point.state.t));
@@ -388,7 +389,7 @@ impl Reduced {
     }
 }
 
-/// Whether the formula differs before and behind a part of a step, from one time to another (s), or is not looked at there: beyond its window.
+/// Returns whether the formula differs before and behind a part of a step, from one time to another (s), or is not looked at there: beyond its window.
 fn edges(step: &SmoothSegment, [from, to]: [f64; 2], window: [f64; 2]) -> [bool; 2] {
     [
         step.begins_at_edge && from <= step.from.t || from <= window[0],

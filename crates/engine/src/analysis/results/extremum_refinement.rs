@@ -1,11 +1,11 @@
-//! The time at which a formula turns, settled on a grid, as the tears of the solver are on theirs (`math/grid.rs`): whichever way led to it, what
-//! is said of it is computed at the same times, and has the same bits.
+//! The time of an extremum, refined on a grid as the tearing variables of the solver are on theirs (`math/grid.rs`): from any start the formula
+//! is sampled at the same times, so the extremum has the same bits.
 
 use mechc_expr::math::grid::{bound_at_first, going_on, next_point, on_grid};
 use mechc_expr::math::power_of_two_below;
 use mechc_ir::tolerances::results::turns::{APART, BORDER, CELL, FARTHEST, ITERATIONS, MOST_CELLS};
 
-/// A formula at a time: its value and time derivatives; those that it has not are no numbers.
+/// The value and time derivatives of a formula at a time; those that do not exist are NaN.
 #[derive(Clone, Copy, Debug)]
 pub struct Sampled {
     /// The value.
@@ -17,43 +17,43 @@ pub struct Sampled {
 }
 
 impl Sampled {
-    /// Of a formula of which nothing is known.
+    /// A sample without any value.
     pub const NOTHING: Sampled = Sampled { value: f64::NAN, first: f64::NAN, second: f64::NAN };
 }
 
-/// The most times at which a formula has to be looked at to settle a turn.
+/// The largest number of samples that one step of the refinement needs.
 pub const MOST_LOOKS: usize = 3;
 
-/// A turn on its way to where it settles.
+/// The refinement of an extremum on the grid.
 #[derive(Clone, Copy, Debug)]
 pub struct Settling {
     /// The grid point (s).
     t: f64,
-    /// Where it began (s), and the width of a cell (s).
+    /// The first grid point (s), and the width of a grid cell (s).
     begun: f64,
     cell: f64,
-    /// With which largest correction it ends, in cells.
+    /// The largest correction with which it has converged, in cells.
     bound: f64,
-    /// How many corrections it may still take.
+    /// The number of corrections that are left.
     left: u32,
-    /// Whether the second derivative of the formula is known.
+    /// True if the second derivative of the formula is known.
     knows_bends: bool,
 }
 
-/// What becomes of a turn at a grid point.
+/// The outcome of one step of the refinement.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub enum Turning {
-    /// It goes on to another one.
+    /// The refinement continues at another grid point.
     On,
-    /// It stays: the time (s) of the extremum and its value.
+    /// The refinement has converged: the time (s) of the extremum and its value.
     Settled([f64; 2]),
-    /// It does not settle.
+    /// The refinement does not converge.
     Lost,
 }
 
 impl Settling {
-    /// Near a time (s) of an analysis of so long a span (s), of a formula whose slope is known, and perhaps its second derivative; none where
-    /// times are too late for the grid.
+    /// Starts near a time (s) of an analysis of length `span` (s), for a formula with a known slope. Returns `None` if
+    /// the time is too large for the grid.
     #[must_use]
     pub fn near(t: f64, span: f64, knows_bends: bool) -> Option<Settling> {
         let cell = CELL * power_of_two_below(span);
@@ -63,13 +63,13 @@ impl Settling {
         is_fine.then_some(Settling { t: begun, begun, cell, bound, left, knows_bends })
     }
 
-    /// How many times there are at which the formula has to be looked at.
+    /// Returns the number of times at which the formula has to be sampled.
     #[must_use]
     pub fn looks(&self) -> usize {
         if self.knows_bends { 1 } else { MOST_LOOKS }
     }
 
-    /// These times (s), by their numbers: the grid point, and those beside it.
+    /// Returns one of these times (s): the grid point, or one on either side of it.
     #[must_use]
     pub fn time(&self, look: usize) -> f64 {
         match look {
@@ -79,7 +79,7 @@ impl Settling {
         }
     }
 
-    /// Goes on by what the formula is at these times.
+    /// Takes one step of the refinement from the samples at these times.
     pub fn go_on(&mut self, samples: &[Sampled]) -> Turning {
         let Sampled { value, first, second } = self.at_point(samples);
         let off = -first / second;
@@ -96,7 +96,7 @@ impl Settling {
         Turning::On
     }
 
-    /// The formula at the grid point; its second derivative, where that is not known, by how the slope goes on to both sides.
+    /// Returns the sample at the grid point; an unknown second derivative is the difference quotient of the slopes on both sides.
     fn at_point(&self, samples: &[Sampled]) -> Sampled {
         match *samples {
             [at] => at,
