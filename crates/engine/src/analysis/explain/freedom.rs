@@ -196,7 +196,7 @@ fn next_motion(system: &ConstraintSystem, part: &Subsystem, taken: &mut Orthonor
     let of_angle = freest(&is_angle).filter(|&k| shares[k] > ANGLE_SHARE * shares[any]);
     let mut axis = DVector::zeros(n);
     axis[of_angle.unwrap_or(any)] = 1.0;
-    let (rest, _) = taken.beside(axis);
+    let (rest, _) = taken.split(axis);
     taken.take(&rest, 0.0).then(|| taken.last())?
 }
 

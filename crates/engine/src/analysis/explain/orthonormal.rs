@@ -28,8 +28,8 @@ impl Orthonormal {
         self.columns.columns(0, self.count)
     }
 
-    /// What is left of a vector beside them, and its shares along them; twice, so that rounding does not add up.
-    pub fn beside(&self, vector: DVector<f64>) -> (DVector<f64>, DVector<f64>) {
+    /// Splits a vector into its rest, orthogonal to all, and its shares along them; projects twice, so that rounding does not add up.
+    pub fn split(&self, vector: DVector<f64>) -> (DVector<f64>, DVector<f64>) {
         let (vectors, mut rest) = (self.vectors(), vector);
         let mut shares = DVector::zeros(self.count);
         for _ in 0..2 {
@@ -81,7 +81,7 @@ impl Basis {
         // each kept vector by the span up to its own
         let mut factors = DMatrix::zeros(n, n);
         for (k, vector) in vectors.chunks_exact(n.max(1)).enumerate() {
-            let (rest, shares) = basis.span.beside(DVector::from_column_slice(vector));
+            let (rest, shares) = basis.span.split(DVector::from_column_slice(vector));
             let rank = basis.kept.len();
             if basis.span.take(&rest, nothing) {
                 factors.view_mut((0, rank), (rank, 1)).copy_from(&shares);
@@ -174,11 +174,11 @@ mod tests {
         let mut all = Orthonormal::of_dimension(3);
         let first = DVector::from_column_slice(&[0.6, 0.8, 0.0]);
         assert!(all.take(&first, 0.0));
-        let (rest, shares) = all.beside(DVector::from_column_slice(&[1.0, 1.0, 1.0]));
+        let (rest, shares) = all.split(DVector::from_column_slice(&[1.0, 1.0, 1.0]));
         assert!(rest.dot(&first).abs() < 1e-15 && (shares[0] - 1.4).abs() < 1e-15);
         assert!(all.take(&rest, 1e-6) && all.count == 2 && !all.is_whole());
         // what lies between those that are there adds nothing
-        let (rest, _) = all.beside(&first + all.last().expect("a vector"));
+        let (rest, _) = all.split(&first + all.last().expect("a vector"));
         assert!(!all.take(&rest, 1e-6));
     }
 

@@ -7,8 +7,8 @@ mod row;
 mod slopes;
 mod switches;
 
+use super::equilibration::needs_nearby_slope;
 use super::linear::{BlockLu, Factored, Singular};
-use super::yardstick::is_looked_at_beside;
 use crate::solver::{Equations, Solver, Values};
 use derivatives::Spread;
 pub use fault::Fault;
@@ -98,7 +98,7 @@ impl Kinematics {
         let params = system.param_values();
         let (registers, linear) = (program.start(&params), BlockLu::new(system, determined.blocks()));
         let bent = (0..system.rows().len()).filter(|&row| is_bent(system, row)).collect();
-        let looked_at_beside = (0..system.rows().len()).filter(|&row| is_looked_at_beside(system, row)).collect();
+        let looked_at_beside = (0..system.rows().len()).filter(|&row| needs_nearby_slope(system, row)).collect();
         let n = system.coordinates().len();
         let other_estimates = None;
         let holds = layout::holds(system);
@@ -256,7 +256,7 @@ impl Kinematics {
     pub fn factor(&mut self) -> Result<(), Fault> {
         let (registers, outputs) = (&self.registers, &self.program.outputs);
         let coordinates = self.program.inputs.coordinates[0];
-        self.linear.yardstick().turn(|column| registers.get(coordinates + column as u32));
+        self.linear.equilibration().turn(|column| registers.get(coordinates + column as u32));
         match self.linear.factor(|position| registers.get(outputs.phi_q[position])) {
             Factored::Regular => Ok(()),
             Factored::Singular => match self.not_finite_slope() {

@@ -3,7 +3,7 @@
 use super::derivatives::rates;
 use super::{Kinematics, State};
 use crate::analysis::state::linear::BlockLu;
-use crate::analysis::state::scoped::ScopedLu;
+use crate::analysis::state::subsystem_derivatives::SubsystemFactors;
 use crate::solver::Pivoting;
 use mechc_expr::{Dependence, ExprId};
 use mechc_ir::ConstraintSystem;
@@ -21,7 +21,7 @@ pub(super) struct Varied {
     /// By column of a row, whether it may have no value at a position.
     columns: Vec<bool>,
     /// Those by the equations of a part alone.
-    scoped: ScopedLu,
+    scoped: SubsystemFactors,
 }
 
 /// Whether a column holds what is not known at every position: forces, and what is differentiated by something else than time.
@@ -56,7 +56,7 @@ pub enum Unknown {
 
 impl Varied {
     pub fn new(system: &ConstraintSystem, holds: &[ColumnContent]) -> Varied {
-        let scoped = ScopedLu::new(system);
+        let scoped = SubsystemFactors::new(system);
         if system.all_variations().is_none() && system.forces().is_none() {
             return Varied { solution: Vec::new(), columns: Vec::new(), scoped };
         }

@@ -67,7 +67,7 @@ struct Part {
 
 /// The scales of all blocks.
 #[derive(Clone)]
-pub struct Yardstick {
+pub struct Equilibration {
     parts: Vec<Part>,
     /// Rows and columns in the order of blocks.
     rows: Vec<u32>,
@@ -76,7 +76,7 @@ pub struct Yardstick {
     centroids: Vec<Centroid>,
     /// The magnitudes of the entries, and by position in the pattern what slopes are beside the position.
     magnitudes: Vec<f64>,
-    beside: Vec<f64>,
+    nearby_slopes: Vec<f64>,
     /// By row and by column: `Φ_q[i, j]·column[j] / row[i]` is what is judged.
     row_scale: Vec<f64>,
     column_scale: Vec<f64>,
@@ -87,18 +87,18 @@ pub struct Yardstick {
     is_measured: bool,
 }
 
-impl Yardstick {
-    pub fn new(system: &ConstraintSystem, blocks: &[Block]) -> Yardstick {
+impl Equilibration {
+    pub fn new(system: &ConstraintSystem, blocks: &[Block]) -> Equilibration {
         let n = system.coordinates().len();
         let features = Features::of(system);
-        let mut yardstick = Yardstick {
+        let mut equilibration = Equilibration {
             parts: Vec::with_capacity(blocks.len()),
             rows: Vec::with_capacity(n),
             columns: Vec::with_capacity(n),
             entries: Vec::new(),
             centroids: Vec::new(),
             magnitudes: Vec::new(),
-            beside: vec![0.0; system.phi_q().entries().len()],
+            nearby_slopes: vec![0.0; system.phi_q().entries().len()],
             row_scale: vec![1.0; n],
             column_scale: vec![1.0; n],
             size: system.coordinates().iter().map(|coordinate| coordinate.scale).collect(),
@@ -111,11 +111,11 @@ impl Yardstick {
             for (place, &column) in block.columns.iter().enumerate() {
                 place_of[column as usize] = place as u32;
             }
-            yardstick.add(system, block, &features, (&place_of, &mut centroid_of));
+            equilibration.add(system, block, &features, (&place_of, &mut centroid_of));
             block.columns.iter().for_each(|&column| place_of[column as usize] = NONE);
         }
-        yardstick.magnitudes = vec![0.0; yardstick.entries.len()];
-        yardstick
+        equilibration.magnitudes = vec![0.0; equilibration.entries.len()];
+        equilibration
     }
 
     fn add(
@@ -179,12 +179,12 @@ impl Yardstick {
         (along, kind)
     }
 
-    /// Whether magnitudes have been taken.
+    /// Returns whether the magnitudes have been measured.
     pub fn is_measured(&self) -> bool {
         self.is_measured
     }
 
-    /// Whether magnitudes change along the motion, so that they have to be taken again.
+    /// Returns whether magnitudes change along the motion and must be measured again.
     pub fn changes(&self) -> bool {
         self.parts.iter().any(|part| part.changes)
     }
@@ -197,7 +197,7 @@ impl Yardstick {
         self.column_scale[column]
     }
 
-    /// The bodies of a block that are taken by their centroids.
+    /// Returns the centroids of the bodies of a block that turn about theirs.
     pub fn centroids(&self, part: usize) -> &[Centroid] {
         &self.centroids[self.parts[part].centroids.clone()]
     }
@@ -214,9 +214,9 @@ impl Yardstick {
         }
     }
 
-    /// What a slope is beside the position, by its position in the pattern.
-    pub fn beside(&mut self, position: usize) -> &mut f64 {
-        &mut self.beside[position]
+    /// Returns the magnitude of a slope at a nearby position, by its index in the pattern.
+    pub fn nearby_slope(&mut self, position: usize) -> &mut f64 {
+        &mut self.nearby_slopes[position]
     }
 
     /// Takes the magnitudes of slopes where the position was set; `slope` gives those by their positions in the pattern, and `rounding` what
@@ -252,7 +252,7 @@ impl Yardstick {
             }
             EntryKind::Other => here.abs(),
         };
-        f64::max(magnitude, self.beside[entry.position as usize])
+        f64::max(magnitude, self.nearby_slopes[entry.position as usize])
     }
 
     /// Scales the rows and columns of a block in turn: first such that their largest and smallest entries are as far from 1, by
@@ -353,7 +353,7 @@ fn changes(system: &ConstraintSystem, row: usize) -> bool {
 
 /// Whether a row's slopes are to be looked at beside a position: it is written by hand, or moves along a curve or line of
 /// centres.
-pub fn is_looked_at_beside(system: &ConstraintSystem, row: usize) -> bool {
+pub fn needs_nearby_slope(system: &ConstraintSystem, row: usize) -> bool {
     let slopes = system.phi_q().row(row);
     let has_own = slopes.iter().any(|&(column, _)| system.body_of(column as usize).is_none());
     let constant = |&(_, slope): &(u32, _)| system.graph().dependence(slope).is_constant();

@@ -32,7 +32,7 @@ impl Trust {
         if uncertain > ACCURACY {
             return Trust::Uncertain;
         }
-        if !kinematics.take_doubt(state, FAR) {
+        if !kinematics.compute_error_bounds(state, FAR) {
             return Trust::Certain;
         }
         let [velocity, acceleration] = kinematics.doubt();
