@@ -57,7 +57,7 @@ struct Loop {
     columns: Vec<u32>,
 }
 
-/// Whether the estimates `from` leave in doubt that the assembled state is the one meant.
+/// Returns whether the estimates `from` leave in doubt that the assembled state is the one meant.
 pub fn doubt(kinematics: &mut Kinematics, from: &[f64], state: &State) -> Option<FarBody> {
     let determined = kinematics.determined();
     let system = determined.system();
@@ -135,7 +135,7 @@ impl Loop {
     }
 }
 
-/// Whether a loop can be assembled in another position that is as near to the estimates.
+/// Returns whether a loop can be assembled in another position that is as near to the estimates.
 fn is_another_as_near(kinematics: &mut Kinematics, within: &Loop, from: &[f64], to: &[f64]) -> bool {
     let most = AS_NEAR * distance(kinematics, within, from, to);
     starts(kinematics, within, from, to).into_iter().any(|mut q| {

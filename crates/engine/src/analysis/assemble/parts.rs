@@ -117,12 +117,12 @@ impl<'d> Placing<'d> {
     /// Puts parts to where they come to alone, on their mounts.
     fn place(&mut self, parts: &[usize], are_led: bool, leader: &mut Leader<'_>) {
         let mounts: Vec<[f64; 3]> = parts.iter().map(|&part| self.parts[part].mount.map(|id| self.value(id))).collect();
-        let requests = |(&part, mount): (&usize, &[f64; 3])| {
+        let request = |(&part, mount): (&usize, &[f64; 3])| {
             let inputs: Vec<f64> = self.parts[part].inputs.iter().map(|(_, id)| self.value(*id)).collect();
             let is_whole = inputs.iter().chain(mount).all(|value| value.is_finite());
             Request { part, inputs: Some(inputs).filter(|_| are_led && is_whole) }
         };
-        let requests: Vec<Request> = parts.iter().zip(&mounts).map(requests).collect();
+        let requests: Vec<Request> = parts.iter().zip(&mounts).map(request).collect();
         for ((&part, mount), alone) in parts.iter().zip(&mounts).zip(leader(&requests)) {
             self.set_on_its_mount(part, *mount, alone);
         }

@@ -19,7 +19,7 @@ impl Orthonormal {
         Orthonormal { columns: DMatrix::zeros(n, n), count: 0 }
     }
 
-    /// Whether they span the whole space.
+    /// Returns whether they span the whole space.
     pub fn is_whole(&self) -> bool {
         self.count == self.columns.ncols()
     }

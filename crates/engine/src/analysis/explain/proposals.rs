@@ -148,7 +148,7 @@ impl Proposals<'_, '_> {
         suggested
     }
 
-    /// Whether it is known where a point is drawn: what lies at the origin of a body without a pose lies at no place of a drawing.
+    /// Returns whether it is known where a point is drawn: what lies at the origin of a body without a pose lies at no place of a drawing.
     fn has_place(&self, point: PointId) -> bool {
         let system = self.evaluator.system;
         let Point { body, at, .. } = &system.points()[point];

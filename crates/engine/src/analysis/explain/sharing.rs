@@ -136,7 +136,7 @@ fn multiplier(symbol: &Symbol) -> Option<u32> {
     }
 }
 
-/// Whether a formula that holds forces is linear in them; `linear_terms` are formulas that are.
+/// Returns whether a formula that holds forces is linear in them; `linear_terms` are formulas that are.
 fn is_linear(graph: &Graph, id: ExprId, linear_terms: &mut FxHashSet<ExprId>) -> bool {
     if linear_terms.contains(&id) {
         return true;
@@ -198,7 +198,7 @@ impl Place<'_, '_> {
         Some((0..dependency.scaled.len()).filter(takes_part).collect())
     }
 
-    /// Whether a form changes with a dependency.
+    /// Returns whether a form changes with a dependency.
     fn changes(&self, form: &Form, dependency: &Dependency) -> bool {
         let weight = |row: u32| dependency.scaled[row as usize];
         if form.is_varied || form.rows.len() == 1 {

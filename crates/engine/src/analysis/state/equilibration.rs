@@ -335,13 +335,13 @@ fn slope(system: &ConstraintSystem, row: u32, column: usize) -> u32 {
     at.map_or(NONE, |at| (system.phi_q().range(row as usize).start + at) as u32)
 }
 
-/// Whether a row is of a joint or of a distance, whose slopes in places have one magnitude wherever it points.
+/// Returns whether a row is of a joint or of a distance, whose slopes in places have one magnitude wherever it points.
 fn is_of_joint(system: &ConstraintSystem, row: usize) -> bool {
     let declaration = system.declaration_of(row);
     matches!(declaration.kind, DeclarationKind::Joint(_)) || !declaration.points.is_empty()
 }
 
-/// Whether the magnitudes of a row's slopes change along the motion.
+/// Returns whether the magnitudes of a row's slopes change along the motion.
 fn changes(system: &ConstraintSystem, row: usize) -> bool {
     match system.declaration_of(row).kind {
         DeclarationKind::Joint(kind) => {
@@ -351,7 +351,7 @@ fn changes(system: &ConstraintSystem, row: usize) -> bool {
     }
 }
 
-/// Whether a row's slopes are to be looked at beside a position: it is written by hand, or moves along a curve or line of
+/// Returns whether a row's slopes are to be looked at beside a position: it is written by hand, or moves along a curve or line of
 /// centres.
 pub fn needs_nearby_slope(system: &ConstraintSystem, row: usize) -> bool {
     let slopes = system.phi_q().row(row);

@@ -54,7 +54,7 @@ fn is_driver(system: &ConstraintSystem, declaration: DeclarationId) -> bool {
     system.declarations()[declaration].kind == DeclarationKind::Driver
 }
 
-/// Whether a group is a driver's that conflicts with joints alone: they leave it nothing to move.
+/// Returns whether a group is a driver's that conflicts with joints alone: they leave it nothing to move.
 fn is_stuck(system: &ConstraintSystem, group: &[Dependent]) -> bool {
     is_driver(system, declaration_of(system, group))
         && group.iter().any(|one| one.open.is_some())

@@ -56,7 +56,7 @@ pub fn contact_pulls(system: &ConstraintSystem, contact: &ContactForce, force: f
         .datum("t", t)
 }
 
-/// Whether a declaration is a contact that needs a tangent of its curve.
+/// Returns whether a declaration is a contact that needs a tangent of its curve.
 pub fn has_tangent(system: &ConstraintSystem, declaration: DeclarationId) -> bool {
     matches!(system.declarations()[declaration].kind, DeclarationKind::Joint(JointKind::Cam | JointKind::FlatFollower))
 }

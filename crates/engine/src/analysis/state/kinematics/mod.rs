@@ -150,7 +150,7 @@ impl Kinematics {
         self.span
     }
 
-    /// Whether nobody waits for the result any more.
+    /// Returns whether nobody waits for the result any more.
     pub fn is_cancelled(&self) -> bool {
         self.cancel.is_cancelled()
     }
@@ -227,7 +227,7 @@ impl Kinematics {
         Solver::for_variants(&self.determined, &self.program, self, is_wanted)
     }
 
-    /// Whether equations are such that their smoothness does not depend on where the motion is: no formula of them has branches or ends, none
+    /// Returns whether equations are such that their smoothness does not depend on where the motion is: no formula of them has branches or ends, none
     /// may lose its slope, nothing is looked at beside them, and what time alone decides goes straight on.
     pub fn is_plain(&self) -> bool {
         let system = self.system();
@@ -339,7 +339,7 @@ impl Values for Kinematics {
     }
 }
 
-/// Whether a row may lose its slope by its formula alone: it is written by hand, of no distance, and no slope is constant.
+/// Returns whether a row may lose its slope by its formula alone: it is written by hand, of no distance, and no slope is constant.
 fn is_bent(system: &ConstraintSystem, row: usize) -> bool {
     let declaration = system.declaration_of(row);
     let by_hand = !matches!(declaration.kind, DeclarationKind::Joint(_)) && declaration.points.is_empty();

@@ -294,7 +294,7 @@ impl BlockLu {
         (0..self.parts.len()).min_by(|&a, &b| pivot(a).total_cmp(&pivot(b)))
     }
 
-    /// Whether all coordinates follow without iteration.
+    /// Returns whether all coordinates follow without iteration.
     pub fn is_explicit(&self) -> bool {
         self.parts.iter().all(|part| part.explicit)
     }
