@@ -1,4 +1,4 @@
-//! What is said of a position that was found, but may not be the one meant.
+//! Warnings about an assembled position that may not be the intended one.
 
 use super::assembly::Moved;
 use super::branches::{Doubt, FarBody, Off};

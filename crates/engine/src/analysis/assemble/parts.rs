@@ -15,15 +15,15 @@ use mechc_ir::tolerances::assembly::parts::LARGEST;
 use mechc_text::cancel::Cancel;
 use std::sync::Arc;
 
-/// A part whose coordinates are asked for, as it is alone.
+/// Request for the coordinates of a part that is solved alone.
 pub struct Request {
     /// Its number.
     pub part: usize,
-    /// What its inputs are to be led to (SI), if they are to be led.
+    /// Target values of its inputs (SI), if its inputs are continued.
     pub inputs: Option<Vec<f64>>,
 }
 
-/// Gives the coordinates of parts, all those at once that can be known at once.
+/// Returns the coordinates of parts, in one call for all parts that can be solved at once.
 pub type Leader<'l> = dyn FnMut(&[Request]) -> Vec<Option<Vec<f64>>> + 'l;
 
 /// The estimates of a mechanism at a time (s) [m, rad], with its parts where they begin.

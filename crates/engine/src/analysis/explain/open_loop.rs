@@ -17,7 +17,7 @@ use mechc_ir::{BodyId, ConstraintSystem, CoordinateKind, DeclarationId, Declarat
 /// A loop that does not close.
 #[derive(Clone, Debug)]
 pub struct OpenLoop {
-    /// The declaration at which it is told to be open.
+    /// Declaration at which the loop is reported to be open.
     pub at: DeclarationId,
     /// By how much there (m or rad), all else being closed.
     pub by: f64,
@@ -70,7 +70,7 @@ pub fn found(determined: &Determined, q: &[f64], t: f64) -> Option<OpenLoop> {
     locate(determined, q, t).map(|located| located.open)
 }
 
-/// The coordinates [m, rad] where all is closed but what is told to be open.
+/// Returns the coordinates [m, rad] where all equations hold but those of the reported open loop.
 pub fn opened(determined: &Determined, q: &[f64], t: f64) -> Option<Vec<f64>> {
     let LocatedOpenLoop { open, mut evaluator, blocks } = locate(determined, q, t)?;
     // what hangs on the loop is shown where it would be then

@@ -1,4 +1,4 @@
-//! Orthonormal vectors, by which it is told what depends on what and which motions are free.
+//! Orthonormal vectors: they show which equations depend on others and which motions are free.
 //!
 //! Vectors and matrices are those of nalgebra, of which only what goes column by column is used: it has one order of operations on every
 //! processor, and nothing of it is on the way to a printed number.
@@ -19,7 +19,7 @@ impl Orthonormal {
         Orthonormal { columns: DMatrix::zeros(n, n), count: 0 }
     }
 
-    /// Returns whether they span the whole space.
+    /// Returns whether the vectors span the whole space.
     pub fn is_whole(&self) -> bool {
         self.count == self.columns.ncols()
     }

@@ -1,4 +1,4 @@
-//! What the nearness to a singular position is measured by: a scale for each equation and each coordinate, block by block.
+//! Equilibration: a scale for each equation and each coordinate, block by block, which measure the nearness to a singular position.
 //!
 //! It must say the same whatever the unit, the place of the origin, what is drawn beside the equations, and the size of one
 //! body against the others. So the entries of a block are taken for as large as they come along a motion, not for what they
@@ -19,7 +19,7 @@ use std::ops::Range;
 /// No entry, or no body.
 const NONE: u32 = u32::MAX;
 
-/// What is known of an entry within a block.
+/// Entry of `Φ_q` within a block.
 #[derive(Clone, Copy)]
 struct Entry {
     row: u32,
@@ -65,7 +65,7 @@ struct Part {
     changes: bool,
 }
 
-/// The scales of all blocks.
+/// Row and column scales of all blocks.
 #[derive(Clone)]
 pub struct Equilibration {
     parts: Vec<Part>,
@@ -74,7 +74,7 @@ pub struct Equilibration {
     columns: Vec<u32>,
     entries: Vec<Entry>,
     centroids: Vec<Centroid>,
-    /// The magnitudes of the entries, and by position in the pattern what slopes are beside the position.
+    /// Magnitudes of the entries, and, by index in the pattern, those of slopes at a nearby position.
     magnitudes: Vec<f64>,
     nearby_slopes: Vec<f64>,
     /// By row and by column: `Φ_q[i, j]·column[j] / row[i]` is what is judged.
@@ -82,7 +82,7 @@ pub struct Equilibration {
     column_scale: Vec<f64>,
     /// By column: where no equation has a slope.
     size: Vec<f64>,
-    /// By row or by column: what has been gathered of its entries.
+    /// By row or by column: the accumulated mean of its entries.
     gathered: Vec<[f64; 2]>,
     is_measured: bool,
 }
@@ -154,7 +154,7 @@ impl Equilibration {
         });
     }
 
-    /// What is known of an entry by its row and column: the slopes beside it, and what it is a slope in.
+    /// Returns the neighboring slopes of an entry, given by row and column, and the kind of its coordinate.
     fn kind_of(
         &self,
         system: &ConstraintSystem,
@@ -295,7 +295,7 @@ impl Equilibration {
     }
 }
 
-/// What entries of a row or column come to.
+/// Mean of the entries of a row or column.
 #[derive(Clone, Copy)]
 enum Mean {
     /// The geometric one of the largest and the smallest.
@@ -329,7 +329,7 @@ impl Mean {
     }
 }
 
-/// The position of a row's slope in a coordinate.
+/// Returns the index in the pattern of a row's slope in a coordinate.
 fn slope(system: &ConstraintSystem, row: u32, column: usize) -> u32 {
     let at = system.phi_q().row(row as usize).binary_search_by_key(&(column as u32), |&(column, _)| column);
     at.map_or(NONE, |at| (system.phi_q().range(row as usize).start + at) as u32)

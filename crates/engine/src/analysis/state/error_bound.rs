@@ -44,7 +44,7 @@ impl Trust {
     }
 }
 
-/// Returns whether what velocities and accelerations of a state may be off by is within limits.
+/// Returns whether the error bounds of velocities and accelerations of a state are within limits.
 pub fn are_small(kinematics: &Kinematics, state: &State, off: [&[f64]; 2], limits: [f64; 2]) -> bool {
     let off = |order: usize, k: usize| off[order - 1][k];
     are_within(kinematics, [&state.qd, &state.qdd], off, limits)
@@ -59,7 +59,7 @@ pub fn are_alike(kinematics: &Kinematics, a: [&[f64]; 3], b: [&[f64]; 3], part: 
     is_place && are_within(kinematics, [qd, qdd], |order, k| a[order][k] - b[order][k], [part; 2])
 }
 
-/// Returns whether what velocities and accelerations are off by, told by its order and coordinate, is within limits.
+/// Returns whether errors of velocities and accelerations, given by order and coordinate, are within limits.
 fn are_within(
     kinematics: &Kinematics,
     [qd, qdd]: [&[f64]; 2],

@@ -178,7 +178,7 @@ impl Plan {
     }
 }
 
-/// Returns whether a permutation is odd: whether it has an odd number of cycles of even length.
+/// Returns whether a permutation is odd: if it has an odd number of cycles of even length.
 fn is_odd(permutation: &[u32]) -> bool {
     let mut visited = vec![false; permutation.len()];
     let mut odd = false;

@@ -231,7 +231,7 @@ fn by_kinds(system: &ConstraintSystem, declarations: &[DeclarationId]) -> String
     parts.join(" and ")
 }
 
-/// What is said of equations that are left out because that was allowed.
+/// Returns the diagnostics of redundant equations that are left out because the user allows it.
 pub fn left_out(system: &ConstraintSystem, dependents: &[Dependent]) -> Diagnostics {
     let mut diagnostics = Diagnostics::default();
     for group in by_declaration(system, dependents) {
@@ -249,7 +249,7 @@ pub fn left_out(system: &ConstraintSystem, dependents: &[Dependent]) -> Diagnost
     diagnostics
 }
 
-/// The first force that is asked for and is not determined.
+/// Returns a diagnostic of the first requested force that is not determined.
 pub fn shared_force(system: &ConstraintSystem, shared: &[Shared]) -> Option<Diagnostic> {
     let reactions = system.reactions().iter().map(|of| (of.value, format!("`{}`", of.name), of.span));
     let measures = system.measures().iter().map(|of| (of.value, format!("measure `{}`", of.name), of.span));
@@ -329,7 +329,7 @@ pub fn does_not_hold(system: &ConstraintSystem, index: usize, t: f64) -> Diagnos
 
 /// Beside drivers that have no motion to prescribe.
 const NOTHING_TO_MOVE: [&str; 2] = ["has nothing left to move", "have nothing left to move"];
-/// Declarations too many, told in a headline at most.
+/// Largest number of redundant declarations in a headline.
 const MAX_LISTED_FAULTS: usize = 2;
 /// Bodies that can move, marked at most.
 const MAX_LISTED_BODIES: usize = 3;
@@ -348,7 +348,7 @@ pub fn too_few(mut diagnostic: Diagnostic, system: &ConstraintSystem, freedom: &
     diagnostic
 }
 
-/// Equations too many beside coordinates that nothing fixes.
+/// Returns a diagnostic of redundant equations together with coordinates that no equation fixes.
 pub fn too_many_and_too_few(system: &ConstraintSystem, dependents: &[Dependent], freedom: &Freedom) -> Diagnostic {
     let groups = grouped(system, dependents);
     let faults: Vec<Culprit> = groups.iter().map(|(group, _)| fault_of(system, group)).collect();

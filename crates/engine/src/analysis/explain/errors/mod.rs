@@ -1,4 +1,4 @@
-//! What is said of an analysis that cannot be completed.
+//! Diagnostics of an analysis that cannot be completed.
 
 mod assembly;
 mod determinacy;

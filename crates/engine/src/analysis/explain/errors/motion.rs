@@ -11,7 +11,7 @@ use mechc_text::diag::{Code, Diagnostic};
 /// Columns that one message names at most.
 const MOST_COLUMNS: usize = 12;
 
-/// Why what is solved for beside the motion may have no value.
+/// Reason why a force or derivative may have no value.
 const NO_FORCE: &str = "infinite, undefined, or too near to a singular position";
 
 /// A formula of some declarations that has no value, or a derivative that has none.

@@ -150,7 +150,7 @@ impl Kinematics {
         self.span
     }
 
-    /// Returns whether nobody waits for the result any more.
+    /// Returns whether the analysis was cancelled.
     pub fn is_cancelled(&self) -> bool {
         self.cancel.is_cancelled()
     }

@@ -18,7 +18,7 @@ pub(super) struct Factors<'l> {
     pub row_norm: &'l [f64],
     pub size: &'l [f64],
     pub equilibration: &'l Equilibration,
-    /// Whether nearness is measured by the equilibration, or by the scales that are solved with.
+    /// Whether nearness is measured by the equilibration scales, or by the scales that are solved with.
     pub is_judging: bool,
 }
 
@@ -108,7 +108,7 @@ impl Factors<'_> {
         Factors { is_judging: false, ..self }
     }
 
-    /// How near a block is to a singular position, with the vectors of its smallest singular value by the equilibration.
+    /// Returns how near a block is to a singular position, with the vectors of its smallest singular value in the equilibration scales.
     pub fn nearness(self, k: usize, part: &Part, (left, right): (&mut [f64], &mut [f64]), work: &mut [f64]) -> f64 {
         let sigma = self.as_solved().singular(k, part, (left, right), work);
         if self.is_judging { borne_out(sigma, self.singular(k, part, (left, right), work)) } else { sigma }
@@ -141,7 +141,7 @@ impl Factors<'_> {
     }
 }
 
-/// What the scales that are solved with say of nearness, if the equilibration bears it out, or else what that says: they serve where
+/// Returns the nearness by the scales that are solved with, if the equilibration confirms it, or else the nearness by the latter: they serve where
 /// bodies are of a size, and frames near them.
 pub(super) fn borne_out(solved: f64, judged: f64) -> f64 {
     let is_borne_out = solved <= ALIKE * judged && judged <= ALIKE * solved;
