@@ -231,11 +231,11 @@ impl Anatomy {
         let mut best: Option<Freedom> = None;
         for t in times_nearby(t, span) {
             if let Some(found) = Freedom::of(evaluator, kept, t)
-                && best.as_ref().is_none_or(|known| found.degrees() < known.degrees())
+                && best.as_ref().is_none_or(|best| found.degrees() < best.degrees())
             {
                 best = Some(found);
             }
-            if best.as_ref().is_some_and(|known| known.degrees() <= least) {
+            if best.as_ref().is_some_and(|best| best.degrees() <= least) {
                 break;
             }
             evaluator.nudge(&kept.columns);

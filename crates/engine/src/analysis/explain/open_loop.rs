@@ -176,8 +176,8 @@ fn widest_gap(evaluator: &Evaluator<'_>, rows: impl Iterator<Item = usize>) -> O
         // no motion that could be seen closes it
         return Some((CoordinateKind::Length, f64::INFINITY));
     }
-    let of_kind = |wanted: CoordinateKind| {
-        let squares = gaps.iter().filter(|(kind, _)| *kind == wanted).map(|(_, by)| by * by);
+    let of_kind = |kind: CoordinateKind| {
+        let squares = gaps.iter().filter(|(gap_kind, _)| *gap_kind == kind).map(|(_, by)| by * by);
         squares.sum::<f64>().sqrt()
     };
     let (length, angle) = (of_kind(CoordinateKind::Length), of_kind(CoordinateKind::Angle));

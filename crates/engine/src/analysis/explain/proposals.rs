@@ -212,7 +212,7 @@ fn pinned_together(system: &ConstraintSystem) -> IdVec<PointId, PointId> {
     for (k, point) in system.points().pairs() {
         let place = point.at.map(|id| (system.value_at(id, &[]) + 0.0).to_bits());
         match first_at.entry((point.body, place)) {
-            Entry::Occupied(known) => join(k, *known.get()),
+            Entry::Occupied(entry) => join(k, *entry.get()),
             Entry::Vacant(free) => drop(free.insert(k)),
         }
     }

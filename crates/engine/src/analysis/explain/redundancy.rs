@@ -164,7 +164,7 @@ fn basis_of_start(evaluator: &mut Evaluator<'_>, part: &Subsystem, [t, span]: [f
         evaluator.assemble(&part.rows, &part.columns, None, t)?;
         let jacobian = evaluator.linear(&part.rows, &part.columns, None, t)?.jacobian;
         let basis = basis_of(&jacobian, part.columns.len());
-        if best.as_ref().is_none_or(|(known, _)| basis.kept.len() > known.kept.len()) {
+        if best.as_ref().is_none_or(|(best, _)| basis.kept.len() > best.kept.len()) {
             let is_whole = basis.span.is_whole();
             best = Some((basis, evaluator.q.clone()));
             if is_whole {

@@ -71,7 +71,7 @@ pub struct Kinematics {
     /// Rows whose slope may vanish though nothing about the mechanism does, as that of `sin(angle(b))`.
     bent: Vec<usize>,
     /// Rows whose slopes are looked at beside a position, these among them.
-    looked_at_beside: Vec<usize>,
+    with_nearby_slopes: Vec<usize>,
     beside: Vec<f64>,
     /// By row: the largest term of it there; 0 of those that are not looked at there.
     terms_beside: Vec<f64>,
@@ -98,7 +98,7 @@ impl Kinematics {
         let params = system.param_values();
         let (registers, linear) = (program.start(&params), BlockLu::new(system, determined.blocks()));
         let bent = (0..system.rows().len()).filter(|&row| is_bent(system, row)).collect();
-        let looked_at_beside = (0..system.rows().len()).filter(|&row| needs_nearby_slope(system, row)).collect();
+        let with_nearby_slopes = (0..system.rows().len()).filter(|&row| needs_nearby_slope(system, row)).collect();
         let n = system.coordinates().len();
         let other_estimates = None;
         let holds = layout::holds(system);
@@ -113,7 +113,7 @@ impl Kinematics {
             tolerance,
             cancel,
             bent,
-            looked_at_beside,
+            with_nearby_slopes,
             beside,
             terms_beside,
             doubt,

@@ -15,7 +15,7 @@ impl Kinematics {
         if self.linear.equilibration().is_measured() && !self.linear.equilibration().changes() {
             return;
         }
-        if !self.looked_at_beside.is_empty() {
+        if !self.with_nearby_slopes.is_empty() {
             self.look_beside(q);
         }
         self.evaluate(q);
@@ -47,8 +47,8 @@ impl Kinematics {
             self.registers.set_all(self.program.inputs.coordinates[0], &self.beside);
             self.program.run(Stage::Position, &mut self.registers);
             let is_first = way > 0.0;
-            for index in 0..self.looked_at_beside.len() {
-                let row = self.looked_at_beside[index];
+            for index in 0..self.with_nearby_slopes.len() {
+                let row = self.with_nearby_slopes[index];
                 let known = if is_first { 0.0 } else { self.terms_beside[row] };
                 let term = self.largest_term_of(row);
                 self.terms_beside[row] = if term.is_finite() { f64::max(known, term) } else { known };
