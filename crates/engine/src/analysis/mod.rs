@@ -9,8 +9,8 @@
 //!
 //! | module | what it is for |
 //! | --- | --- |
-//! | `state` | everything that can be said of one state: residuals, factors, derivatives, nearness to a singular position |
-//! | `explain` | why a mechanism is not determined, not assembled, or does not go on: in words |
+//! | `state` | one state: residuals, factors, derivatives, nearness to a singular position |
+//! | `explain` | diagnostics: why a mechanism is not determined, not assembled, or does not go on |
 //! | `assemble` | the position at the first time |
 //! | `follow` | from there on, in steps that the solver chooses by its own error: output times only decide what is printed |
 //! | `results` | numbers for the whole analysis |

@@ -34,7 +34,7 @@ pub mod linear {
     pub const PLANS: u32 = 4;
 }
 
-/// Equilibration: the second set of scales (`crates/engine/src/analysis/state/yardstick.rs`).
+/// Equilibration: the second set of scales (`crates/engine/src/analysis/state/equilibration.rs`).
 pub mod yardstick {
     /// Number of sweeps over rows and columns; the remaining factor is irrelevant.
     pub const SWEEPS: usize = 12;

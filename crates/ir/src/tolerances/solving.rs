@@ -145,7 +145,7 @@ pub mod rows {
     pub const STEPS_AHEAD: usize = 1_000;
 }
 
-/// Rows that may be inaccurate (`crates/engine/src/analysis/state/trust.rs`).
+/// Rows that may be inaccurate (`crates/engine/src/analysis/state/error_bound.rs`).
 pub mod trust {
     /// Largest rounding of a printed row: the promised accuracy.
     pub const ACCURACY: f64 = 1e-9;

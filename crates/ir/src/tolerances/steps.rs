@@ -45,7 +45,7 @@ pub mod march {
     pub const MOST_STEPS: u64 = 1_000_000;
 }
 
-/// Output times (`crates/engine/src/analysis/state/times.rs`).
+/// Output times (`crates/engine/src/analysis/state/output_times.rs`).
 pub mod times {
     /// An output time within this part of a step from the last time is the last time.
     pub const AT_THE_LAST: f64 = 1e-9;

@@ -326,7 +326,7 @@ fn refuse_singular(kinematics: &mut Kinematics, q: &[f64], t: f64) -> Result<(),
     Err(singular::singular_start(system, &vectors, elsewhere, Horizon { from: t, span: kinematics.span() }))
 }
 
-/// Whether the equations are independent in a position nearby; none if there is no other one.
+/// Returns whether the equations are independent in a position nearby; `None` if there is no other one.
 fn independent_elsewhere(kinematics: &mut Kinematics, q: &[f64], free: &[f64], t: f64) -> Option<bool> {
     independent_later(kinematics, q, t).or_else(|| {
         kinematics.set_time(t);
@@ -334,7 +334,7 @@ fn independent_elsewhere(kinematics: &mut Kinematics, q: &[f64], free: &[f64], t
     })
 }
 
-/// Whether the equations are independent beside a position, where its free motion leads if a driver lets go; none if it
+/// Returns whether the equations are independent beside a position, where its free motion leads if a driver lets go; `None` if it
 /// leads nowhere.
 fn independent_without(kinematics: &mut Kinematics, q: &[f64], driver: usize, free: &[f64], t: f64) -> Option<bool> {
     if q.len() > LARGEST_DENSE {
@@ -350,7 +350,7 @@ fn independent_without(kinematics: &mut Kinematics, q: &[f64], driver: usize, fr
     })
 }
 
-/// Whether the equations are independent beside a position, where its free motion leads; none if it leads nowhere.
+/// Returns whether the equations are independent beside a position, where its free motion leads; `None` if it leads nowhere.
 fn independent_beside(kinematics: &mut Kinematics, q: &[f64], free: &[f64]) -> Option<bool> {
     [BESIDE, -BESIDE].into_iter().find_map(|way| {
         let start = moved_along(kinematics, q, free, way);
@@ -363,7 +363,7 @@ fn moved_along(kinematics: &Kinematics, q: &[f64], free: &[f64], way: f64) -> Ve
     (0..q.len()).map(|k| q[k] + way * free[k] * kinematics.linear().column_scale(k)).collect()
 }
 
-/// Whether the equations are independent at a time nearby; none if no position can be had there, as when every driver rests.
+/// Returns whether the equations are independent at a time nearby; `None` if no position can be had there, as when every driver rests.
 fn independent_later(kinematics: &mut Kinematics, q: &[f64], t: f64) -> Option<bool> {
     let span = kinematics.span();
     NEARBY.into_iter().find_map(|part| {
@@ -372,14 +372,14 @@ fn independent_later(kinematics: &mut Kinematics, q: &[f64], t: f64) -> Option<b
     })
 }
 
-/// Whether the equations are independent where least squares lead from a start; none if that is `q` again, or nowhere.
+/// Returns whether the equations are independent where least squares lead from a start; `None` if that is `q` again, or nowhere.
 fn independent_at(kinematics: &mut Kinematics, q: &[f64], start: Vec<f64>) -> Option<bool> {
     let near = least_squares(kinematics, start).q;
     let all: Vec<u32> = (0..q.len() as u32).collect();
     independent_where(kinematics, q, &near, &all)
 }
 
-/// Whether the equations are independent in a position where some of them hold; none if it is `q`, or they do not hold.
+/// Returns whether the equations are independent in a position where some of them hold; `None` if it is `q`, or they do not hold.
 fn independent_where(kinematics: &mut Kinematics, q: &[f64], near: &[f64], rows: &[u32]) -> Option<bool> {
     let far = |k: usize| (near[k] - q[k]).abs() > MOVED * kinematics.linear().column_scale(k);
     let moved = (0..q.len()).any(far);

@@ -1,4 +1,4 @@
-//! Whether estimates that are far off leave in doubt which position is meant.
+//! Doubts about the assembled position where estimates are far off.
 //!
 //! Most loops can be assembled in more than one way, and assembly takes the one that it comes to. Where it had to move a
 //! body of a loop far, others are looked for; where one of them is not clearly farther from the estimates, the reader is
@@ -13,7 +13,7 @@ use mechc_ir::tolerances::assembly::branches::{
 use mechc_ir::{BodyId, ConstraintSystem, CoordinateKind};
 use std::f64::consts::{PI, TAU};
 
-/// Why the position taken may not be the one meant.
+/// Reason why the assembled position may not be the intended one.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub enum Doubt {
     /// The estimates led nowhere, and others near them were tried.
@@ -57,7 +57,7 @@ struct Loop {
     columns: Vec<u32>,
 }
 
-/// Whether the estimates `from` leave in doubt that the assembled state is the one meant.
+/// Returns whether the estimates `from` leave in doubt that the assembled state is the one meant.
 pub fn doubt(kinematics: &mut Kinematics, from: &[f64], state: &State) -> Option<FarBody> {
     let determined = kinematics.determined();
     let system = determined.system();
@@ -135,7 +135,7 @@ impl Loop {
     }
 }
 
-/// Whether a loop can be assembled in another position that is as near to the estimates.
+/// Returns whether a loop can be assembled in another position that is as near to the estimates.
 fn is_another_as_near(kinematics: &mut Kinematics, within: &Loop, from: &[f64], to: &[f64]) -> bool {
     let most = AS_NEAR * distance(kinematics, within, from, to);
     starts(kinematics, within, from, to).into_iter().any(|mut q| {

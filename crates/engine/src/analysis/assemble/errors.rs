@@ -1,4 +1,4 @@
-//! What is said of a position that was found, but may not be the one meant.
+//! Warnings about an assembled position that may not be the intended one.
 
 use super::assembly::Moved;
 use super::branches::{Doubt, FarBody, Off};
@@ -140,8 +140,8 @@ fn digits_that_differ(value: f64, other: f64) -> String {
 }
 
 /// A length (m) with so many digits behind the first one, in the unit that suits the larger length beside it.
-fn in_one_unit(value: f64, digits: usize, beside: f64) -> String {
-    let (times, unit) = if beside.abs() < 1.0 { (1e3, "mm") } else { (1.0, "m") };
+fn in_one_unit(value: f64, digits: usize, larger: f64) -> String {
+    let (times, unit) = if larger.abs() < 1.0 { (1e3, "mm") } else { (1.0, "m") };
     let rounded: f64 = format!("{:.digits$e}", value * times).parse().unwrap_or(value);
     format!("{} {unit}", readable(rounded))
 }

@@ -15,15 +15,15 @@ use mechc_ir::tolerances::assembly::parts::LARGEST;
 use mechc_text::cancel::Cancel;
 use std::sync::Arc;
 
-/// A part whose coordinates are asked for, as it is alone.
+/// Request for the coordinates of a part that is solved alone.
 pub struct Request {
     /// Its number.
     pub part: usize,
-    /// What its inputs are to be led to (SI), if they are to be led.
+    /// Target values of its inputs (SI), if its inputs are continued.
     pub inputs: Option<Vec<f64>>,
 }
 
-/// Gives the coordinates of parts, all those at once that can be known at once.
+/// Returns the coordinates of parts, in one call for all parts that can be solved at once.
 pub type Leader<'l> = dyn FnMut(&[Request]) -> Vec<Option<Vec<f64>>> + 'l;
 
 /// The estimates of a mechanism at a time (s) [m, rad], with its parts where they begin.
@@ -40,10 +40,11 @@ pub fn with_parts(
         Kinematics::new(Arc::clone(determined), Arc::clone(program), horizon.span, f64::INFINITY, cancel.clone());
     let mut placing = Placing::new(kinematics, determined, horizon.from, estimates);
     while !placing.open.is_empty() && !cancel.is_cancelled() {
-        let (known, open): (Vec<usize>, Vec<usize>) = placing.open.iter().partition(|&&part| placing.is_known(part));
-        if !known.is_empty() {
+        let (resolved, open): (Vec<usize>, Vec<usize>) =
+            placing.open.iter().partition(|&&part| placing.is_resolved(part));
+        if !resolved.is_empty() {
             placing.open = open;
-            placing.place(&known, true, leader);
+            placing.place(&resolved, true, leader);
         } else if !placing.solve_what_is_needed() {
             // it depends on itself
             let part = placing.open.remove(0);
@@ -99,7 +100,7 @@ impl<'d> Placing<'d> {
         }
     }
 
-    fn is_known(&self, part: usize) -> bool {
+    fn is_resolved(&self, part: usize) -> bool {
         self.needs[part].iter().all(|&k| self.is_settled[k as usize])
     }
 
@@ -116,13 +117,13 @@ impl<'d> Placing<'d> {
     /// Puts parts to where they come to alone, on their mounts.
     fn place(&mut self, parts: &[usize], are_led: bool, leader: &mut Leader<'_>) {
         let mounts: Vec<[f64; 3]> = parts.iter().map(|&part| self.parts[part].mount.map(|id| self.value(id))).collect();
-        let asked = |(&part, mount): (&usize, &[f64; 3])| {
+        let request = |(&part, mount): (&usize, &[f64; 3])| {
             let inputs: Vec<f64> = self.parts[part].inputs.iter().map(|(_, id)| self.value(*id)).collect();
             let is_whole = inputs.iter().chain(mount).all(|value| value.is_finite());
             Request { part, inputs: Some(inputs).filter(|_| are_led && is_whole) }
         };
-        let asked: Vec<Request> = parts.iter().zip(&mounts).map(asked).collect();
-        for ((&part, mount), alone) in parts.iter().zip(&mounts).zip(leader(&asked)) {
+        let requests: Vec<Request> = parts.iter().zip(&mounts).map(request).collect();
+        for ((&part, mount), alone) in parts.iter().zip(&mounts).zip(leader(&requests)) {
             self.set_on_its_mount(part, *mount, alone);
         }
     }
@@ -151,16 +152,16 @@ impl<'d> Placing<'d> {
 
     /// Solves blocks that parts need, each once those before it are settled; whether there was one.
     fn solve_what_is_needed(&mut self) -> bool {
-        let mut wanted: Vec<u32> = self.open.iter().flat_map(|&part| self.needs[part].iter().copied()).collect();
+        let mut required: Vec<u32> = self.open.iter().flat_map(|&part| self.needs[part].iter().copied()).collect();
         let mut numbers: Vec<usize> = Vec::new();
         let mut is_wanted = vec![false; self.determined.blocks().len()];
-        while let Some(column) = wanted.pop() {
+        while let Some(column) = required.pop() {
             let number = self.block_of[column as usize];
             if self.is_settled[column as usize] || std::mem::replace(&mut is_wanted[number], true) {
                 continue;
             }
             numbers.push(number);
-            wanted.extend(self.behind(&self.determined.blocks()[number]));
+            required.extend(self.behind(&self.determined.blocks()[number]));
         }
         numbers.sort_unstable();
         let mut was_solved = false;

@@ -140,7 +140,7 @@ impl Started {
         diagnostics
     }
 
-    /// Whether the assembly moved bodies far, said of a time (s).
+    /// Returns whether the assembly moved bodies far, said of a time (s).
     #[must_use]
     pub fn far_estimates_at(&self, t: f64) -> Diagnostics {
         let (system, from) = (self.kinematics.system(), self.kinematics.estimates());
@@ -250,7 +250,7 @@ impl Started {
         self.kinematics.solver_of_variants(is_wanted)
     }
 
-    /// Whether the equations are smooth wherever the motion is, and nothing is looked at beside them.
+    /// Returns whether the equations are smooth wherever the motion is, and nothing is looked at beside them.
     #[must_use]
     pub fn is_plain(&self) -> bool {
         self.kinematics.is_plain()

@@ -39,7 +39,7 @@ pub fn determine(
     let is_enough = dependents.len().cast_signed() == -refused.system.ndof();
     let holds = dependents.iter().all(|dependent| dependent.open.is_none());
     if !(allow_redundant && holds && is_enough && refused.too_few.columns.is_empty()) {
-        let anatomy = Anatomy::beside(&mut evaluator, dependents, times);
+        let anatomy = Anatomy::with_dependents(&mut evaluator, dependents, times);
         let size = refused.too_many.rows.len();
         if allow_redundant && size > limit {
             return Err(errors::too_large(refused.diagnostic, size, limit).into());
@@ -54,11 +54,11 @@ pub fn determine(
     if let Some(why) = errors::shared_force(&system, &shared) {
         return Err(why.into());
     }
-    let said = errors::left_out(&system, &dependents);
+    let diagnostics = errors::left_out(&system, &dependents);
     let mut rows: Vec<usize> = dependents.iter().map(|dependent| dependent.row).collect();
     rows.sort_unstable();
     match Determined::without(system, rows) {
-        Ok(determined) => Ok((determined.with_start(start), said)),
+        Ok(determined) => Ok((determined.with_start(start), diagnostics)),
         Err(refused) => Err(refused.diagnostic.into()),
     }
 }
@@ -124,11 +124,11 @@ impl Anatomy {
         let times = [horizon.from, horizon.span];
         let mut evaluator = Evaluator::new(system);
         let dependents = surplus_within(&mut evaluator, too_many, times, LARGEST);
-        Anatomy::beside(&mut evaluator, dependents, times)
+        Anatomy::with_dependents(&mut evaluator, dependents, times)
     }
 
-    /// With equations of which it is known that they are too many.
-    fn beside(evaluator: &mut Evaluator<'_>, dependents: Vec<Dependent>, times: [f64; 2]) -> Anatomy {
+    /// Builds the anatomy with dependent equations that were found before.
+    fn with_dependents(evaluator: &mut Evaluator<'_>, dependents: Vec<Dependent>, times: [f64; 2]) -> Anatomy {
         let mut kept = everything(evaluator.system);
         kept.rows.retain(|&row| dependents.iter().all(|dependent| dependent.row != row as usize));
         let is_small = usize::max(kept.rows.len(), kept.columns.len()) <= LARGEST;
@@ -231,11 +231,11 @@ impl Anatomy {
         let mut best: Option<Freedom> = None;
         for t in times_nearby(t, span) {
             if let Some(found) = Freedom::of(evaluator, kept, t)
-                && best.as_ref().is_none_or(|known| found.degrees() < known.degrees())
+                && best.as_ref().is_none_or(|best| found.degrees() < best.degrees())
             {
                 best = Some(found);
             }
-            if best.as_ref().is_some_and(|known| known.degrees() <= least) {
+            if best.as_ref().is_some_and(|best| best.degrees() <= least) {
                 break;
             }
             evaluator.nudge(&kept.columns);

@@ -8,13 +8,13 @@ use mechc_ir::{ConstraintSystem, CoordinateKind};
 pub fn motion_in_words(system: &ConstraintSystem, right: &[f64]) -> String {
     let largest = right.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
     let rate = |k: usize| right[k];
-    let of_kind = |wanted: CoordinateKind| {
-        let mut found: Vec<usize> = (0..right.len())
-            .filter(|&k| system.coordinates()[k].kind == wanted && system.body_of(k).is_some())
+    let of_kind = |kind: CoordinateKind| {
+        let mut columns: Vec<usize> = (0..right.len())
+            .filter(|&k| system.coordinates()[k].kind == kind && system.body_of(k).is_some())
             .filter(|&k| right[k].abs() > SEEN * largest)
             .collect();
-        found.sort_by(|&a, &b| right[b].abs().total_cmp(&right[a].abs()));
-        found
+        columns.sort_by(|&a, &b| right[b].abs().total_cmp(&right[a].abs()));
+        columns
     };
     let turning = of_kind(CoordinateKind::Angle);
     let name = |k: usize| format!("`{}`", system.owner_name(k));

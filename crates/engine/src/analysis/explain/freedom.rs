@@ -1,4 +1,4 @@
-//! Too few equations: what is left free, told as motions.
+//! Too few equations: the motions that are left free.
 
 use super::errors;
 use super::evaluator::Evaluator;
@@ -173,7 +173,7 @@ fn of_bodies(system: &ConstraintSystem, motion: &[f64]) -> FreeMotion {
     FreeMotion { bodies: system.bodies().ids().filter(moves).map(moved).collect() }
 }
 
-/// The motions beside what is held, each told by itself, of all coordinates.
+/// Returns the motions that are left free, by all coordinates, each independent of the others.
 fn motions_beside(system: &ConstraintSystem, part: &Subsystem, mut taken: Orthonormal) -> Vec<Vec<f64>> {
     let mut motions = Vec::new();
     while let Some(motion) = next_motion(system, part, &mut taken) {
@@ -196,7 +196,7 @@ fn next_motion(system: &ConstraintSystem, part: &Subsystem, taken: &mut Orthonor
     let of_angle = freest(&is_angle).filter(|&k| shares[k] > ANGLE_SHARE * shares[any]);
     let mut axis = DVector::zeros(n);
     axis[of_angle.unwrap_or(any)] = 1.0;
-    let (rest, _) = taken.beside(axis);
+    let (rest, _) = taken.split(axis);
     taken.take(&rest, 0.0).then(|| taken.last())?
 }
 

@@ -17,7 +17,7 @@ use mechc_ir::{BodyId, ConstraintSystem, CoordinateKind, DeclarationId, Declarat
 /// A loop that does not close.
 #[derive(Clone, Debug)]
 pub struct OpenLoop {
-    /// The declaration at which it is told to be open.
+    /// Declaration at which the loop is reported to be open.
     pub at: DeclarationId,
     /// By how much there (m or rad), all else being closed.
     pub by: f64,
@@ -69,12 +69,12 @@ pub enum FaultyLinkKind {
 
 /// What does not close where the nearest position is `q`.
 pub fn found(determined: &Determined, q: &[f64], t: f64) -> Option<OpenLoop> {
-    told(determined, q, t).map(|told| told.open)
+    locate(determined, q, t).map(|located| located.open)
 }
 
-/// The coordinates [m, rad] where all is closed but what is told to be open.
+/// Returns the coordinates [m, rad] where all equations hold but those of the reported open loop.
 pub fn opened(determined: &Determined, q: &[f64], t: f64) -> Option<Vec<f64>> {
-    let Told { open, mut evaluator, blocks } = told(determined, q, t)?;
+    let LocatedOpenLoop { open, mut evaluator, blocks } = locate(determined, q, t)?;
     // what hangs on the loop is shown where it would be then
     for block in determined.blocks()[blocks..].iter().filter(|block| block.rows.len() <= LARGEST) {
         evaluator.assemble(&block.rows, &block.columns, None, t);
@@ -85,7 +85,7 @@ pub fn opened(determined: &Determined, q: &[f64], t: f64) -> Option<Vec<f64>> {
 }
 
 /// A loop that does not close.
-struct Told<'s> {
+struct LocatedOpenLoop<'s> {
     open: OpenLoop,
     /// Where all but one declaration of it is.
     evaluator: Evaluator<'s>,
@@ -93,13 +93,13 @@ struct Told<'s> {
     blocks: usize,
 }
 
-fn told<'s>(determined: &'s Determined, q: &[f64], t: f64) -> Option<Told<'s>> {
+fn locate<'s>(determined: &'s Determined, q: &[f64], t: f64) -> Option<LocatedOpenLoop<'s>> {
     let mut evaluator = Evaluator::new(determined.system());
     evaluator.q.copy_from_slice(q);
     let part = open_part(&mut evaluator, determined, t)?;
     evaluator.q.copy_from_slice(q);
     let open = open_loop(&mut evaluator, &part.equations, t)?;
-    Some(Told { open, evaluator, blocks: part.blocks })
+    Some(LocatedOpenLoop { open, evaluator, blocks: part.blocks })
 }
 
 /// The equations that are looked at together, and how many of the blocks need not be looked at beside them.
@@ -178,8 +178,8 @@ fn widest_gap(evaluator: &Evaluator<'_>, rows: impl Iterator<Item = usize>) -> O
         // no motion that could be seen closes it
         return Some((CoordinateKind::Length, f64::INFINITY));
     }
-    let of_kind = |wanted: CoordinateKind| {
-        let squares = gaps.iter().filter(|(kind, _)| *kind == wanted).map(|(_, by)| by * by);
+    let of_kind = |kind: CoordinateKind| {
+        let squares = gaps.iter().filter(|(gap_kind, _)| *gap_kind == kind).map(|(_, by)| by * by);
         squares.sum::<f64>().sqrt()
     };
     let (length, angle) = (of_kind(CoordinateKind::Length), of_kind(CoordinateKind::Angle));

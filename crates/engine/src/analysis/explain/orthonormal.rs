@@ -1,4 +1,4 @@
-//! Orthonormal vectors, by which it is told what depends on what and which motions are free.
+//! Orthonormal vectors: they show which equations depend on others and which motions are free.
 //!
 //! Vectors and matrices are those of nalgebra, of which only what goes column by column is used: it has one order of operations on every
 //! processor, and nothing of it is on the way to a printed number.
@@ -19,7 +19,7 @@ impl Orthonormal {
         Orthonormal { columns: DMatrix::zeros(n, n), count: 0 }
     }
 
-    /// Whether they span the whole space.
+    /// Returns whether the vectors span the whole space.
     pub fn is_whole(&self) -> bool {
         self.count == self.columns.ncols()
     }
@@ -28,8 +28,8 @@ impl Orthonormal {
         self.columns.columns(0, self.count)
     }
 
-    /// What is left of a vector beside them, and its shares along them; twice, so that rounding does not add up.
-    pub fn beside(&self, vector: DVector<f64>) -> (DVector<f64>, DVector<f64>) {
+    /// Splits a vector into its rest, orthogonal to all, and its shares along them; projects twice, so that rounding does not add up.
+    pub fn split(&self, vector: DVector<f64>) -> (DVector<f64>, DVector<f64>) {
         let (vectors, mut rest) = (self.vectors(), vector);
         let mut shares = DVector::zeros(self.count);
         for _ in 0..2 {
@@ -81,7 +81,7 @@ impl Basis {
         // each kept vector by the span up to its own
         let mut factors = DMatrix::zeros(n, n);
         for (k, vector) in vectors.chunks_exact(n.max(1)).enumerate() {
-            let (rest, shares) = basis.span.beside(DVector::from_column_slice(vector));
+            let (rest, shares) = basis.span.split(DVector::from_column_slice(vector));
             let rank = basis.kept.len();
             if basis.span.take(&rest, nothing) {
                 factors.view_mut((0, rank), (rank, 1)).copy_from(&shares);
@@ -97,8 +97,8 @@ impl Basis {
     }
 
     /// Keeps a vector that depends on others, by its number among the dependent ones, in place of one of those. Weights are told above a limit.
-    pub fn exchange(&mut self, own: usize, kept: usize, weighs: f64) {
-        let (vector, on) = self.dependent[own].clone();
+    pub fn exchange(&mut self, index: usize, kept: usize, weighs: f64) {
+        let (vector, on) = self.dependent[index].clone();
         let Some(&(_, pivot)) = on.iter().find(|(k, _)| *k == kept) else {
             return;
         };
@@ -112,7 +112,7 @@ impl Basis {
             };
             let (_, share) = other.remove(place);
             for &(k, weight) in &replaced {
-                match other.iter_mut().find(|(own, _)| *own == k) {
+                match other.iter_mut().find(|(index, _)| *index == k) {
                     Some((_, sum)) => *sum += share * weight,
                     None => other.push((k, share * weight)),
                 }
@@ -122,7 +122,7 @@ impl Basis {
         }
         replaced.retain(|(_, weight)| weight.abs() > weighs);
         replaced.sort_unstable_by_key(|&(k, _)| k);
-        self.dependent[own] = (kept, replaced);
+        self.dependent[index] = (kept, replaced);
         self.kept.iter_mut().filter(|k| **k == kept).for_each(|k| *k = vector);
         self.kept.sort_unstable();
     }
@@ -134,7 +134,7 @@ mod tests {
     use nalgebra::DVector;
 
     #[test]
-    fn what_depends_is_told_with_what_it_depends_on() {
+    fn dependent_vectors_name_what_they_depend_on() {
         let half = std::f64::consts::FRAC_1_SQRT_2;
         let rows = [
             [1.0, 0.0, 0.0, 0.0],
@@ -162,28 +162,28 @@ mod tests {
         basis.exchange(1, 0, 1e-6);
         assert_eq!(basis.kept, [1, 3]);
         for (k, on) in &basis.dependent {
-            for (axis, wanted) in rows[*k].iter().enumerate() {
-                let sum: f64 = on.iter().map(|&(own, weight)| weight * rows[own][axis]).sum();
-                assert!((sum - wanted).abs() < 1e-12, "{k} {on:?}");
+            for (axis, expected) in rows[*k].iter().enumerate() {
+                let sum: f64 = on.iter().map(|&(index, weight)| weight * rows[index][axis]).sum();
+                assert!((sum - expected).abs() < 1e-12, "{k} {on:?}");
             }
         }
     }
 
     #[test]
-    fn what_is_left_of_a_vector_is_orthogonal_to_all_others() {
+    fn the_rest_of_a_vector_is_orthogonal_to_all_others() {
         let mut all = Orthonormal::of_dimension(3);
         let first = DVector::from_column_slice(&[0.6, 0.8, 0.0]);
         assert!(all.take(&first, 0.0));
-        let (rest, shares) = all.beside(DVector::from_column_slice(&[1.0, 1.0, 1.0]));
+        let (rest, shares) = all.split(DVector::from_column_slice(&[1.0, 1.0, 1.0]));
         assert!(rest.dot(&first).abs() < 1e-15 && (shares[0] - 1.4).abs() < 1e-15);
         assert!(all.take(&rest, 1e-6) && all.count == 2 && !all.is_whole());
         // what lies between those that are there adds nothing
-        let (rest, _) = all.beside(&first + all.last().expect("a vector"));
+        let (rest, _) = all.split(&first + all.last().expect("a vector"));
         assert!(!all.take(&rest, 1e-6));
     }
 
     #[test]
-    fn of_no_coordinates_nothing_is_kept() {
+    fn without_coordinates_no_vector_is_kept() {
         let basis = Basis::of(&[], 0, [1e-6, 1e-6]);
         assert!(basis.kept.is_empty() && basis.dependent.is_empty() && basis.span.is_whole());
     }

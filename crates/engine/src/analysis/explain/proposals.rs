@@ -32,7 +32,7 @@ impl Proposals<'_, '_> {
         let mut taken = Orthonormal::of_dimension(self.motions.len());
         let mut chosen = Vec::new();
         for (text, rates) in candidates {
-            let (rest, _) = taken.beside(DVector::from_vec(rates));
+            let (rest, _) = taken.split(DVector::from_vec(rates));
             if taken.take(&rest, TAKEN) {
                 chosen.push(text);
             }
@@ -116,12 +116,12 @@ impl Proposals<'_, '_> {
             Some(format!("`joint NAME: revolute({}, {})`", system.point_name(p)?, system.point_name(q)?))
         };
         // of points that are pinned together one will do
-        let mut told: Vec<[PointId; 2]> = Vec::new();
+        let mut suggested: Vec<[PointId; 2]> = Vec::new();
         pairs.retain(|&(_, p, q)| {
             let mut both = [pinned[p], pinned[q]];
             both.sort_unstable();
-            let is_new = !told.contains(&both);
-            told.push(both);
+            let is_new = !suggested.contains(&both);
+            suggested.push(both);
             is_new
         });
         pairs.iter().filter_map(text).take(SUGGESTED.min(usize::max(self.motions.len() / 2, 1))).collect()
@@ -134,7 +134,7 @@ impl Proposals<'_, '_> {
         let free: Vec<&Axis> = system.axes().pairs().filter(|&(id, _)| is_free(id)).map(|(_, axis)| axis).collect();
         let body_of = |axis: &Axis| system.points()[axis.origin].body;
         let own_name = |axis: &Axis| axis.name.rsplit('.').next().map(str::to_owned);
-        let mut told = Vec::new();
+        let mut suggested = Vec::new();
         for (k, one) in free.iter().enumerate() {
             let moves = |other: &&&Axis| {
                 let bodies = [body_of(one), body_of(other)];
@@ -142,13 +142,13 @@ impl Proposals<'_, '_> {
             };
             let fits = |other: &&&Axis| own_name(one) == own_name(other) && moves(other);
             let others = free[k + 1..].iter().filter(fits);
-            told.extend(others.map(|other| format!("`joint NAME: translational({}, {})`", one.name, other.name)));
+            suggested.extend(others.map(|other| format!("`joint NAME: translational({}, {})`", one.name, other.name)));
         }
-        told.truncate(SUGGESTED);
-        told
+        suggested.truncate(SUGGESTED);
+        suggested
     }
 
-    /// Whether it is known where a point is drawn: what lies at the origin of a body without a pose lies at no place of a drawing.
+    /// Returns whether it is known where a point is drawn: what lies at the origin of a body without a pose lies at no place of a drawing.
     fn has_place(&self, point: PointId) -> bool {
         let system = self.evaluator.system;
         let Point { body, at, .. } = &system.points()[point];
@@ -212,7 +212,7 @@ fn pinned_together(system: &ConstraintSystem) -> IdVec<PointId, PointId> {
     for (k, point) in system.points().pairs() {
         let place = point.at.map(|id| (system.value_at(id, &[]) + 0.0).to_bits());
         match first_at.entry((point.body, place)) {
-            Entry::Occupied(known) => join(k, *known.get()),
+            Entry::Occupied(entry) => join(k, *entry.get()),
             Entry::Vacant(free) => drop(free.insert(k)),
         }
     }

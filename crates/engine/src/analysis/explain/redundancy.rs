@@ -102,7 +102,7 @@ fn judged(
     Some(dependents)
 }
 
-/// Whether all equations of a part can be met from a position, which then is where they are.
+/// Returns whether all equations of a part can be met from a position, which then is where they are.
 fn all_hold(evaluator: &mut Evaluator<'_>, part: &Subsystem, from: &[f64], t: f64) -> Option<bool> {
     let q = std::mem::replace(&mut evaluator.q, from.to_vec());
     let met = evaluator.assemble(&part.rows, &part.columns, None, t)?;
@@ -113,7 +113,7 @@ fn all_hold(evaluator: &mut Evaluator<'_>, part: &Subsystem, from: &[f64], t: f6
     Some(hold)
 }
 
-/// Whether an equation can be met along a motion that others leave free, though it changes with it in second order alone; the position goes
+/// Returns whether an equation can be met along a motion that others leave free, though it changes with it in second order alone; the position goes
 /// there.
 fn closes(evaluator: &mut Evaluator<'_>, (kept, row): (&[u32], usize), part: &Subsystem, t: f64) -> Option<bool> {
     if kept.len() >= part.columns.len() {
@@ -164,7 +164,7 @@ fn basis_of_start(evaluator: &mut Evaluator<'_>, part: &Subsystem, [t, span]: [f
         evaluator.assemble(&part.rows, &part.columns, None, t)?;
         let jacobian = evaluator.linear(&part.rows, &part.columns, None, t)?.jacobian;
         let basis = basis_of(&jacobian, part.columns.len());
-        if best.as_ref().is_none_or(|(known, _)| basis.kept.len() > known.kept.len()) {
+        if best.as_ref().is_none_or(|(best, _)| basis.kept.len() > best.kept.len()) {
             let is_whole = basis.span.is_whole();
             best = Some((basis, evaluator.q.clone()));
             if is_whole {

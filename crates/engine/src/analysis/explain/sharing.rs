@@ -37,13 +37,13 @@ pub fn shared(
     let graph = system.graph();
     let is_of_part =
         |id: &ExprId| graph.symbols(*id).iter().filter_map(multiplier).any(|row| part.rows.binary_search(&row).is_ok());
-    let mut asked: Vec<ExprId> = formulas.filter(is_of_part).collect();
-    asked.sort_unstable();
-    asked.dedup();
-    if asked.is_empty() {
+    let mut queried: Vec<ExprId> = formulas.filter(is_of_part).collect();
+    queried.sort_unstable();
+    queried.dedup();
+    if queried.is_empty() {
         return Vec::new();
     }
-    let mut open: Vec<Open> = asked.into_iter().map(|formula| Open::new(graph, formula)).collect();
+    let mut open: Vec<Open> = queried.into_iter().map(|formula| Open::new(graph, formula)).collect();
     let mut evaluator = Evaluator::new(system);
     if let Some(start) = start {
         evaluator.q.copy_from_slice(start);
@@ -86,9 +86,9 @@ struct Form {
 
 impl Open {
     fn new(graph: &Graph, formula: ExprId) -> Open {
-        let (mut forms, mut seen, mut left) = (Vec::new(), FxHashSet::default(), vec![formula]);
+        let (mut forms, mut visited, mut left) = (Vec::new(), FxHashSet::default(), vec![formula]);
         while let Some(root) = left.pop() {
-            if !holds_forces(graph, root) || !seen.insert(root) {
+            if !holds_forces(graph, root) || !visited.insert(root) {
                 continue;
             }
             let linear = linear_terms(graph, root, &mut left);
@@ -106,12 +106,12 @@ impl Open {
 
 /// The terms of a sum that are linear in forces, each with its sign; what the others are made of is added to what is left to be looked at.
 fn linear_terms(graph: &Graph, sum: ExprId, left: &mut Vec<ExprId>) -> Vec<(ExprId, f64)> {
-    let (mut linear, mut open, mut known) = (Vec::new(), vec![(sum, 1.0)], FxHashSet::default());
+    let (mut linear, mut open, mut linear_terms) = (Vec::new(), vec![(sum, 1.0)], FxHashSet::default());
     while let Some((term, sign)) = open.pop() {
         if !holds_forces(graph, term) {
             continue;
         }
-        if is_linear(graph, term, &mut known) {
+        if is_linear(graph, term, &mut linear_terms) {
             linear.push((term, sign));
             continue;
         }
@@ -136,12 +136,12 @@ fn multiplier(symbol: &Symbol) -> Option<u32> {
     }
 }
 
-/// Whether a formula that holds forces is linear in them; `known` are formulas that are.
-fn is_linear(graph: &Graph, id: ExprId, known: &mut FxHashSet<ExprId>) -> bool {
-    if known.contains(&id) {
+/// Returns whether a formula that holds forces is linear in them; `linear_terms` are formulas that are.
+fn is_linear(graph: &Graph, id: ExprId, linear_terms: &mut FxHashSet<ExprId>) -> bool {
+    if linear_terms.contains(&id) {
         return true;
     }
-    let mut is_free_or_linear = |id: ExprId| !holds_forces(graph, id) || is_linear(graph, id, known);
+    let mut is_free_or_linear = |id: ExprId| !holds_forces(graph, id) || is_linear(graph, id, linear_terms);
     let is_linear = match graph.node(id) {
         Node::Symbol(_) => true,
         Node::Neg(a) => is_free_or_linear(a),
@@ -153,7 +153,7 @@ fn is_linear(graph: &Graph, id: ExprId, known: &mut FxHashSet<ExprId>) -> bool {
         _ => false,
     };
     if is_linear {
-        known.insert(id);
+        linear_terms.insert(id);
     }
     is_linear
 }
@@ -198,7 +198,7 @@ impl Place<'_, '_> {
         Some((0..dependency.scaled.len()).filter(takes_part).collect())
     }
 
-    /// Whether a form changes with a dependency.
+    /// Returns whether a form changes with a dependency.
     fn changes(&self, form: &Form, dependency: &Dependency) -> bool {
         let weight = |row: u32| dependency.scaled[row as usize];
         if form.is_varied || form.rows.len() == 1 {

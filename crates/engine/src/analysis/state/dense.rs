@@ -62,7 +62,7 @@ pub fn solve_dense(a: &[f64], pivots: &[u32], b: &mut [f64]) {
     }
 }
 
-/// As [`solve_dense`] for the transposed matrix.
+/// Solves like [`solve_dense`], for the transposed matrix.
 pub fn solve_dense_transposed(a: &[f64], pivots: &[u32], b: &mut [f64]) {
     let n = b.len();
     for i in 0..n {

@@ -1,22 +1,28 @@
-//! Everything that can be said of one state: what the equations leave open there, the corrections and derivatives that their
-//! factors give, how near it is to a singular position, and what its numbers are worth. Nothing here knows of another state.
+//! One state: residuals of the equations, the corrections and derivatives that the factors of the Jacobian give, the nearness to
+//! a singular position, and error bounds. The module must not know other states.
 
-mod aslant;
 mod dense;
 mod determinant;
+mod equilibration;
+mod error_bound;
 mod kinematics;
 mod least_squares;
 mod linear;
-mod scoped;
+mod output_times;
 mod sparse;
-mod times;
-mod trust;
-mod yardstick;
+mod subsystem_derivatives;
 
-pub use aslant::aslant;
 pub use determinant::Determinant;
+pub use error_bound::{Trust, are_alike, are_small};
 pub use kinematics::{Fault, Kinematics, State, Unknown};
 pub use least_squares::{Evaluated, Linear, minimize};
 pub use linear::Singular;
-pub use times::{Horizon, Times, behind_start, shortly_after};
-pub use trust::{Trust, are_alike, are_small};
+pub use output_times::{Horizon, Times, behind_start, shortly_after};
+
+use mechc_expr::math::GOLDEN;
+
+/// Returns by how much a coordinate moves, from 0.5 to 1.5, where all move to a generic position: the amounts differ, so that nothing
+/// cancels.
+pub fn aslant(column: usize) -> f64 {
+    0.5 + (GOLDEN * column as f64).fract()
+}

@@ -32,7 +32,7 @@ pub struct Plan {
 }
 
 impl Plan {
-    /// A good order for a block of size `n` with these values, whose pattern must not be singular, laid out.
+    /// Chooses an order for a block of size `n` with these values, whose pattern must not be singular.
     pub fn new(n: usize, entries: &[BlockEntry]) -> Plan {
         let order = Order::new(n, entries);
         let (mut row_position, mut column_position) = (vec![0_u32; n], vec![0_u32; n]);
@@ -78,7 +78,7 @@ impl Plan {
         plan
     }
 
-    /// How many slots values need.
+    /// Returns the number of slots that the values need.
     pub fn slots(&self) -> usize {
         self.slots
     }
@@ -91,7 +91,7 @@ impl Plan {
         }
     }
 
-    /// Factors; gives the smallest pivot, and the largest multiplier.
+    /// Factors; returns the smallest pivot and the largest multiplier.
     pub fn factor(&self, values: &mut [f64]) -> (f64, f64) {
         let v = &mut values[..self.slots];
         let (mut smallest, mut largest) = (f64::INFINITY, 0.0);
@@ -118,13 +118,13 @@ impl Plan {
         (smallest, largest)
     }
 
-    /// The pivots, of which the first has the sign that the order gives to their product.
+    /// Returns the pivots, of which the first has the sign that the order gives to their product.
     pub fn signed_pivots<'v>(&'v self, values: &'v [f64]) -> impl Iterator<Item = f64> + 'v {
         let sign = |k: usize| if k == 0 && self.is_odd { -1.0 } else { 1.0 };
         self.pivots.iter().enumerate().map(move |(k, &slot)| sign(k) * values[slot as usize])
     }
 
-    /// The pivots, each with its row and column.
+    /// Returns the pivots, each with its row and column.
     pub fn placed_pivots<'v>(&'v self, values: &'v [f64]) -> impl Iterator<Item = (usize, usize, f64)> + 'v {
         let places = self.rows.iter().zip(&self.columns);
         self.pivots
@@ -153,7 +153,7 @@ impl Plan {
         }
     }
 
-    /// As [`Plan::solve`] for the transposed block: `b` by columns becomes the solution by rows.
+    /// Solves like [`Plan::solve`], for the transposed block: `b` by columns becomes the solution by rows.
     pub fn solve_transposed(&self, values: &[f64], b: &mut [f64], work: &mut [f64]) {
         for (x, &column) in work.iter_mut().zip(&self.columns) {
             *x = b[column as usize];
@@ -178,14 +178,14 @@ impl Plan {
     }
 }
 
-/// Whether a permutation is odd: whether it has an odd number of cycles of even length.
+/// Returns whether a permutation is odd: if it has an odd number of cycles of even length.
 fn is_odd(permutation: &[u32]) -> bool {
-    let mut seen = vec![false; permutation.len()];
+    let mut visited = vec![false; permutation.len()];
     let mut odd = false;
     for start in 0..permutation.len() {
         let (mut k, mut length) = (start, 0);
-        while !seen[k] {
-            seen[k] = true;
+        while !visited[k] {
+            visited[k] = true;
             length += 1;
             k = permutation[k] as usize;
         }

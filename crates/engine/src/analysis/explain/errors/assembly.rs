@@ -109,7 +109,7 @@ fn link_in_words(system: &ConstraintSystem, link: &FaultyLink) -> String {
     }
 }
 
-/// A position that does not come, for no reason that can be told.
+/// Returns a diagnostic of a position that is not found, without a cause.
 pub fn cannot_assemble(system: &ConstraintSystem, row: usize, residual: f64, t: f64) -> Diagnostic {
     let message = format!("the mechanism cannot be assembled at {}: {} stays open", at(t), named(system, row));
     Diagnostic::new(Code::E0601, message)

@@ -11,7 +11,7 @@ use mechc_text::diag::{Code, Diagnostic, Diagnostics};
 /// Equations that depend on others: a message for each declaration that wrote them.
 pub fn too_many(system: &ConstraintSystem, dependents: &[Dependent]) -> Diagnostics {
     let mut diagnostics = Diagnostics::default();
-    for (group, stuck) in told_together(system, dependents) {
+    for (group, stuck) in grouped(system, dependents) {
         let widest = group.iter().filter_map(|one| Some((one, one.open?))).max_by(|a, b| a.1.0.total_cmp(&b.1.0));
         diagnostics.push(match widest {
             Some((one, (by, t))) => conflicting(system, group, one, by, t),
@@ -23,10 +23,7 @@ pub fn too_many(system: &ConstraintSystem, dependents: &[Dependent]) -> Diagnost
 
 /// The groups of dependent rows by declaration, each with the drivers that have nothing left to move because of it: they
 /// are not told by themselves.
-fn told_together<'d>(
-    system: &ConstraintSystem,
-    dependents: &'d [Dependent],
-) -> Vec<(&'d [Dependent], Vec<DeclarationId>)> {
+fn grouped<'d>(system: &ConstraintSystem, dependents: &'d [Dependent]) -> Vec<(&'d [Dependent], Vec<DeclarationId>)> {
     let groups = by_declaration(system, dependents);
     let reason_of = |group: &[Dependent]| {
         let on = depends_on(system, group);
@@ -57,7 +54,7 @@ fn is_driver(system: &ConstraintSystem, declaration: DeclarationId) -> bool {
     system.declarations()[declaration].kind == DeclarationKind::Driver
 }
 
-/// Whether a group is a driver's that conflicts with joints alone: they leave it nothing to move.
+/// Returns whether a group is a driver's that conflicts with joints alone: they leave it nothing to move.
 fn is_stuck(system: &ConstraintSystem, group: &[Dependent]) -> bool {
     is_driver(system, declaration_of(system, group))
         && group.iter().any(|one| one.open.is_some())
@@ -234,7 +231,7 @@ fn by_kinds(system: &ConstraintSystem, declarations: &[DeclarationId]) -> String
     parts.join(" and ")
 }
 
-/// What is said of equations that are left out because that was allowed.
+/// Returns the diagnostics of redundant equations that are left out because the user allows it.
 pub fn left_out(system: &ConstraintSystem, dependents: &[Dependent]) -> Diagnostics {
     let mut diagnostics = Diagnostics::default();
     for group in by_declaration(system, dependents) {
@@ -252,7 +249,7 @@ pub fn left_out(system: &ConstraintSystem, dependents: &[Dependent]) -> Diagnost
     diagnostics
 }
 
-/// The first force that is asked for and is not determined.
+/// Returns a diagnostic of the first requested force that is not determined.
 pub fn shared_force(system: &ConstraintSystem, shared: &[Shared]) -> Option<Diagnostic> {
     let reactions = system.reactions().iter().map(|of| (of.value, format!("`{}`", of.name), of.span));
     let measures = system.measures().iter().map(|of| (of.value, format!("measure `{}`", of.name), of.span));
@@ -332,10 +329,10 @@ pub fn does_not_hold(system: &ConstraintSystem, index: usize, t: f64) -> Diagnos
 
 /// Beside drivers that have no motion to prescribe.
 const NOTHING_TO_MOVE: [&str; 2] = ["has nothing left to move", "have nothing left to move"];
-/// Declarations too many, told in a headline at most.
-const MOST_FAULTS: usize = 2;
+/// Largest number of redundant declarations in a headline.
+const MAX_LISTED_FAULTS: usize = 2;
 /// Bodies that can move, marked at most.
-const MOST_MOVING: usize = 3;
+const MAX_LISTED_BODIES: usize = 3;
 
 /// What values add to a count that leaves freedom.
 pub fn too_few(mut diagnostic: Diagnostic, system: &ConstraintSystem, freedom: &Freedom) -> Diagnostic {
@@ -351,9 +348,9 @@ pub fn too_few(mut diagnostic: Diagnostic, system: &ConstraintSystem, freedom: &
     diagnostic
 }
 
-/// Equations too many beside coordinates that nothing fixes.
+/// Returns a diagnostic of redundant equations together with coordinates that no equation fixes.
 pub fn too_many_and_too_few(system: &ConstraintSystem, dependents: &[Dependent], freedom: &Freedom) -> Diagnostic {
-    let groups = told_together(system, dependents);
+    let groups = grouped(system, dependents);
     let faults: Vec<Culprit> = groups.iter().map(|(group, _)| fault_of(system, group)).collect();
     let named: Vec<DeclarationId> = faults.iter().map(|fault| fault.declaration).collect();
     let is_conflict = groups.iter().any(|(group, _)| group.iter().any(|one| one.open.is_some()));
@@ -369,7 +366,7 @@ pub fn too_many_and_too_few(system: &ConstraintSystem, dependents: &[Dependent],
     for (_, stuck) in &groups {
         diagnostic = with_places(diagnostic, system, stuck, NOTHING_TO_MOVE);
     }
-    for &body in freedom.moving().iter().take(MOST_MOVING) {
+    for &body in freedom.moving().iter().take(MAX_LISTED_BODIES) {
         diagnostic = diagnostic.also(system.bodies()[body].span, "can still move");
     }
     let (n, m) = (system.coordinates().len(), system.rows().len());
@@ -398,8 +395,8 @@ fn headline_of_both(system: &ConstraintSystem, faults: &[Culprit], degrees: usiz
         1 => "1 degree of freedom is left".to_owned(),
         n => format!("{n} degrees of freedom are left"),
     };
-    let headlines: Vec<&str> = faults.iter().take(MOST_FAULTS).map(|fault| fault.headline.as_str()).collect();
-    let more = match faults.len().saturating_sub(MOST_FAULTS) {
+    let headlines: Vec<&str> = faults.iter().take(MAX_LISTED_FAULTS).map(|fault| fault.headline.as_str()).collect();
+    let more = match faults.len().saturating_sub(MAX_LISTED_FAULTS) {
         0 => String::new(),
         more => format!(", so are {more} more"),
     };

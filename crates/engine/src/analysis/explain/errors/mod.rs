@@ -1,4 +1,4 @@
-//! What is said of an analysis that cannot be completed.
+//! Diagnostics of an analysis that cannot be completed.
 
 mod assembly;
 mod determinacy;
@@ -76,7 +76,7 @@ pub fn named_all(system: &ConstraintSystem, declarations: &[DeclarationId]) -> S
     names.join(" and ")
 }
 
-/// Whether a row is about places, or about angles alone.
+/// Returns whether a row is about places, or about angles alone.
 pub fn gap_kind(system: &ConstraintSystem, row: usize) -> CoordinateKind {
     let mut kinds = system.phi_q().row(row).iter().map(|&(column, _)| system.coordinates()[column as usize].kind);
     if kinds.any(|kind| kind == CoordinateKind::Length) { CoordinateKind::Length } else { CoordinateKind::Angle }

@@ -11,7 +11,7 @@ use mechc_text::diag::{Code, Diagnostic};
 /// Columns that one message names at most.
 const MOST_COLUMNS: usize = 12;
 
-/// Why what is solved for beside the motion may have no value.
+/// Reason why a force or derivative may have no value.
 const NO_FORCE: &str = "infinite, undefined, or too near to a singular position";
 
 /// A formula of some declarations that has no value, or a derivative that has none.
@@ -56,7 +56,7 @@ pub fn contact_pulls(system: &ConstraintSystem, contact: &ContactForce, force: f
         .datum("t", t)
 }
 
-/// Whether a declaration is a contact that needs a tangent of its curve.
+/// Returns whether a declaration is a contact that needs a tangent of its curve.
 pub fn has_tangent(system: &ConstraintSystem, declaration: DeclarationId) -> bool {
     matches!(system.declarations()[declaration].kind, DeclarationKind::Joint(JointKind::Cam | JointKind::FlatFollower))
 }

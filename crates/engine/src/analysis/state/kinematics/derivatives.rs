@@ -54,7 +54,7 @@ impl Kinematics {
     /// Computes how far off velocity and acceleration of a state may be, if it is nearer to a singular position than a limit; says
     /// whether it is. Equations hold but for their rounding, which the position makes up for by moving the more the nearer it
     /// is, and derivatives move with it. The state must just have been computed.
-    pub fn take_doubt(&mut self, state: &State, limit: f64) -> bool {
+    pub fn compute_error_bounds(&mut self, state: &State, limit: f64) -> bool {
         let mut doubt = std::mem::take(&mut self.doubt);
         let is_near = self.linear.write_weights(limit, &mut doubt.right);
         if is_near {

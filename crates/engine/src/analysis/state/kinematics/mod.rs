@@ -7,8 +7,8 @@ mod row;
 mod slopes;
 mod switches;
 
+use super::equilibration::needs_nearby_slope;
 use super::linear::{BlockLu, Factored, Singular};
-use super::yardstick::is_looked_at_beside;
 use crate::solver::{Equations, Solver, Values};
 use derivatives::Spread;
 pub use fault::Fault;
@@ -71,7 +71,7 @@ pub struct Kinematics {
     /// Rows whose slope may vanish though nothing about the mechanism does, as that of `sin(angle(b))`.
     bent: Vec<usize>,
     /// Rows whose slopes are looked at beside a position, these among them.
-    looked_at_beside: Vec<usize>,
+    with_nearby_slopes: Vec<usize>,
     beside: Vec<f64>,
     /// By row: the largest term of it there; 0 of those that are not looked at there.
     terms_beside: Vec<f64>,
@@ -98,7 +98,7 @@ impl Kinematics {
         let params = system.param_values();
         let (registers, linear) = (program.start(&params), BlockLu::new(system, determined.blocks()));
         let bent = (0..system.rows().len()).filter(|&row| is_bent(system, row)).collect();
-        let looked_at_beside = (0..system.rows().len()).filter(|&row| is_looked_at_beside(system, row)).collect();
+        let with_nearby_slopes = (0..system.rows().len()).filter(|&row| needs_nearby_slope(system, row)).collect();
         let n = system.coordinates().len();
         let other_estimates = None;
         let holds = layout::holds(system);
@@ -113,7 +113,7 @@ impl Kinematics {
             tolerance,
             cancel,
             bent,
-            looked_at_beside,
+            with_nearby_slopes,
             beside,
             terms_beside,
             doubt,
@@ -150,7 +150,7 @@ impl Kinematics {
         self.span
     }
 
-    /// Whether nobody waits for the result any more.
+    /// Returns whether the analysis was cancelled.
     pub fn is_cancelled(&self) -> bool {
         self.cancel.is_cancelled()
     }
@@ -227,7 +227,7 @@ impl Kinematics {
         Solver::for_variants(&self.determined, &self.program, self, is_wanted)
     }
 
-    /// Whether equations are such that their smoothness does not depend on where the motion is: no formula of them has branches or ends, none
+    /// Returns whether equations are such that their smoothness does not depend on where the motion is: no formula of them has branches or ends, none
     /// may lose its slope, nothing is looked at beside them, and what time alone decides goes straight on.
     pub fn is_plain(&self) -> bool {
         let system = self.system();
@@ -256,7 +256,7 @@ impl Kinematics {
     pub fn factor(&mut self) -> Result<(), Fault> {
         let (registers, outputs) = (&self.registers, &self.program.outputs);
         let coordinates = self.program.inputs.coordinates[0];
-        self.linear.yardstick().turn(|column| registers.get(coordinates + column as u32));
+        self.linear.equilibration().turn(|column| registers.get(coordinates + column as u32));
         match self.linear.factor(|position| registers.get(outputs.phi_q[position])) {
             Factored::Regular => Ok(()),
             Factored::Singular => match self.not_finite_slope() {
@@ -339,7 +339,7 @@ impl Values for Kinematics {
     }
 }
 
-/// Whether a row may lose its slope by its formula alone: it is written by hand, of no distance, and no slope is constant.
+/// Returns whether a row may lose its slope by its formula alone: it is written by hand, of no distance, and no slope is constant.
 fn is_bent(system: &ConstraintSystem, row: usize) -> bool {
     let declaration = system.declaration_of(row);
     let by_hand = !matches!(declaration.kind, DeclarationKind::Joint(_)) && declaration.points.is_empty();

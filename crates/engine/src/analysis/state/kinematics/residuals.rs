@@ -58,12 +58,12 @@ impl Kinematics {
         }
     }
 
-    /// Whether some rows hold, to the tolerance.
+    /// Returns whether some rows hold, to the tolerance.
     pub fn hold(&self, rows: &[u32]) -> bool {
         rows.iter().all(|&row| self.is_met(row as usize))
     }
 
-    /// Whether some rows are open by no more than `limit`, scaled.
+    /// Returns whether some rows are open by no more than `limit`, scaled.
     pub fn hold_nearly(&self, rows: &[u32], limit: f64) -> bool {
         rows.iter().all(|&row| self.residual(row as usize) <= limit)
     }
@@ -84,7 +84,7 @@ impl Kinematics {
         worst
     }
 
-    /// Whether a row holds, to the tolerance and rounding; one that is not a number does not.
+    /// Returns whether a row holds, to the tolerance and rounding; one that is not a number does not.
     fn is_met(&self, row: usize) -> bool {
         let (off, bound) = (self.phi(row).abs(), self.tolerance * self.linear.row_norm(row));
         off <= bound || off <= bound + self.rounding(row)

@@ -3,7 +3,7 @@
 use super::derivatives::rates;
 use super::{Kinematics, State};
 use crate::analysis::state::linear::BlockLu;
-use crate::analysis::state::scoped::ScopedLu;
+use crate::analysis::state::subsystem_derivatives::SubsystemFactors;
 use crate::solver::Pivoting;
 use mechc_expr::{Dependence, ExprId};
 use mechc_ir::ConstraintSystem;
@@ -21,10 +21,10 @@ pub(super) struct Varied {
     /// By column of a row, whether it may have no value at a position.
     columns: Vec<bool>,
     /// Those by the equations of a part alone.
-    scoped: ScopedLu,
+    scoped: SubsystemFactors,
 }
 
-/// Whether a column holds what is not known at every position: forces, and what is differentiated by something else than time.
+/// Returns whether a column holds what is not known at every position: forces, and what is differentiated by something else than time.
 fn may_be_missing(system: &ConstraintSystem, holds: &ColumnContent) -> bool {
     let is_of_solution = |id: ExprId| {
         let dependence = system.graph().dependence(id);
@@ -56,7 +56,7 @@ pub enum Unknown {
 
 impl Varied {
     pub fn new(system: &ConstraintSystem, holds: &[ColumnContent]) -> Varied {
-        let scoped = ScopedLu::new(system);
+        let scoped = SubsystemFactors::new(system);
         if system.all_variations().is_none() && system.forces().is_none() {
             return Varied { solution: Vec::new(), columns: Vec::new(), scoped };
         }
@@ -72,7 +72,7 @@ impl Kinematics {
         self.write_columns(state, row);
     }
 
-    /// Whether a column of a row may have no value: a force, or a derivative by an input or parameter.
+    /// Returns whether a column of a row may have no value: a force, or a derivative by an input or parameter.
     pub fn may_be_missing(&self, column: usize) -> bool {
         self.variations.columns.get(column).copied().unwrap_or(false)
     }
@@ -127,7 +127,7 @@ impl Kinematics {
         solve_for_more(&self.determined, &self.program, &mut self.registers, &mut self.variations, &mut self.linear);
     }
 
-    /// Whether there is more to solve for than the motion.
+    /// Returns whether there is more to solve for than the motion.
     fn has_more_to_solve(&self) -> bool {
         self.system().forces().is_some() || !self.system().variations().is_empty()
     }

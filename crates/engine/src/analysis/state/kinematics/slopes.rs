@@ -12,19 +12,19 @@ impl Kinematics {
     /// vanishes in between makes a singular position, and one that grows beside a pole does not. Rows that are bent are scaled
     /// by that as well. The position must be set anew.
     pub fn measure_slopes(&mut self, q: &[f64]) {
-        if self.linear.yardstick().is_measured() && !self.linear.yardstick().changes() {
+        if self.linear.equilibration().is_measured() && !self.linear.equilibration().changes() {
             return;
         }
-        if !self.looked_at_beside.is_empty() {
+        if !self.with_nearby_slopes.is_empty() {
             self.look_beside(q);
         }
         self.evaluate(q);
         let (registers, program) = (&self.registers, &*self.program);
         let coordinate = |column: usize| registers.get(program.inputs.coordinates[0] + column as u32);
-        let yardstick = self.linear.yardstick();
-        yardstick.turn(coordinate);
+        let equilibration = self.linear.equilibration();
+        equilibration.turn(coordinate);
         let rounding = |row: usize| NO_SLOPE * f64::max(largest_term(program, registers, row), self.terms_beside[row]);
-        yardstick.measure(|position| registers.get(program.outputs.phi_q[position]), rounding);
+        equilibration.measure(|position| registers.get(program.outputs.phi_q[position]), rounding);
     }
 
     /// A row that is factored and has no slope: its scaled one is less than this, or changes it by no more than rounding does.
@@ -47,14 +47,14 @@ impl Kinematics {
             self.registers.set_all(self.program.inputs.coordinates[0], &self.beside);
             self.program.run(Stage::Position, &mut self.registers);
             let is_first = way > 0.0;
-            for index in 0..self.looked_at_beside.len() {
-                let row = self.looked_at_beside[index];
+            for index in 0..self.with_nearby_slopes.len() {
+                let row = self.with_nearby_slopes[index];
                 let known = if is_first { 0.0 } else { self.terms_beside[row] };
                 let term = self.largest_term_of(row);
                 self.terms_beside[row] = if term.is_finite() { f64::max(known, term) } else { known };
                 for position in pattern.range(row) {
                     let found = self.phi_q(position).abs();
-                    let slope = self.linear.yardstick().beside(position);
+                    let slope = self.linear.equilibration().nearby_slope(position);
                     *slope = lesser(if is_first { f64::INFINITY } else { *slope }, found);
                     *slope = if is_first { *slope } else { or_none(*slope) };
                 }

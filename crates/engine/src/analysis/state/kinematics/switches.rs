@@ -82,7 +82,7 @@ impl Kinematics {
         enclosure.enclose(&self.program, &self.registers, times);
     }
 
-    /// Whether a switch would have another result now if it were not frozen.
+    /// Returns whether a switch would have another result now if it were not frozen.
     pub fn would_switch(&self, switch: &Switch) -> bool {
         let (live, now) = (self.program.live(switch, &self.registers), self.registers.get(switch.to));
         // what is not a number is told elsewhere
@@ -94,7 +94,7 @@ impl Kinematics {
         self.program.edge(switch, &self.registers)
     }
 
-    /// Whether a switch stands exactly on its edge.
+    /// Returns whether a switch stands exactly on its edge.
     pub fn is_on_edge(&self, switch: &Switch) -> bool {
         match switch.op {
             Op::Compare { a, b, .. } => self.registers.get(a).total_cmp(&self.registers.get(b)).is_eq(),
@@ -162,7 +162,7 @@ impl Kinematics {
         effects
     }
 
-    /// Whether nothing happens from one time (s) to another; see [`Enclosure::is_steady`].
+    /// Returns whether nothing happens from one time (s) to another; see [`Enclosure::is_steady`].
     pub fn is_steady(
         &self,
         enclosure: &mut Enclosure,

@@ -59,7 +59,7 @@ impl BlockLu {
 
     fn factor_part(&mut self, k: usize) {
         self.factor_as_it_is(k);
-        if self.yardstick.is_measured() {
+        if self.equilibration.is_measured() {
             self.parts[k].smallest_pivot = borne_out(self.parts[k].smallest_pivot, self.judged_pivot(k));
         }
     }
@@ -69,7 +69,7 @@ impl BlockLu {
     fn judged_pivot(&mut self, k: usize) -> f64 {
         let (work, part) = (&mut self.work, &self.parts[k]);
         let factors = factors!(self);
-        if !self.yardstick.centroids(k).is_empty() {
+        if !self.equilibration.centroids(k).is_empty() {
             let (left, rest) = work.split_at_mut(self.rows.len());
             let (right, work) = rest.split_at_mut(self.rows.len());
             let vectors = (&mut left[..part.size], &mut right[..part.size]);

@@ -2,7 +2,7 @@
 
 use super::{Form, Part};
 use crate::analysis::state::dense::{solve_dense, solve_dense_transposed};
-use crate::analysis::state::yardstick::{Centroid, Yardstick};
+use crate::analysis::state::equilibration::{Centroid, Equilibration};
 use mechc_ir::tolerances::scales::linear::ALIKE;
 use mechc_ir::tolerances::solving::order::LEAST_PIVOT;
 
@@ -17,8 +17,8 @@ pub(super) struct Factors<'l> {
     pub columns: &'l [u32],
     pub row_norm: &'l [f64],
     pub size: &'l [f64],
-    pub yardstick: &'l Yardstick,
-    /// Whether nearness is measured by the yardstick, or by the scales that are solved with.
+    pub equilibration: &'l Equilibration,
+    /// Whether nearness is measured by the equilibration scales, or by the scales that are solved with.
     pub is_judging: bool,
 }
 
@@ -26,13 +26,13 @@ impl Factors<'_> {
     /// What an entry of the scaled `Φ_q` is multiplied by for its row as nearness is judged; a row by its place in the block.
     pub fn row_scale(&self, part: &Part, place: usize) -> f64 {
         let row = self.rows[part.at + place] as usize;
-        if self.is_judging { self.row_norm[row] / self.yardstick.row(row) } else { 1.0 }
+        if self.is_judging { self.row_norm[row] / self.equilibration.row(row) } else { 1.0 }
     }
 
     /// As [`Factors::row_scale`] for its column.
     pub fn column_scale(&self, part: &Part, place: usize) -> f64 {
         let column = self.columns[part.at + place] as usize;
-        if self.is_judging { self.yardstick.column(column) / self.size[column] } else { 1.0 }
+        if self.is_judging { self.equilibration.column(column) / self.size[column] } else { 1.0 }
     }
 
     /// With A the scaled block and P A K that by which nearness is judged: multiplies by P⁻¹.
@@ -73,7 +73,7 @@ impl Factors<'_> {
     }
 
     pub fn centroids(&self, k: usize) -> &[Centroid] {
-        if self.is_judging { self.yardstick.centroids(k) } else { &[] }
+        if self.is_judging { self.equilibration.centroids(k) } else { &[] }
     }
 
     /// Solves within a block: `b` by its rows becomes the solution by its columns.
@@ -108,7 +108,7 @@ impl Factors<'_> {
         Factors { is_judging: false, ..self }
     }
 
-    /// How near a block is to a singular position, with the vectors of its smallest singular value by the yardstick.
+    /// Returns how near a block is to a singular position, with the vectors of its smallest singular value in the equilibration scales.
     pub fn nearness(self, k: usize, part: &Part, (left, right): (&mut [f64], &mut [f64]), work: &mut [f64]) -> f64 {
         let sigma = self.as_solved().singular(k, part, (left, right), work);
         if self.is_judging { borne_out(sigma, self.singular(k, part, (left, right), work)) } else { sigma }
@@ -141,7 +141,7 @@ impl Factors<'_> {
     }
 }
 
-/// What the scales that are solved with say of nearness, if the yardstick bears it out, or else what that says: they serve where
+/// Returns the nearness by the scales that are solved with, if the equilibration confirms it, or else the nearness by the latter: they serve where
 /// bodies are of a size, and frames near them.
 pub(super) fn borne_out(solved: f64, judged: f64) -> f64 {
     let is_borne_out = solved <= ALIKE * judged && judged <= ALIKE * solved;

@@ -1,7 +1,7 @@
 //! The linear systems of one state: `Φ_q x = b`, block by block.
 //!
 //! Everything is scaled: lengths by the size of their body, rows to unit norm; what nearness to a singular position is judged
-//! by are scales of their own (`yardstick`). Within a block the order of elimination is
+//! by are scales of their own (`equilibration`). Within a block the order of elimination is
 //! fixed (`sparse`); where that loses digits a small block is factored densely with partial pivoting, and a large one gets
 //! another order. Between blocks the solution is substituted forward, so that cost grows with the number of blocks.
 
@@ -17,8 +17,8 @@ macro_rules! factors {
             columns: &$lu.columns,
             row_norm: &$lu.row_norm,
             size: &$lu.column_scale,
-            yardstick: &$lu.yardstick,
-            is_judging: $lu.yardstick.is_measured(),
+            equilibration: &$lu.equilibration,
+            is_judging: $lu.equilibration.is_measured(),
         }
     };
 }
@@ -29,8 +29,8 @@ mod nearness;
 mod solve;
 
 use super::determinant::Determinant;
+use super::equilibration::Equilibration;
 use super::sparse::Plan;
-use super::yardstick::Yardstick;
 use factors::Factors;
 use mechc_expr::{Dependence, ExprId, Symbol};
 use mechc_ir::structure::Block;
@@ -171,7 +171,7 @@ pub struct BlockLu {
     pivots: Vec<u32>,
     work: Vec<f64>,
     /// What nearness to a singular position is judged by.
-    yardstick: Yardstick,
+    equilibration: Equilibration,
 }
 
 /// What a factorisation shows.
@@ -222,13 +222,13 @@ impl BlockLu {
             dense: vec![0.0; matrix],
             pivots: vec![0; n],
             work: vec![0.0; 3 * n],
-            yardstick: Yardstick::new(system, blocks),
+            equilibration: Equilibration::new(system, blocks),
         }
     }
 
     /// What nearness to a singular position is judged by.
-    pub fn yardstick(&mut self) -> &mut Yardstick {
-        &mut self.yardstick
+    pub fn equilibration(&mut self) -> &mut Equilibration {
+        &mut self.equilibration
     }
 
     pub fn column_scale(&self, column: usize) -> f64 {
@@ -294,7 +294,7 @@ impl BlockLu {
         (0..self.parts.len()).min_by(|&a, &b| pivot(a).total_cmp(&pivot(b)))
     }
 
-    /// Whether all coordinates follow without iteration.
+    /// Returns whether all coordinates follow without iteration.
     pub fn is_explicit(&self) -> bool {
         self.parts.iter().all(|part| part.explicit)
     }

@@ -1,19 +1,19 @@
-//! Derivatives by a part's own equations: each part has a matrix of its own, whose rows and coordinates are those of the part.
+//! Derivatives by the equations of one subsystem: each subsystem has a dense matrix of its rows and coordinates.
 
 use super::dense::{factor_dense, solve_dense};
 use mechc_ir::program::{Program, Register, Registers};
 use mechc_ir::{ConstraintSystem, Scope};
 
-/// The factors of each part's own matrix.
+/// Factors of the matrix of each subsystem.
 #[derive(Clone)]
-pub struct ScopedLu {
-    scopes: Vec<OwnLu>,
+pub struct SubsystemFactors {
+    scopes: Vec<SubsystemLu>,
 }
 
 #[derive(Clone)]
-struct OwnLu {
+struct SubsystemLu {
     columns: Vec<u32>,
-    /// What a change of each is judged against.
+    /// Scale of each column.
     scales: Vec<f64>,
     /// By row: the places of its entries among the columns.
     pattern: Vec<Vec<usize>>,
@@ -22,42 +22,42 @@ struct OwnLu {
     a: Vec<f64>,
     pivots: Vec<u32>,
     right: Vec<f64>,
-    /// Whether it is far enough from a singular position.
+    /// Whether the position is far enough from a singular position.
     is_trusted: bool,
 }
 
-impl ScopedLu {
-    pub fn new(system: &ConstraintSystem) -> ScopedLu {
-        ScopedLu { scopes: system.scopes().iter().map(|scope| OwnLu::new(scope, system)).collect() }
+impl SubsystemFactors {
+    pub fn new(system: &ConstraintSystem) -> SubsystemFactors {
+        SubsystemFactors { scopes: system.scopes().iter().map(|scope| SubsystemLu::new(scope, system)).collect() }
     }
 
     /// Factors the matrices of all parts, where the right sides of the first variations have been computed; what is nearer to a singular
     /// position than a limit is not trusted.
     pub fn factor(&mut self, program: &Program, registers: &Registers, limit: f64) {
-        for (own, entries) in self.scopes.iter_mut().zip(&program.outputs.scopes) {
-            own.factor(entries, registers, limit);
+        for (subsystem, entries) in self.scopes.iter_mut().zip(&program.outputs.scopes) {
+            subsystem.factor(entries, registers, limit);
         }
     }
 
     /// Solves the equations of a part for a right side; `x` has all coordinates, of which the others are 0.
     pub fn solve(&mut self, scope: u32, registers: &Registers, right: &[Register], x: &mut [f64]) {
         x.fill(0.0);
-        let own = &mut self.scopes[scope as usize];
-        for ((b, register), inverse) in own.right.iter_mut().zip(right).zip(&own.inverse_norms) {
+        let subsystem = &mut self.scopes[scope as usize];
+        for ((b, register), inverse) in subsystem.right.iter_mut().zip(right).zip(&subsystem.inverse_norms) {
             *b = registers.get(*register) * inverse;
         }
-        solve_dense(&own.a, &own.pivots, &mut own.right);
-        for ((column, b), scale) in own.columns.iter().zip(&own.right).zip(&own.scales) {
-            x[*column as usize] = if own.is_trusted { b * scale } else { f64::NAN };
+        solve_dense(&subsystem.a, &subsystem.pivots, &mut subsystem.right);
+        for ((column, b), scale) in subsystem.columns.iter().zip(&subsystem.right).zip(&subsystem.scales) {
+            x[*column as usize] = if subsystem.is_trusted { b * scale } else { f64::NAN };
         }
     }
 }
 
-impl OwnLu {
-    fn new(scope: &Scope, system: &ConstraintSystem) -> OwnLu {
+impl SubsystemLu {
+    fn new(scope: &Scope, system: &ConstraintSystem) -> SubsystemLu {
         let n = scope.columns.len();
         let place = |&(column, _): &(u32, _)| scope.columns.binary_search(&column).unwrap_or(0);
-        OwnLu {
+        SubsystemLu {
             columns: scope.columns.clone(),
             scales: scope.columns.iter().map(|&column| system.coordinates()[column as usize].scale).collect(),
             pattern: (0..scope.phi.len()).map(|row| scope.phi_q.row(row).iter().map(place).collect()).collect(),
@@ -88,7 +88,7 @@ impl OwnLu {
         self.is_trusted = 1.0 / self.norm_of_inverse() >= limit;
     }
 
-    /// The Frobenius norm of the scaled inverse, which is no less than one over the smallest singular value.
+    /// Returns the Frobenius norm of the scaled inverse, which is no less than one over the smallest singular value.
     fn norm_of_inverse(&mut self) -> f64 {
         let mut sum = 0.0;
         for k in 0..self.columns.len() {

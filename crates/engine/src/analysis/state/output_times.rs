@@ -1,4 +1,4 @@
-//! Which times are printed.
+//! Output times, and the time span of an analysis.
 
 use mechc_expr::math::neighbours;
 use mechc_ir::tolerances::DEFAULT_SPAN;
@@ -27,7 +27,7 @@ enum Kind {
 }
 
 impl Times {
-    /// `from + k·every` for all k up to `to`; a time within 1e-9 of a step of `to` is `to` itself. `None` where there
+    /// Returns `from + k·every` for all k up to `to`; a time within 1e-9 of a step of `to` is `to` itself. `None` if there
     /// are more times than numbers that tell them apart.
     #[must_use]
     pub fn grid(from: f64, to: f64, every: f64) -> Option<Times> {
@@ -43,7 +43,7 @@ impl Times {
         Some(Times { from, kind: Kind::Grid { every, to, last } })
     }
 
-    /// Only these times, sorted and each once; followed from `from`.
+    /// Returns only these times, sorted and without duplicates; followed from `from`.
     #[must_use]
     pub fn listed(from: f64, mut times: Vec<f64>) -> Times {
         times.sort_by(f64::total_cmp);
@@ -51,7 +51,7 @@ impl Times {
         Times { from, kind: Kind::Listed { times, to: from } }
     }
 
-    /// The same of an analysis that goes on to a time (s), if none of them is later.
+    /// Extends the analysis to a time (s), if none of the output times is later.
     #[must_use]
     pub fn within_analysis_to(mut self, end: Option<f64>) -> Times {
         if let (Kind::Listed { to, .. }, Some(end)) = (&mut self.kind, end) {
@@ -60,7 +60,7 @@ impl Times {
         self
     }
 
-    /// When the analysis ends (s), whose times these are, be it later than the last of them: at a switch there the earlier side counts.
+    /// Returns when the analysis ends (s), which may be later than the last output time: at a switch there the earlier side counts.
     #[must_use]
     pub fn end(&self) -> f64 {
         match &self.kind {
@@ -69,7 +69,7 @@ impl Times {
         }
     }
 
-    /// The last of them, or when the analysis ends whose times they are (s): so far the motion is followed.
+    /// Returns the time up to which the motion is followed (s): the end of a grid, the last of a list.
     #[must_use]
     pub fn last(&self) -> f64 {
         match &self.kind {
@@ -78,13 +78,13 @@ impl Times {
         }
     }
 
-    /// Where the motion begins (s).
+    /// Returns when the motion begins (s).
     #[must_use]
     pub fn from(&self) -> f64 {
         self.from
     }
 
-    /// From when to when the analysis goes (s), if it is one: the last time may be later than the last that is printed.
+    /// Returns the first and last time of the analysis (s), or `None` for listed times: the last time may be later than the last that is printed.
     #[must_use]
     pub fn interval(&self) -> Option<[f64; 2]> {
         match &self.kind {
@@ -93,7 +93,7 @@ impl Times {
         }
     }
 
-    /// How many there are.
+    /// Returns the number of output times.
     #[must_use]
     pub fn len(&self) -> u64 {
         match &self.kind {
@@ -102,13 +102,13 @@ impl Times {
         }
     }
 
-    /// Whether there is none.
+    /// Returns whether there are no output times.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
 
-    /// From the first to the last (s).
+    /// Returns the time from the start of the motion to the last output time (s).
     #[must_use]
     pub fn span(&self) -> f64 {
         match &self.kind {
@@ -117,7 +117,7 @@ impl Times {
         }
     }
 
-    /// How far they are apart at the most, the first one from where the motion begins (s).
+    /// Returns the widest gap between output times, the start of the motion included (s).
     #[must_use]
     pub fn widest_gap(&self) -> f64 {
         match &self.kind {
@@ -129,7 +129,7 @@ impl Times {
         }
     }
 
-    /// The one of a number, counted from 0 (s); there must be so many.
+    /// Returns the output time of a number, counted from 0 (s), which must be below `len`.
     #[must_use]
     pub fn at(&self, number: u64) -> f64 {
         match &self.kind {
@@ -141,7 +141,7 @@ impl Times {
         }
     }
 
-    /// The number of the first one that is later than `t` (s), those before `from` not being looked at.
+    /// Returns the number of the first output time later than `t` (s), searched from number `from` on.
     #[must_use]
     pub fn first_after(&self, t: f64, from: u64) -> u64 {
         let (mut low, mut high) = (from, from);
@@ -159,7 +159,7 @@ impl Times {
         low
     }
 
-    /// In order.
+    /// Iterates over the output times in ascending order.
     pub fn iter(&self) -> impl Iterator<Item = f64> {
         (0..self.len()).map(|number| self.at(number))
     }
@@ -175,33 +175,33 @@ pub struct Horizon {
 }
 
 impl Horizon {
-    /// That of output times.
+    /// Returns the horizon of output times.
     #[must_use]
     pub fn of(times: &Times) -> Horizon {
         let span = times.span();
         Horizon { from: times.from(), span: if span > 0.0 { span } else { DEFAULT_SPAN } }
     }
 
-    /// That of an analysis: first time, last time, step (s); else from 0 on.
+    /// Returns the horizon of an analysis: first time, last time, step (s); else from 0 on.
     #[must_use]
     pub fn of_analysis(analysis: Option<[f64; 3]>) -> Horizon {
         let [from, to, _] = analysis.unwrap_or([0.0, DEFAULT_SPAN, 0.0]);
         Horizon { from, span: to - from }
     }
 
-    /// As far from another time on (s).
+    /// Returns the horizon of equal span that begins at another time (s).
     #[must_use]
     pub fn beginning(self, from: f64) -> Horizon {
         Horizon { from, ..self }
     }
 }
 
-/// A time on the later side of whatever is meant to happen at `t` (s).
+/// Returns a time on the later side of whatever is meant to happen at `t` (s).
 pub fn shortly_after(t: f64) -> f64 {
     neighbours::shortly_after(t, SLACK)
 }
 
-/// A time just behind a start at `t`, for a motion over a span (s): what happens up to there happens at the start.
+/// Returns a time just behind a start at `t`, for a motion over a span (s): what happens up to there happens at the start.
 pub fn behind_start(t: f64, span: f64) -> f64 {
     shortly_after(t) + f64::min(AHEAD * span, LONGEST_AHEAD)
 }

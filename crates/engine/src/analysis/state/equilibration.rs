@@ -1,4 +1,4 @@
-//! What the nearness to a singular position is measured by: a scale for each equation and each coordinate, block by block.
+//! Equilibration: a scale for each equation and each coordinate, block by block, which measure the nearness to a singular position.
 //!
 //! It must say the same whatever the unit, the place of the origin, what is drawn beside the equations, and the size of one
 //! body against the others. So the entries of a block are taken for as large as they come along a motion, not for what they
@@ -19,7 +19,7 @@ use std::ops::Range;
 /// No entry, or no body.
 const NONE: u32 = u32::MAX;
 
-/// What is known of an entry within a block.
+/// Entry of `Φ_q` within a block.
 #[derive(Clone, Copy)]
 struct Entry {
     row: u32,
@@ -65,40 +65,40 @@ struct Part {
     changes: bool,
 }
 
-/// The scales of all blocks.
+/// Row and column scales of all blocks.
 #[derive(Clone)]
-pub struct Yardstick {
+pub struct Equilibration {
     parts: Vec<Part>,
     /// Rows and columns in the order of blocks.
     rows: Vec<u32>,
     columns: Vec<u32>,
     entries: Vec<Entry>,
     centroids: Vec<Centroid>,
-    /// The magnitudes of the entries, and by position in the pattern what slopes are beside the position.
+    /// Magnitudes of the entries, and, by index in the pattern, those of slopes at a nearby position.
     magnitudes: Vec<f64>,
-    beside: Vec<f64>,
+    nearby_slopes: Vec<f64>,
     /// By row and by column: `Φ_q[i, j]·column[j] / row[i]` is what is judged.
     row_scale: Vec<f64>,
     column_scale: Vec<f64>,
     /// By column: where no equation has a slope.
     size: Vec<f64>,
-    /// By row or by column: what has been gathered of its entries.
+    /// By row or by column: the accumulated mean of its entries.
     gathered: Vec<[f64; 2]>,
     is_measured: bool,
 }
 
-impl Yardstick {
-    pub fn new(system: &ConstraintSystem, blocks: &[Block]) -> Yardstick {
+impl Equilibration {
+    pub fn new(system: &ConstraintSystem, blocks: &[Block]) -> Equilibration {
         let n = system.coordinates().len();
         let features = Features::of(system);
-        let mut yardstick = Yardstick {
+        let mut equilibration = Equilibration {
             parts: Vec::with_capacity(blocks.len()),
             rows: Vec::with_capacity(n),
             columns: Vec::with_capacity(n),
             entries: Vec::new(),
             centroids: Vec::new(),
             magnitudes: Vec::new(),
-            beside: vec![0.0; system.phi_q().entries().len()],
+            nearby_slopes: vec![0.0; system.phi_q().entries().len()],
             row_scale: vec![1.0; n],
             column_scale: vec![1.0; n],
             size: system.coordinates().iter().map(|coordinate| coordinate.scale).collect(),
@@ -111,11 +111,11 @@ impl Yardstick {
             for (place, &column) in block.columns.iter().enumerate() {
                 place_of[column as usize] = place as u32;
             }
-            yardstick.add(system, block, &features, (&place_of, &mut centroid_of));
+            equilibration.add(system, block, &features, (&place_of, &mut centroid_of));
             block.columns.iter().for_each(|&column| place_of[column as usize] = NONE);
         }
-        yardstick.magnitudes = vec![0.0; yardstick.entries.len()];
-        yardstick
+        equilibration.magnitudes = vec![0.0; equilibration.entries.len()];
+        equilibration
     }
 
     fn add(
@@ -154,7 +154,7 @@ impl Yardstick {
         });
     }
 
-    /// What is known of an entry by its row and column: the slopes beside it, and what it is a slope in.
+    /// Returns the neighboring slopes of an entry, given by row and column, and the kind of its coordinate.
     fn kind_of(
         &self,
         system: &ConstraintSystem,
@@ -179,12 +179,12 @@ impl Yardstick {
         (along, kind)
     }
 
-    /// Whether magnitudes have been taken.
+    /// Returns whether the magnitudes have been measured.
     pub fn is_measured(&self) -> bool {
         self.is_measured
     }
 
-    /// Whether magnitudes change along the motion, so that they have to be taken again.
+    /// Returns whether magnitudes change along the motion and must be measured again.
     pub fn changes(&self) -> bool {
         self.parts.iter().any(|part| part.changes)
     }
@@ -197,7 +197,7 @@ impl Yardstick {
         self.column_scale[column]
     }
 
-    /// The bodies of a block that are taken by their centroids.
+    /// Returns the centroids of the bodies of a block that turn about theirs.
     pub fn centroids(&self, part: usize) -> &[Centroid] {
         &self.centroids[self.parts[part].centroids.clone()]
     }
@@ -214,9 +214,9 @@ impl Yardstick {
         }
     }
 
-    /// What a slope is beside the position, by its position in the pattern.
-    pub fn beside(&mut self, position: usize) -> &mut f64 {
-        &mut self.beside[position]
+    /// Returns the magnitude of a slope at a nearby position, by its index in the pattern.
+    pub fn nearby_slope(&mut self, position: usize) -> &mut f64 {
+        &mut self.nearby_slopes[position]
     }
 
     /// Takes the magnitudes of slopes where the position was set; `slope` gives those by their positions in the pattern, and `rounding` what
@@ -252,7 +252,7 @@ impl Yardstick {
             }
             EntryKind::Other => here.abs(),
         };
-        f64::max(magnitude, self.beside[entry.position as usize])
+        f64::max(magnitude, self.nearby_slopes[entry.position as usize])
     }
 
     /// Scales the rows and columns of a block in turn: first such that their largest and smallest entries are as far from 1, by
@@ -295,7 +295,7 @@ impl Yardstick {
     }
 }
 
-/// What entries of a row or column come to.
+/// Mean of the entries of a row or column.
 #[derive(Clone, Copy)]
 enum Mean {
     /// The geometric one of the largest and the smallest.
@@ -329,19 +329,19 @@ impl Mean {
     }
 }
 
-/// The position of a row's slope in a coordinate.
+/// Returns the index in the pattern of a row's slope in a coordinate.
 fn slope(system: &ConstraintSystem, row: u32, column: usize) -> u32 {
     let at = system.phi_q().row(row as usize).binary_search_by_key(&(column as u32), |&(column, _)| column);
     at.map_or(NONE, |at| (system.phi_q().range(row as usize).start + at) as u32)
 }
 
-/// Whether a row is of a joint or of a distance, whose slopes in places have one magnitude wherever it points.
+/// Returns whether a row is of a joint or of a distance, whose slopes in places have one magnitude wherever it points.
 fn is_of_joint(system: &ConstraintSystem, row: usize) -> bool {
     let declaration = system.declaration_of(row);
     matches!(declaration.kind, DeclarationKind::Joint(_)) || !declaration.points.is_empty()
 }
 
-/// Whether the magnitudes of a row's slopes change along the motion.
+/// Returns whether the magnitudes of a row's slopes change along the motion.
 fn changes(system: &ConstraintSystem, row: usize) -> bool {
     match system.declaration_of(row).kind {
         DeclarationKind::Joint(kind) => {
@@ -351,9 +351,9 @@ fn changes(system: &ConstraintSystem, row: usize) -> bool {
     }
 }
 
-/// Whether a row's slopes are to be looked at beside a position: it is written by hand, or moves along a curve or line of
+/// Returns whether a row's slopes are to be looked at beside a position: it is written by hand, or moves along a curve or line of
 /// centres.
-pub fn is_looked_at_beside(system: &ConstraintSystem, row: usize) -> bool {
+pub fn needs_nearby_slope(system: &ConstraintSystem, row: usize) -> bool {
     let slopes = system.phi_q().row(row);
     let has_own = slopes.iter().any(|&(column, _)| system.body_of(column as usize).is_none());
     let constant = |&(_, slope): &(u32, _)| system.graph().dependence(slope).is_constant();

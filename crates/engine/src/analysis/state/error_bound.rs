@@ -1,4 +1,4 @@
-//! Whether a row holds digits, and not rounding.
+//! Error bounds of a row: whether its numbers hold digits, and not only rounding.
 //!
 //! It is judged from the state of the row alone, whichever way led there, so that the verdict does not depend on the other output
 //! times.
@@ -6,7 +6,7 @@
 use super::kinematics::{Kinematics, State};
 use mechc_ir::tolerances::solving::trust::{ACCELERATION, ACCURACY, FAR, SLOW, VELOCITY};
 
-/// What the numbers of a row are worth.
+/// Accuracy of the numbers of a row.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Trust {
     Certain,
@@ -21,7 +21,7 @@ impl Trust {
         self == Trust::Certain
     }
 
-    /// In a state that was just computed.
+    /// Judges a state that was just computed.
     ///
     /// `q` is known to eps/σ, and a position that is wrong by so much has derivatives that are wrong by as much again as the
     /// equations amplify, which near a dead point is 1/σ too. Near a bifurcation nothing is amplified, but the wrong position
@@ -32,7 +32,7 @@ impl Trust {
         if uncertain > ACCURACY {
             return Trust::Uncertain;
         }
-        if !kinematics.take_doubt(state, FAR) {
+        if !kinematics.compute_error_bounds(state, FAR) {
             return Trust::Certain;
         }
         let [velocity, acceleration] = kinematics.doubt();
@@ -44,13 +44,13 @@ impl Trust {
     }
 }
 
-/// Whether what velocities and accelerations of a state may be off by is within limits.
+/// Returns whether the error bounds of velocities and accelerations of a state are within limits.
 pub fn are_small(kinematics: &Kinematics, state: &State, off: [&[f64]; 2], limits: [f64; 2]) -> bool {
     let off = |order: usize, k: usize| off[order - 1][k];
     are_within(kinematics, [&state.qd, &state.qdd], off, limits)
 }
 
-/// Whether two states, each by its position, velocity and acceleration, differ by no more than a part of the motion. One coordinate that rests
+/// Returns whether two states, each by its position, velocity and acceleration, differ by no more than a part of the motion. One coordinate that rests
 /// differs by the rounding of others that do not.
 pub fn are_alike(kinematics: &Kinematics, a: [&[f64]; 3], b: [&[f64]; 3], part: f64) -> bool {
     let [q, qd, qdd] = a;
@@ -59,7 +59,7 @@ pub fn are_alike(kinematics: &Kinematics, a: [&[f64]; 3], b: [&[f64]; 3], part: 
     is_place && are_within(kinematics, [qd, qdd], |order, k| a[order][k] - b[order][k], [part; 2])
 }
 
-/// Whether what velocities and accelerations are off by, told by its order and coordinate, is within limits.
+/// Returns whether errors of velocities and accelerations, given by order and coordinate, are within limits.
 fn are_within(
     kinematics: &Kinematics,
     [qd, qdd]: [&[f64]; 2],
