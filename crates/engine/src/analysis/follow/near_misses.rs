@@ -82,9 +82,9 @@ impl NearMisses {
         let [before, least] = self.last;
         if let Some([turning, t]) = least_between([before, least, now]).filter(|_| least.sigma <= FALLS * self.highest)
         {
-            let then = asked_speed(kinematics, &mut self.state);
+            let then = required_speed(kinematics, &mut self.state);
             self.beside.copy_from(state);
-            let speed = asked_speed(kinematics, &mut self.beside);
+            let speed = required_speed(kinematics, &mut self.beside);
             // a driver that turns back before a dead point comes near to one as well
             let is_even = (speed - then).abs() <= EVEN * speed;
             let within = OF_LENGTHS * turning * speed * speed;
@@ -125,7 +125,7 @@ fn least_between([a, b, c]: [Look; 3]) -> Option<[f64; 2]> {
 }
 
 /// How fast the equations ask to be met in a state, scaled (1/s).
-fn asked_speed(kinematics: &mut Kinematics, state: &mut State) -> f64 {
+fn required_speed(kinematics: &mut Kinematics, state: &mut State) -> f64 {
     kinematics.restore(state);
     // the speeds that are asked for are known though those of the mechanism may not be
     let _ = kinematics.derivatives(state);

@@ -160,7 +160,7 @@ impl RowSelection {
     }
 
     /// What solves for rows of a motion with the equations that are solved now, measured against a span (s).
-    pub fn leap(&self, kinematics: &Kinematics, origin: Checkpoint, span: f64) -> Option<RowBatch> {
+    pub fn batch(&self, kinematics: &Kinematics, origin: Checkpoint, span: f64) -> Option<RowBatch> {
         let solver = self.current.as_ref()?.solver.clone()?;
         Some(RowBatch::new(kinematics, solver, origin, span))
     }

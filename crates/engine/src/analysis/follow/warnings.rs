@@ -5,14 +5,14 @@ use mechc_ir::{ConstraintSystem, DeclarationId, IdVec};
 
 /// Warnings of a motion so far.
 pub struct Warnings {
-    said: Said,
+    reported: Reported,
     /// Times at which accelerations have jumped (s), if anybody asks for them.
     jumps: Option<Vec<f64>>,
 }
 
 /// What has been said, which may have to be taken back.
 #[derive(Clone)]
-pub struct Said {
+pub struct Reported {
     warnings: Vec<Warning>,
     /// Declarations of which it has been said that they make an acceleration jump.
     warned: IdVec<DeclarationId, bool>,
@@ -21,26 +21,26 @@ pub struct Said {
 impl Warnings {
     pub fn new(system: &ConstraintSystem) -> Warnings {
         let warned = system.declarations().map(|_| false);
-        Warnings { said: Said { warnings: Vec::new(), warned }, jumps: None }
+        Warnings { reported: Reported { warnings: Vec::new(), warned }, jumps: None }
     }
 
     pub fn push(&mut self, warning: Warning) {
-        self.said.warnings.push(warning);
+        self.reported.warnings.push(warning);
     }
 
     /// All that has been said since this was asked last.
     pub fn take(&mut self) -> Vec<Warning> {
-        std::mem::take(&mut self.said.warnings)
+        std::mem::take(&mut self.reported.warnings)
     }
 
     /// What has been said so far.
-    pub fn said(&self) -> Said {
-        self.said.clone()
+    pub fn reported(&self) -> Reported {
+        self.reported.clone()
     }
 
     /// Takes back what has been said since.
-    pub fn take_back_to(&mut self, said: Said) {
-        self.said = said;
+    pub fn restore(&mut self, reported: Reported) {
+        self.reported = reported;
     }
 
     /// From now on times are remembered at which accelerations jump.
@@ -65,11 +65,11 @@ impl Warnings {
 
     /// Warns of declarations that make an acceleration jump at a time (s), once of each.
     pub fn warn_of_jump(&mut self, behind: &[DeclarationId], columns: impl FnOnce() -> Vec<String>, t: f64) {
-        if behind.iter().all(|&declaration| self.said.warned[declaration]) {
+        if behind.iter().all(|&declaration| self.reported.warned[declaration]) {
             return;
         }
         for &declaration in behind {
-            self.said.warned[declaration] = true;
+            self.reported.warned[declaration] = true;
         }
         self.push(Warning {
             t,

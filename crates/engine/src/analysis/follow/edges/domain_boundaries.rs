@@ -1,12 +1,12 @@
 //! Domain boundaries: the times where a formula comes to the end of what one of its functions takes, as `sqrt((t - 1 s)^2)` does.
 //!
 //! No switch tells of such an edge, and at its very time the formula mostly has no derivative. What is known is a quantity,
-//! the gauge, that is zero there, and its slope along the motion. A step is proven by intervals to hold none: the gauge
+//! the event function, that is zero there, and its slope along the motion. A step is proven by intervals to hold none: the event function
 //! keeps away from zero, or it goes one way only and has the same sign at both ends. Else its zero is located to
 //! neighbouring doubles, the step ends before it, and both sides are judged by states ever nearer to it
 //! (`crates/engine/src/analysis/follow/edges/one_sided_limits.rs`). What agrees on both sides is no edge, and the motion goes on as if nothing had been.
 
-use super::event_functions::{EventFunctions, Met, Way};
+use super::event_functions::{EventFunctions, SearchPath, Zero};
 use super::one_sided_limits::{Nearer, OneSidedLimits, Verdict};
 use super::one_sided_states::columns_that_jump;
 use crate::analysis::explain::{Stop, StopCause, errors};
@@ -19,11 +19,11 @@ use mechc_ir::tolerances::steps::rims::{
     MOST_PARTS_BETWEEN, ROUNDING,
 };
 
-/// What is known of the rims.
+/// What is known of the domain boundaries.
 pub(super) struct DomainBoundaries {
-    gauges: EventFunctions,
-    /// The rim that a step has come to, at a time (s).
-    met: Option<Met>,
+    event_functions: EventFunctions,
+    /// The domain boundary that a step has come to, at a time (s).
+    met: Option<Zero>,
     /// The stop that the motion comes to.
     end: Option<Box<Stop>>,
     limits: OneSidedLimits,
@@ -43,7 +43,7 @@ impl DomainBoundaries {
     pub fn new(kinematics: &Kinematics, state: &State, span: f64, last: f64) -> DomainBoundaries {
         let (n, row) = (state.q.len(), vec![0.0; kinematics.row_length()]);
         DomainBoundaries {
-            gauges: EventFunctions::new(kinematics, state.t, span),
+            event_functions: EventFunctions::new(kinematics, state.t, span),
             met: None,
             end: None,
             limits: OneSidedLimits::new(state),
@@ -56,18 +56,18 @@ impl DomainBoundaries {
         }
     }
 
-    /// When the next step has to end for a rim of time, or for the end of the motion, if it comes to one before `reach` (s).
+    /// When the next step has to end for a domain boundary of time, or for the end of the motion, if it comes to one before `reach` (s).
     pub fn next(&mut self, kinematics: &mut Kinematics, step: &mut Step, reach: f64) -> Option<f64> {
-        if self.gauges.is_empty() {
+        if self.event_functions.is_empty() {
             return None;
         }
         let end = self.end.as_ref().map(|end| end.t - (shortly_after(end.t) - end.t) * (LAST_MOMENT / 4.0));
         let reach = end.map_or(reach, |end| end.min(reach));
-        self.met = self.met.take().filter(|met| !self.gauges.rim(met.rim).on_time);
+        self.met = self.met.take().filter(|met| !self.event_functions.boundary(met.boundary).on_time);
         let from = step.t();
-        if self.met.is_none() && self.gauges.has_any(Way::Time) && reach > from {
+        if self.met.is_none() && self.event_functions.has_any(SearchPath::Time) && reach > from {
             let parts = Halving::new([from, reach], FINEST * self.span, MOST_PARTS);
-            let found = self.gauges.first_zero(kinematics, step, Way::Time, parts);
+            let found = self.event_functions.first_zero(kinematics, step, SearchPath::Time, parts);
             self.met = found.filter(|met| shortly_after(met.t) < self.last);
         }
         let stop = self.met.map(|met| (met.t - FARTHEST * self.span).max(from));
@@ -77,15 +77,15 @@ impl DomainBoundaries {
         }
     }
 
-    /// Judges the rim that the state has come to.
+    /// Judges the domain boundary that the state has come to.
     pub fn cross(
         &mut self,
         kinematics: &mut Kinematics,
         step: &mut Step,
         warnings: &mut Warnings,
     ) -> Result<(), Box<Stop>> {
-        if let Some(Met { rim, t }) = self.met.take() {
-            self.judge(kinematics, step, (rim, t), warnings);
+        if let Some(Zero { boundary, t }) = self.met.take() {
+            self.judge(kinematics, step, (boundary, t), warnings);
             return Ok(());
         }
         match self.end.take() {
@@ -94,7 +94,7 @@ impl DomainBoundaries {
         }
     }
 
-    /// Why the motion ends just ahead, if a rim is what ends it: even a step as small as `h` (s) failed.
+    /// Why the motion ends just ahead, if a domain boundary is what ends it: even a step as small as `h` (s) failed.
     pub fn end(
         &mut self,
         kinematics: &mut Kinematics,
@@ -103,19 +103,19 @@ impl DomainBoundaries {
         warnings: &mut Warnings,
     ) -> Option<Box<Stop>> {
         if self.end.is_none() {
-            // the way that the state leads to, as far as a rim may be that keeps steps from coming nearer
+            // the way that the state leads to, as far as a domain boundary may be that keeps steps from coming nearer
             let h = h.max(FARTHEST * self.span);
-            if self.gauges.has_any(Way::Curve(h)) {
+            if self.event_functions.has_any(SearchPath::Curve(h)) {
                 step.extrapolate_curve(h, 0..step.state().q.len());
             }
             if let Some(met) = self.first_on_curve(kinematics, step, h) {
-                self.judge(kinematics, step, (met.rim, step.t() + met.t * h), warnings);
+                self.judge(kinematics, step, (met.boundary, step.t() + met.t * h), warnings);
             }
         }
         self.end.take()
     }
 
-    /// Looks for rims that a step of length `h` goes over, on the curve through both its ends, which must have been drawn.
+    /// Looks for domain boundaries that a step of length `h` goes over, on the curve through both its ends, which must have been drawn.
     pub fn look(&mut self, kinematics: &mut Kinematics, step: &mut Step, h: f64) -> Result<(), Fault> {
         let Some(met) = self.first_on_curve(kinematics, step, h) else {
             return Ok(());
@@ -124,43 +124,43 @@ impl DomainBoundaries {
         if shortly_after(t) >= self.last {
             return Ok(());
         }
-        // over a rim the curve is not exact: a short step knows better where it is
+        // over a domain boundary the curve is not exact: a short step knows better where it is
         if h > 4.0 * FARTHEST * self.span {
             return Err(Fault::TooFar);
         }
-        self.met = Some(Met { rim: met.rim, t });
+        self.met = Some(Zero { boundary: met.boundary, t });
         Err(Fault::DomainBoundary)
     }
 
-    fn first_on_curve(&mut self, kinematics: &mut Kinematics, step: &mut Step, h: f64) -> Option<Met> {
-        let way = Way::Curve(h);
-        if !self.gauges.has_any(way) {
+    fn first_on_curve(&mut self, kinematics: &mut Kinematics, step: &mut Step, h: f64) -> Option<Zero> {
+        let way = SearchPath::Curve(h);
+        if !self.event_functions.has_any(way) {
             return None;
         }
         let parts = Halving::new([0.0, 1.0], FINEST_BETWEEN, MOST_PARTS_BETWEEN);
-        self.gauges.first_zero(kinematics, step, way, parts)
+        self.event_functions.first_zero(kinematics, step, way, parts)
     }
 
-    /// Looks at both sides of a rim near a time (s), which the state is next to, and takes note of where the motion ends if
+    /// Looks at both sides of a domain boundary near a time (s), which the state is next to, and takes note of where the motion ends if
     /// it does not go on smoothly.
     fn judge(
         &mut self,
         kinematics: &mut Kinematics,
         step: &mut Step,
-        (rim, near): (usize, f64),
+        (boundary, near): (usize, f64),
         warnings: &mut Warnings,
     ) {
         self.keep_switches(kinematics);
-        let on_time = self.gauges.rim(rim).on_time;
-        let t = if on_time { near } else { self.locate(kinematics, step, rim, near) };
-        self.gauges.pass(rim, t);
-        let is_reached = self.is_reached(kinematics, step, rim, t);
-        let verdict = if is_reached { self.look_at_sides(kinematics, step, rim, t) } else { Verdict::Smooth };
+        let on_time = self.event_functions.boundary(boundary).on_time;
+        let t = if on_time { near } else { self.locate(kinematics, step, boundary, near) };
+        self.event_functions.pass(boundary, t);
+        let is_reached = self.is_reached(kinematics, step, boundary, t);
+        let verdict = if is_reached { self.look_at_sides(kinematics, step, boundary, t) } else { Verdict::Smooth };
         self.restore_switches(kinematics);
         kinematics.restore(step.state());
         // the state was computed once, so that this cannot fail now
         let _ = step.derive_state(kinematics);
-        let (system, behind) = (kinematics.system(), &kinematics.system().domain_boundaries()[rim].declarations);
+        let (system, behind) = (kinematics.system(), &kinematics.system().domain_boundaries()[boundary].declarations);
         let [before, after] = self.limits.sides();
         let declarations = behind.clone();
         let cause = match verdict {
@@ -184,16 +184,16 @@ impl DomainBoundaries {
         }
     }
 
-    fn look_at_sides(&mut self, kinematics: &mut Kinematics, step: &mut Step, rim: usize, t: f64) -> Verdict {
+    fn look_at_sides(&mut self, kinematics: &mut Kinematics, step: &mut Step, boundary: usize, t: f64) -> Verdict {
         self.limits.begin(kinematics.system(), self.span);
         let mut distance = FARTHEST * self.span;
         while let Nearer::Wanted = self.limits.wants(distance, t) {
-            let before = self.solve_beside(kinematics, step, rim, (t - distance, false));
+            let before = self.solve_near(kinematics, step, boundary, (t - distance, false));
             if before.is_some() {
                 self.limits.take_before(step.trial());
                 kinematics.write_row(step.trial(), &mut self.rows[0]);
             }
-            let after = self.solve_beside(kinematics, step, rim, (t + distance, true));
+            let after = self.solve_near(kinematics, step, boundary, (t + distance, true));
             if after.is_some() {
                 self.limits.take_after(step.trial());
                 kinematics.write_row(step.trial(), &mut self.rows[1]);
@@ -206,8 +206,9 @@ impl DomainBoundaries {
             distance *= 0.25;
         }
         let system = kinematics.system();
-        let is_contact = system.domain_boundaries()[rim].declarations.iter().any(|&k| errors::has_tangent(system, k));
-        let passes = self.is_passed(kinematics, step.state(), rim, t);
+        let is_contact =
+            system.domain_boundaries()[boundary].declarations.iter().any(|&k| errors::has_tangent(system, k));
+        let passes = self.is_passed(kinematics, step.state(), boundary, t);
         self.limits.verdict(is_contact && passes)
     }
 
@@ -228,25 +229,25 @@ impl DomainBoundaries {
         sizes.fold((0.0, 0, 0.0), |best, one| if one.0 > best.0 { one } else { best })
     }
 
-    /// Whether a gauge only touches zero at a time, by the way that the state leads to.
-    fn is_passed(&mut self, kinematics: &mut Kinematics, state: &State, rim: usize, t: f64) -> bool {
+    /// Whether an event function only touches zero at a time, by the way that the state leads to.
+    fn is_passed(&mut self, kinematics: &mut Kinematics, state: &State, boundary: usize, t: f64) -> bool {
         let mut at = |t: f64| {
             write_prediction(state, t - state.t, &mut self.place);
             kinematics.set_time(t);
             let is_set = kinematics.set_position(&self.place).is_ok();
-            is_set.then(|| kinematics.gauge(self.gauges.rim(rim))[0])
+            is_set.then(|| kinematics.gauge(self.event_functions.boundary(boundary))[0])
         };
         let far = FARTHEST * self.span;
         matches!((at(t - far), at(t + far)), (Some(a), Some(b)) if a != 0.0 && b != 0.0)
     }
 
-    /// Solves for the state at a time next to a rim, on one side of it, with the branches that formulas have there; gives the rounding
-    /// of what the rim's formula computes there, as a part of it. None if there is no such state.
-    fn solve_beside(
+    /// Solves for the state at a time next to a domain boundary, on one side of it, with the branches that formulas have there; gives the rounding
+    /// of what the domain boundary's formula computes there, as a part of it. None if there is no such state.
+    fn solve_near(
         &mut self,
         kinematics: &mut Kinematics,
         step: &mut Step,
-        rim: usize,
+        boundary: usize,
         (t, is_after): (f64, bool),
     ) -> Option<f64> {
         self.restore_switches(kinematics);
@@ -260,27 +261,27 @@ impl DomainBoundaries {
             kinematics.settle_motion(&step.trial().q);
         }
         step.solve(kinematics).ok()?;
-        let layout = self.gauges.rim(rim);
+        let layout = self.event_functions.boundary(boundary);
         let [gauge, _] = kinematics.gauge(layout);
         let rounding = f64::EPSILON * kinematics.largest_term(layout) / gauge.abs();
         (rounding < KNOWN).then_some(rounding)
     }
 
-    /// The gauge and its slope at a time next to the state, solved for.
-    fn solved_gauge(&self, kinematics: &mut Kinematics, step: &mut Step, rim: usize, t: f64) -> Option<[f64; 2]> {
+    /// The event function and its slope at a time next to the state, solved for.
+    fn solved_gauge(&self, kinematics: &mut Kinematics, step: &mut Step, boundary: usize, t: f64) -> Option<[f64; 2]> {
         step.predict(kinematics, t - step.t(), t).ok()?;
         step.correct(kinematics).ok()?;
         let _ = step.derive_trial(kinematics);
-        let found = kinematics.gauge(self.gauges.rim(rim));
+        let found = kinematics.gauge(self.event_functions.boundary(boundary));
         found.iter().all(|value| !value.is_nan()).then_some(found)
     }
 
-    /// The zero of a gauge of the motion near a time, by states that are solved for.
-    fn locate(&mut self, kinematics: &mut Kinematics, step: &mut Step, rim: usize, t: f64) -> f64 {
+    /// The zero of an event function of the motion near a time, by states that are solved for.
+    fn locate(&mut self, kinematics: &mut Kinematics, step: &mut Step, boundary: usize, t: f64) -> f64 {
         let far = FARTHEST * self.span;
-        let (a, b) = ((t - far).max(self.gauges.passed(rim)), t + far);
-        let Some([at_a, slope_a]) = self.solved_gauge(kinematics, step, rim, a) else { return t };
-        let Some([at_b, slope_b]) = self.solved_gauge(kinematics, step, rim, b) else { return t };
+        let (a, b) = ((t - far).max(self.event_functions.passed(boundary)), t + far);
+        let Some([at_a, slope_a]) = self.solved_gauge(kinematics, step, boundary, a) else { return t };
+        let Some([at_b, slope_b]) = self.solved_gauge(kinematics, step, boundary, b) else { return t };
         let sign = if at_a < 0.0 { -1.0 } else { 1.0 };
         let crosses = sign * at_b < 0.0;
         let touches = sign * slope_a < 0.0 && sign * slope_b > 0.0;
@@ -291,27 +292,28 @@ impl DomainBoundaries {
         let (from, h) = (step.t(), b - step.t());
         step.draw_curve(h);
         let [_, zero] = bisect([a, b], MOST_HALVINGS, |t| {
-            let solved = self.solved_gauge(kinematics, step, rim, t);
-            let on_curve = || self.gauges.at(kinematics, step, (Way::Curve(h), rim), (t - from) / h);
+            let solved = self.solved_gauge(kinematics, step, boundary, t);
+            let on_curve =
+                || self.event_functions.at(kinematics, step, (SearchPath::Curve(h), boundary), (t - from) / h);
             let [gauge, slope] = solved.unwrap_or_else(on_curve);
             if crosses { sign * gauge > 0.0 } else { sign * slope < 0.0 }
         });
         zero
     }
 
-    /// Whether a gauge is zero at a time, as far as numbers can tell.
-    fn is_reached(&mut self, kinematics: &mut Kinematics, step: &mut Step, rim: usize, t: f64) -> bool {
-        let on_time = self.gauges.rim(rim).on_time;
+    /// Whether an event function is zero at a time, as far as numbers can tell.
+    fn is_reached(&mut self, kinematics: &mut Kinematics, step: &mut Step, boundary: usize, t: f64) -> bool {
+        let on_time = self.event_functions.boundary(boundary).on_time;
         let moment =
             if on_time { MOMENT * f64::EPSILON * t.abs() + f64::MIN_POSITIVE } else { MOMENT_OF_MOTION * self.span };
         let mut at = |t: f64| {
             let gauge = if on_time {
                 kinematics.set_time(t);
-                kinematics.gauge(self.gauges.rim(rim))[0]
+                kinematics.gauge(self.event_functions.boundary(boundary))[0]
             } else {
-                self.solved_gauge(kinematics, step, rim, t)?[0]
+                self.solved_gauge(kinematics, step, boundary, t)?[0]
             };
-            Some((gauge, kinematics.largest_term(self.gauges.rim(rim))))
+            Some((gauge, kinematics.largest_term(self.event_functions.boundary(boundary))))
         };
         let Some((here, terms)) = at(t) else {
             return true;

@@ -1,4 +1,4 @@
-//! Where a gauge is zero: proven by intervals, in time or on the curve of a step, and located.
+//! Where an event function is zero: proven by intervals, in time or on the curve of a step, and located.
 
 use crate::analysis::follow::step::Step;
 use crate::analysis::state::{Kinematics, shortly_after};
@@ -6,31 +6,31 @@ use mechc_expr::math::{Halving, about, along, bisect, farthest};
 use mechc_ir::program::{BoundaryRegisters, Enclosure};
 use mechc_ir::tolerances::steps::rims::{BEHIND, MOST_HALVINGS, MOST_WIDER, ROUNDING};
 
-/// Where gauges are looked at.
+/// Where event functions are looked at.
 #[derive(Clone, Copy)]
-pub(super) enum Way {
+pub(super) enum SearchPath {
     /// In time (s).
     Time,
     /// On the curve of a step of a length (s), by the part of the step.
     Curve(f64),
 }
 
-/// A rim that a step comes to.
+/// A domain boundary that a step comes to.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Met {
-    pub rim: usize,
+pub(super) struct Zero {
+    pub boundary: usize,
     /// A time (s), or a part of a step.
     pub t: f64,
 }
 
-/// The gauges of all rims, with room to look at them.
+/// The event functions of all domain boundaries, with room to look at them.
 pub(super) struct EventFunctions {
     all: Vec<BoundaryRegisters>,
     of_time: Vec<usize>,
     of_motion: Vec<usize>,
     in_time: Enclosure,
     along: Enclosure,
-    /// By rim: up to this time (s) it has been judged.
+    /// By domain boundary: up to this time (s) it has been judged.
     passed: Vec<f64>,
     /// Each coordinate's, and each velocity's, middle and reach in a part of a step.
     boxes: [Vec<[f64; 2]>; 2],
@@ -63,40 +63,40 @@ impl EventFunctions {
         self.all.is_empty()
     }
 
-    pub fn rim(&self, rim: usize) -> &BoundaryRegisters {
-        &self.all[rim]
+    pub fn boundary(&self, boundary: usize) -> &BoundaryRegisters {
+        &self.all[boundary]
     }
 
-    /// When a rim was judged last (s).
-    pub fn passed(&self, rim: usize) -> f64 {
-        self.passed[rim]
+    /// When a domain boundary was judged last (s).
+    pub fn passed(&self, boundary: usize) -> f64 {
+        self.passed[boundary]
     }
 
-    /// A rim has been judged at a time (s).
-    pub fn pass(&mut self, rim: usize, t: f64) {
-        self.passed[rim] = t;
+    /// A domain boundary has been judged at a time (s).
+    pub fn pass(&mut self, boundary: usize, t: f64) {
+        self.passed[boundary] = t;
     }
 
-    /// Whether there are rims on a way.
-    pub fn has_any(&self, way: Way) -> bool {
+    /// Whether there are domain boundaries on a way.
+    pub fn has_any(&self, way: SearchPath) -> bool {
         !self.on(way).is_empty()
     }
 
-    fn on(&self, way: Way) -> &[usize] {
+    fn on(&self, way: SearchPath) -> &[usize] {
         match way {
-            Way::Time => &self.of_time,
-            Way::Curve(_) => &self.of_motion,
+            SearchPath::Time => &self.of_time,
+            SearchPath::Curve(_) => &self.of_motion,
         }
     }
 
-    /// The first zero of a gauge, in time or on a curve.
+    /// The first zero of an event function, in time or on a curve.
     pub fn first_zero(
         &mut self,
         kinematics: &mut Kinematics,
         step: &mut Step,
-        way: Way,
+        way: SearchPath,
         mut parts: Halving<64>,
-    ) -> Option<Met> {
+    ) -> Option<Zero> {
         while let Some(part) = parts.next_part() {
             self.enclose(kinematics, step, way, part);
             let Some(first) = self.may_be_zero(kinematics, step, way, (part, 0)) else {
@@ -106,12 +106,12 @@ impl EventFunctions {
                 continue;
             }
             let mut next = Some(first);
-            let mut earliest: Option<Met> = None;
+            let mut earliest: Option<Zero> = None;
             while let Some(k) = next {
-                let rim = self.on(way)[k];
-                let zero = self.zero_within(kinematics, step, (way, rim), part);
+                let boundary = self.on(way)[k];
+                let zero = self.zero_within(kinematics, step, (way, boundary), part);
                 if let Some(t) = zero.filter(|t| earliest.is_none_or(|met| *t < met.t)) {
-                    earliest = Some(Met { rim, t });
+                    earliest = Some(Zero { boundary, t });
                 }
                 next = self.may_be_zero(kinematics, step, way, (part, k + 1));
             }
@@ -122,48 +122,48 @@ impl EventFunctions {
         None
     }
 
-    /// The rim, by its place from `first` on among those of a way, whose gauge is not proven to keep its sign in a part that has
+    /// The domain boundary, by its place from `first` on among those of a way, whose event function is not proven to keep its sign in a part that has
     /// been enclosed.
     fn may_be_zero(
         &mut self,
         kinematics: &mut Kinematics,
         step: &mut Step,
-        way: Way,
+        way: SearchPath,
         (part, first): ([f64; 2], usize),
     ) -> Option<usize> {
         (first..self.on(way).len()).find(|&k| {
-            let rim = self.on(way)[k];
-            let layout = &self.all[rim];
-            let enclosure = if let Way::Time = way { &self.in_time } else { &self.along };
+            let boundary = self.on(way)[k];
+            let layout = &self.all[boundary];
+            let enclosure = if let SearchPath::Time = way { &self.in_time } else { &self.along };
             let ([low, high], [least, most]) = (enclosure.range(layout.gauge), enclosure.range(layout.slope));
             if low > 0.0 || high < 0.0 {
                 return false;
             }
-            let Some([a, b]) = self.not_passed(step, (way, rim), part) else {
+            let Some([a, b]) = self.not_passed(step, (way, boundary), part) else {
                 return false;
             };
             if least > 0.0 || most < 0.0 {
-                let [at_a, at_b] = [a, b].map(|x| self.at(kinematics, step, (way, rim), x)[0]);
+                let [at_a, at_b] = [a, b].map(|x| self.at(kinematics, step, (way, boundary), x)[0]);
                 return !(at_a > 0.0 && at_b > 0.0 || at_a < 0.0 && at_b < 0.0);
             }
             true
         })
     }
 
-    /// What of a part lies behind the last zero of a rim; none if nothing does.
-    fn not_passed(&self, step: &Step, (way, rim): (Way, usize), [a, b]: [f64; 2]) -> Option<[f64; 2]> {
-        let passed = shortly_after(self.passed[rim]) + BEHIND * self.span;
+    /// What of a part lies behind the last zero of a domain boundary; none if nothing does.
+    fn not_passed(&self, step: &Step, (way, boundary): (SearchPath, usize), [a, b]: [f64; 2]) -> Option<[f64; 2]> {
+        let passed = shortly_after(self.passed[boundary]) + BEHIND * self.span;
         let passed = match way {
-            Way::Time => passed,
-            Way::Curve(h) => (passed - step.t()) / h,
+            SearchPath::Time => passed,
+            SearchPath::Curve(h) => (passed - step.t()) / h,
         };
         (passed < b).then(|| [a.max(passed), b])
     }
 
-    fn enclose(&mut self, kinematics: &Kinematics, step: &Step, way: Way, [a, b]: [f64; 2]) {
+    fn enclose(&mut self, kinematics: &Kinematics, step: &Step, way: SearchPath, [a, b]: [f64; 2]) {
         match way {
-            Way::Time => kinematics.enclose(&mut self.in_time, [a, b]),
-            Way::Curve(h) => {
+            SearchPath::Time => kinematics.enclose(&mut self.in_time, [a, b]),
+            SearchPath::Curve(h) => {
                 let (middle, reach) = (0.5 * (a + b), 0.5 * (b - a));
                 let [places, velocities] = &mut self.boxes;
                 for ((place, velocity), curve) in places.iter_mut().zip(velocities.iter_mut()).zip(step.curve()) {
@@ -178,29 +178,35 @@ impl EventFunctions {
         }
     }
 
-    /// A gauge and its slope at a time, or at a place of a curve.
-    pub fn at(&mut self, kinematics: &mut Kinematics, step: &mut Step, (way, rim): (Way, usize), x: f64) -> [f64; 2] {
+    /// An event function and its slope at a time, or at a place of a curve.
+    pub fn at(
+        &mut self,
+        kinematics: &mut Kinematics,
+        step: &mut Step,
+        (way, boundary): (SearchPath, usize),
+        x: f64,
+    ) -> [f64; 2] {
         match way {
-            Way::Time => kinematics.set_time(x),
-            Way::Curve(h) => {
+            SearchPath::Time => kinematics.set_time(x),
+            SearchPath::Curve(h) => {
                 for (velocity, curve) in self.velocity.iter_mut().zip(step.curve()) {
                     let [_, a, b, c, d, e] = *curve;
                     *velocity = along(&[a, 2.0 * b, 3.0 * c, 4.0 * d, 5.0 * e, 0.0], x) / h;
                 }
-                // a formula without a value has no gauge either
+                // a formula without a value has no event function either
                 let _ = step.set_on_curve(kinematics, h, x);
                 kinematics.set_velocity(&self.velocity);
             }
         }
-        kinematics.gauge(&self.all[rim])
+        kinematics.gauge(&self.all[boundary])
     }
 
-    /// The zero of a gauge in a small part, be it that it only touches zero, or comes near to it.
+    /// The zero of an event function in a small part, be it that it only touches zero, or comes near to it.
     fn zero_within(
         &mut self,
         kinematics: &mut Kinematics,
         step: &mut Step,
-        place: (Way, usize),
+        place: (SearchPath, usize),
         part: [f64; 2],
     ) -> Option<f64> {
         let [a, b] = self.not_passed(step, place, part)?;
@@ -227,9 +233,9 @@ impl EventFunctions {
         Some(zero)
     }
 
-    /// Whether a gauge that was just asked for is rounding.
-    fn is_rounding(&self, kinematics: &Kinematics, rim: usize, gauge: f64) -> bool {
-        let terms = kinematics.largest_term(&self.all[rim]);
+    /// Whether an event function that was just asked for is rounding.
+    fn is_rounding(&self, kinematics: &Kinematics, boundary: usize, gauge: f64) -> bool {
+        let terms = kinematics.largest_term(&self.all[boundary]);
         gauge.abs() <= ROUNDING * f64::EPSILON * terms && (terms > gauge.abs() || gauge == 0.0)
     }
 }

@@ -31,8 +31,8 @@ pub struct Edge {
     pub t: f64,
     /// A time (s) at which every switch of time is on the later side; none for an edge of the motion.
     after: Option<f64>,
-    /// Whether it is the place from which a rim is judged.
-    is_rim: bool,
+    /// Whether it is the place from which a domain boundary is judged.
+    is_domain_boundary: bool,
 }
 
 impl Edge {
@@ -65,7 +65,7 @@ pub struct Edges {
     /// An edge of the motion that a longer step has met.
     met: Option<Edge>,
     sides: OneSidedStates,
-    rims: DomainBoundaries,
+    domain_boundaries: DomainBoundaries,
     signals: Signals,
     /// A position beside the state.
     place: Vec<f64>,
@@ -76,7 +76,7 @@ impl Edges {
     pub fn new(kinematics: &mut Kinematics, state: &State, span: f64, last: f64) -> Edges {
         let n = state.q.len();
         let signals = Signals::new(kinematics, state);
-        let rims = DomainBoundaries::new(kinematics, state, span, last);
+        let domain_boundaries = DomainBoundaries::new(kinematics, state, span, last);
         let [in_time, along] = kinematics.enclosures();
         Edges {
             span,
@@ -87,7 +87,7 @@ impl Edges {
             chattering: vec![Chattering::NEVER; kinematics.switches().len()],
             met: None,
             sides: OneSidedStates::new(kinematics, state, span),
-            rims,
+            domain_boundaries,
             signals,
             place: vec![0.0; n],
         }
@@ -140,8 +140,12 @@ impl Edges {
         let reach = if is_output { shortly_after(next) } else { next };
         let of_time = if self.in_time.is_empty() { None } else { self.edge_of_time(kinematics, [step.t(), reach])? };
         let edge = Edge::earlier(of_time, self.met.filter(|edge| edge.t <= reach));
-        let rim = self.rims.next(kinematics, step, reach).map(|t| Edge { t, after: None, is_rim: true });
-        let edge = Edge::earlier(edge, rim).map(|edge| edge.at(edge.t.min(next).max(step.t())));
+        let boundary = self.domain_boundaries.next(kinematics, step, reach).map(|t| Edge {
+            t,
+            after: None,
+            is_domain_boundary: true,
+        });
+        let edge = Edge::earlier(edge, boundary).map(|edge| edge.at(edge.t.min(next).max(step.t())));
         // at the last time the earlier side counts
         Ok(edge.filter(|edge| shortly_after(edge.t) < self.last))
     }
@@ -154,8 +158,8 @@ impl Edges {
         edge: Edge,
         warnings: &mut Warnings,
     ) -> Result<bool, Box<Stop>> {
-        if edge.is_rim {
-            return self.cross_rim(kinematics, step, warnings).map(|()| false);
+        if edge.is_domain_boundary {
+            return self.cross_domain_boundary(kinematics, step, warnings).map(|()| false);
         }
         if self.met.is_some_and(|known| known.t <= edge.t) {
             self.met = None;
@@ -172,29 +176,29 @@ impl Edges {
         Ok(true)
     }
 
-    /// Judges the rim that the state has come to.
-    pub fn cross_rim(
+    /// Judges the domain boundary that the state has come to.
+    pub fn cross_domain_boundary(
         &mut self,
         kinematics: &mut Kinematics,
         step: &mut Step,
         warnings: &mut Warnings,
     ) -> Result<(), Box<Stop>> {
-        self.rims.cross(kinematics, step, warnings)
+        self.domain_boundaries.cross(kinematics, step, warnings)
     }
 
-    /// Why the motion ends just ahead, if a rim is what ends it: even a step as small as `h` (s) failed.
-    pub fn end_at_rim(
+    /// Why the motion ends just ahead, if a domain boundary is what ends it: even a step as small as `h` (s) failed.
+    pub fn end_at_domain_boundary(
         &mut self,
         kinematics: &mut Kinematics,
         step: &mut Step,
         h: f64,
         warnings: &mut Warnings,
     ) -> Option<Box<Stop>> {
-        self.rims.end(kinematics, step, h, warnings)
+        self.domain_boundaries.end(kinematics, step, h, warnings)
     }
 
     /// Refuses a step of length `h`, whose curve must have been drawn, between whose ends something happens: a signal leaves what it is
-    /// at the ends, an edge of the motion or a rim is gone over. `between` is how far the curve is off, scaled; none for a step to an
+    /// at the ends, an edge of the motion or a domain boundary is gone over. `between` is how far the curve is off, scaled; none for a step to an
     /// edge of the motion, beyond which nobody looks.
     pub fn check_interior(
         &mut self,
@@ -207,6 +211,6 @@ impl Edges {
         if let Some(between) = between {
             self.look_for_switches(kinematics, step, h, between)?;
         }
-        self.rims.look(kinematics, step, h)
+        self.domain_boundaries.look(kinematics, step, h)
     }
 }

@@ -46,7 +46,7 @@ impl Edges {
         let closed_in = enclose_root([[from, off], [next, off_behind]], 0.0, |t| Some(look(t)));
         let edge = closed_in.filter(|_| goes_on.get());
         if let Some([_, t]) = edge {
-            self.met = Some(Edge { t, after: None, is_rim: false });
+            self.met = Some(Edge { t, after: None, is_domain_boundary: false });
         }
         edge.is_some()
     }

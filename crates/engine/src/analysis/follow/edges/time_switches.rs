@@ -49,7 +49,11 @@ impl Edges {
                 kinematics.set_time(low);
                 let on_edge = |switch| kinematics.is_on_edge(switch);
                 let is_low = kinematics.switches().iter().filter(|switch| switch.on_time).any(on_edge);
-                return Ok(Some(Edge { t: if is_low { low } else { high }, after: Some(after), is_rim: false }));
+                return Ok(Some(Edge {
+                    t: if is_low { low } else { high },
+                    after: Some(after),
+                    is_domain_boundary: false,
+                }));
             }
             // what differs at a single time is no edge, `t == 1 s`; or rounding goes back and forth around one
             if after >= b {

@@ -10,13 +10,13 @@ use mechc_ir::tolerances::steps::march::{LARGEST_BETWEEN, LARGEST_CORRECTION};
 
 impl Follower {
     /// Whether a step may go over several output times: the state is clear of singular positions.
-    pub(super) fn may_leap(&self) -> bool {
+    pub(super) fn may_step_densely(&self) -> bool {
         let t = self.step.t();
-        self.rows.may_leap(t) && self.crossing.was_clear_at(t)
+        self.rows.may_step_densely(t) && self.crossing.was_clear_at(t)
     }
 
     /// Tries a step over as many output times as the error allows.
-    pub(super) fn leap(&mut self) -> Result<(), Box<Stop>> {
+    pub(super) fn step_densely(&mut self) -> Result<(), Box<Stop>> {
         let (from, upcoming) = (self.step.t(), self.rows.upcoming());
         let target = self.rows.target(from, self.step.h());
         let edge = self.edges.next(&mut self.kinematics, &mut self.step, target, target >= upcoming)?;
@@ -24,10 +24,10 @@ impl Follower {
         let next = edge.map_or(target, |edge| edge.t);
         let h = next - from;
         if h <= 0.0 {
-            self.rows.close_leap();
+            self.rows.close_batch();
             return edge.map_or(Ok(()), |edge| self.cross(edge));
         }
-        match self.try_leap(h, next, edge.is_some()) {
+        match self.try_dense_step(h, next, edge.is_some()) {
             Ok(Some(accepted)) => {
                 self.accept(h, &accepted);
                 self.edge = edge;
@@ -38,7 +38,7 @@ impl Follower {
                 Ok(())
             }
             Err(fault) => {
-                self.rows.close_leap();
+                self.rows.close_batch();
                 self.handle_rejection(h, fault, upcoming)
             }
         }
@@ -46,14 +46,14 @@ impl Follower {
 
     /// A step of length `h` to time `t`, solved for like a row, which says more of the way between than one place of it does;
     /// none where steps had better go to each output time on their own.
-    fn try_leap(&mut self, h: f64, t: f64, to_edge: bool) -> Result<Option<Accepted>, Fault> {
+    fn try_dense_step(&mut self, h: f64, t: f64, to_edge: bool) -> Result<Option<Accepted>, Fault> {
         let Follower { kinematics, step, edges, crossing, rows, .. } = self;
         let to_edge_of_motion = edges.is_met_by(t);
-        let Some((leap, times)) = rows.leap() else {
+        let Some((batch, times)) = rows.batch() else {
             return Ok(None);
         };
         let motion = step.predict(kinematics, h, t)?;
-        let Some(first_correction) = leap.solve_ahead(kinematics, step, h, t) else {
+        let Some(first_correction) = batch.solve_ahead(kinematics, step, h, t) else {
             return Ok(None);
         };
         if first_correction.is_nan() || first_correction > LARGEST_CORRECTION {
@@ -71,10 +71,10 @@ impl Follower {
             return Ok(None);
         }
         step.draw_curve(h);
-        leap.open(kinematics, step, times, (h, t, to_edge), |origin| origin.write(step, edges, crossing));
-        let between = leap.correction_between(kinematics, step, times, h);
-        if between.is_nan() || (between > LARGEST_BETWEEN && leap.is_short(h)) {
-            leap.close();
+        batch.open(kinematics, step, times, (h, t, to_edge), |origin| origin.write(step, edges, crossing));
+        let between = batch.correction_between(kinematics, step, times, h);
+        if between.is_nan() || (between > LARGEST_BETWEEN && batch.is_short(h)) {
+            batch.close();
             return Ok(None);
         }
         if between > LARGEST_BETWEEN {
@@ -86,17 +86,17 @@ impl Follower {
     }
 
     /// The row of the next output time `t`, if that lies within the step that was accepted last.
-    pub(super) fn row_in_leap(&mut self, t: f64) -> Option<Place> {
-        let (leap, times) = self.rows.leap().filter(|(leap, (_, next))| leap.holds_time(*next))?;
-        if let Some(lane) = leap.lane_of(&self.kinematics, &self.step, times) {
+    pub(super) fn row_in_dense_step(&mut self, t: f64) -> Option<Place> {
+        let (batch, times) = self.rows.batch().filter(|(batch, (_, next))| batch.holds_time(*next))?;
+        if let Some(lane) = batch.lane_of(&self.kinematics, &self.step, times) {
             return Some(Place::Lane(lane));
         }
-        let way = leap.way();
+        let way = batch.way();
         if self.row_on_curve(way, t) {
             self.refine(t);
             return Some(Place::Single);
         }
-        self.take_step_back();
+        self.redo_last_step();
         None
     }
 
@@ -118,11 +118,11 @@ impl Follower {
     }
 
     /// Goes back to where the last step began, to go over it time by time.
-    fn take_step_back(&mut self) {
-        let origin = self.rows.leap().map(|(leap, _)| leap.origin().clone());
+    fn redo_last_step(&mut self) {
+        let origin = self.rows.batch().map(|(batch, _)| batch.origin().clone());
         self.rows.single_step_until(self.step.t());
         self.edge = None;
-        self.rows.close_leap();
+        self.rows.close_batch();
         if let Some(origin) = origin {
             self.go_back(&origin);
         }

@@ -18,7 +18,7 @@ impl Follower {
     /// are right, and what they are if not. The motion is left as it was, so that the rows behind it are the same.
     pub(super) fn row_in_doubt(&mut self, t: f64) -> Result<(), Box<Stop>> {
         let (row, here, probe) = (self.rows.single().to_vec(), self.checkpoint(), self.step.probe());
-        let (said, aside) = (self.warnings.said(), self.crossing.suspend());
+        let (reported, aside) = (self.warnings.reported(), self.crossing.suspend());
         let mut on_bridge = self.row_on_bridge(t);
         let mut why = None;
         if on_bridge.is_none() && !self.crossing.is_clear_ahead(t) {
@@ -29,7 +29,7 @@ impl Follower {
         let better = on_bridge.is_some().then(|| self.rows.single().to_vec());
         self.go_back(&here);
         self.step.set_probe(probe);
-        self.warnings.take_back_to(said);
+        self.warnings.restore(reported);
         if better.is_none() && !self.is_reproducible(here.state()) {
             return Err(self.explain_refused(t, why));
         }
@@ -75,7 +75,7 @@ impl Follower {
         let n = state.q.len();
         let mut ranges = [vec![NOTHING; n], vec![NOTHING; n]];
         let is_solved = (0..PLACES).all(|place| {
-            self.solve_beside(state, place) && {
+            self.solve_near(state, place) && {
                 let solved = self.step.trial();
                 for (range, values) in ranges.iter_mut().zip([&solved.qd, &solved.qdd]) {
                     for ([low, high], value) in range.iter_mut().zip(values) {
@@ -91,7 +91,7 @@ impl Follower {
     }
 
     /// Solves for a state once more, from one of the places beside it.
-    fn solve_beside(&mut self, state: &State, place: usize) -> bool {
+    fn solve_near(&mut self, state: &State, place: usize) -> bool {
         let n = state.q.len();
         let linear = self.kinematics.linear();
         let beside = state.q.iter().enumerate().map(|(k, q)| {

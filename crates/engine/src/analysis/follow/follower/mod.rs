@@ -73,8 +73,8 @@ impl Follower {
         let misses = NearMisses::new(&state);
         let step = Step::new(&kinematics, state, times.span());
         let origin = || Checkpoint::new(&step, &edges, &crossing);
-        let leap = solver.map(|solver| RowBatch::new(&kinematics, solver, origin(), span));
-        let rows = Rows::new(&kinematics, leap, times);
+        let batch = solver.map(|solver| RowBatch::new(&kinematics, solver, origin(), span));
+        let rows = Rows::new(&kinematics, batch, times);
         let warnings = Warnings::new(kinematics.system());
         let choice = RowSelection::of(&kinematics);
         let (begun, edge) = (false, None);
@@ -159,7 +159,7 @@ impl Follower {
     fn reach(&mut self, t: f64) -> Result<Place, Box<Stop>> {
         self.begin()?;
         loop {
-            if let Some(place) = self.row_in_leap(t) {
+            if let Some(place) = self.row_in_dense_step(t) {
                 return Ok(place);
             }
             self.cross_edge()?;
@@ -174,7 +174,7 @@ impl Follower {
                 self.refine(t);
                 return Ok(Place::Single);
             }
-            if !self.may_leap() {
+            if !self.may_step_densely() {
                 // beside a bifurcation that is passed every digit counts
                 if self.go_to(t)? && !self.rows.is_near() {
                     self.refine(t);
@@ -182,7 +182,7 @@ impl Follower {
                 return Ok(Place::Single);
             }
             self.count_step(t)?;
-            self.leap()?;
+            self.step_densely()?;
         }
     }
 
@@ -230,7 +230,7 @@ impl Follower {
             forces.change_equations(kinematics);
         }
         let origin = Checkpoint::new(step, edges, &self.crossing);
-        rows.change_solver(choice.leap(kinematics, origin, self.span));
+        rows.change_solver(choice.batch(kinematics, origin, self.span));
         if !self.kinematics.switches().is_empty() {
             self.settle();
         }
@@ -351,14 +351,14 @@ impl Follower {
                 return Ok(());
             }
             Fault::Edge { t, .. } if edges.locate(kinematics, step, t) => return Ok(()),
-            Fault::DomainBoundary => return edges.cross_rim(kinematics, step, warnings),
+            Fault::DomainBoundary => return edges.cross_domain_boundary(kinematics, step, warnings),
             _ => {}
         }
         if !step.halve(h) {
             return Ok(());
         }
         let Follower { kinematics, step, edges, crossing, warnings, .. } = self;
-        match edges.end_at_rim(kinematics, step, h, warnings) {
+        match edges.end_at_domain_boundary(kinematics, step, h, warnings) {
             Some(why) => Err(why),
             None => crossing.pass_or_explain(kinematics, step, (fault, h, target), warnings),
         }

@@ -66,8 +66,8 @@ impl Follower {
                 return Ok(None);
             }
             self.count_step(last)?;
-            if self.may_leap() {
-                self.leap()?;
+            if self.may_step_densely() {
+                self.step_densely()?;
             } else {
                 self.edge = self.step_to_edge(last)?;
             }
@@ -81,16 +81,16 @@ impl Follower {
         let to = self.step.state().clone();
         let Follower { crossing, kinematics, step, .. } = self;
         let bridge = crossing.bridge_to(kinematics, step, to.t).cloned();
-        let middle = if bridge.is_some() { None } else { self.middle_of_leap() };
+        let middle = if bridge.is_some() { None } else { self.middle_of_batch() };
         let ends_at_edge = self.edge.is_some() || to.t >= self.last;
         let chosen = self.choice.as_ref().and_then(RowSelection::current).cloned();
         SmoothSegment { from, middle, to, switches: self.switches(), chosen, bridge, begins_at_edge, ends_at_edge }
     }
 
-    /// The state in the middle of the step that was accepted last, if that was a leap and can be solved for there.
-    fn middle_of_leap(&mut self) -> Option<State> {
-        let (leap, _) = self.rows.leap()?;
-        leap.middle(&self.kinematics, &self.step)
+    /// The state in the middle of the step that was accepted last, if that was a dense step and can be solved for there.
+    fn middle_of_batch(&mut self) -> Option<State> {
+        let (batch, _) = self.rows.batch()?;
+        batch.middle(&self.kinematics, &self.step)
     }
 
     /// The results that the equations' switches have now.

@@ -36,9 +36,9 @@ pub struct Rows {
     /// Up to this time (s) steps go to each output time on their own.
     careful_until: f64,
     /// Whether a step may go over several output times.
-    may_leap: bool,
+    may_step_densely: bool,
     /// What solves for the rows of such a step.
-    leap: Option<RowBatch>,
+    batch: Option<RowBatch>,
     /// The row that was found last on its own, and what it is worth.
     row: Vec<f64>,
     trust: Trust,
@@ -50,8 +50,8 @@ pub struct Rows {
 }
 
 impl Rows {
-    /// For some times; `leap` solves for several rows at once.
-    pub fn new(kinematics: &Kinematics, leap: Option<RowBatch>, times: Times) -> Rows {
+    /// For some times; `batch` solves for several rows at once.
+    pub fn new(kinematics: &Kinematics, batch: Option<RowBatch>, times: Times) -> Rows {
         Rows {
             times,
             next: 0,
@@ -59,8 +59,8 @@ impl Rows {
             steps: 0,
             careful_until: f64::NEG_INFINITY,
             // what was left out of the equations is looked at wherever a row is printed
-            may_leap: kinematics.system().checks().is_empty(),
-            leap,
+            may_step_densely: kinematics.system().checks().is_empty(),
+            batch,
             row: vec![0.0; kinematics.row_length()],
             trust: Trust::Certain,
             is_near: false,
@@ -102,7 +102,7 @@ impl Rows {
 
     /// The next row, if it has been solved for and there is nothing to be said of it; it has been handed out then.
     pub fn hand_out_ready(&mut self) -> Option<Place> {
-        let lane = self.leap.as_ref()?.ready_lane(self.next)?;
+        let lane = self.batch.as_ref()?.ready_lane(self.next)?;
         self.count_row();
         Some(Place::Lane(lane))
     }
@@ -119,8 +119,8 @@ impl Rows {
     }
 
     /// Whether a step from a time (s) may go over several output times.
-    pub fn may_leap(&self, t: f64) -> bool {
-        self.leap.is_some() && self.may_leap && t >= self.careful_until
+    pub fn may_step_densely(&self, t: f64) -> bool {
+        self.batch.is_some() && self.may_step_densely && t >= self.careful_until
     }
 
     /// Up to a time (s) steps go to each output time on their own.
@@ -128,7 +128,7 @@ impl Rows {
         self.careful_until = t;
     }
 
-    /// Where a leap of length `h` from a time goes (s): to an output time, if it comes so far.
+    /// Where a dense step of length `h` from a time goes (s): to an output time, if it comes so far.
     pub fn target(&self, from: f64, h: f64) -> f64 {
         let (upcoming, farthest) = (self.upcoming(), from + h);
         let behind = self.times.first_after(farthest, self.next);
@@ -146,25 +146,25 @@ impl Rows {
     }
 
     /// The output times with the number of the next one, and what solves for several of their rows at once.
-    pub fn leap(&mut self) -> Option<(&mut RowBatch, (&Times, u64))> {
-        let Rows { leap, times, next, .. } = self;
-        leap.as_mut().map(|leap| (leap, (&*times, *next)))
+    pub fn batch(&mut self) -> Option<(&mut RowBatch, (&Times, u64))> {
+        let Rows { batch, times, next, .. } = self;
+        batch.as_mut().map(|batch| (batch, (&*times, *next)))
     }
 
     /// From now on rows are solved for otherwise.
-    pub fn change_solver(&mut self, leap: Option<RowBatch>) {
-        self.leap = leap;
+    pub fn change_solver(&mut self, batch: Option<RowBatch>) {
+        self.batch = batch;
     }
 
     /// The step that was gone over last holds no rows.
-    pub fn close_leap(&mut self) {
-        self.leap.iter_mut().for_each(RowBatch::close);
+    pub fn close_batch(&mut self) {
+        self.batch.iter_mut().for_each(RowBatch::close);
     }
 
     /// Solves once more for the row that was found on its own (`RowBatch::refine`).
     pub fn refine(&mut self, kinematics: &mut Kinematics, here: &State, t: f64) {
-        if let Some(leap) = &mut self.leap {
-            leap.refine(kinematics, here, t, &mut self.row);
+        if let Some(batch) = &mut self.batch {
+            batch.refine(kinematics, here, t, &mut self.row);
         }
     }
 
@@ -180,24 +180,24 @@ impl Rows {
 
     /// Whether all numbers of a row are finite.
     pub fn is_whole(&self, place: Place) -> bool {
-        match (place, &self.leap) {
+        match (place, &self.batch) {
             // what solved for it has seen all of it
-            (Place::Lane(lane), Some(leap)) if leap.is_whole(lane) => true,
+            (Place::Lane(lane), Some(batch)) if batch.is_whole(lane) => true,
             _ => self.row(place).iter().all(|value| value.is_finite()),
         }
     }
 
     /// The row at a place.
     pub fn row(&self, place: Place) -> &[f64] {
-        match (place, &self.leap) {
-            (Place::Lane(lane), Some(leap)) => leap.row(lane),
+        match (place, &self.batch) {
+            (Place::Lane(lane), Some(batch)) => batch.row(lane),
             _ => &self.row,
         }
     }
 
     fn row_mut(&mut self, place: Place) -> &mut [f64] {
-        match (place, &mut self.leap) {
-            (Place::Lane(lane), Some(leap)) => leap.row_mut(lane),
+        match (place, &mut self.batch) {
+            (Place::Lane(lane), Some(batch)) => batch.row_mut(lane),
             _ => &mut self.row,
         }
     }

@@ -185,7 +185,7 @@ impl RowBatch {
         self.solve_within(kinematics, step.curve(), [step.t(), h, t])
     }
 
-    /// Whether the last step, which was a leap, ended at a time (s).
+    /// Whether the last step, which was a dense step, ended at a time (s).
     fn leads_to(&self, t: f64) -> bool {
         let [from, length] = self.way();
         length > 0.0 && (from + length - t).abs() <= SAME_TIME * length
@@ -197,7 +197,7 @@ impl RowBatch {
         self.alone.solve(kinematics, &self.solver, &way)
     }
 
-    /// The state in the middle of the step that was accepted last, if that was a leap to where the motion is and can be solved for
+    /// The state in the middle of the step that was accepted last, if that was a dense step to where the motion is and can be solved for
     /// there.
     pub fn middle(&mut self, kinematics: &Kinematics, step: &Step) -> Option<State> {
         let [from, length] = self.way();

@@ -48,28 +48,28 @@ pub(super) struct Branch {
     trial: Signs,
     /// Each block's determinant one state before.
     before: Vec<Determinant>,
-    way: Way,
+    approach: Approach,
 }
 
 /// What is known of the way up to a state.
 #[derive(Clone, Copy, Debug)]
-struct Way {
+struct Approach {
     /// The length of the last step (s); 0 where there was none on this branch of the formulas.
     h: f64,
     /// The smallest pivot of all blocks at the state.
     smallest_pivot: f64,
 }
 
-impl Way {
+impl Approach {
     /// Nothing is known, at a start.
-    const UNKNOWN: Way = Way { h: 0.0, smallest_pivot: 0.0 };
+    const UNKNOWN: Approach = Approach { h: 0.0, smallest_pivot: 0.0 };
 }
 
 impl Branch {
     pub fn new(kinematics: &Kinematics) -> Branch {
         let signs = Signs::new(kinematics);
         let before = signs.determinants.clone();
-        Branch { now: signs.clone(), trial: signs, before, way: Way::UNKNOWN }
+        Branch { now: signs.clone(), trial: signs, before, approach: Approach::UNKNOWN }
     }
 
     pub fn signs(&self) -> &Signs {
@@ -86,14 +86,14 @@ impl Branch {
     /// Takes the determinants where the state was factored, there being none before to compare with.
     pub fn begin(&mut self, kinematics: &Kinematics) {
         kinematics.linear().determinants(&mut self.now.determinants);
-        self.way = Way::UNKNOWN;
+        self.approach = Approach::UNKNOWN;
     }
 
     /// Takes the determinants of the state that was just accepted, after a step of length `h`.
     pub fn keep(&mut self, kinematics: &Kinematics, h: f64) {
         std::mem::swap(&mut self.before, &mut self.now.determinants);
         std::mem::swap(&mut self.now.determinants, &mut self.trial.determinants);
-        self.way = Way { h, smallest_pivot: kinematics.linear().smallest_pivot() };
+        self.approach = Approach { h, smallest_pivot: kinematics.linear().smallest_pivot() };
     }
 
     pub fn record_monitor_signs(&mut self, kinematics: &Kinematics) {
@@ -120,16 +120,16 @@ impl Branch {
     /// Whether a determinant may touch zero within a step of length `h`, by what is known without looking; `motion` is the step's
     /// largest one, scaled.
     pub fn may_touch(&self, kinematics: &Kinematics, h: f64, motion: f64) -> bool {
-        if self.way.h <= 0.0 {
+        if self.approach.h <= 0.0 {
             return true;
         }
         // a singular value changes by no more than the motion, or little more
-        if self.way.smallest_pivot < motion && kinematics.linear().smallest_pivot() < motion {
+        if self.approach.smallest_pivot < motion && kinematics.linear().smallest_pivot() < motion {
             return true;
         }
         let meets_zero = |(now, then): (&Determinant, &Determinant)| {
             let (then, now) = (then.beside(*now).abs(), now.beside(*now).abs());
-            (then - now) * h > now * self.way.h
+            (then - now) * h > now * self.approach.h
         };
         self.now.determinants.iter().zip(&self.before).any(meets_zero)
     }
