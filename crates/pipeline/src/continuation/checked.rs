@@ -1,6 +1,7 @@
 //! Continuation of a checked mechanism: which of its settings a path can change, and the mechanism without them.
 
-use super::nominal::{Continuation, Nominal};
+use super::context::Nominal;
+use super::nominal::Continuation;
 use crate::angles::Angles;
 use crate::{Checked, Redundant, RunOptions};
 use mechc_engine::analysis::Horizon;

@@ -1,7 +1,7 @@
 //! Continuation of one mechanism from its nominal params to others. Keeps what all its variants share, and follows the path of one.
 
 use super::messages::{ContinuationTarget, passed_bifurcation, stopped_path};
-use super::nominal::Nominal;
+use crate::angles::Angles;
 use crate::lowering::lower_on_path;
 use crate::options::RunOptions;
 use mechc_engine::analysis::{self, ContinuationOptions, Horizon, Started, Stop, Times, Warning};
@@ -35,6 +35,21 @@ pub(crate) enum Outcome {
     Refused(Diagnostics),
     /// No path reaches the target; with the reason, if a path began.
     NoPath(Option<Box<Diagnostic>>),
+}
+
+/// A mechanism with its nominal values, compiled and assembled at its first time.
+pub(crate) struct Nominal {
+    pub compiled: CompiledSystem,
+    /// Lists the params that a path may change.
+    pub model: Arc<model::Mechanism>,
+    pub started: Started,
+    /// First time (s).
+    pub t: f64,
+    /// True if it has inputs whose values are set at a time.
+    pub sets_inputs: bool,
+    pub leave_out_redundant: bool,
+    /// For messages.
+    pub angles: Angles,
 }
 
 /// The data that all continuations of one mechanism share.

@@ -1,28 +1,11 @@
 //! The nominal mechanism, with the values of its text, and continuation from there to other values.
 
-use super::context::{ContinuationContext, ContinuedStart, Outcome};
-use crate::angles::Angles;
+use super::context::{ContinuationContext, ContinuedStart, Nominal, Outcome};
 use crate::options::RunOptions;
-use mechc_engine::analysis::{Horizon, Started, Times};
-use mechc_engine::sweep::{BatchContext, BatchRequest, CompiledSystem};
+use mechc_engine::analysis::{Horizon, Times};
+use mechc_engine::sweep::{BatchContext, BatchRequest};
 use mechc_ir::ConstraintSystem;
-use mechc_lang::model::Mechanism;
 use std::sync::{Arc, OnceLock};
-
-/// A mechanism with its nominal values, compiled and assembled at its first time.
-pub(crate) struct Nominal {
-    pub compiled: CompiledSystem,
-    /// Lists the params that a path may change.
-    pub model: Arc<Mechanism>,
-    pub started: Started,
-    /// First time (s).
-    pub t: f64,
-    /// True if it has inputs whose values are set at a time.
-    pub sets_inputs: bool,
-    pub leave_out_redundant: bool,
-    /// For messages.
-    pub angles: Angles,
-}
 
 /// Makes the nominal mechanism; `None` if it cannot be assembled.
 type NominalFactory = dyn Fn(&RunOptions) -> Option<Nominal> + Send + Sync;

@@ -193,7 +193,7 @@ impl EventFunctions {
                     let [_, a, b, c, d, e] = *curve;
                     *velocity = along(&[a, 2.0 * b, 3.0 * c, 4.0 * d, 5.0 * e, 0.0], x) / h;
                 }
-                // a formula without a value has no event function either
+                // a formula without a value has no value of its event function
                 let _ = step.set_on_curve(kinematics, h, x);
                 kinematics.set_velocity(&self.velocity);
             }
