@@ -102,7 +102,7 @@ fn last_uses(instructions: &[Instruction], segments: &[Segment], registers: usiz
 #[derive(Default)]
 pub(super) struct Bytecode {
     pub words: Vec<u32>,
-    /// Where each operation begins, and where the last one ends.
+    /// Index at which each operation begins, and the end of the last one.
     pub starts: Vec<u32>,
 }
 
@@ -124,7 +124,7 @@ impl Numbers {
     }
 }
 
-/// Where a register of the program gets its value that no operation of a list writes.
+/// Source of a register's value if no operation of the list writes it.
 pub(super) enum Loaded {
     Number(f64),
     /// An array of those that operations read, and the place there.
@@ -134,7 +134,7 @@ pub(super) enum Loaded {
     },
 }
 
-/// What operations name that is not among them: registers of the program, and what notes of the solver are about.
+/// Context of a list of operations: registers of the program, and the subjects of the solver's notes.
 pub(super) struct Notes<'n> {
     pub loaded: &'n dyn Fn(Register) -> Loaded,
     /// By number: the turn of a pivot, and its weight.
@@ -145,7 +145,7 @@ pub(super) struct Notes<'n> {
     pub bound: &'n dyn Fn(u32) -> f64,
 }
 
-/// What all lists of operations share.
+/// Constants that all lists of operations share.
 #[derive(Default)]
 pub(super) struct ConstantPool {
     numbers: Numbers,
@@ -336,7 +336,7 @@ mod tests {
         (Arc::clone(compiled.program()), params.collect())
     }
 
-    /// One of each operation, from registers 0, 1, 2 to 3, and 4.
+    /// Returns one of each operation, from registers 0, 1, 2 to 3, and 4.
     fn operations() -> Vec<Op> {
         let (to, a, b, c, condition) = (3, 0, 1, 2, 0);
         let mut all = vec![
@@ -405,7 +405,7 @@ mod tests {
         }
     }
 
-    /// What was left behind.
+    /// Results that a list of operations left behind.
     #[derive(Default)]
     struct Left {
         stored: Vec<(usize, f64)>,
@@ -431,7 +431,7 @@ mod tests {
         }
     }
 
-    /// The same of what joins operations to the world.
+    /// Checks the instructions that load and store values.
     #[test]
     fn written_instructions_do_what_they_say() {
         let input = |_| Loaded::Input { array: 1, index: 2 };

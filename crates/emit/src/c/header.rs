@@ -9,7 +9,7 @@ use crate::print::Page;
 use crate::text::{literal, unit};
 use mechc_ir::tolerances::steps::march::FEWEST_STEPS;
 
-/// What is said of all functions.
+/// Documentation that holds for all functions.
 const ABOUT: &str = "\
 All is in m, rad and s. The caller has the memory of everything: nothing is allocated, nothing is kept
 between calls, and nothing here waits, prints or ends the program. States are independent of each other:

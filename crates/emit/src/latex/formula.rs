@@ -48,9 +48,9 @@ pub(super) struct Formulas<'s> {
     system: &'s ConstraintSystem,
     /// The system's formulas, with a named symbol for each shared part.
     graph: Graph,
-    /// What the roots have become in there.
+    /// Expressions in `graph` for the roots.
     roots: FxHashMap<ExprId, ExprId>,
-    /// What the shared parts are.
+    /// Shared parts.
     shared: Vec<ExprId>,
     /// The numbers of the terms that have been met.
     terms: FxHashMap<ExprId, usize>,
@@ -84,14 +84,14 @@ impl<'s> Formulas<'s> {
         Formulas { system, graph, roots: known, shared, terms, open }
     }
 
-    /// One of the formulas, to be broken by TeX where it is long.
+    /// Returns one of the formulas, which TeX may break if it is long.
     pub fn text(&mut self, root: ExprId) -> String {
         let id = self.tidied(root);
         self.cut(id);
         self.outermost(id).signed().text
     }
 
-    /// One of the formulas where it cannot be broken, with its width.
+    /// Returns one of the formulas without line breaks, with its width.
     pub fn confined(&mut self, root: ExprId, widest: f64) -> Set {
         let id = self.tidied(root);
         self.cut(id);

@@ -6,7 +6,7 @@ pub(super) const WIDEST_FRACTION: f64 = 20.0;
 /// From here on a row of factors or arguments may be broken between any two of them (em).
 const BREAKABLE: f64 = 20.0;
 
-/// How tightly a piece binds.
+/// Precedence of a piece.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub(super) enum Level {
     Or,
@@ -26,10 +26,10 @@ pub(super) struct Piece {
     pub(super) text: String,
     /// About how wide it is (em).
     pub(super) width: f64,
-    /// How deep its fractions are nested.
+    /// Nesting depth of its fractions.
     pub(super) tall: u32,
     pub(super) level: Level,
-    /// Whether a minus belongs in front of it.
+    /// True if a minus belongs in front of it.
     pub(super) is_negative: bool,
 }
 
@@ -72,7 +72,7 @@ impl Piece {
     }
 }
 
-/// What kind of factor it is, in the order of writing: a function last, so that nothing seems to be its argument, and a sum
+/// Kind of a factor, in the order of writing: a function last, so that nothing seems to be its argument, and a sum
 /// not behind a symbol that it could be taken for an argument of.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Rank {

@@ -1,4 +1,4 @@
-//! What follows inputs: `Inputs`, `follow` and `influence` of emitted Rust.
+//! Code that follows inputs: `Inputs`, `follow` and `influence` of emitted Rust.
 //!
 //! Its equations hold inputs as signals. What `step` does along time, it does along the straight line from signals to others, whose
 //! places go from 0 to 1; it stands in a module of its own, so that nothing else changes.
@@ -21,7 +21,7 @@ use mechc_ir::tolerances::emitted::follow::{LARGEST_SHIFT_OF_INPUT, LARGEST_TURN
 use rustc_hash::FxHashMap;
 use std::cell::RefCell;
 
-/// What is said of leading a state.
+/// Documentation of `follow`.
 const FOLLOW: &str = "Leads a state from its inputs to others, along the straight line between them, in as many steps
 as the branch asks for; their rates and accelerations there decide velocities and accelerations.
 
@@ -80,7 +80,7 @@ pub(super) fn module(following: &Following<'_>, page: &mut Page) -> (RuntimeDeps
     (deps, words, Some(writer.work()))
 }
 
-/// What the text says of inputs: their values, rates and accelerations by its formulas. Gives what that uses.
+/// Prints the inputs by the formulas of the text: values, rates and accelerations. Returns the dependencies of that code.
 fn by_formulas(following: &Following<'_>, names: &Names, tables: &Tables, page: &mut Page) -> RuntimeDeps {
     let program = following.by_text;
     let outputs: Vec<Register> = program.inputs.all_signals().collect();
@@ -181,16 +181,16 @@ impl Writer<'_> {
     }
 }
 
-/// What everybody sees of inputs.
+/// Public items about inputs.
 struct Inputs<'i> {
     all: &'i [Input],
     names: &'i Names,
-    /// Whether C knows them too.
+    /// True if C can access them too.
     for_c: bool,
 }
 
 impl Inputs<'_> {
-    /// Those that are not the time, which stands behind them.
+    /// Returns the inputs other than time, which comes after them.
     fn own(&self) -> impl Iterator<Item = (&Input, &String)> {
         self.all.iter().zip(&self.names.inputs).filter(|(input, _)| !input.is_time())
     }

@@ -1,4 +1,4 @@
-//! What follows the motion: the mechanism as those files know it that go along.
+//! Code that follows the motion: the mechanism as the accompanying runtime files access it.
 
 use super::Writer;
 use crate::equations::{FunctionSpec, Given};
@@ -7,7 +7,7 @@ use crate::solution::Solution;
 use mechc_expr::{Dependence, ExprId};
 
 impl Writer<'_> {
-    /// What follows the motion.
+    /// Prints the code that follows the motion.
     pub fn motion(&self, solution: &Solution<'_>, page: &mut Page) {
         let columns = solution.columns();
         page.constant("Number of results at a time.", "pub const COLUMNS: usize", &columns.to_string());
@@ -22,7 +22,7 @@ impl Writer<'_> {
         self.forces(solution, page);
     }
 
-    /// What is solved, along time or signals.
+    /// Prints the solved system, along time or signals.
     pub fn solved(&self, solution: &Solution<'_>, page: &mut Page) {
         self.requires("solution", "Solved");
         self.requires("equations", "Equations");
@@ -167,7 +167,7 @@ impl Writer<'_> {
         });
     }
 
-    /// Which of the measures, their rates and their accelerations hold derivatives by inputs and parameters, or forces.
+    /// Returns which of the measures, their rates and their accelerations hold derivatives by inputs and parameters, or forces.
     fn is_varied(&self) -> Vec<String> {
         let (graph, measures) = (self.unit.system.graph(), self.unit.system.measures());
         let is_varied = |id: ExprId| {
@@ -206,7 +206,7 @@ impl Writer<'_> {
         });
     }
 
-    /// What makes a mechanism of what it is given.
+    /// Prints the construction of a mechanism from its arguments.
     pub fn making(solution: &Solution<'_>, field: &str, value: &str, page: &mut Page) {
         if solution.derived.is_empty() {
             page.line(&format!("Self {{ {field}: {value} }}"));

@@ -9,7 +9,7 @@ use mechc_engine::solver::BlockTables;
 use mechc_ir::program::Register;
 
 impl Writer<'_> {
-    /// What it takes; nothing where a block is too large for it.
+    /// Prints the code for partial pivoting, unless a block is too large for it.
     pub fn pivoting(&self, solution: &Solution<'_>, page: &mut Page) {
         let Some(tables) = &solution.motion.blocks else {
             return;
@@ -54,7 +54,7 @@ impl Writer<'_> {
         });
     }
 
-    /// Whether measures hold third derivatives that are solved for.
+    /// Returns whether measures hold third derivatives that are solved for.
     fn has_jerk(&self) -> bool {
         !self.unit.program.outputs.jerk().is_empty() && self.unit.system.jerk().is_some()
     }
@@ -88,7 +88,7 @@ impl Writer<'_> {
         });
     }
 
-    /// What is measured of the result.
+    /// Prints the measures of the result.
     fn measured_by(&self, page: &mut Page) {
         let (has_measures, has_varied) = (!self.unit.system.measures().is_empty(), self.equations.has_varied());
         let has_forces = self.measures_hold_forces();
@@ -115,7 +115,7 @@ impl Writer<'_> {
         page.function(&head(&arguments, "Measures"), |page| page.line(&self.call("measures", &own, Given::None)));
     }
 
-    /// What is done where solving fails.
+    /// Prints the fallback for the case that solving fails.
     pub fn pivoted(&self, page: &mut Page) {
         self.requires("pivoting", "solve_with_pivoting");
         self.requires("error", "Fault");
@@ -124,7 +124,7 @@ impl Writer<'_> {
         page.function(&head, |page| page.line("solve_with_pivoting(self, q, t, sides)"));
     }
 
-    /// How the equations fall apart into blocks.
+    /// Prints the partition of the equations into blocks.
     fn blocks(&self, solution: &Solution<'_>, tables: &BlockTables, page: &mut Page) {
         self.requires("blocks", "Blocks");
         self.requires("blocks", "work_of");

@@ -1,4 +1,4 @@
-//! How much memory a state takes, and how much work a call, for those who reserve both without asking Rust.
+//! Memory of a state and work of a call, for callers that reserve both without Rust.
 //!
 //! All in it are numbers of 8 bytes and answers of one, so that it is the same everywhere. The code for C does not compile where this is
 //! too little.
@@ -42,7 +42,7 @@ impl Writer<'_> {
     }
 }
 
-/// How many steps calls take at most, and how many evaluations these are, by the names of their constants; the same as `work.rs` and
+/// Upper bounds of the steps of calls and of their evaluations, by the names of their constants; the same as `work.rs` and
 /// its like in `runtime` say, for those who do not ask Rust.
 pub(crate) type Bounds = Vec<(&'static str, usize)>;
 
