@@ -61,12 +61,12 @@ pub(super) fn share(instructions: &[Instruction], segments: &[Segment], register
     for (at, &instruction) in instructions.iter().enumerate() {
         let with_reads = instruction.renumbered(|register| place[register as usize], |register| register);
         for register in instruction.writes() {
-            let own = free.pop().unwrap_or_else(|| {
+            let slot = free.pop().unwrap_or_else(|| {
                 next += 1;
                 next - 1
             });
-            place[register as usize] = own;
-            ends[last[register as usize].max(at)].push(own);
+            place[register as usize] = slot;
+            ends[last[register as usize].max(at)].push(slot);
         }
         shared.push(with_reads.renumbered(|register| register, |register| place[register as usize]));
         free.append(&mut ends[at]);
@@ -110,13 +110,13 @@ pub(super) struct Bytecode {
 #[derive(Default)]
 pub(super) struct Numbers {
     pub values: Vec<f64>,
-    known: FxHashMap<u64, u32>,
+    indices: FxHashMap<u64, u32>,
 }
 
 impl Numbers {
     fn of(&mut self, value: f64) -> u32 {
         let next = self.values.len() as u32;
-        let place = *self.known.entry(value.to_bits()).or_insert(next);
+        let place = *self.indices.entry(value.to_bits()).or_insert(next);
         if place == next {
             self.values.push(value);
         }
@@ -397,9 +397,9 @@ mod tests {
                 op.run(&mut LaneMachine::<1, 1>::new(&mut lanes, 1, (&program, &scalars)));
                 let mut v = [a, b, c, -7.0, -8.0];
                 run::<Named>(&tape.words, &[], &[&[]; 10], &mut v, &mut [0.0; 0]);
-                for (written, LaneValues([own])) in v.into_iter().zip(lanes) {
-                    let is_same = written.to_bits() == own.to_bits() || written.is_nan() && own.is_nan();
-                    assert!(is_same, "{op:?} of {a}, {b}, {c}: {written} instead of {own}");
+                for (written, LaneValues([single])) in v.into_iter().zip(lanes) {
+                    let is_same = written.to_bits() == single.to_bits() || written.is_nan() && single.is_nan();
+                    assert!(is_same, "{op:?} of {a}, {b}, {c}: {written} instead of {single}");
                 }
             }
         }
@@ -465,7 +465,7 @@ mod tests {
 
     #[test]
     fn every_number_is_that_of_an_operation() {
-        let own = operations().into_iter().map(|op| op.code().0);
+        let codes = operations().into_iter().map(|op| op.code().0);
         let joining = [
             codes::NUMBER,
             codes::INPUT,
@@ -476,7 +476,7 @@ mod tests {
             codes::RESIDUAL,
             codes::PIVOT,
         ];
-        let all: BTreeSet<u32> = own.chain(joining).collect();
+        let all: BTreeSet<u32> = codes.chain(joining).collect();
         assert_eq!(all, (0..=codes::TURN).collect(), "and nothing else is there");
         let text = mechc_ir::program::CODES;
         assert_eq!(text.matches("pub const ").count(), all.len());

@@ -192,13 +192,13 @@ impl Equations<'_> {
     }
 
     /// Returns the source of the value of a register of the program.
-    pub fn loaded(&self, register: Register, known: &FxHashMap<Register, usize>) -> Loaded {
+    pub fn loaded(&self, register: Register, positions: &FxHashMap<Register, usize>) -> Loaded {
         let inputs = &self.program.inputs;
         let input = |array: u32, index: usize| Loaded::Input { array, index: index as u32 };
         if let Some(&value) = self.constants.get(&register) {
             return Loaded::Number(value);
         }
-        if let Some(&place) = known.get(&register) {
+        if let Some(&place) = positions.get(&register) {
             return input(1, place);
         }
         if let Some(&side) = self.sides.get(&register) {

@@ -160,8 +160,8 @@ impl Case {
     /// Names of inputs, and of time where it is one of them, behind all others. The name `t` is that of time, whether formulas hold it
     /// or not, so that one which holds it changes no name of an input.
     pub fn names_of_inputs(self, inputs: &[Input]) -> Vec<String> {
-        let own = inputs.iter().filter(|input| !input.is_time()).map(|input| input.name.as_str());
-        let mut names = self.names(std::iter::once(TIME).chain(own));
+        let named = inputs.iter().filter(|input| !input.is_time()).map(|input| input.name.as_str());
+        let mut names = self.names(std::iter::once(TIME).chain(named));
         names.rotate_left(1);
         names.truncate(inputs.len());
         names

@@ -53,7 +53,7 @@ enum Member {
     Part { source: String, copies: BTreeMap<Vec<i64>, Group> },
 }
 
-/// Source of a field.
+/// Content of a field, before types are named.
 enum Slot<'g> {
     Number {
         source: &'g str,

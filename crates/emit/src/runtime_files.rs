@@ -273,12 +273,12 @@ mod tests {
             }
             let mut needs = named(&file.text(), "super::");
             needs.remove("limits");
-            let said: BTreeSet<String> = file.needs.iter().map(|name| (*name).to_owned()).collect();
+            let declared: BTreeSet<String> = file.needs.iter().map(|name| (*name).to_owned()).collect();
             let is_before = |name: &&str| FILES[..number].iter().any(|before| before.name == *name);
             assert!(file.needs.iter().all(is_before), "{} stands too early", file.name);
             // what extends a type is not named
             assert!(
-                needs.is_subset(&said) && said.difference(&needs).all(|name| name == "pivots"),
+                needs.is_subset(&declared) && declared.difference(&needs).all(|name| name == "pivots"),
                 "{}: {needs:?}",
                 file.name
             );

@@ -51,7 +51,7 @@ impl<'p, S: CodeContext> ValueLocations<'p, S> {
         locations
     }
 
-    /// Location of a value.
+    /// Returns the location of a value.
     pub fn location(&self, register: Register) -> Location {
         self.of[register as usize]
     }

@@ -68,20 +68,20 @@ impl<'s> Formulas<'s> {
     /// A writer for these formulas of a system.
     pub fn new(system: &'s ConstraintSystem, roots: &[ExprId]) -> Formulas<'s> {
         let mut graph = Graph::new();
-        let mut known = FxHashMap::default();
+        let mut imported = FxHashMap::default();
         let leaf = |graph: &mut Graph, symbol: Symbol| graph.symbol(symbol);
-        graph.import_tables(system.graph(), &mut known, leaf);
-        known.clear();
+        graph.import_tables(system.graph(), &mut imported, leaf);
+        imported.clear();
         let mut shared = Vec::new();
         for id in shared_parts(system.graph(), roots) {
-            graph.import(system.graph(), &[id], &mut known, leaf);
-            shared.extend(known.get(&id));
+            graph.import(system.graph(), &[id], &mut imported, leaf);
+            shared.extend(imported.get(&id));
             let name = graph.symbol(Symbol::Named(shared.len() as u32 - 1));
-            known.insert(id, name);
+            imported.insert(id, name);
         }
-        graph.import(system.graph(), roots, &mut known, leaf);
+        graph.import(system.graph(), roots, &mut imported, leaf);
         let (terms, open) = (FxHashMap::default(), Vec::new());
-        Formulas { system, graph, roots: known, shared, terms, open }
+        Formulas { system, graph, roots: imported, shared, terms, open }
     }
 
     /// Returns one of the formulas, which TeX may break if it is long.

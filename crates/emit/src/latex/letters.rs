@@ -184,7 +184,7 @@ fn latin(c: char) -> Option<String> {
     let mut parts = Vec::new();
     decompose_canonical(c, |part| parts.push(part));
     let [base, mark] = parts.as_slice() else { return None };
-    let (_, accent) = ACCENTS.iter().find(|(known, _)| known == mark)?;
+    let (_, accent) = ACCENTS.iter().find(|(letter, _)| letter == mark)?;
     match base {
         'i' | 'j' => Some(format!(r"{accent}{{\{base}}}")),
         base if base.is_ascii_alphabetic() => Some(format!("{accent}{{{base}}}")),

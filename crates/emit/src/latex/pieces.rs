@@ -117,7 +117,7 @@ pub(super) fn quotient(above: Vec<Factor>, below: Vec<Factor>) -> Piece {
     let whole = row(above.clone());
     let fits = whole.width <= WIDEST_FRACTION && whole.tall <= 1;
     // what is wide stands beside the line, but for its numbers
-    let (numbers, beside) = if fits { (Vec::new(), Vec::new()) } else { above.into_iter().partition(is_number) };
+    let (numbers, rest) = if fits { (Vec::new(), Vec::new()) } else { above.into_iter().partition(is_number) };
     let mut top = if fits { whole } else { row(numbers) };
     let is_negative = std::mem::take(&mut top.is_negative);
     let mut factors: Vec<Factor> = Vec::new();
@@ -128,7 +128,7 @@ pub(super) fn quotient(above: Vec<Factor>, below: Vec<Factor>) -> Piece {
         factors.push((Rank::Number, Piece::new(text, width, Level::Product).tall(1 + top.tall.max(bottom.tall))));
         top = Piece::new("1", 0.5, Level::Atom);
     }
-    factors.extend(beside);
+    factors.extend(rest);
     let mut piece = row(factors);
     piece.is_negative ^= is_negative;
     piece

@@ -191,7 +191,7 @@ struct Inputs<'i> {
 
 impl Inputs<'_> {
     /// Returns the inputs other than time, which comes after them.
-    fn own(&self) -> impl Iterator<Item = (&Input, &String)> {
+    fn without_time(&self) -> impl Iterator<Item = (&Input, &String)> {
         self.all.iter().zip(&self.names.inputs).filter(|(input, _)| !input.is_time())
     }
 
@@ -221,7 +221,7 @@ impl Inputs<'_> {
                 page.line(&format!("pub {name}: f64,"));
             }
         });
-        page.constant("Number of inputs.", "pub const INPUTS: usize", &self.own().count().to_string());
+        page.constant("Number of inputs.", "pub const INPUTS: usize", &self.without_time().count().to_string());
         let docs = "Number of signals: time is one where formulas hold it beside inputs.";
         page.constant(docs, "const SIGNALS: usize", &self.all.len().to_string());
         let constants = Case::Constant.names_of_inputs(self.all);
@@ -231,13 +231,13 @@ impl Inputs<'_> {
             page,
             "Where each input stands in what [`influence`] gives.",
             "input",
-            self.own().map(descriptions).zip(&constants),
+            self.without_time().map(descriptions).zip(&constants),
         );
         page.docs("What comes from outside.");
         page.line("#[derive(Clone, Copy, Debug, Default, PartialEq)]");
         self.as_in_c(page);
         page.item("pub struct Inputs", |page| {
-            for (input, name) in self.own() {
+            for (input, name) in self.without_time() {
                 page.docs(&format!("`{}` ({})", one_line(&input.name), unit(&input.unit)));
                 page.line(&format!("pub {name}: Signal,"));
             }
@@ -263,7 +263,7 @@ impl Inputs<'_> {
         let head = Head { kind: "fn", name: "of", arguments: &arguments, result: "Self" };
         page.function(&head, |page| {
             page.block("Self", |page| {
-                for (k, (_, name)) in self.own().enumerate() {
+                for (k, (_, name)) in self.without_time().enumerate() {
                     let signal = format!("value: values[{k}], rate: rates[{k}], acceleration: accelerations[{k}]");
                     page.line(&format!("{name}: Signal {{ {signal} }},"));
                 }
@@ -276,7 +276,7 @@ impl Inputs<'_> {
         page.line("#[rustfmt::skip]");
         let head = Head { kind: "fn", name: "signals", arguments: &[("&self", "")], result: "[[f64; SIGNALS]; 3]" };
         page.function(&head, |page| {
-            let mut all: Vec<String> = self.own().map(|(_, name)| format!("self.{name}")).collect();
+            let mut all: Vec<String> = self.without_time().map(|(_, name)| format!("self.{name}")).collect();
             if self.has_time() {
                 all.push("Signal { value: self.t, rate: 1.0, acceleration: 0.0 }".to_owned());
             }

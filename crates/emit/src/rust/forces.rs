@@ -166,9 +166,9 @@ impl Writer<'_> {
         }
         let head = Head { kind: "fn", name: "transposed", arguments: &[], result: "Option<&'static Transposed>" };
         page.function(&head, |page| page.line("Some(&ACROSS)"));
-        let own = ["q", "qd", "qdd", "qddd"];
-        let (orders, own) =
-            if self.forces_hold_jerk() { ("[q, qd, qdd, qddd]", &own[..]) } else { ("[q, qd, qdd, _]", &own[..3]) };
-        self.right_side(page, "needed", &[(orders, "[&Q; 4]")], own, "Q");
+        let names = ["q", "qd", "qdd", "qddd"];
+        let (orders, names) =
+            if self.forces_hold_jerk() { ("[q, qd, qdd, qddd]", &names[..]) } else { ("[q, qd, qdd, _]", &names[..3]) };
+        self.right_side(page, "needed", &[(orders, "[&Q; 4]")], names, "Q");
     }
 }

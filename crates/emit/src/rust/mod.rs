@@ -36,7 +36,7 @@ pub(super) struct Module {
     pub needs_libm: bool,
     /// Words of 8 bytes that a state takes; 0 where nothing is solved.
     pub words: usize,
-    /// How many steps calls take at most, and how many evaluations these are.
+    /// Upper bounds of the steps of calls, and of their evaluations.
     pub bounds: Bounds,
 }
 

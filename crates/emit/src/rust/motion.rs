@@ -52,8 +52,8 @@ impl Writer<'_> {
     }
 
     /// The arguments of a function of the equations: what it has of its own, the time, the parameters, the branches.
-    pub fn call(&self, function: &str, own: &[&str], given: Given) -> String {
-        let mut arguments = own.to_vec();
+    pub fn call(&self, function: &str, more: &[&str], given: Given) -> String {
+        let mut arguments = more.to_vec();
         arguments.extend(["t", self.given()]);
         if given != Given::None && self.has_sides() {
             arguments.push("sides");
@@ -67,19 +67,19 @@ impl Writer<'_> {
         page: &mut Page,
         name: &str,
         function: &str,
-        own: &[(&str, &str)],
+        more: &[(&str, &str)],
         result: &str,
         given: Given,
     ) {
         let mut arguments = vec![("&self", "")];
-        arguments.extend(own);
+        arguments.extend(more);
         arguments.push(("t", "f64"));
         let is_read = self.has_sides() && given == Given::All;
         match given {
             Given::None => {}
             _ => arguments.push((if is_read { "sides" } else { "_sides" }, "&Sides")),
         }
-        let names: Vec<&str> = own.iter().map(|(name, _)| *name).collect();
+        let names: Vec<&str> = more.iter().map(|(name, _)| *name).collect();
         let given = if is_read { Given::All } else { Given::None };
         page.function(&Head { kind: "fn", name, arguments: &arguments, result }, |page| {
             page.line(&self.call(function, &names, given));
@@ -100,8 +100,8 @@ impl Writer<'_> {
             for (name, result) in kinds {
                 self.method(page, name, &self.on_sides(name), &[("q", "&Q")], result, Given::All);
             }
-            let own = [("q", "&Q"), ("qd", "&Qd")];
-            self.method(page, "gamma", &self.on_sides("gamma"), &own, "Qdd", Given::All);
+            let more = [("q", "&Q"), ("qd", "&Qd")];
+            self.method(page, "gamma", &self.on_sides("gamma"), &more, "Qdd", Given::All);
         });
     }
 

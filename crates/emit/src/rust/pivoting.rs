@@ -66,8 +66,8 @@ impl Writer<'_> {
             self.right_side(page, "jerk", &[orders], &["q", "qd", "qdd"], "Q");
         }
         if self.equations.has_varied() {
-            let own = [orders, ("varied", "&[f64; VARIED]")];
-            self.right_side(page, "varied_right", &own, &["q", "qd", "qdd", "varied"], "[f64; VARIED]");
+            let arguments = [orders, ("varied", "&[f64; VARIED]")];
+            self.right_side(page, "varied_right", &arguments, &["q", "qd", "qdd", "varied"], "[f64; VARIED]");
         }
         if self.equations.is_input_driven {
             self.method(page, "rights", "rights_by_signal", &[("q", "&Q")], "[Q; SIGNALS]", Given::All);
@@ -78,10 +78,10 @@ impl Writer<'_> {
         }
     }
 
-    pub fn right_side(&self, page: &mut Page, name: &str, own: &[(&str, &str)], names: &[&str], result: &str) {
+    pub fn right_side(&self, page: &mut Page, name: &str, more: &[(&str, &str)], names: &[&str], result: &str) {
         let sides = if self.has_sides() { "sides" } else { "_sides" };
         let mut arguments = vec![("&self", "")];
-        arguments.extend(own);
+        arguments.extend(more);
         arguments.extend([("t", "f64"), (sides, "&Sides")]);
         page.function(&Head { kind: "fn", name, arguments: &arguments, result }, |page| {
             page.line(&self.call(&self.on_sides(name), names, Given::All));
@@ -108,11 +108,11 @@ impl Writer<'_> {
         let name = if has_varied { "varied" } else { "_varied" };
         let multipliers = if has_forces { "multipliers" } else { "_multipliers" };
         let arguments = [("&self", ""), (orders, "[&Q; 4]"), (name, varied), (multipliers, "&Q"), ("t", "f64")];
-        let mut own = vec!["q", "qd", "qdd"];
-        own.extend(has_jerk.then_some("qddd"));
-        own.extend(has_varied.then_some("varied"));
-        own.extend(has_forces.then_some("multipliers"));
-        page.function(&head(&arguments, "Measures"), |page| page.line(&self.call("measures", &own, Given::None)));
+        let mut names = vec!["q", "qd", "qdd"];
+        names.extend(has_jerk.then_some("qddd"));
+        names.extend(has_varied.then_some("varied"));
+        names.extend(has_forces.then_some("multipliers"));
+        page.function(&head(&arguments, "Measures"), |page| page.line(&self.call("measures", &names, Given::None)));
     }
 
     /// Prints the fallback for the case that solving fails.
