@@ -61,12 +61,12 @@ pub(super) fn share(instructions: &[Instruction], segments: &[Segment], register
     for (at, &instruction) in instructions.iter().enumerate() {
         let with_reads = instruction.renumbered(|register| place[register as usize], |register| register);
         for register in instruction.writes() {
-            let own = free.pop().unwrap_or_else(|| {
+            let slot = free.pop().unwrap_or_else(|| {
                 next += 1;
                 next - 1
             });
-            place[register as usize] = own;
-            ends[last[register as usize].max(at)].push(own);
+            place[register as usize] = slot;
+            ends[last[register as usize].max(at)].push(slot);
         }
         shared.push(with_reads.renumbered(|register| register, |register| place[register as usize]));
         free.append(&mut ends[at]);
@@ -102,7 +102,7 @@ fn last_uses(instructions: &[Instruction], segments: &[Segment], registers: usiz
 #[derive(Default)]
 pub(super) struct Bytecode {
     pub words: Vec<u32>,
-    /// Where each operation begins, and where the last one ends.
+    /// Index at which each operation begins, and the end of the last one.
     pub starts: Vec<u32>,
 }
 
@@ -110,13 +110,13 @@ pub(super) struct Bytecode {
 #[derive(Default)]
 pub(super) struct Numbers {
     pub values: Vec<f64>,
-    known: FxHashMap<u64, u32>,
+    indices: FxHashMap<u64, u32>,
 }
 
 impl Numbers {
     fn of(&mut self, value: f64) -> u32 {
         let next = self.values.len() as u32;
-        let place = *self.known.entry(value.to_bits()).or_insert(next);
+        let place = *self.indices.entry(value.to_bits()).or_insert(next);
         if place == next {
             self.values.push(value);
         }
@@ -124,7 +124,7 @@ impl Numbers {
     }
 }
 
-/// Where a register of the program gets its value that no operation of a list writes.
+/// Source of a register's value if no operation of the list writes it.
 pub(super) enum Loaded {
     Number(f64),
     /// An array of those that operations read, and the place there.
@@ -134,7 +134,7 @@ pub(super) enum Loaded {
     },
 }
 
-/// What operations name that is not among them: registers of the program, and what notes of the solver are about.
+/// Context of a list of operations: registers of the program, and the subjects of the solver's notes.
 pub(super) struct Notes<'n> {
     pub loaded: &'n dyn Fn(Register) -> Loaded,
     /// By number: the turn of a pivot, and its weight.
@@ -145,7 +145,7 @@ pub(super) struct Notes<'n> {
     pub bound: &'n dyn Fn(u32) -> f64,
 }
 
-/// What all lists of operations share.
+/// Constants that all lists of operations share.
 #[derive(Default)]
 pub(super) struct ConstantPool {
     numbers: Numbers,
@@ -336,7 +336,7 @@ mod tests {
         (Arc::clone(compiled.program()), params.collect())
     }
 
-    /// One of each operation, from registers 0, 1, 2 to 3, and 4.
+    /// Returns one of each operation, from registers 0, 1, 2 to 3, and 4.
     fn operations() -> Vec<Op> {
         let (to, a, b, c, condition) = (3, 0, 1, 2, 0);
         let mut all = vec![
@@ -397,15 +397,15 @@ mod tests {
                 op.run(&mut LaneMachine::<1, 1>::new(&mut lanes, 1, (&program, &scalars)));
                 let mut v = [a, b, c, -7.0, -8.0];
                 run::<Named>(&tape.words, &[], &[&[]; 10], &mut v, &mut [0.0; 0]);
-                for (written, LaneValues([own])) in v.into_iter().zip(lanes) {
-                    let is_same = written.to_bits() == own.to_bits() || written.is_nan() && own.is_nan();
-                    assert!(is_same, "{op:?} of {a}, {b}, {c}: {written} instead of {own}");
+                for (written, LaneValues([single])) in v.into_iter().zip(lanes) {
+                    let is_same = written.to_bits() == single.to_bits() || written.is_nan() && single.is_nan();
+                    assert!(is_same, "{op:?} of {a}, {b}, {c}: {written} instead of {single}");
                 }
             }
         }
     }
 
-    /// What was left behind.
+    /// Results that a list of operations left behind.
     #[derive(Default)]
     struct Left {
         stored: Vec<(usize, f64)>,
@@ -431,7 +431,7 @@ mod tests {
         }
     }
 
-    /// The same of what joins operations to the world.
+    /// Checks the instructions that load and store values.
     #[test]
     fn written_instructions_do_what_they_say() {
         let input = |_| Loaded::Input { array: 1, index: 2 };
@@ -465,7 +465,7 @@ mod tests {
 
     #[test]
     fn every_number_is_that_of_an_operation() {
-        let own = operations().into_iter().map(|op| op.code().0);
+        let codes = operations().into_iter().map(|op| op.code().0);
         let joining = [
             codes::NUMBER,
             codes::INPUT,
@@ -476,7 +476,7 @@ mod tests {
             codes::RESIDUAL,
             codes::PIVOT,
         ];
-        let all: BTreeSet<u32> = own.chain(joining).collect();
+        let all: BTreeSet<u32> = codes.chain(joining).collect();
         assert_eq!(all, (0..=codes::TURN).collect(), "and nothing else is there");
         let text = mechc_ir::program::CODES;
         assert_eq!(text.matches("pub const ").count(), all.len());

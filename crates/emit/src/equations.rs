@@ -13,7 +13,7 @@ use mechc_ir::program::{Column, Program, Register};
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::cell::RefCell;
 
-/// What the functions of the equations are written from.
+/// Source of the functions of the equations.
 pub(super) struct Equations<'e> {
     pub program: &'e Program,
     pub names: &'e Names,
@@ -21,11 +21,11 @@ pub(super) struct Equations<'e> {
     pub constants: FxHashMap<Register, f64>,
     /// The results of switches, by their places among the sides.
     pub sides: FxHashMap<Register, usize>,
-    /// Whether they are those of a mechanism that is led by its inputs: these are given, as a `Path`.
+    /// True for a mechanism that follows its inputs, which are given as a `Path`.
     pub is_input_driven: bool,
-    /// What operations written as numbers share; none where they are written as lines.
+    /// Constants that operations written as numbers share; `None` if they are written as lines.
     pub pool: Option<RefCell<ConstantPool>>,
-    /// What the functions use.
+    /// Runtime dependencies of the functions.
     pub deps: RefCell<RuntimeDeps>,
 }
 
@@ -35,18 +35,18 @@ pub(super) struct FunctionSpec<'f> {
     pub name: &'f str,
     pub docs: &'f str,
     pub is_public: bool,
-    /// How many derivatives of the coordinates it is given, itself counted: 0 for none.
+    /// Number of arrays of coordinates that it is given, from the coordinates to their highest derivative: 0 for none.
     pub orders: usize,
     pub has_time: bool,
-    /// Whether it is given the derivatives by inputs and parameters too, of a mechanism that has such.
+    /// True if it is also given the derivatives by inputs and parameters, of a mechanism that has such.
     pub varied: bool,
-    /// Whether it is given the multipliers too, of a mechanism whose forces are asked for.
+    /// True if it is also given the multipliers, of a mechanism whose forces are requested.
     pub multipliers: bool,
     /// Its outputs, and the length of the array that they make.
     pub outputs: &'f [Register],
     pub length: &'f str,
     pub negated: bool,
-    /// Which switches are given instead of computed.
+    /// Switches that are given instead of computed.
     pub given: Given,
 }
 
@@ -59,7 +59,7 @@ impl<'f> FunctionSpec<'f> {
     }
 }
 
-/// Which switches a function is given.
+/// Switches that a function is given.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Given {
     None,
@@ -74,15 +74,15 @@ const WIDEST_ARRAY: usize = 56;
 pub(super) const ARRAYS: [&str; 4] = ["q", "qd", "qdd", "qddd"];
 const OF_ARRAYS: [Arguments; 4] = [&["q"], &["qd"], &["qdd"], &["qddd"]];
 
-/// How a function reaches what it is given.
+/// Expressions by which a function reaches its arguments.
 pub(super) struct Access {
     /// The parameters, or the way: `p`, `m.params`.
     pub given: String,
     /// The argument that this names.
     pub names: Arguments,
-    /// The same and the time.
+    /// These arguments and the time.
     pub names_with_time: Arguments,
-    /// What picks a lane.
+    /// Index that selects a lane.
     pub lane: &'static str,
 }
 
@@ -191,14 +191,14 @@ impl Equations<'_> {
         bytecode::list(&format!("The operations of [`{}`].", spec.name), &format!("{name}_CODE"), &words, page);
     }
 
-    /// Where a register of the program gets its value.
-    pub fn loaded(&self, register: Register, known: &FxHashMap<Register, usize>) -> Loaded {
+    /// Returns the source of the value of a register of the program.
+    pub fn loaded(&self, register: Register, positions: &FxHashMap<Register, usize>) -> Loaded {
         let inputs = &self.program.inputs;
         let input = |array: u32, index: usize| Loaded::Input { array, index: index as u32 };
         if let Some(&value) = self.constants.get(&register) {
             return Loaded::Number(value);
         }
-        if let Some(&place) = known.get(&register) {
+        if let Some(&place) = positions.get(&register) {
             return input(1, place);
         }
         if let Some(&side) = self.sides.get(&register) {
@@ -274,7 +274,7 @@ impl Equations<'_> {
         Input::Is(Operand::Number(f64::NAN))
     }
 
-    /// Whether measures hold derivatives by inputs or parameters.
+    /// Returns whether measures hold derivatives by inputs or parameters.
     pub fn has_varied(&self) -> bool {
         !self.program.outputs.variations.is_empty()
     }
@@ -286,7 +286,7 @@ impl Equations<'_> {
         is_varied.then(|| (register - first) as usize)
     }
 
-    /// Whether forces are asked for.
+    /// Returns whether forces are requested.
     pub fn has_forces(&self) -> bool {
         !self.program.outputs.forces.is_empty()
     }
@@ -297,13 +297,13 @@ impl Equations<'_> {
         (first..first + count).contains(&register).then(|| (register - first) as usize)
     }
 
-    /// What a column of a table is called: a constant, or a variable where it depends on parameters.
+    /// Returns the name of a column of a table: a constant, or a variable if it depends on parameters.
     pub fn table(&self, table: u32, column: Column) -> String {
         let name = self.tables.of(table, column);
         if self.is_constant(table, column) { name.to_owned() } else { name.to_lowercase() }
     }
 
-    /// What lists of operations share, if there are any.
+    /// Prints the constants that lists of operations share, if there are such lists.
     pub fn print_pool(&self, page: &mut Page) {
         if let Some(pool) = &self.pool {
             let called = |table, column| self.table(table, column);
@@ -311,7 +311,7 @@ impl Equations<'_> {
         }
     }
 
-    /// Whether a column of a table holds numbers alone.
+    /// Returns whether a column of a table holds only numbers.
     pub fn is_constant(&self, table: u32, column: Column) -> bool {
         tables::numbers(self.program, &self.constants, table, column).is_some()
     }

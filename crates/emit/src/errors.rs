@@ -2,11 +2,11 @@
 
 /// An error.
 pub(super) struct ErrorText {
-    /// Of the enum `Error`.
+    /// Name of the variant of `Error`.
     pub name: &'static str,
-    /// What it says of itself.
+    /// Message of the error.
     pub message: &'static str,
-    /// And what a page adds.
+    /// Text that a page adds to the message.
     pub more: &'static str,
 }
 

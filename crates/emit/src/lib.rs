@@ -47,7 +47,7 @@ pub struct CrateFile {
     pub text: String,
 }
 
-/// What there is to emit.
+/// Mechanism to emit, with the options of its code.
 pub struct TranslationUnit<'u> {
     /// The system, which is determined.
     pub system: &'u ConstraintSystem,
@@ -57,25 +57,25 @@ pub struct TranslationUnit<'u> {
     pub sources: &'u Sources,
     /// The name of the file among them.
     pub file: &'u str,
-    /// What solves it, if that is wanted.
+    /// Solver of the motion, if requested.
     pub motion: Option<EmittedMotion>,
-    /// How many lanes are solved at once, beside one at a time.
+    /// Number of lanes that are solved at once, in addition to the code for a single one.
     pub lanes: Option<usize>,
     /// Beyond so many operations they are written as numbers instead of lines; mostly [`LARGEST_STRAIGHT`].
     pub largest_straight: usize,
-    /// Whether C is to read its parameters and inputs.
+    /// True if C reads its parameters and inputs.
     pub for_c: bool,
-    /// The same with its inputs as signals, where it has any and is to be solved.
+    /// System with its inputs as signals, if it has inputs and is to be solved.
     pub following: Option<Following<'u>>,
 }
 
 impl TranslationUnit<'_> {
-    /// Whether it gives what joints exert and drivers supply.
+    /// Returns whether it gives the forces of joints and drivers.
     fn has_forces(&self) -> bool {
         self.motion.as_ref().is_some_and(|motion| motion.forced.is_some())
     }
 
-    /// Whether it gives the derivatives of the coordinates by parameters.
+    /// Returns whether it gives the derivatives of the coordinates by parameters.
     fn has_sensitivity(&self) -> bool {
         self.motion.as_ref().is_some_and(|motion| motion.sensitive.is_some())
     }
@@ -89,11 +89,11 @@ pub struct Following<'u> {
     pub by_text: &'u Program,
 }
 
-/// What it takes to follow the motion from the assembled start.
+/// Solver data for following the motion from the assembled start.
 pub struct EmittedMotion {
     /// The operations that solve the system, laid out for code.
     pub solver: Solver,
-    /// The same with the derivatives of the coordinates by parameters, where these are wanted.
+    /// Operations that also give the derivatives of the coordinates by parameters, if requested.
     pub sensitive: Option<Solver>,
     /// The operations that give what joints exert and drivers supply too, where there are masses or loads.
     pub forced: Option<Solver>,
@@ -107,11 +107,11 @@ pub struct EmittedMotion {
     pub from: f64,
     /// The last time (s), where the earlier side of an edge counts; none if the file has no analysis.
     pub to: Option<f64>,
-    /// What the parts of rows of `Φ` may be left open by, scaled.
+    /// Largest scaled residual of the parts of rows of `Φ`.
     pub tolerance: f64,
 }
 
-/// Why a measure's formula is not written for others; nothing where it is.
+/// Returns why a measure's formula is not written for others; `None` if it is.
 fn not_written(system: &mechc_ir::ConstraintSystem, formula: mechc_expr::ExprId) -> Option<&'static str> {
     let is_varied = system.graph().dependence(formula).is_varied();
     is_varied.then_some("a derivative by an input or parameter, which only a run computes")

@@ -20,13 +20,13 @@ const RESERVED: &[&str] = &[
     "select", "either", "sign", "lesser", "greater", "piece", "pick", "on_grid", "libm", "blocks",
 ];
 
-/// What time is called, among inputs too.
+/// Name of time, also among inputs.
 pub(super) const TIME: &str = "t";
 
 /// The array of the derivatives by inputs and parameters, of a mechanism that has such.
 pub(super) const VARIED: &str = "varied";
 
-/// What forces are written to.
+/// Name of the array that forces are written to.
 pub(super) const FORCES: &str = "forces";
 
 /// The array of the multipliers, of a mechanism whose forces are asked for.
@@ -37,15 +37,15 @@ const LONGEST_VARIABLE: usize = 20;
 
 /// The names of a system's parameters and coordinates.
 pub(super) struct Names {
-    /// How parameters are reached: `leg[1].shank`.
+    /// Paths of the parameters: `leg[1].shank`.
     pub params: Vec<String>,
-    /// What they are called in a body.
+    /// Their names in a body.
     pub param_variables: Vec<String>,
-    /// What coordinates, velocities and accelerations are called in a body.
+    /// Names of coordinates, velocities and accelerations in a body.
     coordinates: [Vec<String>; 3],
     /// Fields of the inputs, where they are signals.
     pub inputs: Vec<String>,
-    /// What their values, rates and accelerations are called in a body.
+    /// Names of their values, rates and accelerations in a body.
     signals: [Vec<String>; 3],
 }
 
@@ -88,31 +88,31 @@ impl Names {
         Names { params: paths, param_variables, coordinates, inputs, signals }
     }
 
-    /// What a signal or a derivative of it is called in a body.
+    /// Returns the name of a signal or of a derivative of it in a body.
     pub fn signal(&self, signal: usize, order: usize) -> &str {
         self.signals.get(order).and_then(|names| names.get(signal)).map_or("u", String::as_str)
     }
 
-    /// What a coordinate or a derivative of it is called in a body.
+    /// Returns the name of a coordinate or of a derivative of it in a body.
     pub fn coordinate(&self, order: usize, k: usize) -> String {
         self.coordinates.get(order).map_or_else(|| format!("qddd{k}"), |names| names[k].clone())
     }
 
-    /// Whether a name is no letter with a number.
+    /// Returns whether a name is more than lower-case letters with a number.
     pub fn is_telling(name: &str) -> bool {
         let number = name.trim_start_matches(|c: char| c.is_ascii_lowercase());
         number.is_empty() || !number.chars().all(|c| c.is_ascii_digit()) || name.len() - number.len() > 4
     }
 }
 
-/// How names are written.
+/// Case of an identifier.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Case {
-    /// Of fields: `crank_length`.
+    /// Case of fields: `crank_length`.
     Snake,
-    /// Of variants: `CrankPin`.
+    /// Case of variants: `CrankPin`.
     Camel,
-    /// Of constants: `CRANK_PHI`.
+    /// Case of constants: `CRANK_PHI`.
     Constant,
 }
 
@@ -160,8 +160,8 @@ impl Case {
     /// Names of inputs, and of time where it is one of them, behind all others. The name `t` is that of time, whether formulas hold it
     /// or not, so that one which holds it changes no name of an input.
     pub fn names_of_inputs(self, inputs: &[Input]) -> Vec<String> {
-        let own = inputs.iter().filter(|input| !input.is_time()).map(|input| input.name.as_str());
-        let mut names = self.names(std::iter::once(TIME).chain(own));
+        let named = inputs.iter().filter(|input| !input.is_time()).map(|input| input.name.as_str());
+        let mut names = self.names(std::iter::once(TIME).chain(named));
         names.rotate_left(1);
         names.truncate(inputs.len());
         names
@@ -205,7 +205,7 @@ fn safe(name: String) -> String {
     if is_keyword(&name) { name + "_" } else { name }
 }
 
-/// Whether a name is a word of Rust.
+/// Returns whether a name is a keyword of Rust.
 pub(super) fn is_keyword(name: &str) -> bool {
     KEYWORDS.contains(&name)
 }

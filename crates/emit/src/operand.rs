@@ -1,4 +1,4 @@
-//! What a line of emitted code names: a number, or what holds one.
+//! Operands of lines of emitted code: numbers, and expressions that hold one.
 
 use super::text::literal;
 use std::fmt::{self, Display, Formatter};
@@ -22,7 +22,7 @@ pub(super) enum Operand {
 }
 
 impl Operand {
-    /// What holds a number within the arguments of a function.
+    /// Returns an operand that holds a number within the arguments of a function.
     pub fn new(text: String, of: Arguments) -> Operand {
         Operand::Held { text, of }
     }
@@ -40,7 +40,7 @@ impl Operand {
         }
     }
 
-    /// Whether it can stand in a formula as it is, rather than by a name of its own.
+    /// Returns whether it can stand in a formula directly, without a variable.
     pub fn is_short(&self) -> bool {
         match self {
             Operand::Number(value) => literal(*value).len() <= LONGEST,
@@ -48,7 +48,7 @@ impl Operand {
         }
     }
 
-    /// The opposite; of 0 itself, as nobody asks for its sign.
+    /// Returns the negated operand; 0 stays 0, as its sign does not matter.
     pub fn negated(&self) -> Operand {
         match self {
             Operand::Number(value) if *value == 0.0 => Operand::Number(0.0),

@@ -28,7 +28,7 @@ pub(super) fn slice(program: &Program, outputs: &[Register], given: &FxHashSet<R
     needed
 }
 
-/// What an operation is as a Rust expression.
+/// Operations as Rust expressions.
 pub(super) struct Expression<V> {
     /// The text of a register's value.
     pub value: V,
@@ -123,7 +123,7 @@ impl<V: FnMut(Register) -> String> Machine for Expression<V> {
     }
 }
 
-/// What a function of numbers is called.
+/// Name of a function of numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Callee {
     /// The first and the second of the pair.
@@ -137,7 +137,7 @@ pub(super) enum Callee {
     Libm(&'static str),
 }
 
-/// What a function of one argument is called.
+/// Returns the name of a function of one argument.
 pub(super) fn callee(function: Unary) -> Callee {
     match function {
         Unary::Sin => Callee::Sine,
@@ -149,7 +149,7 @@ pub(super) fn callee(function: Unary) -> Callee {
     }
 }
 
-/// What a function of two arguments is called.
+/// Returns the name of a function of two arguments.
 pub(super) fn callee_of_two(function: Binary) -> Callee {
     match function {
         Binary::Min => Callee::Runtime("lesser"),

@@ -46,7 +46,7 @@ pub struct Reference {
     pub columns: Vec<String>,
     /// Rows of it, at least one: the first and the last, and some in between, in order (s, m, rad).
     pub rows: Vec<Vec<f64>>,
-    /// Of each row what joints exert and drivers supply; empty lists where there are no masses and loads.
+    /// Forces of joints and drivers for each row; empty lists if there are no masses and loads.
     pub forces: Vec<Vec<f64>>,
     /// Output times after the first, up to that of the last row.
     pub steps: u64,
@@ -89,11 +89,11 @@ fn crate_name(folder: &str) -> String {
     if is_keyword(plain) || is_taken { format!("{plain}_mechanism") } else { wanted }
 }
 
-/// What a page says of the crate that some modules ask for.
+/// Paragraph of a page about the crate that some modules need.
 const WITH_LIBM: &str = "It asks for the crate `libm`, for
 elementary functions with the same bits on every platform. Where cargo does not have that yet, `cargo fetch` gets it, once.";
 
-/// What a manifest says of libraries for C.
+/// Lines of a manifest about libraries for C.
 const KINDS: &str = "crate-type = [\"lib\", \"staticlib\", \"cdylib\"]\n";
 const FEATURES: &str = "[features]
 default = [\"std\"]
@@ -107,11 +107,11 @@ const ABORT: &str = "panic = \"abort\"
 panic = \"abort\"
 ";
 
-/// What a crate for C has beside its module.
+/// Additions to the module in a crate for C.
 const STD: &str = "#[cfg(feature = \"std\")]\nextern crate std;\n\n";
 const C: &str = "#[allow(unsafe_code)] // what C calls\n#[rustfmt::skip]\nmod unsafe_c;\n";
 
-/// What an example counts of inputs.
+/// Code of the example that counts the work of inputs.
 const WORK_OF_FOLLOW: &str = "    for change in [1e-3, 1.0, 3.0, 1e6] {
         let (mut state, mut work) = (before.clone(), Work::default());
         let mut inputs = Inputs::at(START_TIME, &PARAMS);
@@ -124,7 +124,7 @@ const WORK_OF_FOLLOW: &str = "    for change in [1e-3, 1.0, 3.0, 1e6] {
     }
 ";
 
-/// What a page says of inputs.
+/// Paragraph of a page about inputs.
 const INPUTS: &str = "Each is a `Signal`: its `value`, its `rate` and its `acceleration`, in SI. `step` takes what the text's formulas say of
 them, `follow` what it is given. An input that changes by more than `state.largest_change()` is `TooFar` at once; `set_largest_change` sets that.
 Where formulas hold the time too, it is a plain number `t`.
@@ -135,13 +135,13 @@ struct Writer<'w> {
     reference: &'w Reference,
     /// The crate's.
     name: String,
-    /// What it is called in code.
+    /// Its name in code.
     library: String,
     module: &'w rust::Module,
 }
 
 impl Writer<'_> {
-    /// One of the first lines of every file.
+    /// Returns a line for the top of every file that marks it as emitted.
     fn mark(&self) -> String {
         format!("W{MARK}{} from `{}`.", env!("CARGO_PKG_VERSION"), one_line(self.unit.file))
     }
@@ -196,7 +196,7 @@ impl Writer<'_> {
         )
     }
 
-    /// What holds `follow` against `step`. Positions alone: at an edge of an input's formula the rates have two sides.
+    /// Returns the test that compares `follow` with `step`. Only positions: at an edge of an input's formula the rates have two sides.
     fn follows(&self) -> String {
         if self.unit.following.is_none() {
             return String::new();
@@ -204,7 +204,7 @@ impl Writer<'_> {
         format!(include_str!("package/follows.rs.txt"), params = self.params())
     }
 
-    /// What holds `forces` against what `run` says; nothing where there are none.
+    /// Returns the test that compares `forces` with the results of `run`; empty if there are none.
     fn exerts(&self) -> String {
         if !self.unit.has_forces() {
             return String::new();
@@ -217,7 +217,7 @@ impl Writer<'_> {
         )
     }
 
-    /// What counts evaluations.
+    /// Returns the example that counts evaluations.
     fn example(&self) -> String {
         let (uses, follow) = if let Some(following) = &self.unit.following {
             let inputs = following.unit.system.inputs();
@@ -240,7 +240,7 @@ impl Writer<'_> {
         )
     }
 
-    /// How much work calls are, and how much memory they take.
+    /// Returns the text about the work and the memory of calls.
     fn work(&self) -> String {
         let bound = |name: &str| self.module.bounds.iter().find(|(of, _)| *of == name).map_or(0, |(_, bound)| *bound);
         let operations =
@@ -327,7 +327,7 @@ impl Writer<'_> {
         )
     }
 
-    /// How C uses it; nothing where it does not.
+    /// Returns the text about use from C; empty if the crate is not for C.
     fn for_c(&self) -> String {
         if !self.unit.for_c {
             return String::new();
@@ -347,7 +347,7 @@ impl Writer<'_> {
         )
     }
 
-    /// What the example prints, and what it needs for it.
+    /// Returns what the example prints, and the items that it needs for that.
     fn shown(&self) -> (&'static str, String) {
         let system = self.unit.system;
         let names = Case::Constant.names(system.measures().iter().map(|of| of.name.as_str()));
@@ -360,7 +360,7 @@ impl Writer<'_> {
         ("Params, assemble, step", "state.q()".to_owned())
     }
 
-    /// What can be asked of a state, depending on what there is.
+    /// Returns the table of calls on a state, which depends on the mechanism.
     fn calls(&self) -> String {
         let system = self.unit.system;
         let mut text = String::new();
@@ -413,7 +413,7 @@ impl Writer<'_> {
         )
     }
 
-    /// The fields of `Inputs`; nothing where there are none.
+    /// Returns the fields of `Inputs`; empty if there are none.
     fn inputs(&self) -> String {
         let inputs = self.unit.system.inputs();
         if self.unit.following.is_none() {

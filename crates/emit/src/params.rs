@@ -27,12 +27,12 @@ pub(super) struct Type {
 
 pub(super) struct Field {
     pub name: String,
-    /// What it is called in the text of its own part.
+    /// Its name in the text of its part.
     pub source: String,
     pub of: Of,
 }
 
-/// What a field holds.
+/// Content of a field.
 pub(super) enum Of {
     /// A parameter; its number, in the first of copies.
     Number(usize),
@@ -53,7 +53,7 @@ enum Member {
     Part { source: String, copies: BTreeMap<Vec<i64>, Group> },
 }
 
-/// What stands in a field.
+/// Content of a field, before types are named.
 enum Slot<'g> {
     Number {
         source: &'g str,
@@ -141,7 +141,7 @@ impl Params {
 #[derive(Default)]
 struct Types {
     all: Vec<Type>,
-    /// What each is of, without the numbers of copies that share it.
+    /// Path of the part of each, without the numbers of copies that share it.
     called: Vec<String>,
 }
 
@@ -216,7 +216,7 @@ impl Group {
         }
     }
 
-    /// What stands in its fields, one by one.
+    /// Returns the content of its fields, one by one.
     fn slots(&self) -> Vec<Slot<'_>> {
         let mut slots = Vec::new();
         for member in &self.members {
@@ -241,7 +241,7 @@ impl Group {
         slots
     }
 
-    /// Whether another one has the same parameters.
+    /// Returns whether another group has the same parameters.
     fn is_alike(&self, other: &Group) -> bool {
         let pairs = self.members.iter().zip(&other.members);
         let mut alike = pairs.map(|pair| match pair {
@@ -255,7 +255,7 @@ impl Group {
     }
 }
 
-/// How many copies there are by each index, where they begin with 0 and none is left out.
+/// Returns the number of copies by each index, if the indices begin with 0 and have no gaps.
 fn lengths(copies: &BTreeMap<Vec<i64>, Group>) -> Option<Vec<usize>> {
     let last = copies.keys().next_back().filter(|indices| !indices.is_empty())?;
     let lengths: Vec<usize> = last.iter().map(|index| usize::try_from(index + 1).ok()).collect::<Option<_>>()?;
@@ -272,7 +272,7 @@ fn copy_of(part: &str, indices: &[i64]) -> String {
     if indices.is_empty() { part.to_owned() } else { format!("{part}[{}]", indices.join(",")) }
 }
 
-/// Where a copy stands in arrays, the last index fastest: `[1][2]`.
+/// Returns the position of a copy in arrays, the last index fastest: `[1][2]`.
 fn place(number: usize, lengths: &[usize]) -> String {
     let (mut rest, mut text) = (number, String::new());
     for length in lengths.iter().rev() {

@@ -17,7 +17,7 @@ pub(super) struct Page {
 
 /// The head of a function.
 pub(super) struct Head<'h> {
-    /// What stands before its name: `pub fn`.
+    /// Words before its name: `pub fn`.
     pub kind: &'h str,
     pub name: &'h str,
     /// Names and types; a type may be empty, as that of `&self`.
@@ -27,12 +27,12 @@ pub(super) struct Head<'h> {
 }
 
 impl Page {
-    /// What will stand in a module.
+    /// Returns an empty page whose text will stand in a module.
     pub fn of_module() -> Page {
         Page { margin: INDENT, ..Page::default() }
     }
 
-    /// What has been printed.
+    /// Returns the printed text.
     pub fn done(self) -> String {
         self.text
     }
@@ -60,20 +60,20 @@ impl Page {
         self.text(&documented(docs, ""));
     }
 
-    /// What stands between the braces behind a head.
+    /// Prints a block in braces behind a head.
     pub fn block(&mut self, head: &str, body: impl FnOnce(&mut Page)) {
         self.line(&format!("{head} {{"));
         self.indented(body);
         self.line("}");
     }
 
-    /// The same for an item, which a blank line follows.
+    /// Prints an item as a block, followed by a blank line.
     pub fn item(&mut self, head: &str, body: impl FnOnce(&mut Page)) {
         self.block(head, body);
         self.blank();
     }
 
-    /// The same without a head.
+    /// Prints indented lines without a head.
     pub fn indented(&mut self, body: impl FnOnce(&mut Page)) {
         self.indent += INDENT;
         body(self);

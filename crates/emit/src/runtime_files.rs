@@ -1,4 +1,4 @@
-//! What goes along with emitted code: files of `runtime` and of `math`, to the letter, and the limits that they name.
+//! Files that accompany emitted code: those of `runtime` and of `math`, verbatim, and the limits that they name.
 //!
 //! Who writes code that calls something says so here ([`RuntimeDeps`]); what else that needs follows.
 
@@ -107,12 +107,12 @@ files! {
     "extra_results" is include_str!("runtime/extra_results.rs"); ["solution", "newton", "bytecode_interpreter", "bytecode_solver"], [];
 }
 
-/// What the code of a module uses.
+/// Runtime dependencies of the code of a module.
 #[derive(Clone, Debug, Default)]
 pub(super) struct RuntimeDeps {
     files: BTreeSet<&'static str>,
     limits: BTreeSet<&'static str>,
-    /// What it names, with the file.
+    /// Names that it uses, with their files.
     names: BTreeSet<(&'static str, &'static str)>,
     libm: bool,
 }
@@ -143,7 +143,7 @@ impl RuntimeDeps {
         self.libm = true;
     }
 
-    /// What instructions written as lines call, in lanes or alone.
+    /// Adds the functions that instructions written as lines call, in lanes or alone.
     pub fn instructions(&mut self, instructions: &[Instruction], has_lanes: bool) {
         for instruction in instructions {
             match instruction {
@@ -185,7 +185,7 @@ impl RuntimeDeps {
         }
     }
 
-    /// Whether the crate `libm` is called.
+    /// Returns whether the crate `libm` is called.
     pub fn needs_libm(&self) -> bool {
         self.libm
     }
@@ -206,14 +206,14 @@ impl RuntimeDeps {
         self.names.extend(&other.names);
     }
 
-    /// What another module of the same file uses goes along too.
+    /// Adds the dependencies of another module of the same file.
     pub fn include(&mut self, other: &RuntimeDeps) {
         self.files.extend(&other.files);
         self.limits.extend(&other.limits);
         self.libm |= other.libm;
     }
 
-    /// What goes along, as a module; nothing where that is nothing.
+    /// Prints the required files as a module, if there are any.
     pub fn print_runtime(&self, page: &mut Page) {
         let (mut wanted, mut limits) = (self.files.clone(), self.limits.clone());
         // those that are needed stand before those that need them
@@ -273,12 +273,12 @@ mod tests {
             }
             let mut needs = named(&file.text(), "super::");
             needs.remove("limits");
-            let said: BTreeSet<String> = file.needs.iter().map(|name| (*name).to_owned()).collect();
+            let declared: BTreeSet<String> = file.needs.iter().map(|name| (*name).to_owned()).collect();
             let is_before = |name: &&str| FILES[..number].iter().any(|before| before.name == *name);
             assert!(file.needs.iter().all(is_before), "{} stands too early", file.name);
             // what extends a type is not named
             assert!(
-                needs.is_subset(&said) && said.difference(&needs).all(|name| name == "pivots"),
+                needs.is_subset(&declared) && declared.difference(&needs).all(|name| name == "pivots"),
                 "{}: {needs:?}",
                 file.name
             );

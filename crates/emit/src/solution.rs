@@ -15,7 +15,7 @@ use mechc_ir::program::{Column, Register};
 use mechc_ir::tolerances::solving::solver::LARGEST_MULTIPLIER;
 use rustc_hash::FxHashMap;
 
-/// What the solver's function is written from.
+/// Source of the solver's function.
 pub(super) struct Solution<'s> {
     pub unit: &'s TranslationUnit<'s>,
     pub motion: &'s EmittedMotion,
@@ -24,7 +24,7 @@ pub(super) struct Solution<'s> {
     pub derived: FxHashMap<Register, usize>,
     /// Columns of what measures join that is no result, in order.
     pub joined: Vec<u32>,
-    /// What the columns hold that operations leave values in.
+    /// Contents of the columns in which operations leave values.
     holds: Vec<ColumnContent>,
 }
 
@@ -69,7 +69,7 @@ impl<'s> Solution<'s> {
         self.derived.entry(register).or_insert(next);
     }
 
-    /// What a column of a table is called, in a lane or alone.
+    /// Returns the name of a column of a table, in a lane or alone.
     fn column(&self, table: u32, column: Column, lane: &str) -> Operand {
         if self.equations.is_constant(table, column) {
             return Operand::local(self.equations.table(table, column));
@@ -79,7 +79,7 @@ impl<'s> Solution<'s> {
         Operand::new(format!("m{lane}.derived[{first}..{}]", first + cells.len()), &["m"])
     }
 
-    /// Whether anything is left to iterate for.
+    /// Returns whether Newton's method has coordinates to iterate for.
     pub fn has_newton(&self) -> bool {
         !self.motion.solver.tears().is_empty()
     }
@@ -241,7 +241,7 @@ impl<'s> Solution<'s> {
         bytecode::list(&format!("The operations of [`{solve}`]."), &format!("SOLVE{ending}"), &words, page);
     }
 
-    /// What a column holds.
+    /// Returns the content of a column.
     fn holds(&self, column: u32) -> ColumnContent {
         debug_assert!((column as usize) < self.holds.len(), "column {column} is none of a row's");
         self.holds.get(column as usize).copied().unwrap_or(ColumnContent::Time)
@@ -351,7 +351,7 @@ struct SolverContext<'s> {
 }
 
 impl SolverContext<'_> {
-    /// What picks a lane.
+    /// Returns the index that selects a lane.
     fn lane(&self) -> &'static str {
         if self.has_lanes { "[k]" } else { "" }
     }

@@ -25,7 +25,7 @@ impl Tables {
         Tables { names }
     }
 
-    /// What columns are called in a body that builds them, in order: `lift_knots`.
+    /// Returns the names of columns in a body that builds them, in order: `lift_knots`.
     pub fn variables(&self) -> Vec<String> {
         let mut all: Vec<String> = self.names.values().map(|name| name.to_lowercase()).collect();
         all.sort_unstable();

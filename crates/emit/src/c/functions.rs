@@ -6,7 +6,7 @@ use crate::names::Case;
 use crate::print::{Head, Page};
 use crate::text::unit;
 
-/// What a function is given.
+/// Kind of an argument.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Of {
     State,
@@ -22,7 +22,7 @@ pub(super) enum Of {
     Code,
 }
 
-/// What a function gives.
+/// Kind of a result.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Gives {
     Code,
@@ -37,7 +37,7 @@ pub(super) struct Function {
     pub docs: &'static str,
     pub arguments: Vec<(&'static str, Of)>,
     pub gives: Gives,
-    /// What it does, as an expression of Rust: of a code, `Result<(), Status>`.
+    /// Its body as a Rust expression; for a code, of type `Result<(), Status>`.
     pub does: &'static str,
 }
 
@@ -58,7 +58,7 @@ impl Of {
         }
     }
 
-    /// As C declares an argument.
+    /// Returns the declaration of an argument in C.
     pub fn in_c(self, name: &str, prefix: &str) -> String {
         match self {
             Of::State => format!("const {prefix}_state *{name}"),
@@ -204,7 +204,7 @@ impl Interface<'_> {
         all
     }
 
-    /// What the functions call, by its name in the crate.
+    /// Returns the names in the crate of all that the functions use.
     fn used(&self) -> Vec<&'static str> {
         let mut used = vec!["Error", "Params", "Progress", "State", "assemble", "most_work", "step", "step_within"];
         if self.has_inputs() {

@@ -9,7 +9,7 @@ use crate::print::Page;
 use crate::text::{literal, unit};
 use mechc_ir::tolerances::steps::march::FEWEST_STEPS;
 
-/// What is said of all functions.
+/// Documentation that holds for all functions.
 const ABOUT: &str = "\
 All is in m, rad and s. The caller has the memory of everything: nothing is allocated, nothing is kept
 between calls, and nothing here waits, prints or ends the program. States are independent of each other:
@@ -88,9 +88,10 @@ impl Interface<'_> {
         if let Some(following) = &self.unit.following {
             let inputs = following.unit.system.inputs();
             let names = Case::Constant.names_of_inputs(inputs);
-            let own = inputs.iter().zip(names).filter(|(of, _)| !of.is_time());
-            let own = own.map(|(of, name)| (name, format!("{} ({})", of.name, unit(&of.unit)))).collect::<Vec<_>>();
-            self.places(page, "INPUT", "INPUTS", "The numbers of the inputs.", &own);
+            let inputs = inputs.iter().zip(names).filter(|(of, _)| !of.is_time());
+            let inputs =
+                inputs.map(|(of, name)| (name, format!("{} ({})", of.name, unit(&of.unit)))).collect::<Vec<_>>();
+            self.places(page, "INPUT", "INPUTS", "The numbers of the inputs.", &inputs);
         }
         if self.unit.has_forces() {
             let reactions = system.reactions();
@@ -176,18 +177,18 @@ impl Interface<'_> {
                 format!("The parameters of a part, as {}, in SI.", of.source)
             }));
             self.structure(page, &called(&of.name), |page| {
-                for own in &of.fields {
-                    let name = field(&own.name);
+                for member in &of.fields {
+                    let name = field(&member.name);
                     let inner = |part: usize| format!("{}_{}", self.prefix, called(&params.types[part].name));
-                    let (declared, says) = match &own.of {
+                    let (declared, says) = match &member.of {
                         Of::Number(param) => {
                             let of = self.unit.system.params()[*param].unit();
-                            (format!("double {name}"), format!("{} ({})", own.source, unit(&of)))
+                            (format!("double {name}"), format!("{} ({})", member.source, unit(&of)))
                         }
-                        Of::Part(part) => (format!("{} {name}", inner(*part)), own.source.clone()),
+                        Of::Part(part) => (format!("{} {name}", inner(*part)), member.source.clone()),
                         Of::Copies(part, lengths) => {
                             let lengths: Vec<String> = lengths.iter().map(|length| format!("[{length}]")).collect();
-                            (format!("{} {name}{}", inner(*part), lengths.concat()), own.source.clone())
+                            (format!("{} {name}{}", inner(*part), lengths.concat()), member.source.clone())
                         }
                     };
                     page.line(&format!("{declared}; {}", comment(&says)));

@@ -15,16 +15,16 @@ use super::text::{one_line, unit};
 use super::{CrateFile, TranslationUnit};
 use mechc_ir::layout::{ColumnContent, ColumnUnit, columns, holds};
 
-/// What both files are written from.
+/// Source of both files.
 struct Interface<'i> {
     unit: &'i TranslationUnit<'i>,
-    /// What names begin with: `four_bar`.
+    /// Prefix of names: `four_bar`.
     prefix: &'i str,
-    /// One of the first lines.
+    /// Line near the top of each file that marks it as emitted.
     mark: &'i str,
     /// Words of 8 bytes that a state takes.
     words: usize,
-    /// How many steps calls take at most, and how many evaluations these are.
+    /// Upper bounds of the steps of calls, and of their evaluations.
     bounds: &'i [(&'static str, usize)],
 }
 
@@ -37,7 +37,7 @@ pub(super) fn files(unit: &TranslationUnit<'_>, module: &Module, library: &str, 
     ]
 }
 
-/// What a function answers with.
+/// Return code of a function.
 struct Code {
     /// `LOCK_UP`
     name: String,
@@ -46,9 +46,9 @@ struct Code {
     error: Option<&'static str>,
 }
 
-/// What only C can do wrong; their codes come behind those of errors, from this number on.
+/// First code of the errors that only C can cause; they come after those of `Error`.
 const FIRST_OF_C: i32 = 101;
-/// What is no error, and has a number below 0.
+/// Message of the status that is no error; its code is below 0.
 const ON_THE_WAY: &str = "the state is on its way, and the same call goes on";
 const OF_C: [(&str, &str); 4] = [
     ("BAD_POINTER", "a pointer is null or not aligned"),
@@ -94,7 +94,7 @@ impl Interface<'_> {
         self.has_params() && self.unit.has_sensitivity()
     }
 
-    /// What constants begin with: `FOUR_BAR`.
+    /// Returns the prefix of constants: `FOUR_BAR`.
     fn constants(&self) -> String {
         self.prefix.to_uppercase()
     }

@@ -10,18 +10,18 @@ use mechc_expr::math::A_MILLION;
 use mechc_ir::program::{Column, Op, Register};
 use std::fmt::{self, Display, Formatter};
 
-/// What a value is assigned to.
+/// Target of an assignment.
 pub(super) enum Target {
     /// A variable of its own.
     Let(Operand),
-    /// What is there already.
+    /// Operand that exists already.
     Set(Operand),
-    /// Nobody asks for it.
+    /// Unused value.
     Discard,
 }
 
 impl Target {
-    /// What it is called in a pattern.
+    /// Returns its name in a pattern.
     fn name(&self) -> String {
         match self {
             Target::Let(name) | Target::Set(name) => name.to_string(),
@@ -41,7 +41,7 @@ impl Display for Target {
 }
 
 impl<S: CodeContext> Printer<'_, S> {
-    /// What a column of a table is called, after it has been built where that is needed.
+    /// Returns the name of a column of a table, and builds the column first if necessary.
     fn column(&mut self, table: u32, column: Column, indent: &str, text: &mut String) -> String {
         let (name, cells) = (self.context.table(table, column), self.context.cells(table, column));
         self.used.extend(name.arguments());
@@ -147,7 +147,7 @@ impl<S: CodeContext> Printer<'_, S> {
         }
     }
 
-    /// Where Newton begins with a coordinate.
+    /// Prints the initial guess of Newton's method for a coordinate.
     fn guess(&mut self, to: Register, tear: u32, indent: &str, text: &mut String) {
         self.guessed.insert(to, tear);
         self.used.insert(GUESS);

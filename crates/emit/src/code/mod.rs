@@ -17,27 +17,27 @@ use parts::{Part, Piece};
 use rustc_hash::{FxHashMap, FxHashSet};
 use value_locations::{Location, ValueLocations};
 
-/// What functions of a module within the file are indented by.
+/// Indentation of functions of a module within the file.
 pub(super) const MODULE: &str = "    ";
 
 /// A loop over lanes is vectorised if it is known that what it writes does not overlap, as what a function is given does not.
 const APART: &str = "#[inline(never)]\n";
 
-/// What operations are printed among.
+/// Surroundings of printed operations.
 pub(super) trait CodeContext {
     /// The name and the value of a register that no operation writes.
     fn input(&self, register: Register) -> Input;
-    /// What stands in a register of the program.
+    /// Returns the operand for a register of the program.
     fn load(&self, register: Register) -> Operand;
     /// A column of a result.
     fn place(&self, column: u32) -> Operand;
     /// The name of a value that is left in a column, `rod_phi`; none where it is no name of its own.
     fn name(&self, column: u32) -> Option<String>;
-    /// What a column of a table is called.
+    /// Returns the name of a column of a table.
     fn table(&self, table: u32, column: Column) -> Operand;
     /// The registers that a function has to build a column from; none where it is known by its name.
     fn cells(&self, table: u32, column: Column) -> Vec<Register>;
-    /// Whether values are left in a column at all.
+    /// Returns whether a column stores values at all.
     fn stores(&self, _column: u32) -> bool {
         true
     }
@@ -47,7 +47,7 @@ pub(super) trait CodeContext {
     fn act(&self, instruction: Instruction, value: &Operand) -> (String, Arguments);
     /// The line that watches a multiplier, with what it names.
     fn watch(&self, weight: u32, value: &Operand) -> (String, Arguments);
-    /// Whether every number stands for several lanes, which loops go over.
+    /// Returns whether every number stands for several lanes, which loops iterate.
     fn has_lanes(&self) -> bool {
         false
     }
@@ -57,7 +57,7 @@ pub(super) trait CodeContext {
 pub(super) enum Input {
     /// A number, or what is as short as a name.
     Is(Operand),
-    /// What is bound to a name first.
+    /// Value that is bound to a name first.
     Bound { name: String, value: Operand },
 }
 
@@ -69,13 +69,13 @@ pub(super) struct Function<'f> {
     pub is_public: bool,
     /// Names and types.
     pub arguments: Vec<(&'static str, String)>,
-    /// What is written and returned.
+    /// Outputs of the function.
     pub out: Out<'f>,
     /// Columns that it will be indented by.
     pub margin: usize,
 }
 
-/// Where a function leaves its results.
+/// Destination of the results of a function.
 pub(super) enum Out<'f> {
     /// In a list, by its type and its first value, that it returns as `out`.
     List { of: &'f str, first: &'f str },
@@ -83,7 +83,7 @@ pub(super) enum Out<'f> {
     Given { begin: &'f str, names: Arguments },
 }
 
-/// What is to be printed.
+/// Instructions to print, with their context.
 pub(super) struct Code<'c> {
     pub instructions: &'c [Instruction],
     pub segments: &'c [Segment],
@@ -101,13 +101,13 @@ impl Code<'_> {
         }
     }
 
-    /// How many instructions compute something.
+    /// Returns the number of instructions that compute something.
     pub fn count(&self) -> usize {
         self.instructions.iter().filter(|instruction| is_work(**instruction)).count()
     }
 }
 
-/// Whether an instruction computes something.
+/// Returns whether an instruction computes something.
 fn is_work(instruction: Instruction) -> bool {
     match instruction {
         Instruction::Compute(op) => !matches!(op, Op::Copy { .. }),
@@ -133,7 +133,7 @@ struct Printer<'p, S> {
     bindings: String,
     /// The arguments that it names.
     used: FxHashSet<&'static str>,
-    /// Whether a blank line comes before the first result.
+    /// True if a blank line precedes the first result.
     is_set_off: bool,
     /// Columns of tables that it has built.
     built: FxHashSet<(u32, Column)>,
@@ -167,7 +167,7 @@ impl<'p, S: CodeContext> Printer<'p, S> {
         operand
     }
 
-    /// The same, for nobody yet.
+    /// Returns the operand of a register without counting a use.
     fn operand(&mut self, register: Register) -> Operand {
         if let Some(operand) = &self.names[register as usize] {
             return operand.clone();
@@ -184,7 +184,7 @@ impl<'p, S: CodeContext> Printer<'p, S> {
         }
     }
 
-    /// What an operation writes to, the register being named so from now on.
+    /// Returns the target of an operation, which names its register from now on.
     fn target(&mut self, register: Register, prefix: char) -> Target {
         let (operand, target) = match self.locations.location(register) {
             Location::Term(place) => {

@@ -1,4 +1,4 @@
-//! How operations fall into functions of a bearable length.
+//! Partition of operations into functions of limited length.
 
 use super::Code;
 use mechc_engine::solver::{Segment, Tear};
@@ -6,7 +6,7 @@ use std::ops::Range;
 
 /// Operations of a function at most: rustc takes more than proportionally longer for longer ones.
 const LONGEST_FUNCTION: usize = 2000;
-/// Of a loop over lanes, which is to become vector instructions.
+/// Largest length of a loop over lanes, which should become vector instructions.
 const LONGEST_LOOP: usize = 400;
 
 /// A run of operations in a function of its own.
@@ -21,7 +21,7 @@ pub(super) enum Part<'c> {
 
 pub(super) struct Piece<'c> {
     pub range: Range<usize>,
-    /// Of a loop.
+    /// Coordinates of a Newton loop.
     pub tears: Option<&'c [Tear]>,
 }
 

@@ -1,4 +1,4 @@
-//! Where values live: in a loop, in a function, or among the terms that functions hand on.
+//! Locations of values: in a loop, in a function, or among the terms that functions pass on.
 
 use super::parts::Part;
 use super::{Code, CodeContext};
@@ -6,7 +6,7 @@ use mechc_engine::solver::Instruction;
 use mechc_ir::program::Register;
 use std::ops::Range;
 
-/// Where a value lives.
+/// Location of a value.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Location {
     /// Written by no operation.
@@ -24,20 +24,20 @@ const STRAIGHT: u32 = 0;
 /// No function in particular.
 const OTHERS: u32 = u32::MAX;
 
-/// Where all values live, by their registers.
+/// Locations of all values, by their registers.
 pub(super) struct ValueLocations<'p, S> {
     context: &'p S,
     instructions: &'p [Instruction],
     of: Vec<Location>,
     is_read: Vec<bool>,
-    /// How many terms functions hand on.
+    /// Number of terms that functions pass on.
     pub terms: u32,
     /// Names that values shall have.
     pub result_names: Vec<Option<String>>,
 }
 
 impl<'p, S: CodeContext> ValueLocations<'p, S> {
-    /// Of what is printed in some parts.
+    /// Locates the values of code that is printed in parts.
     pub fn of(code: &Code<'p>, context: &'p S, parts: &[Part<'p>]) -> ValueLocations<'p, S> {
         let mut locations = ValueLocations {
             context,
@@ -51,12 +51,12 @@ impl<'p, S: CodeContext> ValueLocations<'p, S> {
         locations
     }
 
-    /// Where a value lives.
+    /// Returns the location of a value.
     pub fn location(&self, register: Register) -> Location {
         self.of[register as usize]
     }
 
-    /// Whether anybody reads it.
+    /// Returns whether an instruction reads the value.
     pub fn is_read(&self, register: Register) -> bool {
         self.is_read[register as usize]
     }

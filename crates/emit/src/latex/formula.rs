@@ -48,9 +48,9 @@ pub(super) struct Formulas<'s> {
     system: &'s ConstraintSystem,
     /// The system's formulas, with a named symbol for each shared part.
     graph: Graph,
-    /// What the roots have become in there.
+    /// Expressions in `graph` for the roots.
     roots: FxHashMap<ExprId, ExprId>,
-    /// What the shared parts are.
+    /// Shared parts.
     shared: Vec<ExprId>,
     /// The numbers of the terms that have been met.
     terms: FxHashMap<ExprId, usize>,
@@ -68,30 +68,30 @@ impl<'s> Formulas<'s> {
     /// A writer for these formulas of a system.
     pub fn new(system: &'s ConstraintSystem, roots: &[ExprId]) -> Formulas<'s> {
         let mut graph = Graph::new();
-        let mut known = FxHashMap::default();
+        let mut imported = FxHashMap::default();
         let leaf = |graph: &mut Graph, symbol: Symbol| graph.symbol(symbol);
-        graph.import_tables(system.graph(), &mut known, leaf);
-        known.clear();
+        graph.import_tables(system.graph(), &mut imported, leaf);
+        imported.clear();
         let mut shared = Vec::new();
         for id in shared_parts(system.graph(), roots) {
-            graph.import(system.graph(), &[id], &mut known, leaf);
-            shared.extend(known.get(&id));
+            graph.import(system.graph(), &[id], &mut imported, leaf);
+            shared.extend(imported.get(&id));
             let name = graph.symbol(Symbol::Named(shared.len() as u32 - 1));
-            known.insert(id, name);
+            imported.insert(id, name);
         }
-        graph.import(system.graph(), roots, &mut known, leaf);
+        graph.import(system.graph(), roots, &mut imported, leaf);
         let (terms, open) = (FxHashMap::default(), Vec::new());
-        Formulas { system, graph, roots: known, shared, terms, open }
+        Formulas { system, graph, roots: imported, shared, terms, open }
     }
 
-    /// One of the formulas, to be broken by TeX where it is long.
+    /// Returns one of the formulas, which TeX may break if it is long.
     pub fn text(&mut self, root: ExprId) -> String {
         let id = self.tidied(root);
         self.cut(id);
         self.outermost(id).signed().text
     }
 
-    /// One of the formulas where it cannot be broken, with its width.
+    /// Returns one of the formulas without line breaks, with its width.
     pub fn confined(&mut self, root: ExprId, widest: f64) -> Set {
         let id = self.tidied(root);
         self.cut(id);

@@ -9,7 +9,7 @@ use unicode_normalization::char::decompose_canonical;
 /// Names longer than this are cut in formulas, and told apart by a number.
 const LONGEST: usize = 24;
 
-/// How many letters of a long name go on a line before it may be broken.
+/// Number of letters of a long name before it may be broken.
 const UNBROKEN: usize = 12;
 
 /// Letters that LaTeX has a command for in mathematics, with their names; `π` gets another form than the number.
@@ -88,7 +88,7 @@ const ACCENTS: &[(char, &str)] = &[
     ('\u{331}', r"\b"),
 ];
 
-/// How the letters of a name stand in a formula.
+/// Font style of the letters of a name in a formula.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Style {
     Upright,
@@ -141,7 +141,7 @@ pub(super) fn words(name: &str) -> String {
     text
 }
 
-/// One letter, which needs no font of its own; the name of a Greek letter stands for it.
+/// Returns a single letter, which needs no font command; the name of a Greek letter stands for it.
 fn single(name: &str) -> Option<String> {
     let mut chars = name.chars();
     let (first, rest) = (chars.next()?, chars.next());
@@ -184,7 +184,7 @@ fn latin(c: char) -> Option<String> {
     let mut parts = Vec::new();
     decompose_canonical(c, |part| parts.push(part));
     let [base, mark] = parts.as_slice() else { return None };
-    let (_, accent) = ACCENTS.iter().find(|(known, _)| known == mark)?;
+    let (_, accent) = ACCENTS.iter().find(|(letter, _)| letter == mark)?;
     match base {
         'i' | 'j' => Some(format!(r"{accent}{{\{base}}}")),
         base if base.is_ascii_alphabetic() => Some(format!("{accent}{{{base}}}")),

@@ -16,16 +16,16 @@ use mechc_expr::{ExprId, Node, Table};
 use mechc_ir::{ConstraintSystem, CoordinateKind, Declaration, DeclarationId, DeclarationKind, IdVec, Mechanics};
 use symbols::{coordinate, param};
 
-/// How much of a line the matrix of an element may take (em).
+/// Largest width of the matrix of an element (em).
 const WIDEST_MATRIX: f64 = 40.0;
 
 /// Wider entries of a matrix are terms (em).
 const WIDEST_ENTRY: f64 = 15.0;
 
-/// Of a table with more points only the first and the last are written.
+/// Largest number of points of a table; of larger ones only the first and the last are written.
 const MOST_POINTS: usize = 24;
 
-/// What stands before the document. `\entry` sets the left side of an equation in a column of its own where it has room, and
+/// Preamble of the document. `\entry` sets the left side of an equation in a separate column if it has room, and
 /// `\columns` the rows of a matrix below it; `\by` stands between factors, where a line had better not be broken.
 const PREAMBLE: &str = r"\documentclass[a4paper,10pt,fleqn]{article}
 \usepackage{amsmath}
@@ -50,7 +50,7 @@ const PREAMBLE: &str = r"\documentclass[a4paper,10pt,fleqn]{article}
 \setlength{\lineskiplimit}{2pt}
 ";
 
-/// One document; `file` is the name of the source for its head.
+/// Returns one document; `file` is the name of the source for its head.
 #[must_use]
 pub fn latex(system: &ConstraintSystem, mechanics: Option<&Mechanics>, is_determined: bool, file: &str) -> String {
     let mut writer = Writer { system, formulas: Formulas::new(system, &roots(system, mechanics)), text: String::new() };
@@ -166,7 +166,7 @@ impl Writer<'_> {
         }
     }
 
-    /// What inputs are by the text; equations hold these formulas.
+    /// Writes the formulas of the inputs, which the equations hold.
     fn inputs(&mut self) {
         if !self.system.inputs().is_empty() {
             self.section("Inputs");
@@ -311,7 +311,7 @@ impl Writer<'_> {
         self.text += "}\n";
     }
 
-    /// What the multipliers hold, and what they exert.
+    /// Writes the equations of the multipliers, and the forces that they exert.
     fn forces(&mut self, Mechanics { mass_matrix, applied }: &Mechanics) {
         self.section("Forces");
         self.text += r"The multipliers $\lambda$, one for each equation, hold what inertia asks for and what weights and loads do not give:";

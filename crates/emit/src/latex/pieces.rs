@@ -6,7 +6,7 @@ pub(super) const WIDEST_FRACTION: f64 = 20.0;
 /// From here on a row of factors or arguments may be broken between any two of them (em).
 const BREAKABLE: f64 = 20.0;
 
-/// How tightly a piece binds.
+/// Precedence of a piece.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub(super) enum Level {
     Or,
@@ -26,10 +26,10 @@ pub(super) struct Piece {
     pub(super) text: String,
     /// About how wide it is (em).
     pub(super) width: f64,
-    /// How deep its fractions are nested.
+    /// Nesting depth of its fractions.
     pub(super) tall: u32,
     pub(super) level: Level,
-    /// Whether a minus belongs in front of it.
+    /// True if a minus belongs in front of it.
     pub(super) is_negative: bool,
 }
 
@@ -72,7 +72,7 @@ impl Piece {
     }
 }
 
-/// What kind of factor it is, in the order of writing: a function last, so that nothing seems to be its argument, and a sum
+/// Kind of a factor, in the order of writing: a function last, so that nothing seems to be its argument, and a sum
 /// not behind a symbol that it could be taken for an argument of.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Rank {
@@ -117,7 +117,7 @@ pub(super) fn quotient(above: Vec<Factor>, below: Vec<Factor>) -> Piece {
     let whole = row(above.clone());
     let fits = whole.width <= WIDEST_FRACTION && whole.tall <= 1;
     // what is wide stands beside the line, but for its numbers
-    let (numbers, beside) = if fits { (Vec::new(), Vec::new()) } else { above.into_iter().partition(is_number) };
+    let (numbers, rest) = if fits { (Vec::new(), Vec::new()) } else { above.into_iter().partition(is_number) };
     let mut top = if fits { whole } else { row(numbers) };
     let is_negative = std::mem::take(&mut top.is_negative);
     let mut factors: Vec<Factor> = Vec::new();
@@ -128,7 +128,7 @@ pub(super) fn quotient(above: Vec<Factor>, below: Vec<Factor>) -> Piece {
         factors.push((Rank::Number, Piece::new(text, width, Level::Product).tall(1 + top.tall.max(bottom.tall))));
         top = Piece::new("1", 0.5, Level::Atom);
     }
-    factors.extend(beside);
+    factors.extend(rest);
     let mut piece = row(factors);
     piece.is_negative ^= is_negative;
     piece

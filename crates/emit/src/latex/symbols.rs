@@ -25,10 +25,10 @@ pub(super) fn table_name(system: &ConstraintSystem, table: TableId) -> Set {
 /// A coordinate's symbol, or that of a derivative of it: `\dot{\phi}_{\mathrm{crank}}`.
 pub(super) fn coordinate(system: &ConstraintSystem, index: usize, order: u8) -> Set {
     let name = &system.coordinates()[index].name;
-    let own = name.rsplit('.').next().unwrap_or(name);
-    let letter = match own {
-        "phi" | "theta" => format!(r"\{own}"),
-        own => symbol(own, Style::Italic, index).text,
+    let field = name.rsplit('.').next().unwrap_or(name);
+    let letter = match field {
+        "phi" | "theta" => format!(r"\{field}"),
+        field => symbol(field, Style::Italic, index).text,
     };
     let dotted = match order {
         0 => letter,

@@ -1,4 +1,4 @@
-//! What decides the branches of formulas, and what must hold on them.
+//! Conditions that decide the branches of formulas, and checks that must hold on them.
 
 use super::Writer;
 use crate::equations::{FunctionSpec, Given};
@@ -39,7 +39,7 @@ impl Writer<'_> {
         zero.min().unwrap_or(Register::MAX)
     }
 
-    /// What decides them, for who solves the equations.
+    /// Prints the conditions that decide the branches, for the solver of the equations.
     pub fn branches(&self, solution: &Solution<'_>, page: &mut Page) {
         self.requires("equations", "Branches");
         let (of_time, of_motion) = self.switches();
@@ -98,14 +98,14 @@ impl Writer<'_> {
         self.unit.program.outputs.conditions.iter().filter(is_open).copied().collect()
     }
 
-    /// Whether anything must hold beside the equations.
+    /// Returns whether any checks must hold in addition to the equations.
     pub fn has_checks(&self) -> bool {
         let is_left_out = !self.unit.system.checks().is_empty();
         let has_monitors = !self.unit.system.monitors().is_empty();
         self.has_sides() || is_left_out || has_monitors || self.has_boundaries() || !self.open_conditions().is_empty()
     }
 
-    /// What must hold, for who solves the equations.
+    /// Prints the checks that must hold, for the solver of the equations.
     pub fn checked(&self, page: &mut Page) {
         self.requires("equations", "Checks");
         let watches = self.unit.program.outputs.watches.len();
@@ -142,7 +142,7 @@ impl Writer<'_> {
         });
     }
 
-    /// Whether formulas of time may end.
+    /// Returns whether formulas of time may leave the domain of their functions.
     pub fn has_boundaries(&self) -> bool {
         self.boundaries().next().is_some()
     }
@@ -152,7 +152,7 @@ impl Writer<'_> {
         self.unit.program.outputs.rims.iter().filter(move |boundary| boundary.on_time && !is_input_driven)
     }
 
-    /// What looks for times at which formulas of time come to the end of what their functions take; nothing where none may.
+    /// Prints the search for times at which formulas of time reach the boundary of their domain, if any may.
     pub fn boundary_search(&self, page: &mut Page) {
         if !self.has_boundaries() {
             return;

@@ -6,16 +6,16 @@ use crate::print::{Head, Page};
 use crate::solution::Solution;
 use mechc_engine::solver::Solver;
 
-/// What a solver gives beside the motion.
+/// Results that a solver gives in addition to the motion.
 struct More {
-    /// The function's.
+    /// Name of the function.
     name: &'static str,
     what: &'static str,
-    /// What it is written to.
+    /// Argument that it is written to, with its type.
     argument: (&'static str, &'static str),
-    /// That as a list.
+    /// The argument as a list.
     list: &'static str,
-    /// What its constants end with.
+    /// Suffix of its constants.
     ending: &'static str,
 }
 
@@ -29,7 +29,7 @@ impl Writer<'_> {
         solution.listing(&solution.motion.solver, "", pool, page);
     }
 
-    /// The same with the derivatives by parameters.
+    /// Prints the solver that also gives the derivatives by parameters, as numbers.
     pub fn sensitive_solver_as_numbers(&self, solution: &Solution<'_>, pool: &mut ConstantPool, page: &mut Page) {
         let more = More {
             name: "solve_by_params",
@@ -41,7 +41,7 @@ impl Writer<'_> {
         self.solver_with_more_as_numbers(solution, solution.motion.sensitive.as_ref(), &more, pool, page);
     }
 
-    /// The same with what joints exert and drivers supply.
+    /// Prints the solver that also gives the forces of joints and drivers, as numbers.
     pub fn forced_solver_as_numbers(&self, solution: &Solution<'_>, pool: &mut ConstantPool, page: &mut Page) {
         let more = More {
             name: "solve_with_forces",

@@ -39,7 +39,7 @@ impl Writer<'_> {
         }
     }
 
-    /// Whether some operation looks into a column of a table, or may by its number.
+    /// Returns whether an operation reads a column of a table, or may read it by its number.
     fn is_looked_into(&self, table: u32, column: Column) -> bool {
         let all = || STAGES.iter().flat_map(|stage| self.unit.program.stage(*stage));
         self.equations.pool.is_some() || all().any(|&op| op.column() == Some((table, column)))
@@ -56,7 +56,7 @@ impl Writer<'_> {
         page.constant("The shortest step (s).", "const SMALLEST_STEP: f64", &literal(SMALLEST_STEP * span));
     }
 
-    /// What coordinates are judged against, and where the motion starts.
+    /// Prints the scales of the coordinates, and the start of the motion.
     pub fn scales(&self, solution: &Solution<'_>, page: &mut Page) {
         let coordinates = self.unit.system.coordinates();
         debug_assert_eq!(solution.motion.q.len(), coordinates.len());
@@ -67,7 +67,7 @@ impl Writer<'_> {
         page.text(&constant("The assembled position (m, rad).", "START", "f64", "N", &start));
     }
 
-    /// What the solver's function is about: coordinates that Newton solves for, blocks whose determinants change.
+    /// Prints the subjects of the solver's function: coordinates that Newton solves for, blocks whose determinants change.
     pub fn solved_for(&self, solution: &Solution<'_>, page: &mut Page) {
         let (solver, coordinates) = (&solution.motion.solver, self.unit.system.coordinates());
         let tears = solver.tears();
@@ -87,7 +87,7 @@ impl Writer<'_> {
         }
     }
 
-    /// Of all coordinates those that Newton solves for, as the body of a function.
+    /// Prints a function's body that selects the coordinates that Newton solves for.
     pub fn tears(solution: &Solution<'_>, page: &mut Page) {
         let tears = solution.motion.solver.tears();
         if tears.len() > MOST_TEARS_IN_LINE {

@@ -1,9 +1,9 @@
-//! What everybody calls who wants the motion: thin functions, with what is to be known of them.
+//! Public entry points to the motion: thin functions, with their documentation.
 
 use super::Writer;
 use crate::print::{Head, Page};
 
-/// What is said of a step.
+/// Documentation of `step`.
 const STEP: &str = "Moves a state to time `t` (s), in steps as short as the motion asks for: position, velocity
 and acceleration are those of the branch that it is on, whichever way `t` lies.
 
@@ -103,7 +103,7 @@ impl Writer<'_> {
         }
     }
 
-    /// What a state of this mechanism has beside what every state has.
+    /// Prints the methods of a state that depend on this mechanism.
     fn of_state(&self, page: &mut Page) {
         let (has_bodies, has_inputs) = (!self.unit.system.bodies().is_empty(), self.unit.following.is_some());
         if !has_bodies && !has_inputs {

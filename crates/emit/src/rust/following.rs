@@ -1,4 +1,4 @@
-//! What follows inputs: `Inputs`, `follow` and `influence` of emitted Rust.
+//! Code that follows inputs: `Inputs`, `follow` and `influence` of emitted Rust.
 //!
 //! Its equations hold inputs as signals. What `step` does along time, it does along the straight line from signals to others, whose
 //! places go from 0 to 1; it stands in a module of its own, so that nothing else changes.
@@ -21,7 +21,7 @@ use mechc_ir::tolerances::emitted::follow::{LARGEST_SHIFT_OF_INPUT, LARGEST_TURN
 use rustc_hash::FxHashMap;
 use std::cell::RefCell;
 
-/// What is said of leading a state.
+/// Documentation of `follow`.
 const FOLLOW: &str = "Leads a state from its inputs to others, along the straight line between them, in as many steps
 as the branch asks for; their rates and accelerations there decide velocities and accelerations.
 
@@ -80,7 +80,7 @@ pub(super) fn module(following: &Following<'_>, page: &mut Page) -> (RuntimeDeps
     (deps, words, Some(writer.work()))
 }
 
-/// What the text says of inputs: their values, rates and accelerations by its formulas. Gives what that uses.
+/// Prints the inputs by the formulas of the text: values, rates and accelerations. Returns the dependencies of that code.
 fn by_formulas(following: &Following<'_>, names: &Names, tables: &Tables, page: &mut Page) -> RuntimeDeps {
     let program = following.by_text;
     let outputs: Vec<Register> = program.inputs.all_signals().collect();
@@ -181,17 +181,17 @@ impl Writer<'_> {
     }
 }
 
-/// What everybody sees of inputs.
+/// Public items about inputs.
 struct Inputs<'i> {
     all: &'i [Input],
     names: &'i Names,
-    /// Whether C knows them too.
+    /// True if C can access them too.
     for_c: bool,
 }
 
 impl Inputs<'_> {
-    /// Those that are not the time, which stands behind them.
-    fn own(&self) -> impl Iterator<Item = (&Input, &String)> {
+    /// Returns the inputs other than time, which comes after them.
+    fn without_time(&self) -> impl Iterator<Item = (&Input, &String)> {
         self.all.iter().zip(&self.names.inputs).filter(|(input, _)| !input.is_time())
     }
 
@@ -221,7 +221,7 @@ impl Inputs<'_> {
                 page.line(&format!("pub {name}: f64,"));
             }
         });
-        page.constant("Number of inputs.", "pub const INPUTS: usize", &self.own().count().to_string());
+        page.constant("Number of inputs.", "pub const INPUTS: usize", &self.without_time().count().to_string());
         let docs = "Number of signals: time is one where formulas hold it beside inputs.";
         page.constant(docs, "const SIGNALS: usize", &self.all.len().to_string());
         let constants = Case::Constant.names_of_inputs(self.all);
@@ -231,13 +231,13 @@ impl Inputs<'_> {
             page,
             "Where each input stands in what [`influence`] gives.",
             "input",
-            self.own().map(descriptions).zip(&constants),
+            self.without_time().map(descriptions).zip(&constants),
         );
         page.docs("What comes from outside.");
         page.line("#[derive(Clone, Copy, Debug, Default, PartialEq)]");
         self.as_in_c(page);
         page.item("pub struct Inputs", |page| {
-            for (input, name) in self.own() {
+            for (input, name) in self.without_time() {
                 page.docs(&format!("`{}` ({})", one_line(&input.name), unit(&input.unit)));
                 page.line(&format!("pub {name}: Signal,"));
             }
@@ -263,7 +263,7 @@ impl Inputs<'_> {
         let head = Head { kind: "fn", name: "of", arguments: &arguments, result: "Self" };
         page.function(&head, |page| {
             page.block("Self", |page| {
-                for (k, (_, name)) in self.own().enumerate() {
+                for (k, (_, name)) in self.without_time().enumerate() {
                     let signal = format!("value: values[{k}], rate: rates[{k}], acceleration: accelerations[{k}]");
                     page.line(&format!("{name}: Signal {{ {signal} }},"));
                 }
@@ -276,7 +276,7 @@ impl Inputs<'_> {
         page.line("#[rustfmt::skip]");
         let head = Head { kind: "fn", name: "signals", arguments: &[("&self", "")], result: "[[f64; SIGNALS]; 3]" };
         page.function(&head, |page| {
-            let mut all: Vec<String> = self.own().map(|(_, name)| format!("self.{name}")).collect();
+            let mut all: Vec<String> = self.without_time().map(|(_, name)| format!("self.{name}")).collect();
             if self.has_time() {
                 all.push("Signal { value: self.t, rate: 1.0, acceleration: 0.0 }".to_owned());
             }

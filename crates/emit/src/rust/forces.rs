@@ -1,4 +1,4 @@
-//! What joints exert and drivers supply: where it stands, what it follows from, and what gives it.
+//! Forces of joints and drivers: their positions in arrays, their equations, and the functions that give them.
 
 use super::Writer;
 use super::indices::numbered;
@@ -22,7 +22,7 @@ const FORCES: &str =
 position, where there is none.";
 
 impl Writer<'_> {
-    /// Where forces stand, and what they follow from; nothing where nobody asks for them.
+    /// Prints the positions of forces and their equations, if forces are requested.
     pub fn force_indices(&self, page: &mut Page) {
         let reactions = self.unit.system.reactions();
         if reactions.is_empty() {
@@ -53,7 +53,7 @@ impl Writer<'_> {
         }
     }
 
-    /// What multipliers have to hold.
+    /// Prints the loads that multipliers have to balance.
     pub fn needed(&self, given: Given, page: &mut Page) {
         let is_public = given == Given::None;
         let name = if is_public { "needed".to_owned() } else { self.on_sides("needed") };
@@ -62,13 +62,13 @@ impl Writer<'_> {
         self.equations.function(&FunctionSpec { is_public, orders, given, ..spec }, page);
     }
 
-    /// Whether loads hold third derivatives of the coordinates.
+    /// Returns whether loads hold third derivatives of the coordinates.
     fn forces_hold_jerk(&self) -> bool {
         let (system, is_third) = (self.unit.system, |of: Dependence| of.highest_order() == Some(3));
         system.required_forces().iter().any(|&of| is_third(system.graph().dependence(of)))
     }
 
-    /// What multipliers exert; nothing where no columns are made of that.
+    /// Prints the forces that multipliers exert, if columns need them.
     fn exerted(&self, is_public: bool, page: &mut Page) {
         let outputs = &self.unit.program.outputs.reactions;
         if !outputs.is_empty() {
@@ -78,13 +78,13 @@ impl Writer<'_> {
         }
     }
 
-    /// Whether measures hold forces.
+    /// Returns whether measures hold forces.
     pub fn measures_hold_forces(&self) -> bool {
         let graph = self.unit.system.graph();
         self.unit.system.measures().iter().any(|of| graph.dependence(of.value).on(Dependence::FORCES))
     }
 
-    /// What gives them; nothing where there are no masses and loads.
+    /// Prints the functions that give forces, if there are masses or loads.
     pub fn forces(&self, solution: &Solution<'_>, page: &mut Page) {
         if solution.motion.forced.is_none() {
             return;
@@ -139,7 +139,7 @@ impl Writer<'_> {
         });
     }
 
-    /// The transposed matrix, for elimination with partial pivoting; nothing where nobody asks for forces.
+    /// Prints the transposed matrix for elimination with partial pivoting, if forces are requested.
     pub fn transposed(&self, tables: &BlockTables, page: &mut Page) {
         if !self.equations.has_forces() {
             return;
@@ -159,16 +159,16 @@ impl Writer<'_> {
         page.end_statement();
     }
 
-    /// What elimination with partial pivoting asks for.
+    /// Prints the functions that elimination with partial pivoting needs.
     pub fn pivoted_multipliers(&self, page: &mut Page) {
         if !self.equations.has_forces() {
             return;
         }
         let head = Head { kind: "fn", name: "transposed", arguments: &[], result: "Option<&'static Transposed>" };
         page.function(&head, |page| page.line("Some(&ACROSS)"));
-        let own = ["q", "qd", "qdd", "qddd"];
-        let (orders, own) =
-            if self.forces_hold_jerk() { ("[q, qd, qdd, qddd]", &own[..]) } else { ("[q, qd, qdd, _]", &own[..3]) };
-        self.right_side(page, "needed", &[(orders, "[&Q; 4]")], own, "Q");
+        let names = ["q", "qd", "qdd", "qddd"];
+        let (orders, names) =
+            if self.forces_hold_jerk() { ("[q, qd, qdd, qddd]", &names[..]) } else { ("[q, qd, qdd, _]", &names[..3]) };
+        self.right_side(page, "needed", &[(orders, "[&Q; 4]")], names, "Q");
     }
 }

@@ -10,20 +10,20 @@ use mechc_ir::program::Register;
 /// Systems up to this many coordinates get their Jacobian as a full matrix too.
 const LARGEST_DENSE: usize = 64;
 
-/// What is said of the function that the equations left out are.
+/// Documentation of the function for the equations that were left out.
 const LEFT_OUT: &str = "The residual of the equations that were left out (m, m^2 or rad): nothing, as long as they follow from the others.";
 
-/// What is said of the right sides for derivatives by inputs and parameters.
+/// Documentation of the right sides for derivatives by inputs and parameters.
 const VARIED_RIGHT: &str =
     "Right sides of the equations `phi_q x = varied_right` for each list of `N` of [`VARIED`]. Those by one are found
 before those by two, those of `q` before those of `qd` and these before those of `qdd`: what is not found yet
 may be anything.";
 
-/// One of the functions of the equations.
+/// Function of the equations.
 struct Kind<'k> {
     name: &'k str,
     docs: &'k str,
-    /// How many derivatives of the coordinates it is given, itself counted.
+    /// Number of arrays of coordinates that it is given, from the coordinates to their highest derivative.
     orders: usize,
     outputs: &'k [Register],
     length: &'k str,
@@ -109,7 +109,7 @@ impl Writer<'_> {
         }
     }
 
-    /// Which equations were left out.
+    /// Prints which equations were left out.
     fn left_out(&self, page: &mut Page) {
         let system = self.unit.system;
         if system.checks().is_empty() {
@@ -124,7 +124,7 @@ impl Writer<'_> {
         page.line(&format!("pub const LEFT_OUT: usize = {};\n", system.checks().len()));
     }
 
-    /// Which derivatives by inputs and parameters measures hold.
+    /// Prints which derivatives by inputs and parameters measures hold.
     fn varied_lists(&self, page: &mut Page) {
         let (system, variations) = (self.unit.system, &self.unit.program.outputs.variations);
         if variations.is_empty() {
@@ -144,7 +144,7 @@ impl Writer<'_> {
         page.line(&format!("pub const VARIED: usize = {count};\n"));
     }
 
-    /// The right sides of the equations for the derivatives by inputs and parameters that measures hold; nothing where there are none.
+    /// Prints the right sides of the equations for the derivatives by inputs and parameters that measures hold, if any.
     fn varied(&self, given: Given, page: &mut Page) {
         let variations = &self.unit.program.outputs.variations;
         if variations.is_empty() {

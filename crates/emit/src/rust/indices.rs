@@ -1,4 +1,4 @@
-//! Where everything stands: coordinates, equations, bodies, measures.
+//! Indices of coordinates, equations, bodies and measures.
 
 use super::Writer;
 use crate::names::Case;
@@ -40,7 +40,7 @@ impl Writer<'_> {
         self.force_indices(page);
     }
 
-    /// Where the entries of the Jacobian stand.
+    /// Prints the sparsity pattern of the Jacobian.
     pub fn pattern(&self, visibility: &str, docs: &str, page: &mut Page) {
         let system = self.unit.system;
         page.docs(docs);
@@ -149,7 +149,7 @@ pub(super) fn numbered<'n>(page: &mut Page, docs: &str, module: &str, all: impl 
     });
 }
 
-/// What is said of a measure that tables print in another unit.
+/// Returns a note for a measure that tables print in another unit.
 fn in_si(measure: &Measure) -> String {
     let Units { si, printed: [printed, ..], .. } = &measure.units;
     let unit = if si == "1" { "as a pure number".to_owned() } else { format!("in {si}") };

@@ -31,7 +31,7 @@ impl Writer<'_> {
         });
     }
 
-    /// What stands in it.
+    /// Prints the content of the module.
     fn inside(&self, solution: &Solution<'_>, lanes: usize, page: &mut Page) {
         self.requires("lane_solutions", "Laned");
         page.constant("Lanes that are worked on together.", "pub const LANES: usize", &lanes.to_string());
@@ -88,7 +88,7 @@ impl Writer<'_> {
         }
     }
 
-    /// What is asked of a mechanism in lanes.
+    /// Prints the implementation of `Laned` for the mechanism.
     fn laned(&self, solution: &Solution<'_>, page: &mut Page) {
         let length = |is_there: bool, length: &'static str| if is_there { length } else { "0" };
         let has_measures = !self.unit.system.measures().is_empty();

@@ -32,21 +32,21 @@ use std::cell::RefCell;
 /// A Rust module.
 pub(super) struct Module {
     pub text: String,
-    /// Whether it asks for the crate `libm`.
+    /// True if it needs the crate `libm`.
     pub needs_libm: bool,
     /// Words of 8 bytes that a state takes; 0 where nothing is solved.
     pub words: usize,
-    /// How many steps calls take at most, and how many evaluations these are.
+    /// Upper bounds of the steps of calls, and of their evaluations.
     pub bounds: Bounds,
 }
 
-/// One Rust module, self-contained but for the `libm` crate where a formula asks for it.
+/// Returns one Rust module, self-contained except for the `libm` crate if a formula needs it.
 #[must_use]
 pub fn rust(unit: &TranslationUnit<'_>) -> String {
     module(unit).text
 }
 
-/// The same, with what it asks for.
+/// Returns the module with its requirements.
 pub(super) fn module(unit: &TranslationUnit<'_>) -> Module {
     let tables = Tables::new(unit.program);
     let names = Names::new(unit.system, Params::new(unit.system).paths, &tables.variables());
@@ -82,7 +82,7 @@ pub(super) fn module(unit: &TranslationUnit<'_>) -> Module {
     Module { text: page.done().trim_end().to_owned() + "\n", needs_libm: deps.needs_libm(), words, bounds }
 }
 
-/// What the functions of a unit's equations are written from; led ones are given their inputs.
+/// Returns the source of the functions of a unit's equations; those driven by inputs are given these.
 fn equations<'u>(
     unit: &TranslationUnit<'u>,
     names: &'u Names,
@@ -102,7 +102,7 @@ fn equations<'u>(
     }
 }
 
-/// Whether a mechanism is so large that its operations are written as numbers. Tables that depend on parameters are not.
+/// Returns whether a mechanism is so large that its operations are written as numbers; never with tables that depend on parameters.
 #[must_use]
 pub fn is_large(unit: &TranslationUnit<'_>) -> bool {
     let of_program: usize = STAGES.iter().map(|stage| unit.program.stage(*stage).len()).sum();
@@ -115,7 +115,7 @@ pub fn is_large(unit: &TranslationUnit<'_>) -> bool {
     of_program + of_solver > unit.largest_straight && (0..unit.program.tables().len() as u32).all(is_constant)
 }
 
-/// What the module of a mechanism is written from, or what follows its inputs.
+/// Source of the module of a mechanism, or of the module that follows its inputs.
 struct Writer<'w> {
     unit: &'w TranslationUnit<'w>,
     names: &'w Names,
@@ -174,7 +174,7 @@ impl Writer<'_> {
         page.blank();
     }
 
-    /// Where something is declared, for a comment.
+    /// Returns the line of a declaration, for a comment.
     fn line(&self, span: Span) -> String {
         format!(", line {}", self.unit.sources.get(span.file).position(span.start).0)
     }
@@ -188,7 +188,7 @@ impl Writer<'_> {
         !self.equations.sides.is_empty()
     }
 
-    /// Whether time alone decides branches of formulas, and whether the motion does.
+    /// Returns whether time alone decides branches of formulas, and whether the motion does.
     fn switches(&self) -> (bool, bool) {
         let switches = self.unit.program.switches();
         (switches.iter().any(|switch| switch.on_time), switches.iter().any(|switch| !switch.on_time))
@@ -199,7 +199,7 @@ impl Writer<'_> {
         if self.equations.is_input_driven { "&self.path" } else { "&self.params" }
     }
 
-    /// What a function of the equations is called whose branches are given.
+    /// Returns the name of a function of the equations whose branches are given.
     fn on_sides(&self, name: &str) -> String {
         if self.has_sides() { format!("{name}_with") } else { name.to_owned() }
     }

@@ -1,4 +1,4 @@
-//! What follows the motion: the mechanism as those files know it that go along.
+//! Code that follows the motion: the mechanism as the accompanying runtime files access it.
 
 use super::Writer;
 use crate::equations::{FunctionSpec, Given};
@@ -7,7 +7,7 @@ use crate::solution::Solution;
 use mechc_expr::{Dependence, ExprId};
 
 impl Writer<'_> {
-    /// What follows the motion.
+    /// Prints the code that follows the motion.
     pub fn motion(&self, solution: &Solution<'_>, page: &mut Page) {
         let columns = solution.columns();
         page.constant("Number of results at a time.", "pub const COLUMNS: usize", &columns.to_string());
@@ -22,7 +22,7 @@ impl Writer<'_> {
         self.forces(solution, page);
     }
 
-    /// What is solved, along time or signals.
+    /// Prints the solved system, along time or signals.
     pub fn solved(&self, solution: &Solution<'_>, page: &mut Page) {
         self.requires("solution", "Solved");
         self.requires("equations", "Equations");
@@ -52,8 +52,8 @@ impl Writer<'_> {
     }
 
     /// The arguments of a function of the equations: what it has of its own, the time, the parameters, the branches.
-    pub fn call(&self, function: &str, own: &[&str], given: Given) -> String {
-        let mut arguments = own.to_vec();
+    pub fn call(&self, function: &str, more: &[&str], given: Given) -> String {
+        let mut arguments = more.to_vec();
         arguments.extend(["t", self.given()]);
         if given != Given::None && self.has_sides() {
             arguments.push("sides");
@@ -67,19 +67,19 @@ impl Writer<'_> {
         page: &mut Page,
         name: &str,
         function: &str,
-        own: &[(&str, &str)],
+        more: &[(&str, &str)],
         result: &str,
         given: Given,
     ) {
         let mut arguments = vec![("&self", "")];
-        arguments.extend(own);
+        arguments.extend(more);
         arguments.push(("t", "f64"));
         let is_read = self.has_sides() && given == Given::All;
         match given {
             Given::None => {}
             _ => arguments.push((if is_read { "sides" } else { "_sides" }, "&Sides")),
         }
-        let names: Vec<&str> = own.iter().map(|(name, _)| *name).collect();
+        let names: Vec<&str> = more.iter().map(|(name, _)| *name).collect();
         let given = if is_read { Given::All } else { Given::None };
         page.function(&Head { kind: "fn", name, arguments: &arguments, result }, |page| {
             page.line(&self.call(function, &names, given));
@@ -100,8 +100,8 @@ impl Writer<'_> {
             for (name, result) in kinds {
                 self.method(page, name, &self.on_sides(name), &[("q", "&Q")], result, Given::All);
             }
-            let own = [("q", "&Q"), ("qd", "&Qd")];
-            self.method(page, "gamma", &self.on_sides("gamma"), &own, "Qdd", Given::All);
+            let more = [("q", "&Q"), ("qd", "&Qd")];
+            self.method(page, "gamma", &self.on_sides("gamma"), &more, "Qdd", Given::All);
         });
     }
 
@@ -167,7 +167,7 @@ impl Writer<'_> {
         });
     }
 
-    /// Which of the measures, their rates and their accelerations hold derivatives by inputs and parameters, or forces.
+    /// Returns which of the measures, their rates and their accelerations hold derivatives by inputs and parameters, or forces.
     fn is_varied(&self) -> Vec<String> {
         let (graph, measures) = (self.unit.system.graph(), self.unit.system.measures());
         let is_varied = |id: ExprId| {
@@ -206,7 +206,7 @@ impl Writer<'_> {
         });
     }
 
-    /// What makes a mechanism of what it is given.
+    /// Prints the construction of a mechanism from its arguments.
     pub fn making(solution: &Solution<'_>, field: &str, value: &str, page: &mut Page) {
         if solution.derived.is_empty() {
             page.line(&format!("Self {{ {field}: {value} }}"));

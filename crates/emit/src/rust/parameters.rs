@@ -1,4 +1,4 @@
-//! What can be set: the parameters, in structures.
+//! Parameters, which users can set, in structures.
 
 use super::Writer;
 use crate::params::{Of, Params};

@@ -9,7 +9,7 @@ use mechc_engine::solver::BlockTables;
 use mechc_ir::program::Register;
 
 impl Writer<'_> {
-    /// What it takes; nothing where a block is too large for it.
+    /// Prints the code for partial pivoting, unless a block is too large for it.
     pub fn pivoting(&self, solution: &Solution<'_>, page: &mut Page) {
         let Some(tables) = &solution.motion.blocks else {
             return;
@@ -54,7 +54,7 @@ impl Writer<'_> {
         });
     }
 
-    /// Whether measures hold third derivatives that are solved for.
+    /// Returns whether measures hold third derivatives that are solved for.
     fn has_jerk(&self) -> bool {
         !self.unit.program.outputs.jerk().is_empty() && self.unit.system.jerk().is_some()
     }
@@ -66,8 +66,8 @@ impl Writer<'_> {
             self.right_side(page, "jerk", &[orders], &["q", "qd", "qdd"], "Q");
         }
         if self.equations.has_varied() {
-            let own = [orders, ("varied", "&[f64; VARIED]")];
-            self.right_side(page, "varied_right", &own, &["q", "qd", "qdd", "varied"], "[f64; VARIED]");
+            let arguments = [orders, ("varied", "&[f64; VARIED]")];
+            self.right_side(page, "varied_right", &arguments, &["q", "qd", "qdd", "varied"], "[f64; VARIED]");
         }
         if self.equations.is_input_driven {
             self.method(page, "rights", "rights_by_signal", &[("q", "&Q")], "[Q; SIGNALS]", Given::All);
@@ -78,17 +78,17 @@ impl Writer<'_> {
         }
     }
 
-    pub fn right_side(&self, page: &mut Page, name: &str, own: &[(&str, &str)], names: &[&str], result: &str) {
+    pub fn right_side(&self, page: &mut Page, name: &str, more: &[(&str, &str)], names: &[&str], result: &str) {
         let sides = if self.has_sides() { "sides" } else { "_sides" };
         let mut arguments = vec![("&self", "")];
-        arguments.extend(own);
+        arguments.extend(more);
         arguments.extend([("t", "f64"), (sides, "&Sides")]);
         page.function(&Head { kind: "fn", name, arguments: &arguments, result }, |page| {
             page.line(&self.call(&self.on_sides(name), names, Given::All));
         });
     }
 
-    /// What is measured of the result.
+    /// Prints the measures of the result.
     fn measured_by(&self, page: &mut Page) {
         let (has_measures, has_varied) = (!self.unit.system.measures().is_empty(), self.equations.has_varied());
         let has_forces = self.measures_hold_forces();
@@ -108,14 +108,14 @@ impl Writer<'_> {
         let name = if has_varied { "varied" } else { "_varied" };
         let multipliers = if has_forces { "multipliers" } else { "_multipliers" };
         let arguments = [("&self", ""), (orders, "[&Q; 4]"), (name, varied), (multipliers, "&Q"), ("t", "f64")];
-        let mut own = vec!["q", "qd", "qdd"];
-        own.extend(has_jerk.then_some("qddd"));
-        own.extend(has_varied.then_some("varied"));
-        own.extend(has_forces.then_some("multipliers"));
-        page.function(&head(&arguments, "Measures"), |page| page.line(&self.call("measures", &own, Given::None)));
+        let mut names = vec!["q", "qd", "qdd"];
+        names.extend(has_jerk.then_some("qddd"));
+        names.extend(has_varied.then_some("varied"));
+        names.extend(has_forces.then_some("multipliers"));
+        page.function(&head(&arguments, "Measures"), |page| page.line(&self.call("measures", &names, Given::None)));
     }
 
-    /// What is done where solving fails.
+    /// Prints the fallback for the case that solving fails.
     pub fn pivoted(&self, page: &mut Page) {
         self.requires("pivoting", "solve_with_pivoting");
         self.requires("error", "Fault");
@@ -124,7 +124,7 @@ impl Writer<'_> {
         page.function(&head, |page| page.line("solve_with_pivoting(self, q, t, sides)"));
     }
 
-    /// How the equations fall apart into blocks.
+    /// Prints the partition of the equations into blocks.
     fn blocks(&self, solution: &Solution<'_>, tables: &BlockTables, page: &mut Page) {
         self.requires("blocks", "Blocks");
         self.requires("blocks", "work_of");

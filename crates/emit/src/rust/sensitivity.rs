@@ -10,7 +10,7 @@ use crate::text::{constant, one_line};
 use mechc_ir::program::Register;
 
 impl Writer<'_> {
-    /// What gives them, where they are wanted.
+    /// Prints the functions that give sensitivities, if requested.
     pub fn sensitivity(&self, solution: &Solution<'_>, page: &mut Page) {
         let (params, is_input_driven) = (self.unit.system.params(), self.equations.is_input_driven);
         if solution.motion.sensitive.is_none() || (params.is_empty() && is_input_driven) {
@@ -81,7 +81,7 @@ impl Writer<'_> {
         page.line("reject_drift::<Self, _, _>(by, &LEFT_OUT_PATTERN, &slopes, &LEFT_OUT_SCALES);");
     }
 
-    /// Where equations that were left out have entries in their Jacobian.
+    /// Prints the sparsity pattern of the Jacobian of equations that were left out.
     pub fn left_out_pattern(&self, page: &mut Page) {
         let pattern = &self.unit.system.check_slopes().pattern;
         let entries: Vec<String> = pattern.iter().map(|entry| format!("{entry:?}")).collect();
@@ -89,7 +89,7 @@ impl Writer<'_> {
         page.text(&constant(docs, "LEFT_OUT_PATTERN", "(usize, usize)", &entries.len().to_string(), &entries));
     }
 
-    /// How equations that were left out change; nothing where none was.
+    /// Prints the derivatives of equations that were left out, if any.
     pub fn left_out_slopes(&self, by: &str, lists: &[Vec<Register>], page: &mut Page) {
         let slopes = &self.unit.program.outputs.check_slopes;
         if self.unit.system.checks().is_empty() {

@@ -1,4 +1,4 @@
-//! How much memory a state takes, and how much work a call, for those who reserve both without asking Rust.
+//! Memory of a state and work of a call, for callers that reserve both without Rust.
 //!
 //! All in it are numbers of 8 bytes and answers of one, so that it is the same everywhere. The code for C does not compile where this is
 //! too little.
@@ -42,7 +42,7 @@ impl Writer<'_> {
     }
 }
 
-/// How many steps calls take at most, and how many evaluations these are, by the names of their constants; the same as `work.rs` and
+/// Upper bounds of the steps of calls and of their evaluations, by the names of their constants; the same as `work.rs` and
 /// its like in `runtime` say, for those who do not ask Rust.
 pub(crate) type Bounds = Vec<(&'static str, usize)>;
 
@@ -73,17 +73,17 @@ impl Writer<'_> {
 
     /// The bounds of a mechanism, with what its inputs take.
     pub fn bounds(&self, lead: Option<Work>) -> Bounds {
-        let own = self.work();
-        let most_work = self.boundaries().count() * (MOST_HALVINGS + 3) + 2 + 2 * MOST_LOOKS * own.reaching;
-        let of_own_step = own.step + if self.has_boundaries() { most_work } else { 0 };
+        let work = self.work();
+        let most_work = self.boundaries().count() * (MOST_HALVINGS + 3) + 2 + 2 * MOST_LOOKS * work.reaching;
+        let of_step = work.step + if self.has_boundaries() { most_work } else { 0 };
         let of_lead_step = lead.map_or(0, |lead| lead.step + 1);
         let to_follow = |lead: Work| 1 + lead.sides + lead.reaching + lead.regular + lead.reaching + 2;
-        let to_take_up = lead.map_or(0, |lead| to_follow(lead) + 1 + own.sides + own.reaching);
-        let of_parts = (2 + FIRST_PARTS + MOST_PARTS) * (2 * own.sides + own.reaching + 1);
+        let to_take_up = lead.map_or(0, |lead| to_follow(lead) + 1 + work.sides + work.reaching);
+        let of_parts = (2 + FIRST_PARTS + MOST_PARTS) * (2 * work.sides + work.reaching + 1);
         let mut bounds = vec![
             ("MOST_STEPS", MOST_STEPS),
-            ("MOST_WORK", MOST_STEPS * of_own_step.max(of_lead_step) + to_take_up + own.regular),
-            ("MOST_WORK_TO_ASSEMBLE", of_parts + own.sides + (1 + MOST_SHORTER) * MOST_TRIALS),
+            ("MOST_WORK", MOST_STEPS * of_step.max(of_lead_step) + to_take_up + work.regular),
+            ("MOST_WORK_TO_ASSEMBLE", of_parts + work.sides + (1 + MOST_SHORTER) * MOST_TRIALS),
         ];
         if let Some(lead) = lead {
             bounds.push(("MOST_STEPS_TO_FOLLOW", MOST_STEPS_TO_FOLLOW));
