@@ -110,7 +110,7 @@ pub mod drive {
     pub const MOST_TURNS: f64 = 100.0;
 }
 
-/// Continuation of inputs from nominal to given values (`crates/engine/src/analysis/follow/lead.rs`).
+/// Continuation of inputs from nominal to given values (`crates/engine/src/analysis/follow/continuation.rs`).
 pub mod lead {
     /// Distance before and behind a kink at which the mechanism is examined, as a part of the path.
     pub const KINK_OFFSET: f64 = 1e-9;

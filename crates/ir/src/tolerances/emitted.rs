@@ -46,7 +46,7 @@ pub mod explain {
     pub const SINGULAR: f64 = 1e2;
 }
 
-/// Domain boundaries of formulas of time (`crates/emit/src/runtime/rims.rs`).
+/// Domain boundaries of formulas of time (`crates/emit/src/runtime/domain_boundaries.rs`).
 pub mod rims {
     /// Maximum number of examinations of both sides, each at a quarter of the previous distance.
     pub const MOST_LOOKS: usize = 6;

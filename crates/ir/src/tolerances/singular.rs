@@ -69,7 +69,7 @@ pub mod bridge {
     pub const SPREAD: f64 = 0.08;
 }
 
-/// Refined curve of a bridge (`crates/engine/src/analysis/follow/crossing/finer.rs`).
+/// Refined curve of a bridge (`crates/engine/src/analysis/follow/crossing/refined_bridge.rs`).
 pub mod finer {
     /// Distance of the outer states from the ends of the bridge, as a part of its length.
     pub const OUTWARD: f64 = 0.7;
@@ -79,7 +79,7 @@ pub mod finer {
     pub const EXACT: f64 = 2e-9;
 }
 
-/// Existence of positions all along a bridge (`crates/engine/src/analysis/follow/crossing/reach.rs`).
+/// Existence of positions all along a bridge (`crates/engine/src/analysis/follow/crossing/end_of_reach.rs`).
 pub mod reach {
     /// Maximum number of corrections of a position near the curve.
     pub const CORRECTIONS: usize = 60;
@@ -103,7 +103,7 @@ pub mod reach {
     pub const MARGIN: f64 = 4.0;
 }
 
-/// Change points that are just missed (`crates/engine/src/analysis/follow/misses.rs`).
+/// Change points that are just missed (`crates/engine/src/analysis/follow/near_misses.rs`).
 pub mod misses {
     /// Distance from a change point, as a part of the lengths, within which it is reported: drawings are rounded so.
     pub const WITHIN: f64 = 5e-4;

@@ -159,7 +159,7 @@ pub mod trust {
     pub const FAR: f64 = 1.5e-3;
 }
 
-/// Ill-conditioned rows that are solved again (`crates/engine/src/analysis/follow/march/doubt.rs`).
+/// Ill-conditioned rows that are solved again (`crates/engine/src/analysis/follow/follower/ill_conditioned_rows.rs`).
 pub mod doubt {
     /// Largest deviation of a row from an exact one, relative to its size or 1: in position, velocity and acceleration.
     pub const RIGHT: [f64; 3] = [1e-9, 1e-8, 1e-6];

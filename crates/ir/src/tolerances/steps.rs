@@ -1,6 +1,6 @@
 //! Steps, and events between their ends.
 
-/// Choice of the solved equations (`crates/engine/src/analysis/follow/choice.rs`).
+/// Choice of the solved equations (`crates/engine/src/analysis/follow/row_selection.rs`).
 pub mod choice {
     /// Largest weight of a row in a left-out one at the end of a step, both scaled: it bounds the loss of digits.
     pub const LARGEST_WEIGHT: f64 = 10.0;
@@ -125,7 +125,7 @@ pub mod edges {
     pub const ITERATIONS: usize = 4;
 }
 
-/// Domain boundaries (`crates/engine/src/analysis/follow/edges/rims.rs`).
+/// Domain boundaries (`crates/engine/src/analysis/follow/edges/domain_boundaries.rs`).
 pub mod rims {
     /// Smallest part that is searched, as a part of the span.
     pub const FINEST: f64 = 1e-8;
@@ -155,7 +155,7 @@ pub mod rims {
     pub const MOST_HALVINGS: usize = 100;
 }
 
-/// One-sided limits at a domain boundary (`crates/engine/src/analysis/follow/edges/limits.rs`).
+/// One-sided limits at a domain boundary (`crates/engine/src/analysis/follow/edges/one_sided_limits.rs`).
 pub mod limits {
     /// Number of distances that are examined.
     pub const MOST: usize = 16;
