@@ -64,7 +64,7 @@ pub struct Run {
     backtrace: PartBacktrace,
 }
 
-/// What a start has to report.
+/// Report on the start of a motion.
 #[derive(Clone, Debug, Default)]
 pub struct StartReport {
     /// Diagnostics of the start.

@@ -13,26 +13,26 @@ use mechc_ir::tolerances::assembly::newton::{
 use mechc_ir::{BodyId, ConstraintSystem, CoordinateKind, MonitorKind};
 use std::f64::consts::PI;
 
-/// How far assembly moved the bodies from their estimates.
+/// Displacement of the bodies from their estimates in assembly.
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
 pub struct Moved {
     /// Largest move of a body's origin in x or y (m).
     pub length: f64,
-    /// That body.
+    /// Body that moved furthest.
     pub length_body: BodyId,
     /// Largest turn (rad).
     pub angle: f64,
-    /// That body.
+    /// Body that turned furthest.
     pub angle_body: BodyId,
 }
 
 /// A position that satisfies every equation.
 pub struct Assembled {
-    /// Where and when.
+    /// Position and time.
     pub state: State,
-    /// How far it is from the estimates.
+    /// Displacement from the estimates.
     pub moved: Moved,
-    /// Whether the estimates led nowhere, and others near them had to be tried.
+    /// True if the estimates led nowhere, and others near them had to be tried.
     pub is_perturbed: bool,
 }
 
@@ -60,7 +60,7 @@ pub fn assemble(kinematics: &mut Kinematics, t: f64, near: Option<&[f64]>) -> Re
 /// Rows of all equations, those that are left out among them, each with the value of `Φ` at some position.
 pub type Residuals = Vec<(usize, f64)>;
 
-/// What the drivers ask for and the estimates leave open at time `t`: by row, `Φ` there. None where there is nothing to be driven: the
+/// Returns what the drivers prescribe and the estimates leave open at time `t`: by row, `Φ` there. None where there is nothing to be driven: the
 /// estimates agree with the drivers, or have no value, or every coordinate follows from others without iteration.
 pub fn driver_residuals(kinematics: &mut Kinematics, t: f64) -> Option<Residuals> {
     let determined = kinematics.determined();
@@ -124,7 +124,7 @@ fn set_start(kinematics: &mut Kinematics, t: f64) {
     kinematics.set_time(t);
 }
 
-/// Where all is closed but what is told to be open, if [`assemble`] finds no position.
+/// Returns the position in which all loops but the reported one are closed, if [`assemble`] finds no position.
 pub fn nearest(kinematics: &mut Kinematics, t: f64) -> Option<Vec<f64>> {
     let estimates = kinematics.estimates();
     set_start(kinematics, t);
@@ -135,7 +135,7 @@ pub fn nearest(kinematics: &mut Kinematics, t: f64) -> Option<Vec<f64>> {
     open_loop::opened(&kinematics.determined(), &q, t)
 }
 
-/// How far the bodies of a system are from one position to another.
+/// Returns the displacement of the bodies from one position to another.
 pub(super) fn moved(system: &ConstraintSystem, from: &[f64], to: &[f64]) -> Moved {
     let mut moved = Moved::default();
     for (k, (a, b)) in from.iter().zip(to).enumerate() {
@@ -177,7 +177,7 @@ fn explicit_first(kinematics: &mut Kinematics, estimates: &[f64]) -> Vec<f64> {
     estimates.to_vec()
 }
 
-/// Where Newton's method arrives, with every line of centres pointing from the first centre to the second: the equations
+/// Returns the position at which Newton's method arrives, with every line of centres pointing from the first centre to the second: the equations
 /// alone would let it point the other way.
 fn assembled(kinematics: &mut Kinematics, start: &[f64]) -> Option<Vec<f64>> {
     let q = newton(kinematics, start)?;
@@ -289,7 +289,7 @@ fn find_stop(kinematics: &mut Kinematics, q: &[f64], t: f64) -> Box<Stop> {
     StopCause::NotAssembled { row: worst, residual: open(worst) }.at(t)
 }
 
-/// Where a tangent vanishes the condition that tangents are parallel says nothing: a spurious root.
+/// Refuses a position in which a tangent vanishes: parallel tangents mean nothing there, and the root is spurious.
 fn refuse_vanishing_tangents(kinematics: &mut Kinematics, q: &[f64], t: f64) -> Result<(), Box<Stop>> {
     let determined = kinematics.determined();
     let system = determined.system();
@@ -390,7 +390,7 @@ fn independent_where(kinematics: &mut Kinematics, q: &[f64], near: &[f64], rows:
     (moved && holds).then(|| kinematics.nearness(SINGULAR_START) > SINGULAR_START)
 }
 
-/// Where least squares come to rest.
+/// Minimum that least squares reach.
 struct Rest {
     q: Vec<f64>,
     /// The first block that stays open, by its number, where blocks were gone through.
@@ -408,7 +408,7 @@ fn least_squares(kinematics: &mut Kinematics, mut q: Vec<f64>) -> Rest {
     Rest { q, open: None }
 }
 
-/// The same block by block, up to the first that stays open: those behind it may depend on it. Those that are closed take no time.
+/// Minimizes block by block, up to the first that stays open: those behind it may depend on it. Those that are closed take no time.
 fn block_by_block(kinematics: &mut Kinematics, mut q: Vec<f64>) -> Rest {
     let determined = kinematics.determined();
     let mut is_there = kinematics.set_position(&q).is_ok();

@@ -36,16 +36,16 @@ pub enum Doubt {
 pub struct FarBody {
     /// The body.
     pub body: BodyId,
-    /// How far.
+    /// Distance.
     pub off: Off,
 }
 
-/// How far a body's estimate is off.
+/// Distance of a body's estimate from its position.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub enum Off {
-    /// It was turned by this much (rad).
+    /// Rotation (rad).
     Turned(f64),
-    /// It was moved by this much (m), and the loop can be assembled otherwise, hardly farther from the estimates, or is too
+    /// Displacement (m), where the loop can be assembled otherwise, hardly farther from the estimates, or is too
     /// large to look.
     Moved(f64),
 }
@@ -73,7 +73,7 @@ pub fn doubt(kinematics: &mut Kinematics, from: &[f64], state: &State) -> Option
     doubt.map(|(_, doubt)| doubt)
 }
 
-/// How far what has to be solved for by iteration, and what follows from it, moved; the largest way, scaled.
+/// Returns the largest scaled displacement of the coordinates that iteration solves for, and of those that follow from them.
 pub fn moved_in_loops(determined: &Determined, from: &[f64], to: &[f64]) -> f64 {
     let system = determined.system();
     let of_bodies = |column: &usize| system.body_of(*column).is_some();
@@ -176,7 +176,7 @@ fn starts(kinematics: &Kinematics, within: &Loop, from: &[f64], to: &[f64]) -> V
     starts
 }
 
-/// How far two positions of a loop's bodies are apart, in lengths of the mechanism and radians.
+/// Returns the distance between two positions of a loop's bodies, in lengths of the mechanism and radians.
 fn distance(kinematics: &Kinematics, within: &Loop, a: &[f64], b: &[f64]) -> f64 {
     let system = kinematics.system();
     let squares = within.columns().filter(|&c| system.body_of(c).is_some()).map(|c| {
@@ -188,7 +188,7 @@ fn distance(kinematics: &Kinematics, within: &Loop, a: &[f64], b: &[f64]) -> f64
     squares.sum::<f64>().sqrt()
 }
 
-/// How far a coordinate is from another value of it; whole turns are none.
+/// Returns the distance between two values of a coordinate; whole turns do not count.
 fn distance_of(kind: CoordinateKind, a: f64, b: f64) -> f64 {
     match kind {
         CoordinateKind::Length | CoordinateKind::Argument => (a - b).abs(),

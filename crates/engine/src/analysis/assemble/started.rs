@@ -22,16 +22,16 @@ pub struct Started {
     moved: Moved,
     /// Why this may not be the position that the estimates mean.
     doubt: Option<Doubt>,
-    /// What solves for the rows; none where it would be too large, or nobody asks for them.
+    /// Solver for rows; `None` if it would be too large, or no rows are requested.
     solver: Option<Arc<Solver>>,
 }
 
-/// What solves for the rows of a mechanism that is assembled.
+/// Choice of the solver for the rows of an assembled mechanism.
 #[derive(Clone)]
 pub enum Solving {
     /// A solver that is made for the position found.
     New,
-    /// This solver, of the same equations; or none, where only positions are wanted.
+    /// A given solver of the same equations; `None` if only positions are requested.
     With(Option<Arc<Solver>>),
 }
 
@@ -40,13 +40,13 @@ pub enum Solving {
 pub struct Unassembled {
     /// Its equations.
     pub determined: Arc<Determined>,
-    /// What evaluates them.
+    /// Operations that evaluate them.
     pub program: Arc<Program>,
-    /// When it is assembled, and how far it is looked at.
+    /// Time of assembly, and the span of the analysis.
     pub horizon: Horizon,
     /// Bounds each row of Φ, scaled.
     pub tolerance: f64,
-    /// Whether bifurcations are passed between where it is drawn and where it begins.
+    /// True if bifurcations are passed between where it is drawn and where it begins.
     pub pass_bifurcations: bool,
     /// Ends it.
     pub cancel: Cancel,
@@ -86,7 +86,7 @@ impl Unassembled {
         self.assemble_at_with(self.kinematics(Some(q)), q, solving)
     }
 
-    /// The same, of what evaluates the equations, whose estimates may be others.
+    /// Assembles at a position [m, rad] with a given evaluator, whose estimates may differ.
     ///
     /// # Errors
     /// As [`Unassembled::close`].
@@ -100,7 +100,7 @@ impl Unassembled {
         Ok(Started::of(kinematics, (state, moved), solving))
     }
 
-    /// What evaluates the equations, before they are assembled, with the estimates of the file or with others [m, rad].
+    /// Returns an evaluator of the equations before assembly, with the estimates of the file or with others [m, rad].
     #[must_use]
     pub fn kinematics(&self, estimates: Option<&[f64]>) -> Kinematics {
         let (determined, program) = (Arc::clone(&self.determined), Arc::clone(&self.program));
@@ -112,7 +112,7 @@ impl Unassembled {
         kinematics
     }
 
-    /// Where its bodies come nearest to being assembled, from the file's estimates or from others, if it cannot be: all is closed but what is
+    /// Returns the position in which the bodies come nearest to being assembled, from the file's estimates or from others, if it cannot be: all is closed but what is
     /// told to be open. None where that is not known, or hopeless [m, rad].
     #[must_use]
     pub fn nearest(&self, estimates: Option<&[f64]>) -> Option<Vec<f64>> {
@@ -131,7 +131,7 @@ impl Started {
         Started { kinematics, state, moved, doubt: None, solver }
     }
 
-    /// What is to be said of the assembly: whether it moved bodies far, and whether gears fit.
+    /// Returns diagnostics of the assembly: bodies that moved far, and gears that do not fit.
     #[must_use]
     pub fn remarks(&self) -> Diagnostics {
         let (system, state) = (self.kinematics.system(), &self.state);
@@ -150,7 +150,7 @@ impl Started {
         diagnostics
     }
 
-    /// The same, with why this may not be the position that the estimates mean.
+    /// Returns it with the reason why this may not be the position that the estimates mean.
     #[must_use]
     pub fn with_doubt(self, doubt: Option<Doubt>) -> Started {
         Started { doubt, ..self }
@@ -180,13 +180,13 @@ impl Started {
         Started { moved, ..self }
     }
 
-    /// How far assembly moved the bodies from their estimates.
+    /// Returns the displacement of the bodies from their estimates in assembly.
     #[must_use]
     pub fn moved(&self) -> &Moved {
         &self.moved
     }
 
-    /// How far the assembly moved from their estimates what it had to iterate for, and what follows from that; the largest way, scaled.
+    /// Returns the largest scaled displacement from the estimates of the coordinates that iteration solves for, and of those that follow.
     #[must_use]
     pub fn moved_in_loops(&self) -> f64 {
         let estimates = self.kinematics.estimates();
@@ -224,26 +224,26 @@ impl Started {
         row
     }
 
-    /// What solves for rows; none where it would be too large, or is left out.
+    /// Returns the solver for rows; `None` if it would be too large, or is omitted.
     #[must_use]
     pub fn solver(&self) -> Option<&Solver> {
         self.solver.as_deref()
     }
 
-    /// The same, for others to hold.
+    /// Returns the solver as a shared pointer.
     #[must_use]
     pub fn shared_solver(&self) -> Option<Arc<Solver>> {
         self.solver.clone()
     }
 
-    /// The same operations, to be written as code; by a program that may leave inputs open, and has the same registers.
+    /// Returns the solver's operations for emission as code, by a program that may leave inputs open, and has the same registers.
     #[must_use]
     pub fn solver_for_code_of(&mut self, program: &Program) -> Option<Solver> {
         self.kinematics.restore(&self.state);
         self.kinematics.solver_for_code_of(program)
     }
 
-    /// What solves for some columns of several variants at once; none where it would be too large.
+    /// Returns a solver for some columns of several variants at once; `None` if it would be too large.
     #[must_use]
     pub fn solver_of_variants(&mut self, is_wanted: &dyn Fn(u32) -> bool) -> Option<Solver> {
         self.kinematics.restore(&self.state);
@@ -265,13 +265,13 @@ impl Started {
         inverses.iter().map(|inverse| 1.0 / inverse).collect()
     }
 
-    /// What a motion from the start on needs: what evaluates it, the state there, and what solves for its rows.
+    /// Returns the evaluator, the state at the start, and the solver, which a motion needs.
     #[must_use]
     pub fn into_parts(self) -> (Kinematics, State, Option<Arc<Solver>>) {
         (self.kinematics, self.state, self.solver)
     }
 
-    /// The same, to be followed by another one too.
+    /// Returns clones of the evaluator, the state at the start, and the solver.
     #[must_use]
     pub fn parts(&self) -> (Kinematics, State, Option<Arc<Solver>>) {
         (self.kinematics.clone(), self.state.clone(), self.solver.clone())

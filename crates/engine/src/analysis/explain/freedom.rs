@@ -11,7 +11,7 @@ use mechc_ir::tolerances::determinacy::freedom::{ANGLE_SHARE, ASSEMBLED, LOOSE, 
 use mechc_ir::{BodyId, ConstraintSystem, CoordinateKind, DeclarationKind, IdVec};
 use nalgebra::DVector;
 
-/// How bodies move in one of the motions that equations leave free: at whichever speed, and either way.
+/// Motion of the bodies in a degree of freedom that equations leave: at whichever speed, and either way.
 #[derive(Clone, PartialEq, Debug)]
 pub struct FreeMotion {
     /// The bodies that move, with the velocities of their frames [m, m, rad]. Of all coordinates, in sizes of
@@ -34,7 +34,7 @@ pub struct Freedom {
     joints: Vec<String>,
     /// The same of joints that slide.
     guides: Vec<String>,
-    /// Whether the mechanism has a driver.
+    /// True if the mechanism has a driver.
     is_driven: bool,
 }
 
@@ -75,12 +75,12 @@ impl Freedom {
         Some(freedom)
     }
 
-    /// What its motions do with the bodies.
+    /// Returns the motions of the bodies.
     pub fn motions_of_bodies(&self, system: &ConstraintSystem) -> Vec<FreeMotion> {
         self.motions.iter().map(|motion| of_bodies(system, motion)).collect()
     }
 
-    /// How many degrees of freedom are left.
+    /// Returns the number of degrees of freedom.
     pub fn degrees(&self) -> usize {
         self.motions.len()
     }
@@ -90,12 +90,12 @@ impl Freedom {
         &self.moving
     }
 
-    /// What could be driven to take the freedom: `rotation(main)`.
+    /// Returns the quantities that a driver could prescribe to take the freedom: `rotation(main)`.
     pub fn drives(&self) -> &[String] {
         &self.drivers
     }
 
-    /// What is left free, in sentences.
+    /// Describes the freedom in sentences.
     pub fn in_words(&self, system: &ConstraintSystem) -> Vec<String> {
         let is_loose = |column: usize| system.body_of(column).is_some_and(|body| self.loose.contains(&body));
         let mut sentences: Vec<String> = Vec::new();
@@ -117,7 +117,7 @@ impl Freedom {
         sentences
     }
 
-    /// What could be written to take the freedom.
+    /// Returns suggestions that take the freedom.
     pub fn helps(&self) -> Vec<String> {
         let mut helps = Vec::new();
         if !self.joints.is_empty() {

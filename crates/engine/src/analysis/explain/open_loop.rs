@@ -50,15 +50,15 @@ impl OpenLoop {
 /// A length that is too short or too long.
 #[derive(Clone, Debug)]
 pub struct FaultyLink {
-    /// What it is of.
+    /// Kind of the length.
     pub of: FaultyLinkKind,
     /// The length (m).
     pub length: f64,
-    /// Whether it is too short.
+    /// True if it is too short, false if too long.
     pub too_short: bool,
 }
 
-/// What a length is of.
+/// Kind of a length.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum FaultyLinkKind {
     /// The distance between two declarations' points on a body; none for the ground.
@@ -67,7 +67,7 @@ pub enum FaultyLinkKind {
     Declaration(DeclarationId),
 }
 
-/// What does not close where the nearest position is `q`.
+/// Returns the loop that does not close, where the nearest position is `q`.
 pub fn found(determined: &Determined, q: &[f64], t: f64) -> Option<OpenLoop> {
     locate(determined, q, t).map(|located| located.open)
 }

@@ -21,7 +21,7 @@ pub struct Dependent {
     pub on: Vec<usize>,
     /// How far it is open with the others met (m or rad, by its coordinates), and when first (s); none if it holds.
     pub open: Option<(f64, f64)>,
-    /// Whether it holds, but not wherever the others let the mechanism go: it fixes something, though it has no slope of its own where it does.
+    /// True if it holds, but not wherever the others let the mechanism go: it fixes something, though it has no slope of its own where it does.
     pub touches: bool,
 }
 

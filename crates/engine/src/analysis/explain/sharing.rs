@@ -80,7 +80,7 @@ struct Form {
     /// What it is the sum of, each with its sign.
     terms: Vec<(ExprId, f64)>,
     rows: Vec<u32>,
-    /// Whether it holds derivatives of forces by something else than time, so that each force has to be determined by itself.
+    /// True if it holds derivatives of forces by something else than time, so that each force has to be determined by itself.
     is_varied: bool,
 }
 

@@ -18,7 +18,7 @@ pub struct NearMisses {
     beside: State,
     /// The largest singular value since the last least one.
     highest: f64,
-    /// Whether rows are handed out, beside which it is told; a motion that is followed for its results alone is not watched.
+    /// True if rows are handed out, beside which it is told; a motion that is followed for its results alone is not watched.
     is_watching: bool,
     is_reported: bool,
     found: Option<Miss>,

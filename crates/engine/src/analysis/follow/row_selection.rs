@@ -78,7 +78,7 @@ impl RowSelection {
         self.current.as_ref()
     }
 
-    /// Whether the equations that are solved are well chosen at a state, where these were factored.
+    /// Returns whether the equations that are solved are well chosen at a state, where these were factored.
     pub fn is_good(&mut self, kinematics: &mut Kinematics, state: &State) -> bool {
         self.heaviest(kinematics, state).is_none_or(|(_, _, weight)| weight <= LARGEST_WEIGHT)
     }

@@ -116,7 +116,7 @@ fn close_and_drive(whole: &Unassembled, drawn: &[f64], residuals: &[(usize, f64)
     })
 }
 
-/// Whether a driver begins more than half a turn away from where it is drawn.
+/// Returns whether a driver begins more than half a turn away from where it is drawn.
 fn is_round(whole: &Unassembled, residuals: &[(usize, f64)]) -> bool {
     let rows = whole.determined.whole().rows();
     residuals.iter().any(|&(row, from)| rows[row].unit == RowUnit::ANGLE && from.abs() > PI)

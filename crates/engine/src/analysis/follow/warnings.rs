@@ -1,4 +1,4 @@
-//! What there is to say beside the rows, and what is known of accelerations that jump.
+//! Warnings of a motion, and the times at which accelerations jump.
 
 use crate::analysis::explain::{Warning, WarningCause};
 use mechc_ir::{ConstraintSystem, DeclarationId, IdVec};
@@ -10,7 +10,7 @@ pub struct Warnings {
     jumps: Option<Vec<f64>>,
 }
 
-/// What has been said, which may have to be taken back.
+/// Warnings so far, which may have to be taken back.
 #[derive(Clone)]
 pub struct Reported {
     warnings: Vec<Warning>,
@@ -33,7 +33,7 @@ impl Warnings {
         std::mem::take(&mut self.reported.warnings)
     }
 
-    /// What has been said so far.
+    /// Returns the warnings so far.
     pub fn reported(&self) -> Reported {
         self.reported.clone()
     }

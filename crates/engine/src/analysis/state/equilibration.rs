@@ -61,7 +61,7 @@ struct Part {
     rows: Range<usize>,
     entries: Range<usize>,
     centroids: Range<usize>,
-    /// Whether the magnitudes of its entries change along the motion.
+    /// True if the magnitudes of its entries change along the motion.
     changes: bool,
 }
 

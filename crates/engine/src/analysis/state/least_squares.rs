@@ -10,15 +10,15 @@ use mechc_ir::tolerances::assembly::least_squares::{
 /// Some equations by some coordinates at a position, both scaled.
 #[derive(Clone, Debug)]
 pub struct Linear {
-    /// What is left of each equation.
+    /// Residual of each equation.
     pub residual: Vec<f64>,
     /// Equation by equation.
     pub jacobian: Vec<f64>,
-    /// What each equation was divided by.
+    /// Divisor of each equation.
     pub weights: Vec<f64>,
 }
 
-/// Where the values of `Φ` and `Φ_q` are to be had.
+/// Evaluators of `Φ` and `Φ_q`.
 pub struct Evaluated<'s, P, J> {
     pub system: &'s ConstraintSystem,
     /// An entry of `Φ` by its row.

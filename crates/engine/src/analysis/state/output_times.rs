@@ -19,7 +19,7 @@ enum Kind {
         to: f64,
         last: u64,
     },
-    /// Those times, of an analysis that ends then at the earliest.
+    /// Listed times of an analysis that ends at the last of them or later.
     Listed {
         times: Vec<f64>,
         to: f64,
@@ -165,7 +165,7 @@ impl Times {
     }
 }
 
-/// When a mechanism is assembled, and how far it is looked at from there on.
+/// Time of assembly, and the span of the analysis from there on.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Horizon {
     /// The first time (s).

@@ -12,7 +12,7 @@ pub struct Plan {
     /// Row and column of each pivot.
     rows: Vec<u32>,
     columns: Vec<u32>,
-    /// Whether the permutation from rows to columns is odd.
+    /// True if the permutation from rows to columns is odd.
     is_odd: bool,
     slots: usize,
     /// Where each entry of the block goes, in the order they were given.

@@ -22,7 +22,7 @@ struct SubsystemLu {
     a: Vec<f64>,
     pivots: Vec<u32>,
     right: Vec<f64>,
-    /// Whether the position is far enough from a singular position.
+    /// True if the position is far enough from a singular position.
     is_trusted: bool,
 }
 

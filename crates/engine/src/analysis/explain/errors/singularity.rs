@@ -4,7 +4,7 @@ use super::{at, named, names, owners, with_places};
 use mechc_ir::{ConstraintSystem, DeclarationId, DeclarationKind, JointKind, MonitorKind};
 use mechc_text::diag::{Code, Diagnostic};
 
-/// What kind of singular position a mechanism starts in.
+/// Kind of singular position in which a mechanism starts.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum StartVerdict {
     /// The equations depend on each other wherever the mechanism is.
@@ -13,7 +13,7 @@ pub enum StartVerdict {
     LockUp(usize),
     /// Two branches meet.
     Bifurcation,
-    /// Nothing moves that could tell.
+    /// Undecided, since nothing moves.
     Unknown,
 }
 

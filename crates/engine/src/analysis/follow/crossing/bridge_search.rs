@@ -121,7 +121,7 @@ impl Crossing {
     }
 }
 
-/// Whether the curve over a bridge leaves corrections of at most `limit`, scaled, with the factors of its end.
+/// Returns whether the curve over a bridge leaves corrections of at most `limit`, scaled, with the factors of its end.
 fn holds(kinematics: &mut Kinematics, bridge: &Bridge, limit: f64) -> bool {
     let mut delta = vec![0.0; bridge.to.q.len()];
     PLACES.into_iter().all(|place| {

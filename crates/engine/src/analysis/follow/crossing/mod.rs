@@ -19,14 +19,14 @@ pub use bridge::Bridge;
 use mechc_ir::tolerances::scales::linear::CLEAR_PIVOT;
 use mechc_ir::tolerances::singular::bridge::{CERTAIN, CLEAR};
 
-/// Whether the position that was factored is clear of every singular one.
+/// Returns whether the position that was factored is clear of every singular one.
 pub fn is_clear(kinematics: &mut Kinematics) -> bool {
     kinematics.linear().smallest_pivot() > CLEAR_PIVOT * CLEAR || kinematics.nearness(CLEAR) >= CLEAR
 }
 
 /// What is known of the singular positions on the way.
 pub struct Crossing {
-    /// Whether to go on beyond bifurcations.
+    /// True if the motion goes on beyond bifurcations.
     passes: bool,
     /// The last state that was clear of singular positions.
     clear: State,
@@ -68,7 +68,7 @@ impl Crossing {
         self.passes = true;
     }
 
-    /// Whether it does.
+    /// Returns whether the motion goes on beyond bifurcations.
     pub fn passes(&self) -> bool {
         self.passes
     }
@@ -78,7 +78,7 @@ impl Crossing {
         &self.clear
     }
 
-    /// Whether a state of a time (s) that was come to was clear.
+    /// Returns whether a state of a time (s) that was come to was clear.
     pub fn was_clear_at(&self, t: f64) -> bool {
         self.clear.t.total_cmp(&t).is_eq()
     }
@@ -95,7 +95,7 @@ impl Crossing {
         self.clear.copy_from(clear);
     }
 
-    /// Whether the motion was seen to be clear again before a time (s).
+    /// Returns whether the motion was seen to be clear again before a time (s).
     pub fn is_clear_ahead(&self, t: f64) -> bool {
         t < self.clear_ahead
     }
@@ -105,7 +105,7 @@ impl Crossing {
         self.clear_ahead = t;
     }
 
-    /// Whether a way over a singular position ends at a time (s).
+    /// Returns whether a way over a singular position ends at a time (s).
     pub fn has_bridge_to(&self, t: f64) -> bool {
         self.bridge.as_ref().is_some_and(|bridge| bridge.to.t.total_cmp(&t).is_eq())
     }
@@ -117,7 +117,7 @@ impl Crossing {
         Some(bridge)
     }
 
-    /// Whether a singular position has been passed by a time (s).
+    /// Returns whether a singular position has been passed by a time (s).
     pub fn has_passed(&self, t: f64) -> bool {
         self.bridge.as_ref().is_some_and(|bridge| bridge.at <= t)
     }

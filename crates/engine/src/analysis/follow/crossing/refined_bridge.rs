@@ -90,7 +90,7 @@ impl RefinedBridge {
         places.into_iter().all(|t| finer.is_exact(kinematics, step, t)).then_some(finer)
     }
 
-    /// Whether it has the velocities and accelerations that are solved for at a time.
+    /// Returns whether it has the velocities and accelerations that are solved for at a time.
     fn is_exact(&self, kinematics: &mut Kinematics, step: &mut Step, t: f64) -> bool {
         let state = self.state_at(t);
         step.try_state(&state);

@@ -19,7 +19,7 @@ impl Chattering {
     /// One that has never been so.
     pub const NEVER: Chattering = Chattering { last: f64::NEG_INFINITY, length: 0.0, until: f64::NEG_INFINITY };
 
-    /// Whether nobody looks at it behind a time (s).
+    /// Returns whether nobody looks at it behind a time (s).
     pub fn is_suspended(&self, t: f64) -> bool {
         self.until > t
     }
@@ -38,7 +38,7 @@ impl Chattering {
     }
 }
 
-/// Whether the switch that is computed in a register is left alone behind a time (s), so that it may change.
+/// Returns whether the switch that is computed in a register is left alone behind a time (s), so that it may change.
 pub(super) fn may_change(kinematics: &Kinematics, chattering: &[Chattering], register: Register, t: f64) -> bool {
     let mut switches = kinematics.switches().iter().zip(chattering);
     switches.any(|(switch, chattering)| switch.to == register && chattering.is_suspended(t))
@@ -55,7 +55,7 @@ impl Edges {
         }
     }
 
-    /// Whether a switch that changes where the position was set stands on its edge all the time, so that rounding decides:
+    /// Returns whether a switch that changes where the position was set stands on its edge all the time, so that rounding decides:
     /// what it is decided by neither is off the edge nor has it moved since the state.
     pub fn rests(&mut self, kinematics: &mut Kinematics, step: &Step, switch: usize) -> bool {
         let switch = kinematics.switches()[switch];

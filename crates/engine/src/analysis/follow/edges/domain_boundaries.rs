@@ -229,7 +229,7 @@ impl DomainBoundaries {
         sizes.fold((0.0, 0, 0.0), |best, one| if one.0 > best.0 { one } else { best })
     }
 
-    /// Whether an event function only touches zero at a time, by the way that the state leads to.
+    /// Returns whether an event function only touches zero at a time, by the way that the state leads to.
     fn is_passed(&mut self, kinematics: &mut Kinematics, state: &State, boundary: usize, t: f64) -> bool {
         let mut at = |t: f64| {
             write_prediction(state, t - state.t, &mut self.place);
@@ -301,7 +301,7 @@ impl DomainBoundaries {
         zero
     }
 
-    /// Whether an event function is zero at a time, as far as numbers can tell.
+    /// Returns whether an event function is zero at a time, as far as numbers can tell.
     fn is_reached(&mut self, kinematics: &mut Kinematics, step: &mut Step, boundary: usize, t: f64) -> bool {
         let on_time = self.event_functions.boundary(boundary).on_time;
         let moment =

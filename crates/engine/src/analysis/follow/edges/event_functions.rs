@@ -58,7 +58,7 @@ impl EventFunctions {
         }
     }
 
-    /// Whether there is none.
+    /// Returns whether there is none.
     pub fn is_empty(&self) -> bool {
         self.all.is_empty()
     }
@@ -77,7 +77,7 @@ impl EventFunctions {
         self.passed[boundary] = t;
     }
 
-    /// Whether there are domain boundaries on a way.
+    /// Returns whether there are domain boundaries on a way.
     pub fn has_any(&self, way: SearchPath) -> bool {
         !self.on(way).is_empty()
     }
@@ -233,7 +233,7 @@ impl EventFunctions {
         Some(zero)
     }
 
-    /// Whether an event function that was just asked for is rounding.
+    /// Returns whether an event function that was just asked for is rounding.
     fn is_rounding(&self, kinematics: &Kinematics, boundary: usize, gauge: f64) -> bool {
         let terms = kinematics.largest_term(&self.all[boundary]);
         gauge.abs() <= ROUNDING * f64::EPSILON * terms && (terms > gauge.abs() || gauge == 0.0)

@@ -31,7 +31,7 @@ pub struct Edge {
     pub t: f64,
     /// A time (s) at which every switch of time is on the later side; none for an edge of the motion.
     after: Option<f64>,
-    /// Whether it is the place from which a domain boundary is judged.
+    /// True if it is the place from which a domain boundary is judged.
     is_domain_boundary: bool,
 }
 
@@ -103,7 +103,7 @@ impl Edges {
         self.met = met;
     }
 
-    /// Whether a step to a time (s) comes to it.
+    /// Returns whether a step to a time (s) comes to it.
     pub fn is_met_by(&self, t: f64) -> bool {
         self.met.is_some_and(|met| met.t <= t)
     }

@@ -29,7 +29,7 @@ pub(super) enum Verdict {
     NotFinite,
 }
 
-/// Whether states still nearer are wanted.
+/// True if states still nearer are wanted.
 pub(super) enum Nearer {
     Wanted,
     Enough,
@@ -46,7 +46,7 @@ struct Pair {
     acceleration: f64,
     /// What is left of both differences, scaled.
     rests: [f64; 2],
-    /// Whether rounding is small enough for the acceleration to be judged.
+    /// True if rounding is small enough for the acceleration to be judged.
     is_exact: bool,
     /// The largest velocity and acceleration, scaled.
     fastest: f64,
@@ -110,7 +110,7 @@ impl OneSidedLimits {
         self.after.copy_from(state);
     }
 
-    /// Whether states at a distance (s) from a time are wanted.
+    /// Returns whether states at a distance (s) from a time are wanted.
     pub fn wants(&self, distance: f64, t: f64) -> Nearer {
         if self.count < MOST && distance > NEAREST * f64::EPSILON * t.abs() { Nearer::Wanted } else { Nearer::Enough }
     }
@@ -229,7 +229,7 @@ impl OneSidedLimits {
     }
 }
 
-/// Whether sizes, from far to near, grow steadily at the end.
+/// Returns whether sizes, from far to near, grow steadily at the end.
 fn grows(sizes: impl DoubleEndedIterator<Item = f64> + Clone) -> bool {
     let mut last = f64::INFINITY;
     let nearest = sizes.rev().take(FEWEST + 2);
@@ -241,7 +241,7 @@ fn grows(sizes: impl DoubleEndedIterator<Item = f64> + Clone) -> bool {
         })
 }
 
-/// Whether sizes, from far to near, become smaller steadily at the end.
+/// Returns whether sizes, from far to near, become smaller steadily at the end.
 fn shrinks(sizes: impl DoubleEndedIterator<Item = f64> + Clone) -> bool {
     let mut last = 0.0;
     let nearest = sizes.rev().take(FEWEST + 2);

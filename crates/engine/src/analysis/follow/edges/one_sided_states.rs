@@ -222,7 +222,7 @@ pub(super) fn columns_that_jump(system: &ConstraintSystem, span: f64, [before, a
     own.zip(sides).filter(|(_, (a, b))| jumps(**a, **b)).map(|(column, _)| column.name).collect()
 }
 
-/// Whether the position stays, and only the tangents of a contact do not agree: the last row of its joint.
+/// Returns whether the position stays, and only the tangents of a contact do not agree: the last row of its joint.
 fn is_corner(kinematics: &Kinematics) -> bool {
     let system = kinematics.system();
     let widest = (0..system.rows().len())

@@ -55,7 +55,7 @@ impl Signals {
         Ok(())
     }
 
-    /// Whether a signal may leave the values that it has at the ends of a part (s).
+    /// Returns whether a signal may leave the values that it has at the ends of a part (s).
     fn may_leave_ends(&mut self, kinematics: &Kinematics, times: [f64; 2]) -> bool {
         let Signals { all, enclosure, bounds, left, right } = self;
         kinematics.enclose(enclosure, times);
@@ -67,7 +67,7 @@ impl Signals {
     }
 }
 
-/// Whether the equations hold nearly at a place of the curve, given as a part of the step.
+/// Returns whether the equations hold nearly at a place of the curve, given as a part of the step.
 fn holds_within(kinematics: &mut Kinematics, step: &mut Step, h: f64, x: f64) -> Result<(), Fault> {
     step.correction_at(kinematics, h, x)?;
     match kinematics.broken_check() {

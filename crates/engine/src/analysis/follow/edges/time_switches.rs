@@ -63,7 +63,7 @@ impl Edges {
         }
     }
 
-    /// Whether a switch of time would change at a time, or a formula of time ends.
+    /// Returns whether a switch of time would change at a time, or a formula of time ends.
     fn happens_at(&self, kinematics: &mut Kinematics, t: f64) -> bool {
         kinematics.set_time(t);
         let switches = kinematics.switches().iter().zip(&self.chattering);
@@ -71,7 +71,7 @@ impl Edges {
         of_time.any(|(switch, _)| kinematics.would_switch(switch)) || self.breaks_in_time(kinematics)
     }
 
-    /// Whether a condition on time alone is broken where time was set: those on the motion have not been evaluated.
+    /// Returns whether a condition on time alone is broken where time was set: those on the motion have not been evaluated.
     fn breaks_in_time(&self, kinematics: &Kinematics) -> bool {
         !self.in_time.conditions_hold(|register| kinematics.value(register))
     }

@@ -9,7 +9,7 @@ use crate::analysis::state::{Fault, Trust};
 use mechc_ir::tolerances::steps::march::{LARGEST_BETWEEN, LARGEST_CORRECTION};
 
 impl Follower {
-    /// Whether a step may go over several output times: the state is clear of singular positions.
+    /// Returns whether a step may go over several output times: the state is clear of singular positions.
     pub(super) fn may_step_densely(&self) -> bool {
         let t = self.step.t();
         self.rows.may_step_densely(t) && self.crossing.was_clear_at(t)

@@ -62,13 +62,13 @@ impl Follower {
         None
     }
 
-    /// Whether a row that has been found is certain, be it that it was in doubt.
+    /// Returns whether a row that has been found is certain, be it that it was in doubt.
     pub(super) fn is_certain(&mut self, state: &State) -> bool {
         let trust = self.rows.trust();
         trust.is_certain() || (trust == Trust::Doubtful && self.is_reproducible(state))
     }
 
-    /// Whether velocities and accelerations of a state stay what they are where its position is solved for again, from places
+    /// Returns whether velocities and accelerations of a state stay what they are where its position is solved for again, from places
     /// beside it: then rounding does not add up as it might. These places lie about a point of a grid, whichever way led to the
     /// state.
     pub(super) fn is_reproducible(&mut self, state: &State) -> bool {
@@ -142,7 +142,7 @@ impl Follower {
     }
 }
 
-/// Whether a row is right, beside one that is.
+/// Returns whether a row is right, beside one that is.
 fn agree(kinematics: &Kinematics, row: &[f64], other: &[f64]) -> bool {
     let layout = RowLayout::new(kinematics.system());
     let right = |column: usize| RIGHT[layout.order_of(column)];

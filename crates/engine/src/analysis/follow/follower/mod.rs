@@ -41,7 +41,7 @@ pub struct Follower {
     forces: Option<ForceMonitor>,
     misses: NearMisses,
     warnings: Warnings,
-    /// Whether derivatives at the start are known.
+    /// True if derivatives at the start are known.
     begun: bool,
     /// The edge that the last step ended at, if its later side has not been taken yet.
     edge: Option<Edge>,
@@ -430,7 +430,7 @@ impl Follower {
         self.step.restore_branch(&mut self.kinematics, &to.mark);
     }
 
-    /// Whether the step to where the motion is has ended clear of singular positions.
+    /// Returns whether the step to where the motion is has ended clear of singular positions.
     #[must_use]
     pub fn was_clear_here(&self) -> bool {
         self.crossing.was_clear_at(self.step.t())

@@ -22,9 +22,9 @@ pub struct SmoothSegment {
     pub chosen: Option<Arc<SelectedRows>>,
     /// The way over a singular position, if it is one.
     pub bridge: Option<Bridge>,
-    /// Whether it begins behind an edge, or at the start.
+    /// True if it begins behind an edge, or at the start.
     pub begins_at_edge: bool,
-    /// Whether it ends at one, or at the last time.
+    /// True if it ends at one, or at the last time.
     pub ends_at_edge: bool,
 }
 

@@ -39,7 +39,7 @@ pub struct ForceMonitor {
     has_pulled: Vec<bool>,
     /// The side to which each presses: 1 where that is known, 0 where the first row will tell.
     sides: Vec<f64>,
-    /// Whether a row has been looked at: before the first one, and for who asks for no rows, the way is not.
+    /// True if a row has been looked at: before the first one, and for who asks for no rows, the way is not.
     has_begun: bool,
     /// By contact: where it pulls on the way that no row has been told of.
     between: Vec<Option<Pull>>,
@@ -221,7 +221,7 @@ impl ForceMonitor {
         }
     }
 
-    /// Whether a load may leave the values that it has at both ends of a part of a step.
+    /// Returns whether a load may leave the values that it has at both ends of a part of a step.
     fn may_strike(&mut self, curve: &[[f64; 6]], [from, h]: [f64; 2], [a, b]: [f64; 2]) -> bool {
         let ForceMonitor { program, registers, ranges, ends, .. } = self;
         let (middle, reach) = (0.5 * (a + b), 0.5 * (b - a));

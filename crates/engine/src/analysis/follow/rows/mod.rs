@@ -29,20 +29,20 @@ pub struct Rows {
     times: Times,
     /// The number of the time that comes next.
     next: u64,
-    /// Whether the motion could not go on.
+    /// True if the motion could not go on.
     has_stopped: bool,
     /// Steps since the last row.
     steps: u64,
     /// Up to this time (s) steps go to each output time on their own.
     careful_until: f64,
-    /// Whether a step may go over several output times.
+    /// True if a step may go over several output times.
     may_step_densely: bool,
     /// What solves for the rows of such a step.
     batch: Option<RowBatch>,
     /// The row that was found last on its own, and what it is worth.
     row: Vec<f64>,
     trust: Trust,
-    /// Whether it is near a position that may be a bifurcation to pass.
+    /// True if it is near a position that may be a bifurcation to pass.
     is_near: bool,
     /// The last row on a bridge which was found without it.
     plain: Option<Checkpoint>,
@@ -118,7 +118,7 @@ impl Rows {
         self.steps > MOST_STEPS
     }
 
-    /// Whether a step from a time (s) may go over several output times.
+    /// Returns whether a step from a time (s) may go over several output times.
     pub fn may_step_densely(&self, t: f64) -> bool {
         self.batch.is_some() && self.may_step_densely && t >= self.careful_until
     }
@@ -178,7 +178,7 @@ impl Rows {
         &mut self.row
     }
 
-    /// Whether all numbers of a row are finite.
+    /// Returns whether all numbers of a row are finite.
     pub fn is_whole(&self, place: Place) -> bool {
         match (place, &self.batch) {
             // what solved for it has seen all of it
@@ -214,7 +214,7 @@ impl Rows {
         self.trust
     }
 
-    /// Whether it is near a position that may be a bifurcation to pass.
+    /// Returns whether it is near a position that may be a bifurcation to pass.
     pub fn is_near(&self) -> bool {
         self.is_near
     }

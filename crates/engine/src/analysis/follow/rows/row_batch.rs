@@ -131,7 +131,7 @@ impl RowBatch {
         [self.origin.state().t, self.length]
     }
 
-    /// Whether an output time, by its number, lies within that step.
+    /// Returns whether an output time, by its number, lies within that step.
     pub fn holds_time(&self, number: u64) -> bool {
         number < self.last
     }
@@ -142,7 +142,7 @@ impl RowBatch {
         (self.length, self.is_smooth) = (0.0, false);
     }
 
-    /// Whether a step is so short that a correction which is not small shows pivots that do not suit the position, and no bend
+    /// Returns whether a step is so short that a correction which is not small shows pivots that do not suit the position, and no bend
     /// of the way.
     pub fn is_short(&self, h: f64) -> bool {
         h <= SHORT * self.span
@@ -185,7 +185,7 @@ impl RowBatch {
         self.solve_within(kinematics, step.curve(), [step.t(), h, t])
     }
 
-    /// Whether the last step, which was a dense step, ended at a time (s).
+    /// Returns whether the last step, which was a dense step, ended at a time (s).
     fn leads_to(&self, t: f64) -> bool {
         let [from, length] = self.way();
         length > 0.0 && (from + length - t).abs() <= SAME_TIME * length
@@ -281,12 +281,12 @@ impl RowBatch {
         self.holds[lane / LANES][lane % LANES]
     }
 
-    /// Whether all numbers of a lane's row are finite, be they of measures.
+    /// Returns whether all numbers of a lane's row are finite, be they of measures.
     pub fn is_whole(&self, lane: usize) -> bool {
         self.lanes[lane / LANES].is_finite(lane % LANES)
     }
 
-    /// Whether the coordinates of a lane's row and their derivatives are numbers.
+    /// Returns whether the coordinates of a lane's row and their derivatives are numbers.
     fn is_finite(&self, lane: usize) -> bool {
         let layout = self.solver.layout();
         let row = &self.values[self.begin + lane * layout.stride..][..layout.stride];

@@ -36,7 +36,7 @@ impl Signs {
         (0..self.determinants.len()).find(|&block| self.has_turned(kinematics, block))
     }
 
-    /// Whether a block's determinant has another sign where a position was factored.
+    /// Returns whether a block's determinant has another sign where a position was factored.
     pub fn has_turned(&self, kinematics: &Kinematics, block: usize) -> bool {
         kinematics.linear().determinant(block).is_positive() != self.determinants[block].is_positive()
     }
@@ -100,7 +100,7 @@ impl Branch {
         kinematics.sides(&mut self.now.sides);
     }
 
-    /// Whether a position that was factored is on the branch.
+    /// Returns whether a position that was factored is on the branch.
     pub fn compare(&mut self, kinematics: &Kinematics) -> Result<(), Fault> {
         kinematics.linear().determinants(&mut self.trial.determinants);
         self.compare_sides(kinematics)?;
@@ -108,7 +108,7 @@ impl Branch {
         if pairs.all(|(trial, now)| trial.is_positive() == now.is_positive()) { Ok(()) } else { Err(Fault::Singular) }
     }
 
-    /// Whether what is watched has kept its sign where a position was set.
+    /// Returns whether what is watched has kept its sign where a position was set.
     pub fn compare_sides(&mut self, kinematics: &Kinematics) -> Result<(), Fault> {
         kinematics.sides(&mut self.trial.sides);
         match self.now.sides.iter().zip(&self.trial.sides).position(|(now, trial)| now != trial) {
@@ -117,7 +117,7 @@ impl Branch {
         }
     }
 
-    /// Whether a determinant may touch zero within a step of length `h`, by what is known without looking; `motion` is the step's
+    /// Returns whether a determinant may touch zero within a step of length `h`, by what is known without looking; `motion` is the step's
     /// largest one, scaled.
     pub fn may_touch(&self, kinematics: &Kinematics, h: f64, motion: f64) -> bool {
         if self.approach.h <= 0.0 {

@@ -24,7 +24,7 @@ pub struct Step {
     length: Length,
     /// Each coordinate between the ends, as a polynomial of the part of the step.
     curve: Vec<[f64; 6]>,
-    /// Where a step was looked into last, from 0 to 1.
+    /// Returns the fraction of the step, from 0 to 1, that was checked last.
     probe: f64,
     /// Newton's last correction, and a position beside the state.
     delta: Vec<f64>,
@@ -132,12 +132,12 @@ impl Step {
         self.length.set(h);
     }
 
-    /// What the next step begins from.
+    /// Returns a mark of the state from which the next step begins.
     pub fn mark(&self) -> Mark {
         Mark { state: self.state.clone(), signs: self.branch.signs().clone(), h: self.length.h() }
     }
 
-    /// The same, into another mark.
+    /// Writes the mark into another one.
     pub fn write_mark(&self, mark: &mut Mark) {
         mark.state.copy_from(&self.state);
         mark.signs.copy_from(self.branch.signs());
@@ -168,13 +168,13 @@ impl Step {
         self.branch.record_monitor_signs(kinematics);
     }
 
-    /// Whether the position that was factored is on the branch of the state: every determinant, and what is watched, has
+    /// Returns whether the position that was factored is on the branch of the state: every determinant, and what is watched, has
     /// kept its sign.
     pub fn same_branch(&mut self, kinematics: &Kinematics) -> Result<(), Fault> {
         self.branch.compare(kinematics)
     }
 
-    /// Whether what is watched has the sign of the state where a position was set.
+    /// Returns whether what is watched has the sign of the state where a position was set.
     pub fn check_monitors(&mut self, kinematics: &Kinematics) -> Result<(), Fault> {
         self.branch.compare_sides(kinematics)
     }
@@ -206,13 +206,13 @@ impl Step {
         if motion <= LARGEST_MOTION { Ok(motion) } else { Err(Fault::TooFar) }
     }
 
-    /// The same from another state, however far that is.
+    /// Predicts from another state, without a limit on the distance.
     pub fn predict_from(&mut self, from: &State, h: f64, t: f64) {
         self.trial.t = t;
         write_prediction(from, h, &mut self.trial.q);
     }
 
-    /// The same from the state, however far that is.
+    /// Predicts from the state, without a limit on the distance.
     pub fn predict_freely(&mut self, h: f64, t: f64) {
         self.trial.t = t;
         write_prediction(&self.state, h, &mut self.trial.q);
@@ -238,7 +238,7 @@ impl Step {
         0.3 + 0.4 * self.probe
     }
 
-    /// Where a step was looked into last, from 0 to 1.
+    /// Returns the fraction of the step, from 0 to 1, that was checked last.
     pub fn probe(&self) -> f64 {
         self.probe
     }

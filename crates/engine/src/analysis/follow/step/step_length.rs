@@ -1,4 +1,4 @@
-//! How long steps are.
+//! Step length control.
 
 use super::Accepted;
 use crate::analysis::state::Kinematics;
@@ -31,7 +31,7 @@ impl Length {
         self.h = h;
     }
 
-    /// When a step from a time towards another one ends (s).
+    /// Returns the end (s) of a step from a time towards another one.
     pub fn end_towards(&self, from: f64, t: f64) -> f64 {
         if self.h >= CRUMB * (t - from) { t } else { from + self.h }
     }

@@ -4,7 +4,7 @@ use super::{Fault, Kinematics, State};
 use mechc_ir::program::{Program, Register, Registers, Stage};
 use std::sync::Arc;
 
-/// What rounding makes of a state: by coordinate how far off its position, velocity and acceleration may be.
+/// Rounding errors of a state: for each coordinate how far off its position, velocity and acceleration may be.
 #[derive(Clone, Default)]
 pub(super) struct Spread {
     position: Vec<f64>,
@@ -31,12 +31,12 @@ impl Kinematics {
         self.all_finite(state)
     }
 
-    /// How fast a row asks to be met, scaled (1/s); the derivatives where the position was set must have been computed.
+    /// Returns the speed that a row prescribes, scaled (1/s); the derivatives where the position was set must have been computed.
     pub fn asked_speed(&self, row: usize) -> f64 {
         self.registers.get(self.program.outputs.nu()[row]).abs() / self.linear.row_norm(row)
     }
 
-    /// How much larger the velocities and accelerations of a state are than the right sides they answer to, scaled; at
+    /// Returns how much larger the velocities and accelerations of a state are than the right sides they answer to, scaled; at
     /// least 1. Its derivatives must just have been computed.
     pub fn amplification(&self, state: &State) -> f64 {
         let outputs = &self.program.outputs;

@@ -76,17 +76,17 @@ pub struct Kinematics {
     /// By row: the largest term of it there; 0 of those that are not looked at there.
     terms_beside: Vec<f64>,
     doubt: Spread,
-    /// Where assembly begins, if not where the file says.
+    /// Start of assembly, if it differs from the file's estimates.
     other_estimates: Option<Vec<f64>>,
     variations: Varied,
-    /// What the columns of a row hold.
+    /// Contents of the columns of a row.
     holds: Vec<ColumnContent>,
-    /// What rows are solved for with.
+    /// Vector instructions of the solver.
     vectors: Vectors,
 }
 
 impl Kinematics {
-    /// Of a mechanism that is looked at for so long (s).
+    /// Creates an evaluator of a mechanism for an analysis of the given span (s).
     pub fn new(
         determined: Arc<Determined>,
         program: Arc<Program>,
@@ -124,14 +124,14 @@ impl Kinematics {
         }
     }
 
-    /// The same motion where other equations are left out. Allocates.
+    /// Returns the same state with other equations left out. Allocates.
     #[must_use]
     pub fn with_equations(&self, determined: Arc<Determined>, program: Arc<Program>) -> Kinematics {
         let other = Kinematics::new(determined, program, self.span, self.tolerance, self.cancel.clone());
         Kinematics { vectors: self.vectors, other_estimates: self.other_estimates.clone(), ..other }
     }
 
-    /// What rows are solved for with: the widest vector instructions there are, if not told otherwise.
+    /// Returns the vector instructions of the solver; the widest available ones by default.
     pub fn vectors(&self) -> Vectors {
         self.vectors
     }
@@ -208,7 +208,7 @@ impl Kinematics {
         self.registers.get(register)
     }
 
-    /// What solves for rows, in orders that suit the position that was factored; none where it would be too large.
+    /// Returns a solver for rows, with elimination orders that suit the position that was factored; `None` where it would be too large.
     pub fn solver(&self) -> Option<Solver> {
         // it solves the equations of the whole
         if self.system().variations().iter().any(|variation| variation.scope.is_some()) {
@@ -217,12 +217,12 @@ impl Kinematics {
         Solver::new(&self.determined, &self.program, self)
     }
 
-    /// As [`Kinematics::solver`], to be written as code; by a program for this system with the same registers.
+    /// Returns a solver as [`Kinematics::solver`] does, for emission as code, by a program for this system with the same registers.
     pub fn solver_for_code_of(&self, program: &Program) -> Option<Solver> {
         Solver::for_code(&self.determined, program, self)
     }
 
-    /// As [`Kinematics::solver`], for some columns of several variants at once.
+    /// Returns a solver as [`Kinematics::solver`] does, for some columns of several variants at once.
     pub fn solver_of_variants(&self, is_wanted: &dyn Fn(u32) -> bool) -> Option<Solver> {
         Solver::for_variants(&self.determined, &self.program, self, is_wanted)
     }
@@ -302,7 +302,7 @@ impl Kinematics {
         let _ = self.factor();
     }
 
-    /// How near to a singular position, where that is below `limit`.
+    /// Returns the nearness to a singular position, as far as it is below `limit`.
     pub fn nearness(&mut self, limit: f64) -> f64 {
         self.linear.nearness(limit)
     }

@@ -1,4 +1,4 @@
-//! What the equations leave open at a position.
+//! Residuals of the equations at a position.
 
 use super::{Kinematics, State};
 use mechc_ir::program::{Program, Register, Registers};
@@ -7,7 +7,7 @@ use mechc_ir::tolerances::scales::kinematics::ROUNDING;
 use mechc_ir::{MonitorKind, Owner};
 
 impl Kinematics {
-    /// What is left of each row's velocity and acceleration equation with the derivatives of another state, scaled; the
+    /// Returns the residual of a row's velocity and acceleration equation with the derivatives of another state, scaled; the
     /// derivatives where the position was set must just have been computed.
     pub fn left_open(&self, row: usize, state: &State) -> (f64, f64) {
         let outputs = &self.program.outputs;
@@ -90,12 +90,12 @@ impl Kinematics {
         off <= bound || off <= bound + self.rounding(row)
     }
 
-    /// What is left of a row of Φ, scaled.
+    /// Returns the scaled residual of a row of Φ.
     pub fn residual(&self, row: usize) -> f64 {
         self.phi(row).abs() / self.linear.row_norm(row)
     }
 
-    /// What is left of Φ, scaled: the largest of all rows.
+    /// Returns the largest scaled residual of all rows of Φ.
     pub fn largest_residual(&self) -> f64 {
         (0..self.system().rows().len()).map(|row| self.residual(row)).fold(0.0, f64::max)
     }
@@ -114,7 +114,7 @@ impl Kinematics {
         largest_term(&self.program, &self.registers, row)
     }
 
-    /// What each coordinate contributes to a row by its slope.
+    /// Returns the contribution of each coordinate to a row by its slope.
     fn steps(&self, row: usize) -> impl Iterator<Item = f64> {
         let pattern = self.system().phi_q();
         pattern.range(row).zip(pattern.row(row)).map(|(position, &(column, _))| {

@@ -13,14 +13,14 @@ use mechc_ir::structure::Determined;
 use mechc_ir::tolerances::scales::kinematics::TRUSTED;
 use std::sync::Arc;
 
-/// What is needed for derivatives by inputs and parameters.
+/// Data for derivatives by inputs and parameters.
 #[derive(Clone)]
 pub(super) struct Varied {
     /// A variation of all coordinates.
     solution: Vec<f64>,
     /// By column of a row, whether it may have no value at a position.
     columns: Vec<bool>,
-    /// Those by the equations of a part alone.
+    /// Factors of the equations of parts alone.
     scoped: SubsystemFactors,
 }
 
@@ -43,7 +43,7 @@ fn may_be_missing(system: &ConstraintSystem, holds: &ColumnContent) -> bool {
     }
 }
 
-/// What may have no value at a position where the mechanism has one.
+/// Quantity that may have no value at a position where the mechanism has one.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Unknown {
     /// A measure, by its index.
@@ -77,7 +77,7 @@ impl Kinematics {
         self.variations.columns.get(column).copied().unwrap_or(false)
     }
 
-    /// The same equations and scales, whose variations are those that results need; none where they need none.
+    /// Returns the same equations and scales with the variations that results need; `None` if they need none.
     pub fn with_variations_of_results(&self) -> Option<Kinematics> {
         let determined = Arc::new(self.determined.with_result_variations()?);
         let program = Arc::new(Program::new(determined.system()));
@@ -99,7 +99,7 @@ impl Kinematics {
         }
     }
 
-    /// How a coordinate, its velocity and its acceleration change in a variation.
+    /// Returns the changes of a coordinate, its velocity and its acceleration in a variation.
     pub fn variation(&self, number: u32, coordinate: usize) -> [f64; 3] {
         [0, 1, 2].map(|order| self.registers.get(self.program.inputs.varied(number, order) + coordinate as u32))
     }
@@ -109,7 +109,7 @@ impl Kinematics {
         self.registers.get(self.program.inputs.multipliers + row as Register)
     }
 
-    /// How the multiplier of a row changes in a variation, where forces have been computed.
+    /// Returns the change of a row's multiplier in a variation, where forces have been computed.
     pub fn varied_multiplier(&self, number: u32, row: usize) -> f64 {
         self.registers.get(self.program.inputs.varied_multipliers(number) + row as Register)
     }
@@ -225,7 +225,7 @@ impl Kinematics {
     }
 }
 
-/// What solves with `Φ_q` and with its transpose.
+/// Solutions with `Φ_q` and with its transpose.
 trait BothWays {
     /// `Φ_q x = b`, b by rows.
     fn solve(&mut self, right: impl Fn(usize) -> f64, x: &mut [f64]);

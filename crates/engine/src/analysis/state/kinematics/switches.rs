@@ -1,10 +1,10 @@
-//! What time and motion decide beside the equations: switches, rims, signals.
+//! Switches, domain boundaries and signals, which time and motion decide beside the equations.
 
 use super::Kinematics;
 use mechc_ir::program::{BoundaryRegisters, Enclosure, FrozenSwitches, Op, Register, Signal, Stage, Switch};
 
 impl Kinematics {
-    /// Which switches stay as they are from now on.
+    /// Selects the switches that stay as they are from now on.
     pub fn freeze(&mut self, time: bool, motion: bool) {
         self.registers.freeze(FrozenSwitches { time, motion });
     }
@@ -24,7 +24,7 @@ impl Kinematics {
         self.freeze(true, true);
     }
 
-    /// Where the equations may have edges.
+    /// Returns the switches, at which the equations may have edges.
     pub fn switches(&self) -> &[Switch] {
         self.program.switches()
     }
@@ -49,7 +49,7 @@ impl Kinematics {
         self.freeze(true, true);
     }
 
-    /// Where formulas come to the end of what their functions take.
+    /// Returns the domain boundaries, at which the domains of functions end.
     pub fn rims(&self) -> &[BoundaryRegisters] {
         &self.program.outputs.rims
     }
@@ -89,7 +89,7 @@ impl Kinematics {
         !live.is_nan() && (live + 0.0).to_bits() != (now + 0.0).to_bits()
     }
 
-    /// What a switch is decided by where time and position were set, and how far that is from its edge.
+    /// Returns the value that decides a switch at the present time and position, and its distance from the edge.
     pub fn edge(&self, switch: &Switch) -> (f64, f64) {
         self.program.edge(switch, &self.registers)
     }

@@ -18,7 +18,7 @@ pub(super) struct Factors<'l> {
     pub row_norm: &'l [f64],
     pub size: &'l [f64],
     pub equilibration: &'l Equilibration,
-    /// Whether nearness is measured by the equilibration scales, or by the scales that are solved with.
+    /// True if nearness is measured by the equilibration scales, or by the scales that are solved with.
     pub is_judging: bool,
 }
 

@@ -39,7 +39,7 @@ use mechc_ir::{ConstraintSystem, CoordinateKind};
 pub use nearness::Singular;
 use std::ops::Range;
 
-/// One irreducible block with its place in the common storage.
+/// Irreducible block with its position in the common storage.
 #[derive(Clone)]
 struct Part {
     /// Offset of its rows and columns in the lists below.
@@ -59,10 +59,10 @@ struct Part {
     form: Form,
 }
 
-/// How a block is factored.
+/// Method by which a block is factored.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 enum Form {
-    /// One equation.
+    /// A single equation.
     Single,
     /// By one of its orders.
     Planned(usize),
@@ -86,7 +86,7 @@ impl Part {
         }
     }
 
-    /// How much smaller the singular values of a chain of so many coordinates are than those of a few bodies.
+    /// Returns how much smaller the singular values of a chain of so many coordinates are than those of a few bodies.
     fn length_of_chain(&self) -> f64 {
         let length = self.size as f64 / A_FEW;
         f64::max(length * length, 1.0)
@@ -159,7 +159,7 @@ pub struct BlockLu {
     /// Coordinates that a step is judged by, and those of them that need iteration.
     judged: Vec<u32>,
     judged_implicit: Vec<u32>,
-    /// What each scaled row is divided by: its norm, or the least norm where that is larger.
+    /// Divisor of each scaled row: its norm, or the least norm if that is larger.
     row_norm: Vec<f64>,
     /// By row; 0 where the norm itself is meant.
     least_norm: Vec<f64>,
@@ -170,11 +170,11 @@ pub struct BlockLu {
     dense: Vec<f64>,
     pivots: Vec<u32>,
     work: Vec<f64>,
-    /// What nearness to a singular position is judged by.
+    /// Scales by which nearness to a singular position is judged.
     equilibration: Equilibration,
 }
 
-/// What a factorisation shows.
+/// Outcome of a factorisation.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Factored {
     Regular,
@@ -226,7 +226,7 @@ impl BlockLu {
         }
     }
 
-    /// What nearness to a singular position is judged by.
+    /// Returns the scales by which nearness to a singular position is judged.
     pub fn equilibration(&mut self) -> &mut Equilibration {
         &mut self.equilibration
     }
@@ -240,7 +240,7 @@ impl BlockLu {
         self.least_norm[row] = norm;
     }
 
-    /// What was set so; 0 where nothing was.
+    /// Returns the least norm of a row; 0 if none was set.
     pub fn least_norm(&self, row: usize) -> f64 {
         self.least_norm[row]
     }
@@ -252,7 +252,7 @@ impl BlockLu {
         (0..self.rows.len()).find(|&k| slope(k) < least).map(|k| self.rows[k] as usize)
     }
 
-    /// What a row of the scaled `Φ_q` is divided by, mostly its norm.
+    /// Returns the divisor of a row of the scaled `Φ_q`, mostly its norm.
     pub fn row_norm(&self, row: usize) -> f64 {
         self.row_norm[row]
     }

@@ -1,4 +1,4 @@
-//! How near the blocks are to a singular position, and what is dependent there.
+//! Nearness of the blocks to a singular position, and the dependency there.
 
 use super::factors::{Factors, normalize};
 use super::{BlockLu, Part};
