@@ -51,6 +51,13 @@ mod _mechc {
         mechc::seconds("at", text, &mut sources).map_err(|why| Said::of(&why, &sources).raised(py))
     }
 
+    /// A message with options in Python's words.
+    #[pyfunction]
+    fn _in_python(text: &str) -> String {
+        let diagnostic = mechc::Diagnostic::new(mechc::Code::E0706, text);
+        super::words::in_python(&diagnostic, &Sources::default()).0.message
+    }
+
     #[pymodule_init]
     fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
         module.py().import("atexit")?.call_method1("register", (module.getattr("_end")?,))?;

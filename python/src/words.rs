@@ -21,8 +21,11 @@ pub fn in_python(diagnostic: &Diagnostic, sources: &Sources) -> (Diagnostic, Sou
     let spell =
         |options: &[OptionText<'_>]| options.iter().map(|option| spelled(*option)).collect::<Vec<_>>().join(", ");
     let name = |source: &str| match source.strip_prefix("--") {
-        // what is read of it may stand behind the name
-        Some(option) => keyword(option.split(' ').next().unwrap_or(option)),
+        // the name of what is set may follow
+        Some(option) => match option.split_once(' ') {
+            Some((option, rest)) => format!("{} {rest}", keyword(option)),
+            None => keyword(option),
+        },
         None => source.to_owned(),
     };
     (diagnostic.clone().with_options_spelled(spell), sources.with_option_names(name))

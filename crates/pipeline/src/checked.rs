@@ -4,7 +4,7 @@ use crate::continuation::StartSolver;
 use crate::imports::{self, Imports};
 use crate::lowering::Rebuild;
 use crate::lowering::lower_model;
-use crate::option_reader::spaceless;
+use crate::options::spaceless;
 use crate::part_backtrace::PartBacktrace;
 use crate::queries::QueryCache;
 use crate::{Compiled, Parsed, Redundant};

@@ -2,6 +2,7 @@
 //! the mechanism.
 
 use crate::checked::TOL;
+use crate::options::spaceless;
 use crate::{Checked, Choice, Formula, Parsed};
 use mechc_lang::model::{Dimension, Units};
 use mechc_syntax as syntax;
@@ -162,11 +163,6 @@ pub(crate) fn is_of_angles(formula: &str) -> bool {
 pub(crate) fn written(value: f64, unit: &str) -> String {
     let value = readable(value);
     if unit.is_empty() || unit.starts_with('/') { format!("{value}{unit}") } else { format!("{value} {unit}") }
-}
-
-/// Returns a name in normal form without white space.
-pub(crate) fn spaceless(name: &str) -> String {
-    syntax::normalized(name).chars().filter(|c| !c.is_whitespace()).collect()
 }
 
 /// Reports an option that cannot be used.

@@ -2,9 +2,9 @@
 
 use crate::checked::VARY;
 use crate::option_reader::{
-    OptionReader, SourcedResult, is_of_angles, number_and_unit, refuse_duplicates, si_unit, spaceless, unusable,
-    written,
+    OptionReader, SourcedResult, is_of_angles, number_and_unit, refuse_duplicates, si_unit, unusable, written,
 };
+use crate::options::spaceless;
 use crate::{Checked, Choice};
 use mechc_engine::sweep::{linspace_value, round_to_15_digits};
 use mechc_lang::check::Amount;

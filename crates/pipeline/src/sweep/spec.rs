@@ -1,9 +1,8 @@
 //! Specifications of sweeps: reads `--vary` and `--sample`, and lists the variants.
 
 use crate::checked::VARY;
-use crate::option_reader::{
-    OptionReader, SourcedResult, is_of_angles, refuse_duplicates, si_unit, spaceless, unusable, written,
-};
+use crate::option_reader::{OptionReader, SourcedResult, is_of_angles, refuse_duplicates, si_unit, unusable, written};
+use crate::options::spaceless;
 use crate::{Checked, Choice};
 use mechc_engine::sweep::{Levels, MAX_SOBOL_DIMENSIONS, Method, Points, Sampling, Varying};
 use mechc_lang::check::{self, Column, ParamOverride};

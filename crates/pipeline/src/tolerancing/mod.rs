@@ -7,7 +7,8 @@ mod deviation;
 pub use deviation::{CornerReport, Deviation, DisplayUnit, OutputSensitivity, Tolerance};
 
 use crate::checked::TOL;
-use crate::option_reader::{OptionReader, SourcedResult, is_of_angles, number_and_unit, si_unit, spaceless, unusable};
+use crate::option_reader::{OptionReader, SourcedResult, is_of_angles, number_and_unit, si_unit, unusable};
+use crate::options::spaceless;
 use crate::{Checked, Choice, Compiled, RequestedTimes, RunOptions, SweepOptions, Variants};
 use mechc_engine::sweep::{Levels, Method, Points, Sampling, Status, Swept, Varying};
 use mechc_expr::{Binary, Dependence, ExprId, Node, Unary};
