@@ -5,7 +5,6 @@ use crate::checked::TOL;
 use crate::options::spaceless;
 use crate::{Checked, Choice, Formula, Parsed};
 use mechc_lang::model::{Dimension, Units};
-use mechc_syntax as syntax;
 use mechc_text::diag::{Code, Diagnostic, Diagnostics, Severity, readable};
 use mechc_text::source::Sources;
 use mechc_text::vocabulary::Unit;

@@ -42,5 +42,5 @@ impl Default for RunOptions {
 
 /// Returns a name in normal form without white space.
 pub(crate) fn spaceless(name: &str) -> String {
-    syntax::normalized(name).chars().filter(|c| !c.is_whitespace()).collect()
+    mechc_syntax::normalized(name).chars().filter(|c| !c.is_whitespace()).collect()
 }
