@@ -22,6 +22,7 @@ Given = ArrayLike | str
 #: Lines of JSON, text, blame, time (s), code: an error as it is packed.
 PackedError = tuple[list[str], str, str, float | None, str | None]
 
+def _in_python(text: str) -> str: ...
 def seconds(text: str) -> float:
     """A time with its unit (s)."""
 

@@ -21,7 +21,7 @@ def spans():
     """All that the library's messages say of options, but for the command's own files, and the pages of the language."""
     folders = [folder for folder in (ROOT / "crates").iterdir() if folder.name != "ide"]
     for path in (path for folder in folders for path in folder.rglob("src/**/*.rs") if "vocabulary" not in path.parts):
-        code = "\n".join(line for line in path.read_text().splitlines() if not line.lstrip().startswith("//"))
+        code = "\n".join(line for line in path.read_text().partition("#[cfg(test)]")[0].splitlines() if not line.lstrip().startswith("//"))
         yield from (found[1] for found in re.finditer(r"`(--[a-z][^`\n]*)`", code))
 
 
