@@ -6,10 +6,12 @@ use crate::lowering::Rebuild;
 use crate::lowering::lower_model;
 use crate::options::spaceless;
 use crate::part_backtrace::PartBacktrace;
-use crate::queries::QueryCache;
 use crate::{Compiled, Parsed, Redundant};
 use mechc_emit as emit;
-use mechc_lang::check::{self, CheckOptions, InputOverrides, Library, ParamOverride, Symbols, TableFiles, UNTIL};
+use mechc_ir::ConstraintSystem;
+use mechc_lang::check::{
+    self, CheckOptions, DeclarationInfo, InputOverrides, Library, ParamOverride, Symbols, TableFiles, UNTIL,
+};
 use mechc_lang::model::Mechanism;
 use mechc_syntax::{self as syntax, ast};
 use mechc_text::cancel::Cancel;
@@ -56,6 +58,15 @@ pub struct Choice {
     pub reactions: bool,
     /// True if pictures show forces, if there are any.
     pub pictures_forces: bool,
+}
+
+/// Caches what the first query of an editor computes.
+#[derive(Debug, Default)]
+pub(crate) struct QueryCache {
+    /// Facts about its declarations.
+    pub facts: OnceLock<DeclarationInfo>,
+    /// Its equations; `None` inside if it has errors.
+    pub lowered: OnceLock<Option<ConstraintSystem>>,
 }
 
 /// A mechanism that was checked, with errors or without.

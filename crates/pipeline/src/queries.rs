@@ -3,21 +3,10 @@
 use crate::lowering::lower_model;
 use crate::{Assembly, Checked, Compiled};
 use mechc_expr::Symbol;
-use mechc_ir::ConstraintSystem;
 use mechc_lang::check::{self, DeclarationInfo, NameKind};
 use mechc_lang::model::Dimension;
 use mechc_syntax::ast::{self, Feature, FeatureKind, Item, ItemKind, Mechanism, MechanismName};
 use mechc_text::source::Span;
-use std::sync::OnceLock;
-
-/// Caches what the first query of an editor computes.
-#[derive(Debug, Default)]
-pub(crate) struct QueryCache {
-    /// Facts about its declarations.
-    pub facts: OnceLock<DeclarationInfo>,
-    /// Its equations; `None` inside if it has errors.
-    pub lowered: OnceLock<Option<ConstraintSystem>>,
-}
 
 /// A declaration that a path of names leads to, through parts and bodies.
 #[derive(Clone, PartialEq, Eq, Debug)]
