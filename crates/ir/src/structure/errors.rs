@@ -172,7 +172,7 @@ fn with_data(
         .datum("coordinates", system.coordinates().len())
         .datum("equations", system.rows().len())
         .datum("ndof", system.ndof())
-        .datum("redundant", redundant)
+        .redundant(redundant)
         .datum("free", free)
 }
 
