@@ -1,7 +1,7 @@
 //! Diagnostics as exceptions: the data, the text that the command prints, and the kind that says who is to mend it. The classes are
 //! in `mechc/errors.py`.
 
-use crate::words::in_python;
+use crate::words::{in_python, with_keywords};
 use mechc::{Color, Diagnostic, Diagnostics, Format, Responsibility, Severity, Sources, render};
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
@@ -30,10 +30,10 @@ pub type Packed = (Vec<String>, String, String, Option<f64>, Option<String>);
 impl Said {
     /// Diagnostics of some texts.
     pub fn of(diagnostics: &Diagnostics, sources: &Sources) -> Said {
-        let (mut json, mut texts) = (Vec::new(), Vec::new());
+        let (keywords, mut json, mut texts) = (with_keywords(sources), Vec::new(), Vec::new());
         for diagnostic in diagnostics.iter() {
-            let (diagnostic, sources) = in_python(diagnostic, sources);
-            let text = |format| render(&diagnostic, &sources, format, Color::Never).trim_end_matches('\n').to_owned();
+            let diagnostic = in_python(diagnostic);
+            let text = |format| render(&diagnostic, &keywords, format, Color::Never).trim_end_matches('\n').to_owned();
             json.push(text(Format::Json));
             texts.push(text(Format::Human));
         }

@@ -55,7 +55,7 @@ mod _mechc {
     #[pyfunction]
     fn _in_python(text: &str) -> String {
         let diagnostic = mechc::Diagnostic::new(mechc::Code::E0706, text);
-        super::words::in_python(&diagnostic, &Sources::default()).0.message
+        super::words::in_python(&diagnostic).message
     }
 
     #[pymodule_init]

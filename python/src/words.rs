@@ -16,19 +16,23 @@ const RENAMED: [(&str, &str); 2] = [("from", "from_"), ("sample", "samples")];
 /// Options that only the command has, and the command.
 const OF_COMMAND: [(&str, &str); 1] = [("with", "mechc emit")];
 
-/// Returns a diagnostic and its texts with options in Python's words.
-pub fn in_python(diagnostic: &Diagnostic, sources: &Sources) -> (Diagnostic, Sources) {
+/// Returns a diagnostic with options in Python's words.
+pub fn in_python(diagnostic: &Diagnostic) -> Diagnostic {
     let spell =
         |options: &[OptionText<'_>]| options.iter().map(|option| spelled(*option)).collect::<Vec<_>>().join(", ");
-    let name = |source: &str| match source.strip_prefix("--") {
+    diagnostic.clone().with_options_spelled(spell)
+}
+
+/// Returns texts of which those of options have the names of keywords.
+pub fn with_keywords(sources: &Sources) -> Sources {
+    sources.with_option_names(|source| match source.strip_prefix("--") {
         // the name of what is set may follow
         Some(option) => match option.split_once(' ') {
             Some((option, rest)) => format!("{} {rest}", keyword(option)),
             None => keyword(option),
         },
         None => source.to_owned(),
-    };
-    (diagnostic.clone().with_options_spelled(spell), sources.with_option_names(name))
+    })
 }
 
 /// Returns the keyword of an option.

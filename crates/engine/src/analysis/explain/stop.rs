@@ -181,7 +181,8 @@ impl Stop {
     /// Returns the stop before the start of an analysis, on the way there from the mechanism's own first time (s).
     #[must_use]
     pub(in crate::analysis) fn before_start(self: Box<Stop>, from: f64) -> Box<Stop> {
-        StopCause::BeforeStart { from, is_backward: false, stop: self }.at_of_inner()
+        let t = self.t;
+        StopCause::BeforeStart { from, is_backward: false, stop: self }.at(t)
     }
 
     /// True if a velocity or position jumps there.
@@ -214,11 +215,6 @@ impl Stop {
 }
 
 impl StopCause {
-    fn at_of_inner(self) -> Box<Stop> {
-        let t = if let StopCause::BeforeStart { stop, .. } = &self { stop.t } else { f64::NAN };
-        self.at(t)
-    }
-
     fn explain(&self, system: &ConstraintSystem, t: f64) -> Diagnostic {
         match self {
             StopCause::NotFinite { declarations } => errors::formula_not_finite(system, declarations, t),
