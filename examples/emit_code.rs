@@ -3,25 +3,23 @@
 //! Without an argument it lists what there is; `cargo run --example emit_code -- DIR` writes the crate into a folder.
 
 use mechc::{
-    Cancel, Choice, Color, CrateFile, Diagnostic, Format, Memory, Parsed, Redundant, RustOptions, Sources, render,
+    Cancel, Choice, Color, CrateFile, Diagnostic, Error, Format, Memory, Parsed, Redundant, RustOptions, Sources,
+    render,
 };
-use std::error::Error;
 use std::fs;
 use std::path::Path;
 
 const FILE: &str = "slider_crank.mech";
 
-fn main() -> Result<(), Box<dyn Error>> {
+fn main() -> Result<(), Box<dyn std::error::Error>> {
     let checked = Parsed::new(FILE, include_str!("slider_crank.mech")).check(&Choice::default(), &Memory::default());
     report(checked.diagnostics().iter(), checked.sources());
     let (compiled, diagnostics) = checked.compile(Redundant::Refused, &Cancel::default());
-    report(diagnostics.iter(), checked.sources());
-    let compiled = compiled.ok_or("the mechanism does not compile")?;
+    let compiled = compiled.ok_or_else(|| Error::new(diagnostics, checked.sources()))?;
 
     let options = RustOptions::new(FILE);
     let (module, diagnostics) = compiled.rust(&options);
-    report(diagnostics.iter(), compiled.sources());
-    let module = module.ok_or("the mechanism cannot be emitted")?;
+    let module = module.ok_or_else(|| Error::new(diagnostics, compiled.sources()))?;
     println!("functions of the module:");
     // what follows the mechanism's own functions is the solver
     let own = module.lines().take_while(|line| *line != "mod runtime {");
@@ -30,9 +28,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     }
 
     let (files, diagnostics) = compiled.package("slider_crank", &options);
-    report(diagnostics.iter(), compiled.sources());
     println!("files of the crate:");
-    for CrateFile { path, text } in files.ok_or("the mechanism cannot be emitted as a crate")? {
+    for CrateFile { path, text } in files.ok_or_else(|| Error::new(diagnostics, compiled.sources()))? {
         println!("  {path}: {} lines", text.lines().count());
         if let Some(folder) = std::env::args().nth(1) {
             let path = Path::new(&folder).join(path);

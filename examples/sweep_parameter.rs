@@ -3,11 +3,11 @@
 //! The first variant has a rod that is shorter than the crank: its status is the code of the diagnostic that ends its motion.
 
 use mechc::{
-    Cancel, Choice, Color, Diagnostic, Format, Memory, Parsed, Redundant, Sources, SweepOptions, VaryOptions, render,
+    Cancel, Choice, Color, Diagnostic, Error, Format, Memory, Parsed, Redundant, Sources, SweepOptions, VaryOptions,
+    render,
 };
-use std::error::Error;
 
-fn main() -> Result<(), Box<dyn Error>> {
+fn main() -> Result<(), Box<dyn std::error::Error>> {
     let choice = Choice {
         // each variant is reached from the values of the text, on their branch
         lead: true,
@@ -18,19 +18,12 @@ fn main() -> Result<(), Box<dyn Error>> {
     let checked = Parsed::new("slider_crank.mech", include_str!("slider_crank.mech")).check(&choice, &world);
     report(checked.diagnostics().iter(), checked.sources());
     let (compiled, diagnostics) = checked.compile(Redundant::Refused, &Cancel::default());
-    report(diagnostics.iter(), checked.sources());
-    let compiled = compiled.ok_or("the mechanism does not compile")?;
+    let compiled = compiled.ok_or_else(|| Error::new(diagnostics, checked.sources()))?;
 
     let vary = VaryOptions { params: vec!["rod_length=40mm..200mm:5".to_owned()], ..VaryOptions::default() };
-    let variants = checked.variants(&vary, &choice, &world).map_err(|(sources, diagnostics)| {
-        report(diagnostics.iter(), &sources);
-        "the variants are refused"
-    })?;
+    let variants = checked.variants(&vary, &choice, &world)?;
     // The closure runs on the threads that compute; a program that keeps little of a block reduces it there.
-    let sweep = checked.sweep(&compiled, &variants, &SweepOptions::default(), |block| block).map_err(|why| {
-        report([&*why], compiled.sources());
-        "the sweep is refused"
-    })?;
+    let sweep = checked.sweep(&compiled, &variants, &SweepOptions::default(), |block| block)?;
 
     let params = variants.points().params().iter().cloned();
     let names: Vec<String> = params.chain(compiled.variant_results().into_iter().map(|(name, _)| name)).collect();

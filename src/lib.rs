@@ -4,8 +4,8 @@
 //! Sources ──▶ Parsed ──check──▶ Checked ──compile──▶ Compiled ──run──▶ Run ──▶ rows
 //! ```
 //!
-//! Each stage is owned, can be sent to another thread, and is cheap to clone. The diagnostics of a text are on its stages as
-//! [`Diagnostics`]; [`render()`] formats them.
+//! Each stage is owned, can be sent to another thread, and is cheap to clone. A stage that can go on returns what it made with all
+//! [`Diagnostics`], which [`render()`] formats; all else fails with an [`Error`], which holds diagnostics and the texts that they point into.
 //!
 //! ```
 //! use mechc::{Cancel, Choice, Memory, Parsed, Redundant, RunOptions, Times};
@@ -49,7 +49,7 @@ pub use mechc_pipeline::{
 pub use mechc_syntax::{Comment, Trivia};
 pub use mechc_text::cancel::Cancel;
 pub use mechc_text::diag::{
-    Applicability, Code, Color, Diagnostic, Diagnostics, Edit, Fix, Format, Label, OptionText, Responsibility,
+    Applicability, Code, Color, Diagnostic, Diagnostics, Edit, Error, ErrorKind, Fix, Format, Label, OptionText,
     Severity, fixed, render,
 };
 pub use mechc_text::source::{Encoding, FileId, Source, Sources, Span};

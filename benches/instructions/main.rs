@@ -36,7 +36,7 @@ fn rows(file: &str, count: usize) -> Result<(), Box<dyn Error>> {
     let mut run = run.ok_or("the mechanism does not assemble")?;
     let mut computed = 0;
     while let Some(row) = run.next_row() {
-        black_box(row.map_err(|why| why.message.clone())?);
+        black_box(row.map_err(|why| why.to_string())?);
         computed += 1;
     }
     if computed > count { Ok(()) } else { Err("the motion ended early".into()) }
@@ -50,7 +50,7 @@ fn variants(file: &str, param: &str) -> Result<(), Box<dyn Error>> {
     let vary = VaryOptions { params: vec![param.to_owned()], ..VaryOptions::default() };
     let variants = checked.variants(&vary, &choice, &Memory::default()).map_err(|_| "the variants are refused")?;
     let options = SweepOptions { jobs: Some(1), ..SweepOptions::default() };
-    let sweep = checked.sweep(&compiled, &variants, &options, |block| block).map_err(|why| why.message.clone())?;
+    let sweep = checked.sweep(&compiled, &variants, &options, |block| block).map_err(|why| why.to_string())?;
     for block in sweep {
         black_box(block.results);
     }

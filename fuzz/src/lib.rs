@@ -173,7 +173,7 @@ fn rows(compiled: &Compiled, determined: &Determined, program: &Program, mut run
                 known += 1;
             }
             Err(why) => {
-                say(std::iter::once(&*why), compiled.sources());
+                say(why.diagnostics.iter(), compiled.sources());
                 break;
             }
         }

@@ -66,7 +66,7 @@ fn outcome(text: &str, choice: &Choice, times: Option<&Times>) -> Outcome {
     while let Some(row) = run.next_row() {
         match row {
             Ok(row) => outcome.rows.push(row.to_vec()),
-            Err(why) => outcome.say(std::iter::once(&*why)),
+            Err(why) => outcome.say(why.diagnostics.iter()),
         }
         if begun.elapsed() > PATIENCE {
             outcome.is_whole = false;

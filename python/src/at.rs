@@ -7,8 +7,8 @@ use crate::memory::{self, Of};
 use crate::waiting::interruptible;
 pub use found::{_at_again, At, Columns};
 use mechc::{
-    Cancel, Checked, Choice, ColumnUnit, Diagnostic, EvaluationPoint, EvaluatorOptions, InputMotion,
-    MechanismEvaluator, SettableParam,
+    Cancel, Checked, Choice, ColumnUnit, Error, EvaluationPoint, EvaluatorOptions, InputMotion, MechanismEvaluator,
+    SettableParam,
 };
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyFloat, PyString};
@@ -115,7 +115,7 @@ impl Compiled {
             tolerance: kind.tolerance.map_or(usual.tolerance, f64::from_bits),
             pass_bifurcations: kind.pass_bifurcations,
         };
-        let adjustable = checked.evaluator(&adjusting, cancel).map_err(|(sources, said)| Said::of(&said, &sources))?;
+        let adjustable = checked.evaluator(&adjusting, cancel)?;
         let compiled = adjustable.compiled();
         let (names, units) = (compiled.columns(), compiled.units());
         let place = |name: String| names.iter().position(|column| *column == name);
@@ -183,7 +183,7 @@ struct Became {
     rows: Vec<f64>,
     statuses: Vec<Cow<'static, str>>,
     /// The first of these, by its number.
-    first: Option<(usize, Box<Diagnostic>)>,
+    first: Option<(usize, Error)>,
 }
 
 impl Question {
@@ -221,9 +221,7 @@ impl Question {
             interruptible(py, move |cancel| (self.all(&compiled, became, cancel), self.shape)).map(|(a, b)| (b, a))?
         };
         let Became { rows, statuses, first } = became;
-        let sources = compiled.adjustable.compiled().sources();
-        let told = |(element, why)| Said::of_one(of_element(why, element, shape.as_deref()), sources);
-        let error = first.map(told);
+        let error = first.map(|(element, why)| of_element(why, element, shape.as_deref()).into());
         Ok(At { columns, rows, shape, statuses, error })
     }
 
@@ -250,7 +248,7 @@ impl Question {
                 Err(why) => {
                     rows.resize(rows.len() + width, f64::NAN);
                     let element = statuses.len();
-                    statuses.push(Cow::Borrowed(why.code.as_str()));
+                    statuses.push(Cow::Borrowed(why.first().map_or("cancelled", |why| why.code.as_str())));
                     first.get_or_insert((element, why));
                 }
             }
@@ -274,11 +272,13 @@ impl Question {
 }
 
 /// Why an element is not there; of several it says which one that is, as their array is indexed.
-fn of_element(why: Box<Diagnostic>, element: usize, shape: Option<&[usize]>) -> Diagnostic {
-    let Some(shape) = shape else { return *why };
+fn of_element(why: Error, element: usize, shape: Option<&[usize]>) -> Error {
+    let Some(shape) = shape else { return why };
     let mut rest = element;
     let mut place: Vec<usize> = shape.iter().rev().map(|&of| (rest % of.max(1), rest /= of.max(1)).0).collect();
     place.reverse();
     let index: Vec<String> = place.iter().map(usize::to_string).collect();
-    why.note(format!("it is element [{}] of those that are asked for", index.join(", "))).datum("element", place)
+    let note = format!("it is element [{}] of those that are asked for", index.join(", "));
+    let marked = why.diagnostics.iter().cloned().map(|why| why.note(note.clone()).datum("element", place.clone()));
+    Error { diagnostics: marked.collect(), ..why }
 }

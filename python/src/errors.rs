@@ -2,7 +2,7 @@
 //! in `mechc/errors.py`.
 
 use crate::words::{in_python, with_keywords};
-use mechc::{Color, Diagnostic, Diagnostics, Format, Responsibility, Severity, Sources, render};
+use mechc::{Color, Diagnostic, Diagnostics, Error, ErrorKind, Format, Severity, Sources, render};
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
 use pyo3::types::PyList;
@@ -27,6 +27,12 @@ pub struct Said {
 /// What is packed of it: its lines of JSON, its text, the blame, the time, the code.
 pub type Packed = (Vec<String>, String, String, Option<f64>, Option<String>);
 
+impl From<Error> for Said {
+    fn from(error: Error) -> Said {
+        Said::of(&error.diagnostics, &error.sources)
+    }
+}
+
 impl Said {
     /// Diagnostics of some texts.
     pub fn of(diagnostics: &Diagnostics, sources: &Sources) -> Said {
@@ -38,12 +44,13 @@ impl Said {
             texts.push(text(Format::Human));
         }
         let first = diagnostics.iter().find(|of| of.severity() == Severity::Error);
-        let blame = match Responsibility::of(diagnostics, sources) {
+        let blame = match ErrorKind::of(diagnostics, sources) {
             None => "",
-            Some(Responsibility::Input) => "input",
-            Some(Responsibility::Usage) => "usage",
-            Some(Responsibility::Analysis) => "analysis",
-            Some(Responsibility::Files) => "files",
+            Some(ErrorKind::Input) => "input",
+            Some(ErrorKind::Usage) => "usage",
+            Some(ErrorKind::Analysis) => "analysis",
+            Some(ErrorKind::Files) => "files",
+            Some(ErrorKind::Cancelled) => "cancelled",
         };
         Said {
             json,

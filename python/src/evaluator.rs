@@ -43,12 +43,11 @@ impl Function {
         let (count, inputs, redundant) = (params.len(), Vec::new(), asked.redundant(stages));
         let adjusting =
             EvaluatorOptions { inputs, has_accelerations: false, params, redundant, tolerance, pass_bifurcations };
-        let adjustable = checked.evaluator(&adjusting, cancel).map_err(|(sources, said)| Said::of(&said, &sources))?;
+        let adjustable = checked.evaluator(&adjusting, cancel)?;
         let compiled = adjustable.compiled();
         let mut sources = compiled.sources().clone();
         let times = RequestedTimes::from_options([&asked.from, &asked.to, &asked.every], &asked.at, &mut sources);
-        let times = times.map_err(|why| Said::of(&why, &sources))?;
-        let wanted = compiled.select_columns(&asked.columns).map_err(|why| Said::of_one(*why, &sources))?;
+        let (times, wanted) = (times?, compiled.select_columns(&asked.columns)?);
         let all = compiled.units();
         let units = wanted.iter().map(|&k| all[k].clone()).collect();
         Ok(Function { adjustable, params: count, times, wanted, units })
@@ -66,8 +65,7 @@ impl Function {
         let answers = self.adjustable.follow(&[], x, &self.times, cancel, |row| {
             rows.extend(self.units.iter().zip(&self.wanted).map(|(unit, &k)| unit.printed(row[k])));
         });
-        let sources = self.adjustable.compiled().sources();
-        answers.map(|answers| (answers, rows)).map_err(|why| Said::of_one(*why, sources))
+        Ok((answers?, rows))
     }
 }
 

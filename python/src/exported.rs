@@ -105,8 +105,7 @@ impl Both {
         let ((checked, compiled), _) = stages.with(&choice, &*stages.files, asked.redundant(stages), cancel)?;
         let mut sources = compiled.sources().clone();
         let times = RequestedTimes::from_options([&asked.from, &asked.to, &asked.every], &asked.at, &mut sources)
-            .and_then(|asked| Ok(asked.over(compiled.analysis()).map_err(|why| *why)?.whole().map_err(|why| *why)?))
-            .map_err(|why| Said::of(&why, &sources))?;
+            .and_then(|asked| asked.over(compiled.analysis())?.whole())?;
         let options = asked.options(cancel);
         let (seen, said) = match checked.visualize(&compiled, &times, &options, most) {
             (None, said) => (checked.static_visualization(Some(&compiled), (times.from(), &options), &said), said),

@@ -48,7 +48,7 @@ mod _mechc {
     #[pyfunction]
     fn seconds(py: Python<'_>, text: &str) -> PyResult<f64> {
         let mut sources = Sources::default();
-        mechc::seconds("at", text, &mut sources).map_err(|why| Said::of(&why, &sources).raised(py))
+        mechc::seconds("at", text, &mut sources).map_err(|why| Said::from(why).raised(py))
     }
 
     /// A message with options in Python's words.

@@ -9,7 +9,7 @@ use crate::run::Asked;
 use crate::sweep::{AskedOfSweep, Sweep};
 use crate::tolerance::{self, Told};
 use crate::waiting::interruptible;
-use mechc::{Cancel, Checked, Choice, Compiled, Diagnostics, Parsed, Redundant, SettableParam, Sources, World};
+use mechc::{Cancel, Checked, Choice, Compiled, Error, Parsed, Redundant, SettableParam, Sources, World};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict, PyString};
 use std::collections::BTreeMap;
@@ -191,7 +191,7 @@ impl Mechanism {
         let choice = Choice { mechanism, set, ..Choice::default() };
         let redundant = if allow_redundant { Redundant::LeftOut } else { Redundant::Refused };
         let made = interruptible(py, move |cancel| {
-            let parsed = read(text.as_deref(), &path, &files).map_err(|(sources, said)| Said::of(&said, &sources))?;
+            let parsed = read(text.as_deref(), &path, &files)?;
             Stages::of(parsed, path, files, (choice, redundant), cancel)
         })?;
         let (stages, said) = made.map_err(|said| said.raised(py))?;
@@ -367,7 +367,7 @@ impl Mechanism {
     }
 }
 
-fn read(text: Option<&str>, path: &Path, files: &Files) -> Result<Parsed, (Sources, Diagnostics)> {
+fn read(text: Option<&str>, path: &Path, files: &Files) -> Result<Parsed, Error> {
     match text {
         None => Parsed::read(path, files),
         Some(text) => {

@@ -6,7 +6,7 @@ use crate::mechanism::Stages;
 use crate::memory::{self, Of};
 use crate::table::Table;
 use crate::waiting::interruptible;
-use mechc::{Cancel, Checked, Choice, ColumnUnit, Compiled, Diagnostics, Redundant, RequestedTimes, Run, RunOptions};
+use mechc::{Cancel, Checked, Choice, ColumnUnit, Compiled, Error, Redundant, RequestedTimes, Run, RunOptions};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use std::path::PathBuf;
@@ -137,9 +137,8 @@ impl Asked {
         let mut sources = compiled.sources().clone();
         let ends = [&self.from, &self.to, &self.every];
         let times = RequestedTimes::from_options(ends, &self.at, &mut sources)
-            .and_then(|asked| Ok(asked.over(compiled.analysis()).map_err(|why| *why)?.times().map_err(|why| *why)?));
-        let times = times.map_err(|why| Said::of(&why, &sources))?;
-        let wanted = compiled.select_columns(&self.columns).map_err(|why| Said::of_one(*why, &sources))?;
+            .and_then(|asked| asked.over(compiled.analysis())?.times());
+        let (times, wanted) = (times.map_err(Said::from)?, compiled.select_columns(&self.columns).map_err(Said::from)?);
         let (run, more) = compiled.run(&times, &self.options(cancel));
         let Some(run) = run else { return Err(Said::of(&more, &sources).into()) };
         let mut said = vec![said];
@@ -147,7 +146,7 @@ impl Asked {
         said.push(Said::of(&more, &sources));
         let mut rows = Rows::of(&run, wanted)?;
         let mut run = run;
-        let stopped = rows.take_all(&mut run).map(|why| Said::of(&why, &sources));
+        let stopped = rows.take_all(&mut run).map(Said::from);
         let answers = run.results().unwrap_or_default();
         let mut remarks = run.take_warnings();
         remarks.extend(answers.notes);
@@ -185,7 +184,7 @@ impl Rows {
     }
 
     /// All rows up to the end, or to where the motion cannot go on, and why.
-    fn take_all(&mut self, run: &mut Run) -> Option<Diagnostics> {
+    fn take_all(&mut self, run: &mut Run) -> Option<Error> {
         while let Some(row) = run.next_row() {
             match row {
                 Ok(row) => {
@@ -194,7 +193,7 @@ impl Rows {
                         column.push(unit.printed(row[k]));
                     }
                 }
-                Err(why) => return Some((*why).into()),
+                Err(why) => return Some(why),
             }
         }
         None

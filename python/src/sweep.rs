@@ -11,8 +11,7 @@ use crate::table::{Head, Kind, Table, schema};
 use crate::waiting::interruptible;
 use arrow_schema::SchemaRef;
 use mechc::{
-    Cancel, Checked, Choice, ColumnUnit, Compiled, Diagnostic, Diagnostics, Method, RequestedTimes, Sources,
-    SweepOptions, Variants, VaryOptions,
+    Cancel, Checked, Choice, ColumnUnit, Compiled, Method, RequestedTimes, SweepOptions, Variants, VaryOptions,
 };
 use pyo3::prelude::*;
 use pyo3::types::PyCapsule;
@@ -80,24 +79,19 @@ pub struct Whole {
     rows: u64,
 }
 
-type Refused = (Sources, Diagnostics);
-
 impl Whole {
     fn of(stages: &Stages, asked: &Asked, more: &AskedOfSweep, cancel: &Cancel) -> Result<(Whole, Said), Said> {
         let world = WithLists::new(&stages.files, more.lists());
         let choice = Choice { lead: true, until: more.until.clone(), ..asked.choice(stages) };
         let redundant = asked.redundant(stages);
         let ((checked, compiled), said) = stages.with(&choice, &world, redundant, cancel)?;
-        let told = |(sources, said): Refused| Said::of(&said, &sources);
-        let variants = checked.variants(&more.vary_options(), &choice, &world).map_err(told)?;
+        let variants = checked.variants(&more.vary_options(), &choice, &world)?;
         let compiled = checked.widest(&variants, redundant).unwrap_or(compiled);
         let mut sources = variants.sources().clone();
         let ends = [&asked.from, &asked.to, &asked.every];
-        let times =
-            RequestedTimes::from_options(ends, &asked.at, &mut sources).map_err(|why| Said::of(&why, &sources))?;
-        let refused = |why: Box<Diagnostic>| Said::of_one(*why, &sources);
-        let rows = times.over(compiled.analysis()).and_then(|times| times.times()).map_err(refused)?.len();
-        let wanted = if more.rows { Some(compiled.select_columns(&asked.columns).map_err(refused)?) } else { None };
+        let times = RequestedTimes::from_options(ends, &asked.at, &mut sources)?;
+        let rows = times.over(compiled.analysis()).and_then(|times| times.times())?.len();
+        let wanted = if more.rows { Some(compiled.select_columns(&asked.columns)?) } else { None };
         let (heads, units) = heads(&compiled, &variants, wanted.as_deref());
         let run = asked.options(cancel);
         let options = SweepOptions {

@@ -60,22 +60,20 @@ fn found(
 ) -> Result<Told, Said> {
     let choice = mechc::Choice { lead: true, ..asked.choice(stages) };
     let ((checked, compiled), _) = stages.with(&choice, &*stages.files, asked.redundant(stages), cancel)?;
-    let told = |(sources, said)| Said::of(&said, &sources);
-    let tolerancing = checked.tolerancing(tol, &choice, &*stages.files).map_err(told)?;
+    let tolerancing = checked.tolerancing(tol, &choice, &*stages.files)?;
     let mut sources = compiled.sources().clone();
     let times = RequestedTimes::from_options([&asked.from, &asked.to, &asked.every], &[], &mut sources);
     let RunOptions { tolerance, pass_bifurcations, .. } = asked.options(cancel);
     let options = SweepOptions {
-        times: times.map_err(|why| Said::of(&why, &sources))?,
+        times: times?,
         redundant: asked.redundant(stages),
         tolerance,
         pass_bifurcations,
         cancel: cancel.clone(),
         ..SweepOptions::default()
     };
-    let affected = tolerancing.sensitivities(&compiled, &options).map_err(told)?;
-    let verified =
-        if verify { Some(tolerancing.verify(&compiled, &affected, &options, |_| ()).map_err(told)?) } else { None };
+    let affected = tolerancing.sensitivities(&compiled, &options)?;
+    let verified = if verify { Some(tolerancing.verify(&compiled, &affected, &options, |_| ())?) } else { None };
     let tolerances = tolerancing.tolerances();
     let quantity = |(k, of): (usize, &OutputSensitivity)| {
         let deviation = of.deviation(tolerances, normal);

@@ -1,6 +1,6 @@
 //! Failures of commands, and their exit codes.
 
-use mechc_text::diag::{Code, Diagnostic, Diagnostics, Responsibility};
+use mechc_text::diag::{Code, Diagnostic, Diagnostics, Error, ErrorKind};
 use mechc_text::source::Sources;
 
 /// The exit code if the input has errors or is not formatted.
@@ -15,27 +15,43 @@ const FILES: u8 = 4;
 /// The reason why a command ends early.
 #[derive(Debug)]
 pub(super) enum Failure {
-    /// Diagnostics to print.
-    Reported(Diagnostics),
+    /// Diagnostics to print, and the texts that they point into; `None` for those of the reporter.
+    Reported(Diagnostics, Option<Sources>),
     /// The reader of the results has closed the pipe, which is not an error.
     ReaderClosed,
 }
 
 impl From<Diagnostics> for Failure {
     fn from(diagnostics: Diagnostics) -> Failure {
-        Failure::Reported(diagnostics)
+        Failure::Reported(diagnostics, None)
+    }
+}
+
+impl Failure {
+    /// Returns the diagnostics to print.
+    pub fn into_diagnostics(self) -> Diagnostics {
+        match self {
+            Failure::Reported(diagnostics, _) => diagnostics,
+            Failure::ReaderClosed => Diagnostics::default(),
+        }
+    }
+}
+
+impl From<Error> for Failure {
+    fn from(error: Error) -> Failure {
+        Failure::Reported(error.diagnostics, Some(error.sources))
     }
 }
 
 impl From<Diagnostic> for Failure {
     fn from(diagnostic: Diagnostic) -> Failure {
-        Failure::Reported(diagnostic.into())
+        Failure::Reported(diagnostic.into(), None)
     }
 }
 
 impl From<Box<Diagnostic>> for Failure {
     fn from(diagnostic: Box<Diagnostic>) -> Failure {
-        Failure::Reported((*diagnostic).into())
+        Failure::Reported(diagnostic.into(), None)
     }
 }
 
@@ -53,11 +69,11 @@ pub(super) fn concerns_options(diagnostics: &Diagnostics, sources: &Sources) -> 
 
 /// Returns the exit code for some diagnostics.
 pub(super) fn exit_code(diagnostics: &Diagnostics, sources: &Sources) -> u8 {
-    match Responsibility::of(diagnostics, sources) {
+    match ErrorKind::of(diagnostics, sources) {
         None => 0,
-        Some(Responsibility::Input) => INPUT,
-        Some(Responsibility::Usage) => USAGE,
-        Some(Responsibility::Analysis) => ANALYSIS,
-        Some(Responsibility::Files) => FILES,
+        Some(ErrorKind::Input) => INPUT,
+        Some(ErrorKind::Usage) => USAGE,
+        Some(ErrorKind::Analysis | ErrorKind::Cancelled) => ANALYSIS,
+        Some(ErrorKind::Files) => FILES,
     }
 }

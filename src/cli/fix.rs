@@ -40,13 +40,9 @@ pub(super) fn fix(input: &Input, reporter: &mut Reporter) -> Result<Parsed, Fail
 
 /// Adds the diagnostics of the unchanged text to the reason why the fixed one could not be written.
 fn with_diagnostics(why: Failure, original: &Parsed, reporter: &mut Reporter) -> Failure {
-    match why {
-        Failure::Reported(mut diagnostics) => {
-            let checked = original.check(&Choice::default(), &Disk);
-            reporter.sources = checked.sources().clone();
-            diagnostics.extend(checked.diagnostics().iter().cloned());
-            Failure::Reported(diagnostics)
-        }
-        Failure::ReaderClosed => Failure::ReaderClosed,
-    }
+    let Failure::Reported(mut diagnostics, _) = why else { return why };
+    let checked = original.check(&Choice::default(), &Disk);
+    reporter.sources = checked.sources().clone();
+    diagnostics.extend(checked.diagnostics().iter().cloned());
+    diagnostics.into()
 }

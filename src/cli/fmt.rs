@@ -33,8 +33,8 @@ pub(super) fn fmt(arguments: &FmtArguments, reporter: &mut Reporter) -> Result<(
         });
         match result {
             Ok(()) => {}
-            Err(Failure::Reported(diagnostics)) => errors.extend(diagnostics),
             Err(closed @ Failure::ReaderClosed) => return Err(closed),
+            Err(why) => errors.extend(why.into_diagnostics()),
         }
     }
     if !diffs.is_empty() {

@@ -7,7 +7,7 @@ use super::report::Reporter;
 use mechc_engine::analysis::Times;
 use mechc_expr::number;
 use mechc_pipeline::{self as stages, Formula, NAMES};
-use mechc_text::diag::Diagnostics;
+use mechc_text::diag::{Diagnostics, Error};
 
 pub(super) fn formula(arguments: &FormulaArguments, reporter: &mut Reporter) -> Result<(), Failure> {
     if matches!(arguments.formula.trim(), "" | "-") {
@@ -18,12 +18,12 @@ pub(super) fn formula(arguments: &FormulaArguments, reporter: &mut Reporter) -> 
     let formula = Formula::parse(&arguments.formula, &mut reporter.sources)?;
     reporter.print(formula.remarks());
     let at = |text: &String| stages::seconds("--at", text, &mut reporter.sources);
-    let times = arguments.at.iter().map(at).collect::<Result<Vec<f64>, Diagnostics>>()?;
+    let times = arguments.at.iter().map(at).collect::<Result<Vec<f64>, Error>>()?;
     let (mut rows, mut failed) = (Vec::new(), Diagnostics::default());
     for t in Times::listed(0.0, times).iter() {
         match formula.values(t) {
             Ok(values) => rows.push([t, values[0], values[1], values[2]]),
-            Err(diagnostic) => failed.push(*diagnostic),
+            Err(why) => failed.extend(why.diagnostics),
         }
     }
     let mut text = formula.text();

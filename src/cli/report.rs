@@ -3,7 +3,7 @@
 use super::arguments::{MessageFormat, Messages, When};
 use super::failure::{Failure, exit_code};
 use super::protected_paths::ProtectedPaths;
-use mechc_text::diag::{Color, Diagnostics, Fix, Format, render, render_applied, visible};
+use mechc_text::diag::{Color, Diagnostics, Error, Fix, Format, render, render_applied, visible};
 use mechc_text::source::{FileId, Sources};
 use std::cell::Cell;
 use std::io::{IsTerminal, Write};
@@ -50,10 +50,20 @@ impl Reporter {
         self.format == Format::Json
     }
 
+    /// Prints diagnostics that point into the reporter's texts.
     pub fn print(&self, diagnostics: &Diagnostics) {
+        self.print_with(diagnostics, &self.sources);
+    }
+
+    /// Prints an error with the texts that it points into.
+    pub fn print_error(&self, error: &Error) {
+        self.print_with(&error.diagnostics, &error.sources);
+    }
+
+    fn print_with(&self, diagnostics: &Diagnostics, sources: &Sources) {
         let mut text = String::new();
         for diagnostic in diagnostics.iter() {
-            text += &render(diagnostic, &self.sources, self.format, self.color);
+            text += &render(diagnostic, sources, self.format, self.color);
         }
         let errors = diagnostics.iter().filter(|d| d.is_error()).count();
         if errors > 1 && self.format == Format::Human {
@@ -110,9 +120,10 @@ impl Reporter {
     pub fn finish(&self, result: Result<(), Failure>) -> u8 {
         match result {
             Ok(()) | Err(Failure::ReaderClosed) => self.exit.get(),
-            Err(Failure::Reported(diagnostics)) => {
-                self.print(&diagnostics);
-                exit_code(&diagnostics, &self.sources)
+            Err(Failure::Reported(diagnostics, sources)) => {
+                let sources = sources.as_ref().unwrap_or(&self.sources);
+                self.print_with(&diagnostics, sources);
+                exit_code(&diagnostics, sources)
             }
         }
     }

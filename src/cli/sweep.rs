@@ -29,10 +29,7 @@ pub(super) fn sweep(arguments: &SweepArguments, reporter: &mut Reporter) -> Resu
     let checked = input::checked_in(&parsed, &choice, &world, reporter)?;
     let (compiled, diagnostics) = input::prove(&checked, arguments.following.allow_redundant);
     let compiled = reporter.require(compiled, diagnostics)?;
-    let variants = checked.variants(&vary(arguments), &choice, &world).map_err(|(sources, diagnostics)| {
-        reporter.sources = sources;
-        diagnostics
-    })?;
+    let variants = checked.variants(&vary(arguments), &choice, &world)?;
     reporter.sources = variants.sources().clone();
     reporter.named_files.extend(variants.named_files().iter().cloned());
     let redundant = if arguments.following.allow_redundant { Redundant::LeftOut } else { Redundant::Refused };

@@ -10,8 +10,6 @@ use super::report::Reporter;
 use super::summary::VariantCommand;
 use super::tolerance_table::ToleranceTable;
 use mechc_pipeline::{Choice, Redundant, SweepOptions};
-use mechc_text::diag::Diagnostics;
-use mechc_text::source::Sources;
 
 pub(super) fn tolerance(arguments: &ToleranceArguments, reporter: &mut Reporter) -> Result<(), Failure> {
     let format = output_format::choose(arguments.format, &arguments.output, &FORMATS, ContributionFormat::Table)?;
@@ -21,7 +19,7 @@ pub(super) fn tolerance(arguments: &ToleranceArguments, reporter: &mut Reporter)
     let following = &arguments.following;
     let (compiled, diagnostics) = input::prove(&checked, following.allow_redundant);
     let compiled = reporter.require(compiled, diagnostics)?;
-    let tolerancing = with_sources(checked.tolerancing(&arguments.tol, &choice, &world), reporter)?;
+    let tolerancing = checked.tolerancing(&arguments.tol, &choice, &world)?;
     let options = SweepOptions {
         times: input::time_options(&arguments.interval, &[], &mut reporter.sources)?,
         redundant: if following.allow_redundant { Redundant::LeftOut } else { Redundant::Refused },
@@ -31,12 +29,12 @@ pub(super) fn tolerance(arguments: &ToleranceArguments, reporter: &mut Reporter)
         ..SweepOptions::default()
     };
     let output = Output::open(&arguments.output, &reporter.protected())?;
-    let affected = with_sources(tolerancing.sensitivities(&compiled, &options), reporter)?;
+    let affected = tolerancing.sensitivities(&compiled, &options)?;
     let verified = if arguments.verify {
         let mut progress = Progress::counting("variants", tolerancing.count(&affected), false);
         let verified = tolerancing.verify(&compiled, &affected, &options, |count| progress.advance(count));
         progress.finish();
-        Some(with_sources(verified, reporter)?)
+        Some(verified?)
     } else {
         None
     };
@@ -54,14 +52,6 @@ pub(super) fn tolerance(arguments: &ToleranceArguments, reporter: &mut Reporter)
         Reporter::print_text(&table.remarks(|settings| command.format(settings)));
     }
     Ok(())
-}
-
-/// Returns a result; for an error, hands the texts that it refers to over to the reporter.
-fn with_sources<T>(result: Result<T, (Sources, Diagnostics)>, reporter: &mut Reporter) -> Result<T, Failure> {
-    result.map_err(|(sources, diagnostics)| {
-        reporter.sources = sources;
-        diagnostics.into()
-    })
 }
 
 /// The formats by extension.

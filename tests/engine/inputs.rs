@@ -47,7 +47,7 @@ fn rows(text: &str, choice: &Choice, world: &Memory) -> Result<Vec<Vec<u64>>, Ve
     while let Some(row) = run.next_row() {
         match row {
             Ok(row) => rows.push(row.iter().map(|value| value.to_bits()).collect()),
-            Err(why) => return Err(vec![why.code.as_str()]),
+            Err(why) => return Err(vec![why.first().expect("an error").code.as_str()]),
         }
     }
     Ok(rows)

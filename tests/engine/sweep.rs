@@ -237,7 +237,7 @@ fn what_is_wrong_with_a_column_of_variants_is_said_at_its_header() {
     ] {
         let world = Memory::default().with("v.csv", format!("speed [rpm],{header}\n60,30\n"));
         let requested = vary(&["@v.csv"]);
-        let (sources, diagnostics) =
+        let mechc::Error { sources, diagnostics, .. } =
             subject.checked.variants(&requested, &subject.choice, &world).expect_err("that column is wrong");
         let one = diagnostics.iter().next().expect("a word of it");
         let span = one.labels[0].span;

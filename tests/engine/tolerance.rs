@@ -35,8 +35,8 @@ fn subject(text: &str, results: &[&str]) -> Subject {
 }
 
 /// What is refused, as it is told.
-fn reported((_, messages): (mechc::Sources, mechc::Diagnostics)) -> String {
-    messages.iter().map(|message| message.message.clone()).collect::<Vec<_>>().join("; ")
+fn reported(why: mechc::Error) -> String {
+    why.diagnostics.iter().map(|message| message.message.clone()).collect::<Vec<_>>().join("; ")
 }
 
 impl Subject {

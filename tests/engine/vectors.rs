@@ -214,7 +214,7 @@ fn outcome(compiled: &Compiled, times: &Times, vectors: Vectors) -> (Vec<Vec<u64
     for row in run.by_ref() {
         match row {
             Ok(row) => rows.push(row.into_iter().map(bits).collect()),
-            Err(stop) => why = Some(stop.message.clone()),
+            Err(stop) => why = Some(stop.first().expect("an error").message.clone()),
         }
     }
     let results = run.results().map(|answers| answers.values).unwrap_or_default();

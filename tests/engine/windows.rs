@@ -220,9 +220,9 @@ fn by_p(p: f64, cases: &[(&str, Option<f64>)]) {
     let subject = subject(&arm(&declarations), Choice::default());
     let (requested, world) = (["p=0.01".to_owned()], Memory::default());
     let of = subject.checked.tolerancing(&requested, &subject.choice, &world);
-    let of = of.unwrap_or_else(|(_, diagnostics)| panic!("{diagnostics:?}"));
+    let of = of.unwrap_or_else(|why| panic!("{why}"));
     let affected = of.sensitivities(&subject.compiled, &SweepOptions::default());
-    let affected = affected.unwrap_or_else(|(_, diagnostics)| panic!("{diagnostics:?}"));
+    let affected = affected.unwrap_or_else(|why| panic!("{why}"));
     let of_results = affected.iter().filter(|of| of.at.is_none());
     for (of, (formula, wanted)) in of_results.zip(cases) {
         match (of.slopes[0], wanted) {

@@ -39,7 +39,7 @@ fn run(text: &str, file: &Path, mechanism: &str, times: Option<&Times>) -> Resul
     let columns = run.columns().to_vec();
     let mut rows = Vec::new();
     while let Some(row) = run.next_row() {
-        rows.push(row.map_err(|why| why.code.as_str().to_owned())?.to_vec());
+        rows.push(row.map_err(|why| why.first().expect("an error").code.as_str().to_owned())?.to_vec());
     }
     Ok((Table { columns, rows }, times))
 }
@@ -204,7 +204,7 @@ fn messages(text: &str) -> (Vec<String>, Vec<Vec<f64>>) {
         while let Some(row) = run.next_row() {
             match row {
                 Ok(row) => rows.push(row.to_vec()),
-                Err(why) => all.push(why.message.clone()),
+                Err(why) => all.extend(why.diagnostics.iter().map(|d| d.message.clone())),
             }
         }
     }

@@ -166,7 +166,7 @@ pub fn table(compiled: &Compiled) -> Result<String, Diagnostics> {
     let [from, to, every] = compiled.analysis().unwrap_or([0.0, 1.0, 0.1]);
     let times = Times::grid(from, to, every).unwrap_or_else(|| Times::listed(from, vec![from]));
     let (run, said) = compiled.run(&times, &RunOptions::default());
-    let rows = run.ok_or(said)?.collect::<Result<Vec<Vec<f64>>, _>>().map_err(|why| Diagnostics::from(*why))?;
+    let rows = run.ok_or(said)?.collect::<Result<Vec<Vec<f64>>, _>>().map_err(|why| why.diagnostics)?;
     // writing to a vector cannot fail
     let (mut text, units) = (Vec::new(), compiled.units());
     let writer = TableWriter::new(&mut text, TableFormat::Csv, &compiled.columns(), &[]).and_then(|mut writer| {

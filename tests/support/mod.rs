@@ -201,7 +201,7 @@ pub fn follow(compiled: &Compiled, times: &Times, options: &RunOptions, outcome:
     for row in run.by_ref() {
         match row {
             Ok(row) => outcome.rows.push(row),
-            Err(diagnostic) => why = Some(*diagnostic),
+            Err(error) => why = error.diagnostics.into_iter().next(),
         }
     }
     outcome.diagnostics.extend(run.take_warnings());

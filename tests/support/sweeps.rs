@@ -33,10 +33,10 @@ impl Subject {
 
     /// Returns the variants of a sweep, with the files of a world.
     pub fn variants_in(&self, vary: &VaryOptions, world: &dyn World) -> Result<Variants, String> {
-        let said = |(_, said): (_, mechc::Diagnostics)| {
-            said.iter().map(|said| said.message.clone()).collect::<Vec<_>>().join("; ")
+        let messages = |why: mechc::Error| {
+            why.diagnostics.iter().map(|diagnostic| diagnostic.message.clone()).collect::<Vec<_>>().join("; ")
         };
-        self.checked.variants(vary, &self.choice, world).map_err(said)
+        self.checked.variants(vary, &self.choice, world).map_err(messages)
     }
 
     /// Runs a sweep and joins its blocks.
@@ -72,7 +72,7 @@ impl Subject {
         while let Some(row) = run.next_row() {
             match row {
                 Ok(row) => rows.push(row.to_vec()),
-                Err(why) => return (Status::Stopped(why.code), nothing, rows),
+                Err(why) => return (Status::Stopped(why.first().expect("an error").code), nothing, rows),
             }
         }
         let results =

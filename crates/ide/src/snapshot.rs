@@ -378,7 +378,7 @@ fn run(proof: &Proof, cancel: &Cancel) -> Option<MotionOutcome> {
     let Some(mut run) = run else { return (!cancel.is_cancelled()).then_some(outcome) };
     while let Some(row) = run.next_row() {
         if let Err(why) = row {
-            outcome.diagnostics.push(*why);
+            outcome.diagnostics.extend(why.diagnostics);
         }
         outcome.diagnostics.extend(run.take_warnings());
     }

@@ -9,8 +9,8 @@ use super::response::encode;
 use super::solution::{Solution, SolutionBuilder};
 use mechc_pipeline::{Choice, ParamControl, Parsed, Redundant, size_of_unit};
 use mechc_text::cancel::Cancel;
-use mechc_text::diag::Diagnostics;
-use mechc_text::source::{Sources, Span};
+use mechc_text::diag::Error;
+use mechc_text::source::Span;
 use mechc_text::world::World;
 use rustc_hash::FxHashMap;
 use serde_json::{Value, json};
@@ -73,7 +73,7 @@ impl LiveStatus {
 struct Texts {
     version: u64,
     files: FileSnapshot,
-    parsed: Result<Parsed, (Sources, Diagnostics)>,
+    parsed: Result<Parsed, Error>,
     /// Cancelled when a newer version replaces this one.
     cancel: Cancel,
     baseline: Mutex<Baseline>,

@@ -8,7 +8,7 @@ use mechc_pipeline::{
     Visualization,
 };
 use mechc_text::cancel::Cancel;
-use mechc_text::diag::{Code, Color, Diagnostics, Format, render};
+use mechc_text::diag::{Code, Color, Diagnostics, Error, Format, render};
 use mechc_text::source::Sources;
 use serde_json::{Value, json};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -73,7 +73,7 @@ impl Solution {
 /// Computes solutions from one version of the texts.
 pub(super) struct SolutionBuilder<'s> {
     /// The tree of the file, or why it could not be read.
-    pub parsed: &'s Result<Parsed, (Sources, Diagnostics)>,
+    pub parsed: &'s Result<Parsed, Error>,
     pub files: &'s FileSnapshot,
     /// The options of the command: the mechanism and its settings.
     pub choice: &'s Choice,
@@ -125,7 +125,9 @@ impl SolutionBuilder<'_> {
     fn solve(&self, choice: &Choice, cancel: &Cancel) -> Solution {
         let parsed = match self.parsed {
             Ok(parsed) => parsed,
-            Err((sources, diagnostics)) => return Solution::unreadable(sources.clone(), diagnostics.clone()),
+            Err(Error { sources, diagnostics, .. }) => {
+                return Solution::unreadable(sources.clone(), diagnostics.clone());
+            }
         };
         let checked = parsed.check(choice, self.files);
         let (mut diagnostics, mut sources) = (checked.diagnostics().clone(), checked.sources().clone());
@@ -198,7 +200,7 @@ impl SolutionBuilder<'_> {
         let start = match self.configuration(solution, compiled, t, cancel) {
             Ok(start) => start,
             Err(_) if cancel.is_cancelled() => return None,
-            Err(diagnostics) => return failure(rendered(&diagnostics, &solution.sources)),
+            Err(why) => return failure(rendered(&why.diagnostics, &solution.sources)),
         };
         let available = solution.inputs(&[t]);
         let moves = inputs.iter().filter_map(|(name, to)| InputMove::new(&available, name, *to));
@@ -238,7 +240,7 @@ impl SolutionBuilder<'_> {
         compiled: &Compiled,
         t: f64,
         cancel: &Cancel,
-    ) -> Result<Configuration, Diagnostics> {
+    ) -> Result<Configuration, Error> {
         let mut cached = lock(&solution.configuration);
         if let Some(configuration) = cached.as_ref().filter(|cached| cached.t.to_bits() == t.to_bits()) {
             return Ok(configuration.clone());
@@ -278,7 +280,7 @@ impl SolutionBuilder<'_> {
         let row = run.and_then(|mut run| match run.next()? {
             Ok(row) => Some(row),
             Err(why) => {
-                diagnostics.push(*why);
+                diagnostics.extend(why.diagnostics);
                 None
             }
         });

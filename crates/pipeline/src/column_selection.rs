@@ -1,7 +1,7 @@
 //! Selection of columns by patterns of their names.
 
 use crate::Compiled;
-use mechc_text::diag::{Code, Diagnostic, nearest};
+use mechc_text::diag::{Code, Diagnostic, Error, nearest};
 use wildmatch::WildMatch;
 
 impl Compiled {
@@ -10,12 +10,12 @@ impl Compiled {
     ///
     /// # Errors
     /// No column matches one of them.
-    pub fn select_columns(&self, patterns: &[String]) -> Result<Vec<usize>, Box<Diagnostic>> {
+    pub fn select_columns(&self, patterns: &[String]) -> Result<Vec<usize>, Error> {
         select_columns(patterns, &self.columns())
     }
 }
 
-fn select_columns(patterns: &[String], columns: &[String]) -> Result<Vec<usize>, Box<Diagnostic>> {
+fn select_columns(patterns: &[String], columns: &[String]) -> Result<Vec<usize>, Error> {
     if patterns.is_empty() {
         return Ok((0..columns.len()).collect());
     }
@@ -34,7 +34,7 @@ fn select_columns(patterns: &[String], columns: &[String]) -> Result<Vec<usize>,
             let is_there = |part: &&str| columns.iter().any(|column| WildMatch::new(part).matches(column));
             if parts.len() > 1 && parts.iter().all(is_there) {
                 let repeated: Vec<String> = parts.iter().map(|part| format!("--columns '{part}'")).collect();
-                return Err(Box::new(diagnostic.help(format!("repeat the option: `{}`", repeated.join(" ")))));
+                return Err(diagnostic.help(format!("repeat the option: `{}`", repeated.join(" "))).into());
             }
             let suggestion = nearest(pattern.trim(), columns.iter().map(String::as_str));
             let help = match suggestion {
@@ -42,7 +42,7 @@ fn select_columns(patterns: &[String], columns: &[String]) -> Result<Vec<usize>,
                 None if names_reaction(pattern) => "forces have columns with `--reactions`".to_owned(),
                 None => "`*` stands for anything, `?` for one character, as in `--columns 'rod.*'`".to_owned(),
             };
-            return Err(Box::new(diagnostic.help(help)));
+            return Err(diagnostic.help(help).into());
         }
     }
     Ok((0..columns.len()).filter(|&k| is_selected[k]).collect())
@@ -64,15 +64,18 @@ mod tests {
             select_columns(&patterns.iter().map(|&pattern| pattern.to_owned()).collect::<Vec<_>>(), &columns).ok()
         };
         let why = select_columns(&["rod.x,leg[1].x".to_owned()], &columns).expect_err("one pattern is one name");
-        assert_eq!(why.help, ["repeat the option: `--columns 'rod.x' --columns 'leg[1].x'`"]);
+        assert_eq!(
+            why.first().expect("an error").help,
+            ["repeat the option: `--columns 'rod.x' --columns 'leg[1].x'`"]
+        );
         assert_eq!(select(&[]), Some(vec![0, 1, 2, 3, 4]));
         assert_eq!(select(&["rod.x"]), Some(vec![0, 1]));
         assert_eq!(select(&["rod.*", "t"]), Some(vec![0, 1, 2]));
         assert_eq!(select(&["leg[?].x"]), Some(vec![0, 3, 4]));
         assert_eq!(select(&["leg[2].x", "rod.x"]), Some(vec![0, 1, 4]), "in the order of the table");
         assert_eq!(select(&["rod.y"]), None);
-        let diagnostic = select_columns(&["main.fx".to_owned()], &columns).expect_err("no such column");
-        assert_eq!(diagnostic.help, ["forces have columns with `--reactions`"]);
+        let why = select_columns(&["main.fx".to_owned()], &columns).expect_err("no such column");
+        assert_eq!(why.first().expect("an error").help, ["forces have columns with `--reactions`"]);
         assert_eq!(select(&[""]), None);
     }
 }

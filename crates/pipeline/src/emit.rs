@@ -211,27 +211,31 @@ impl Compiled {
         // spread evenly, the first and the last included
         let is_sampled = |k: u64| k == 0 || k * (sampled - 1) / (count - 1) > (k - 1) * (sampled - 1) / (count - 1);
         let (mut rows, mut last, mut number) = (Vec::new(), Vec::new(), 0);
-        let (mut stopped, mut why) = (None, None);
+        let mut why = None;
         while number < count
             && let Some(row) = run.next_row()
         {
             match row {
                 Ok(row) if is_sampled(number) => rows.push(row.to_vec()),
                 Ok(row) => row.clone_into(&mut last),
-                Err(diagnostic) if number == 0 => return Err(diagnostic),
-                Err(diagnostic) => {
-                    stopped = Some(diagnostic.message.clone());
-                    why = Some(*diagnostic);
+                Err(error) => {
+                    why = error.diagnostics.into_iter().next();
                     break;
                 }
             }
             number += 1;
+        }
+        if number == 0
+            && let Some(why) = why
+        {
+            return Err(Box::new(why));
         }
         if rows.last().map(|row| row[0]) < last.first().copied() {
             rows.push(last);
         }
         let forces = rows.iter_mut().map(|row: &mut Vec<f64>| row.drain(reactions.clone()).collect()).collect();
         diagnostics.extend(run.take_warnings());
+        let stopped = why.as_ref().map(|why| why.message.clone());
         diagnostics.extend(why);
         Ok(Reference { columns, rows, forces, steps: number - 1, every, stopped })
     }

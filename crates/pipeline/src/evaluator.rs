@@ -9,8 +9,7 @@ use mechc_engine::analysis::{Answers, ResultQuery, Times};
 use mechc_engine::sweep::{LANES, Levels, Points, Varying};
 use mechc_lang::check::{CheckOptions, SettableInputs};
 use mechc_text::cancel::Cancel;
-use mechc_text::diag::{Code, Diagnostic, Diagnostics, readable};
-use mechc_text::source::Sources;
+use mechc_text::diag::{Code, Diagnostic, Diagnostics, Error, readable};
 use std::sync::Arc;
 
 /// Options of an evaluator.
@@ -109,23 +108,21 @@ impl Checked {
     ///
     /// # Errors
     /// An input or param does not exist, or the mechanism is not determined; with the texts that the diagnostics point into.
-    pub fn evaluator(
-        &self,
-        adjusting: &EvaluatorOptions,
-        cancel: &Cancel,
-    ) -> Result<MechanismEvaluator, (Sources, Diagnostics)> {
-        let with_sources = |why: Diagnostic| (self.sources().clone(), Diagnostics::from(why));
+    pub fn evaluator(&self, adjusting: &EvaluatorOptions, cancel: &Cancel) -> Result<MechanismEvaluator, Error> {
+        let refused = |why: Diagnostic| Error::new(why, self.sources());
         let t = self.model().and_then(|model| model.analysis).map_or(0.0, |analysis| analysis.from);
         let set_inputs = SettableInputs { t, names: adjusting.inputs.clone(), bend: adjusting.has_accelerations };
         let open = adjusting.params.clone();
         let check_options = CheckOptions { set_inputs: Some(set_inputs), open, ..(*self.check_options).clone() };
-        let Some(index) = self.index else { return Err((self.sources().clone(), self.diagnostics().clone())) };
+        let Some(index) = self.index else {
+            return Err(Error::new(self.diagnostics().clone(), self.sources()));
+        };
         let checked =
             Checked::with_check_options(self.parsed.clone(), index, check_options, false, Diagnostics::default());
-        let refused = |diagnostics: &Diagnostics| (checked.sources().clone(), diagnostics.clone());
         let (compiled, diagnostics) = checked.compile(adjusting.redundant, cancel);
         let Some((compiled, model)) = compiled.zip(checked.model()) else {
-            return Err(refused(if checked.is_sound() { &diagnostics } else { checked.diagnostics() }));
+            let why = if checked.is_sound() { &diagnostics } else { checked.diagnostics() };
+            return Err(Error::new(why.clone(), checked.sources()));
         };
         let first_param = |name: &String| {
             let is_named = |param: &&mechc_lang::model::ContinuedParam| param.declared.name == *name;
@@ -133,7 +130,7 @@ impl Checked {
         };
         let unknown = |name: &String, what: &str| {
             let message = format!("there is no {what} `{name}` that could be adjusted");
-            with_sources(Diagnostic::new(Code::E0703, message))
+            refused(Diagnostic::new(Code::E0703, message))
         };
         let inputs = adjusting.inputs.iter().map(|name| first_param(name).ok_or_else(|| unknown(name, "input")));
         let inputs = inputs.collect::<Result<Vec<usize>, _>>()?;
@@ -142,7 +139,7 @@ impl Checked {
                 let message = format!(
                     "`{name}` decides what is repeated, and nothing leads from one number of bodies to another"
                 );
-                with_sources(unusable(message).help("set it when the mechanism is loaded"))
+                refused(unusable(message).help("set it when the mechanism is loaded"))
             } else {
                 unknown(name, "param")
             });
@@ -158,7 +155,7 @@ impl Checked {
     }
 
     /// Returns the params of the given names, each of which takes a number in SI.
-    fn params_to_adjust(&self, names: &[String]) -> Result<Option<Variants>, (Sources, Diagnostics)> {
+    fn params_to_adjust(&self, names: &[String]) -> Result<Option<Variants>, Error> {
         if names.is_empty() {
             return Ok(None);
         }
@@ -193,7 +190,7 @@ impl MechanismEvaluator {
         times: &RequestedTimes,
         cancel: &Cancel,
         row: impl FnMut(&[f64]),
-    ) -> Result<Answers, Box<Diagnostic>> {
+    ) -> Result<Answers, Error> {
         let (values, analysis) = self.0.values(params)?;
         let query = self.0.query(values, times.over(analysis)?.times()?, inputs);
         self.0.follow(&query, cancel, row)
@@ -206,7 +203,7 @@ impl MechanismEvaluator {
         count: usize,
         mut ask: impl FnMut(usize, &mut EvaluationPoint),
         cancel: &Cancel,
-        mut receive: impl FnMut(Result<&[f64], Box<Diagnostic>>),
+        mut receive: impl FnMut(Result<&[f64], Error>),
     ) {
         let (mut point, mut last, mut row) = (EvaluationPoint::default(), None, Vec::new());
         let (shared, options) = (&*self.0, self.0.options(cancel));
@@ -237,6 +234,10 @@ impl MechanismEvaluator {
 type Values = (Vec<f64>, Option<[f64; 3]>);
 
 impl Shared {
+    fn error(&self, why: Diagnostic) -> Error {
+        Error::new(why, self.checked.sources())
+    }
+
     fn options(&self, cancel: &Cancel) -> RunOptions {
         let EvaluatorOptions { tolerance, pass_bifurcations, .. } = self.adjusting;
         RunOptions { tolerance, pass_bifurcations, cancel: cancel.clone(), ..RunOptions::default() }
@@ -267,7 +268,7 @@ impl Shared {
             let message =
                 format!("`t` is {} s, before the first time of the analysis at {} s", readable(at), readable(from));
             let help = "the motion begins there: ask for later times";
-            return Err(Box::new(Diagnostic::new(Code::E0706, message).help(help)));
+            return Err(Diagnostic::new(Code::E0706, message).help(help).into());
         }
         // inputs have their values at that time only
         let from = (!point.inputs.is_empty()).then_some(at);
@@ -276,7 +277,7 @@ impl Shared {
     }
 
     /// Writes the last row that is followed, which is that of the time.
-    fn last_row(&self, query: &Query, cancel: &Cancel, row: &mut Vec<f64>) -> Result<(), Box<Diagnostic>> {
+    fn last_row(&self, query: &Query, cancel: &Cancel, row: &mut Vec<f64>) -> Result<(), Error> {
         row.resize(self.columns, f64::NAN);
         let keep = |followed: &[f64]| {
             row.clear();
@@ -285,13 +286,13 @@ impl Shared {
         self.follow(query, cancel, keep).map(|_| ())
     }
 
-    fn follow(&self, query: &Query, cancel: &Cancel, mut row: impl FnMut(&[f64])) -> Result<Answers, Box<Diagnostic>> {
+    fn follow(&self, query: &Query, cancel: &Cancel, mut row: impl FnMut(&[f64])) -> Result<Answers, Error> {
         let (options, Query { values, times }) = (self.options(cancel), query);
         let mut started = match self.continuation.start_values(values, times, &options) {
             Outcome::Started(started) => *started,
-            Outcome::CannotStart(stop, variant) => return Err(Box::new(stop.explain(variant.system()))),
-            Outcome::Refused(diagnostics) => return Err(first_error(diagnostics)),
-            Outcome::NoPath(why) => return Err(no_path(why)),
+            Outcome::CannotStart(stop, variant) => return Err(self.error(stop.explain(variant.system()))),
+            Outcome::Refused(diagnostics) => return Err(self.error(first_error(diagnostics))),
+            Outcome::NoPath(why) => return Err(self.error(no_path(why))),
         };
         // a run reports the conditioning of its start, which restores the factors there; do the same for the same bits
         let _ = started.conditioning();
@@ -305,36 +306,33 @@ impl Shared {
         while let Some(found) = motion.next_row() {
             match found {
                 Ok(found) => row(found),
-                Err(stop) => return Err(Box::new(stop.explain(motion.system()))),
+                Err(stop) => return Err(self.error(stop.explain(motion.system()))),
             }
         }
         Ok(results.and_then(ResultQuery::answer).unwrap_or_default())
     }
 
     /// Returns the values of all params of the model (SI), inputs at their nominal values, and first time, last time and step of the analysis (s).
-    fn values(&self, params: &[f64]) -> Result<Values, Box<Diagnostic>> {
+    fn values(&self, params: &[f64]) -> Result<Values, Error> {
         let Some(variants) = &self.params else { return Ok((self.nominal.clone(), self.compiled.analysis())) };
         let (model, diagnostics) = self.checked.model_with(variants.read_settings(params), variants.sources());
-        let model = model.ok_or_else(|| first_error(diagnostics))?;
+        let model = model.ok_or_else(|| Error::new(first_error(diagnostics), variants.sources()))?;
         let analysis = model.analysis.map(|analysis| [analysis.from, analysis.to, analysis.every]);
         Ok((model.params.iter().map(|param| param.value).collect(), analysis))
     }
 }
 
 /// Reports that no path leads to the values; nothing else is tried.
-fn no_path(why: Option<Box<Diagnostic>>) -> Box<Diagnostic> {
+fn no_path(why: Option<Box<Diagnostic>>) -> Diagnostic {
     match why {
-        Some(why) => Box::new(Diagnostic { notes: Vec::new(), ..*why }),
-        None => Box::new(Diagnostic::new(
-            Code::E0612,
-            "it does not stand with its own values, and so no way leads to others",
-        )),
+        Some(why) => Diagnostic { notes: Vec::new(), ..*why },
+        None => Diagnostic::new(Code::E0612, "it does not stand with its own values, and so no way leads to others"),
     }
 }
 
 /// Returns the first error; where something could not be made, there is one.
-fn first_error(diagnostics: Diagnostics) -> Box<Diagnostic> {
+fn first_error(diagnostics: Diagnostics) -> Diagnostic {
     let error = diagnostics.into_iter().find(Diagnostic::is_error);
     // cancelled work has no error, and its diagnostic is never shown
-    Box::new(error.unwrap_or_else(|| Diagnostic::new(Code::E0601, "it was not made")))
+    error.unwrap_or_else(|| Diagnostic::new(Code::E0601, "it was not made"))
 }

@@ -6,7 +6,7 @@ use mechc_expr::{ExprId, Graph, Printer, Symbol, number};
 use mechc_lang::check::{self, FormulaOfTime};
 use mechc_lang::model::{Condition, Dimension};
 use mechc_syntax as syntax;
-use mechc_text::diag::{Code, Diagnostic, Diagnostics};
+use mechc_text::diag::{Code, Diagnostic, Diagnostics, Error};
 use mechc_text::source::{Sources, Span};
 use rustc_hash::FxHashMap;
 
@@ -28,6 +28,8 @@ pub struct Formula {
     conditions: Vec<Condition>,
     remarks: Diagnostics,
     span: Span,
+    /// The texts that `span` and the conditions point into.
+    sources: Sources,
 }
 
 impl Formula {
@@ -35,11 +37,12 @@ impl Formula {
     ///
     /// # Errors
     /// The text does not follow the grammar, or has no meaning.
-    pub fn parse(text: &str, sources: &mut Sources) -> Result<Formula, Diagnostics> {
+    pub fn parse(text: &str, sources: &mut Sources) -> Result<Formula, Error> {
         let file = sources.add_option("EXPR", text);
-        let tree = syntax::parse_expression(sources, file)?;
+        let refused = |why: Diagnostics| Error::new(why, sources);
+        let tree = syntax::parse_expression(sources, file).map_err(refused)?;
         let FormulaOfTime { mut graph, value, dimension, conditions, remarks } =
-            check::formula_of_time(&tree, sources)?;
+            check::formula_of_time(&tree, sources).map_err(refused)?;
         let mut derivative = |formula: ExprId| {
             let slopes =
                 graph.derivatives(&[formula], |graph, symbol| (symbol == Symbol::Time).then(|| graph.constant(1.0)));
@@ -50,10 +53,18 @@ impl Formula {
         for (order, id) in [value, first, second].into_iter().enumerate() {
             // a constant may be NaN, as the derivative of `t / 0`
             if graph.dependence(id).is_constant() && !graph.value(id, |_| 0.0).is_finite() {
-                return Err(not_finite(tree.span, order, graph.value(id, |_| 0.0), None).into());
+                return Err(refused(not_finite(tree.span, order, graph.value(id, |_| 0.0), None).into()));
             }
         }
-        Ok(Formula { graph, roots: [value, first, second], dimension, conditions, remarks, span: tree.span })
+        Ok(Formula {
+            graph,
+            roots: [value, first, second],
+            dimension,
+            conditions,
+            remarks,
+            span: tree.span,
+            sources: sources.clone(),
+        })
     }
 
     /// Returns warnings of the formula, as of degrees that were probably intended.
@@ -71,19 +82,19 @@ impl Formula {
     ///
     /// # Errors
     /// A value is not finite, or the formula has no meaning there.
-    pub fn values(&self, t: f64) -> Result<[f64; 3], Box<Diagnostic>> {
+    pub fn values(&self, t: f64) -> Result<[f64; 3], Error> {
         let mut values = Vec::new();
         self.graph.extend_values(&mut values, |_| t);
         let value = |id: ExprId| values.get(id.index()).copied().unwrap_or(f64::NAN);
         for condition in &self.conditions {
             let positive = value(condition.positive);
             if positive.is_nan() || positive <= 0.0 {
-                return Err(Box::new(empty_interval(condition.span, t)));
+                return Err(Error::new(empty_interval(condition.span, t), &self.sources));
             }
         }
         let values = self.roots.map(value);
         match values.iter().position(|value| !value.is_finite()) {
-            Some(order) => Err(Box::new(not_finite(self.span, order, values[order], Some(t)))),
+            Some(order) => Err(Error::new(not_finite(self.span, order, values[order], Some(t)), &self.sources)),
             None => Ok(values),
         }
     }

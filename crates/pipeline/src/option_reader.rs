@@ -5,16 +5,12 @@ use crate::checked::TOL;
 use crate::options::spaceless;
 use crate::{Checked, Choice, Formula, Parsed};
 use mechc_lang::model::{Dimension, Units};
-use mechc_text::diag::{Code, Diagnostic, Diagnostics, Severity, readable};
-use mechc_text::source::Sources;
+use mechc_text::diag::{Code, Diagnostic, Diagnostics, Error, Severity, readable};
 use mechc_text::vocabulary::Unit;
 use mechc_text::world::World;
 
 /// Words that make an angle of a pure number.
 const ANGLES: [&str; 3] = ["deg", "rad", "rev"];
-
-/// The value of an option, or why it cannot be used, with the texts that the diagnostics point into.
-pub(crate) type SourcedResult<T> = Result<T, (Sources, Diagnostics)>;
 
 /// Refuses params that are given twice, and a param of one copy before that of all copies, which would overwrite it.
 pub(crate) fn refuse_duplicates<'n>(
@@ -68,7 +64,7 @@ pub(crate) struct OptionReader<'r> {
 impl OptionReader<'_> {
     /// Checks the mechanism with a param set to a formula. Errors in the formula itself are returned as errors; errors that the value causes
     /// in the mechanism stay in its diagnostics.
-    pub fn check_with(&self, name: &str, formula: &str) -> SourcedResult<Checked> {
+    pub fn check_with(&self, name: &str, formula: &str) -> Result<Checked, Error> {
         let set = vec![format!("{name}={formula}")];
         let choice = match self.option {
             TOL => Choice { deviations: set, ..self.choice.clone() },
@@ -83,16 +79,16 @@ impl OptionReader<'_> {
         };
         let mut wrong = Diagnostics::default();
         checked.diagnostics().iter().filter(is_of_option).for_each(|diagnostic| wrong.push(diagnostic.clone()));
-        if wrong.is_empty() { Ok(checked) } else { Err((sources.clone(), wrong)) }
+        if wrong.is_empty() { Ok(checked) } else { Err(Error::new(wrong, sources)) }
     }
 
     /// Checks the mechanism with a param set to a number; returns it with the value (SI) and its dimension, if it has one.
-    pub fn number(&self, name: &str, formula: &str) -> SourcedResult<(Checked, f64, Option<Dimension>)> {
+    pub fn number(&self, name: &str, formula: &str) -> Result<(Checked, f64, Option<Dimension>), Error> {
         let number = self.check_with(name, formula).and_then(|checked| {
             let (value, dimension) = self.value(formula)?;
             Ok((checked, value, dimension))
         });
-        let refused = || (self.checked.sources().clone(), self.point_needs_axis(name, formula).into());
+        let refused = || Error::new(self.point_needs_axis(name, formula), self.checked.sources());
         number.map_err(|why| if self.is_point(name) { refused() } else { why })
     }
 
@@ -109,13 +105,11 @@ impl OptionReader<'_> {
     }
 
     /// Returns the value of a formula (SI) and its dimension, if it has one.
-    pub fn value(&self, formula: &str) -> SourcedResult<(f64, Option<Dimension>)> {
+    pub fn value(&self, formula: &str) -> Result<(f64, Option<Dimension>), Error> {
         let mut sources = self.checked.sources().clone();
-        let value = Formula::parse(formula, &mut sources).and_then(|formula| {
-            let [value, ..] = formula.values(0.0).map_err(|why| *why)?;
-            Ok((value, formula.known_dimension()))
-        });
-        value.map_err(|diagnostics| (sources, diagnostics))
+        let formula = Formula::parse(formula, &mut sources)?;
+        let [value, ..] = formula.values(0.0)?;
+        Ok((value, formula.known_dimension()))
     }
 }
 

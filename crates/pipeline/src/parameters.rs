@@ -6,7 +6,7 @@ use crate::{Checked, Compiled};
 use mechc_lang::check::{self, Amount};
 use mechc_lang::model::Dimension;
 use mechc_syntax::{self as syntax, ast::ItemKind};
-use mechc_text::diag::Diagnostics;
+use mechc_text::diag::Error;
 use mechc_text::source::Sources;
 
 /// A param or an input that an option can set.
@@ -27,10 +27,11 @@ impl SettableParam {
     ///
     /// # Errors
     /// The text is no formula of numbers and units, or has another dimension.
-    pub fn read(&self, option: &str, what: &str, text: &str, sources: &mut Sources) -> Result<f64, Diagnostics> {
+    pub fn read(&self, option: &str, what: &str, text: &str, sources: &mut Sources) -> Result<f64, Error> {
         let file = sources.add_option(option, text);
-        let formula = syntax::parse_expression(sources, file)?;
-        check::amount(&formula, &format!("{what} `{}`", self.name), self.dimension, sources)
+        let value = syntax::parse_expression(sources, file)
+            .and_then(|formula| check::amount(&formula, &format!("{what} `{}`", self.name), self.dimension, sources));
+        value.map_err(|why| Error::new(why, sources))
     }
 
     /// Returns its time derivative of an order, as something to be set.
@@ -132,9 +133,7 @@ mod tests {
         assert_eq!(rate.unit, "m/s");
         let read = |param: &super::SettableParam, text: &str| {
             let mut sources = mechc_text::source::Sources::default();
-            let first_message = |diagnostics: mechc_text::diag::Diagnostics| {
-                diagnostics.iter().next().map_or(String::new(), |first| first.message.clone())
-            };
+            let first_message = |why: mechc_text::diag::Error| why.first().expect("an error").message.clone();
             param.read("--set it", "the value of", text, &mut sources).map_err(first_message)
         };
         assert_eq!(read(&params[0], "2 * (20 mm + 1 cm)"), Ok(0.06));

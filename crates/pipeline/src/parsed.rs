@@ -1,7 +1,7 @@
 //! The first stage: a text with its syntax tree. Knows no names and no units.
 
 use mechc_syntax::{self as syntax, ParsedText, Trivia, ast, format};
-use mechc_text::diag::{Diagnostics, Edit};
+use mechc_text::diag::{Diagnostics, Edit, Error};
 use mechc_text::source::{FileId, Source, Sources, Span};
 use mechc_text::world::{self, World};
 use std::path::Path;
@@ -36,11 +36,11 @@ impl Parsed {
     ///
     /// # Errors
     /// The file does not exist, or is no text; with the sources that the diagnostics point into.
-    pub fn read(path: &Path, world: &dyn World) -> Result<Parsed, (Sources, Diagnostics)> {
+    pub fn read(path: &Path, world: &dyn World) -> Result<Parsed, Error> {
         let mut sources = Sources::default();
         match world::text_of(world, path, &mut sources) {
             Ok(file) => Ok(Parsed::from_source(sources, file, path)),
-            Err(why) => Err((sources, (*why).into())),
+            Err(why) => Err(Error::new(why, &sources)),
         }
     }
 

@@ -11,7 +11,8 @@ use mechc_engine::sweep::CompiledSystem;
 use mechc_ir::layout::{ColumnUnit, RowLayout};
 use mechc_ir::structure::Determined;
 use mechc_text::cancel::Cancel;
-use mechc_text::diag::{Diagnostic, Diagnostics, readable};
+use mechc_text::diag::{Diagnostic, Diagnostics, Error, readable};
+use mechc_text::source::Sources;
 use std::sync::Arc;
 
 /// The position in which a mechanism was assembled.
@@ -62,6 +63,8 @@ pub struct Run {
     result_query: Option<ResultQuery>,
     results: usize,
     backtrace: PartBacktrace,
+    /// The texts that diagnostics point into.
+    sources: Sources,
 }
 
 /// Report on the start of a motion.
@@ -138,14 +141,14 @@ impl Compiled {
     ///
     /// # Errors
     /// The motion does not get there.
-    pub fn configuration_at(&self, t: f64, options: &RunOptions) -> Result<Configuration, Diagnostics> {
+    pub fn configuration_at(&self, t: f64, options: &RunOptions) -> Result<Configuration, Error> {
         let from = self.analysis().map_or(t, |[from, ..]| from.min(t));
         let (run, diagnostics) = self.run(&self.one_time(from, t), options);
         let layout = RowLayout::new(self.system());
         match run.and_then(|mut run| run.next()) {
             Some(Ok(row)) => Ok(Configuration { t, q: layout.position(&row).to_vec() }),
-            Some(Err(why)) => Err((*why).into()),
-            None => Err(diagnostics),
+            Some(Err(why)) => Err(why),
+            None => Err(Error::new(diagnostics, self.sources())),
         }
     }
 
@@ -315,6 +318,7 @@ impl Run {
             result_query,
             results,
             backtrace: compiled.backtrace().clone(),
+            sources: compiled.sources().clone(),
         };
         (Some(run), report)
     }
@@ -353,7 +357,7 @@ impl Run {
     ///
     /// # Errors
     /// The motion cannot continue, and this is why; no rows follow.
-    pub fn next_row(&mut self) -> Option<Result<&[f64], Box<Diagnostic>>> {
+    pub fn next_row(&mut self) -> Option<Result<&[f64], Error>> {
         if self.has_ended || self.cancel.is_cancelled() {
             return None;
         }
@@ -365,7 +369,8 @@ impl Run {
             }
             Some(Err(stop)) => {
                 (self.has_ended, self.stopped_at) = (true, Some(stop.t));
-                Some(Err(Box::new(self.backtrace.annotate(stop.explain(self.determined.system())))))
+                let why = self.backtrace.annotate(stop.explain(self.determined.system()));
+                Some(Err(Error::new(why, &self.sources)))
             }
         }
     }
@@ -406,7 +411,7 @@ impl Run {
 }
 
 impl Iterator for Run {
-    type Item = Result<Vec<f64>, Box<Diagnostic>>;
+    type Item = Result<Vec<f64>, Error>;
 
     fn next(&mut self) -> Option<Self::Item> {
         self.next_row().map(|row| row.map(<[f64]>::to_vec))

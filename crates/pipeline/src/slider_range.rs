@@ -2,14 +2,14 @@
 
 use crate::checked::VARY;
 use crate::option_reader::{
-    OptionReader, SourcedResult, is_of_angles, number_and_unit, refuse_duplicates, si_unit, unusable, written,
+    OptionReader, is_of_angles, number_and_unit, refuse_duplicates, si_unit, unusable, written,
 };
 use crate::options::spaceless;
 use crate::{Checked, Choice};
 use mechc_engine::sweep::{linspace_value, round_to_15_digits};
 use mechc_lang::check::Amount;
 use mechc_lang::model::Dimension;
-use mechc_text::diag::{Diagnostic, Diagnostics};
+use mechc_text::diag::{Diagnostic, Error};
 use mechc_text::world::World;
 
 /// A slider still has a position for each of this many values.
@@ -57,8 +57,8 @@ impl Checked {
         arguments: &[String],
         choice: &Choice,
         world: &dyn World,
-    ) -> SourcedResult<Vec<SliderRange>> {
-        let with_sources = |why: Box<Diagnostic>| (self.sources().clone(), Diagnostics::from(*why));
+    ) -> Result<Vec<SliderRange>, Error> {
+        let with_sources = |why: Box<Diagnostic>| Error::new(why, self.sources());
         let requests = read_requests(arguments).map_err(with_sources)?;
         refuse_duplicates(requests.iter().map(|request| &request.name), choice).map_err(with_sources)?;
         let reader = OptionReader { parsed: &self.parsed, checked: self, choice, world, option: VARY };
@@ -105,11 +105,11 @@ impl SliderRequest {
 }
 
 impl OptionReader<'_> {
-    fn slider_range(&self, request: &SliderRequest) -> SourcedResult<SliderRange> {
+    fn slider_range(&self, request: &SliderRequest) -> Result<SliderRange, Error> {
         let SliderRequest { name, ends: [first, last], count } = request;
         let [(low, a, _), (high, b, _)] = [self.number(name, first)?, self.number(name, last)?];
         let (at_ends, si) = ([low, high], [a, b]);
-        let refused = |why: Diagnostic| (self.checked.sources().clone(), why.into());
+        let refused = |why: Diagnostic| Error::new(why, self.checked.sources());
         let of_param = |checked: &Checked| checked.param_in_part(name);
         if at_ends.iter().any(Checked::is_sound) && at_ends.iter().all(|checked| of_param(checked).is_none()) {
             return Err(refused(decides_counts(name)));
@@ -204,7 +204,7 @@ mod tests {
         let checked = Parsed::new("lever.mech", LEVER).check(&choice, &world);
         checked
             .slider_ranges(&owned(arguments), &choice, &world)
-            .map_err(|(_, diagnostics)| diagnostics.iter().map(|diagnostic| diagnostic.message.clone()).collect())
+            .map_err(|why| why.diagnostics.iter().map(|diagnostic| diagnostic.message.clone()).collect())
     }
 
     fn one(argument: &str) -> SliderRange {

@@ -4,17 +4,18 @@ use mechc_engine::analysis::Times;
 use mechc_lang::check;
 use mechc_lang::model::Dimension;
 use mechc_syntax as syntax;
-use mechc_text::diag::{Code, Diagnostic, Diagnostics, readable};
+use mechc_text::diag::{Code, Diagnostic, Error, readable};
 use mechc_text::source::Sources;
 
 /// Returns the time (s) that an option gives as a number of seconds, or as a formula with units.
 ///
 /// # Errors
 /// The text does not follow the grammar, or is no time.
-pub fn seconds(option: &str, text: &str, sources: &mut Sources) -> Result<f64, Diagnostics> {
+pub fn seconds(option: &str, text: &str, sources: &mut Sources) -> Result<f64, Error> {
     let file = sources.add_option(option, text);
-    let formula = syntax::parse_expression(sources, file)?;
-    check::constant(&formula, &format!("the value of `{option}`"), Dimension::TIME, sources)
+    let time = syntax::parse_expression(sources, file)
+        .and_then(|formula| check::constant(&formula, &format!("the value of `{option}`"), Dimension::TIME, sources));
+    time.map_err(|why| Error::new(why, sources))
 }
 
 /// First time, last time and step (s), as far as they are given; and single times.
@@ -39,7 +40,7 @@ impl RequestedTimes {
         [from, to, every]: [&Option<String>; 3],
         at: &[String],
         sources: &mut Sources,
-    ) -> Result<RequestedTimes, Diagnostics> {
+    ) -> Result<RequestedTimes, Error> {
         let mut time = |option: &str, text: &String| seconds(option, text, sources);
         let mut given = |option: &str, text: &Option<String>| text.as_ref().map(|text| time(option, text)).transpose();
         let [from, to, every] = [given("--from", from)?, given("--to", to)?, given("--every", every)?];
@@ -51,12 +52,12 @@ impl RequestedTimes {
     ///
     /// # Errors
     /// The step is not positive.
-    pub fn over(&self, analysis: Option<[f64; 3]>) -> Result<RequestedTimes, Box<Diagnostic>> {
+    pub fn over(&self, analysis: Option<[f64; 3]>) -> Result<RequestedTimes, Error> {
         let from = self.from.or(analysis.map(|[from, ..]| from));
         let to = self.to.or(analysis.map(|[_, to, _]| to));
         let every = self.every.or(analysis.map(|[.., every]| every));
         if let Some(step) = every.filter(|step| *step <= 0.0) {
-            return Err(Box::new(unusable(format!("the step must be positive, it is {} s", readable(step)))));
+            return Err(unusable(format!("the step must be positive, it is {} s", readable(step))).into());
         }
         Ok(RequestedTimes { from, to, every, at: self.at.clone() })
     }
@@ -65,7 +66,7 @@ impl RequestedTimes {
     ///
     /// # Errors
     /// The times are not given, or cannot be computed.
-    pub fn times(&self) -> Result<Times, Box<Diagnostic>> {
+    pub fn times(&self) -> Result<Times, Error> {
         match self.listed()? {
             Some(times) => Ok(times),
             None => self.grid(),
@@ -76,7 +77,7 @@ impl RequestedTimes {
     ///
     /// # Errors
     /// See [`RequestedTimes::times`].
-    pub fn whole(&self) -> Result<Times, Box<Diagnostic>> {
+    pub fn whole(&self) -> Result<Times, Error> {
         let has_interval = self.from.is_some() && self.to.is_some() && self.every.is_some();
         match self.listed()? {
             Some(listed) if !has_interval => Ok(listed),
@@ -88,13 +89,13 @@ impl RequestedTimes {
     ///
     /// # Errors
     /// One of them is before the first time.
-    pub fn listed(&self) -> Result<Option<Times>, Box<Diagnostic>> {
+    pub fn listed(&self) -> Result<Option<Times>, Error> {
         let Some(earliest) = self.at.iter().copied().reduce(f64::min) else { return Ok(None) };
         let from = self.from.unwrap_or(earliest);
         if earliest < from {
             let [earliest, from] = [earliest, from].map(readable);
             let message = format!("`--at` {earliest} s is before the start of the analysis at {from} s");
-            return Err(Box::new(unusable(message).help("start earlier with `--from`")));
+            return Err(unusable(message).help("start earlier with `--from`").into());
         }
         Ok(Some(Times::listed(from, self.at.clone()).within_analysis_to(self.to)))
     }
@@ -103,20 +104,20 @@ impl RequestedTimes {
     ///
     /// # Errors
     /// The interval is not given, or its times cannot be computed.
-    pub fn grid(&self) -> Result<Times, Box<Diagnostic>> {
+    pub fn grid(&self) -> Result<Times, Error> {
         let (Some(from), Some(to), Some(every)) = (self.from, self.to, self.every) else {
             let diagnostic = Diagnostic::new(Code::E0705, "it is not said which times to compute").help(
                 "add `analysis from 0 s to 1 s every 10 ms` to the file,\nor give `--from T --to T --every H`, or `--at T`",
             );
-            return Err(Box::new(diagnostic));
+            return Err(diagnostic.into());
         };
         let [first, last, step] = [from, to, every].map(readable);
         if to < from {
             let message = format!("the analysis would end at {last} s, before its start at {first} s");
-            return Err(Box::new(unusable(message)));
+            return Err(unusable(message).into());
         }
         let too_small = || unusable(format!("a step of {step} s is too small to get from {first} s to {last} s"));
-        Times::grid(from, to, every).ok_or_else(|| Box::new(too_small()))
+        Times::grid(from, to, every).ok_or_else(|| too_small().into())
     }
 }
 

@@ -288,7 +288,7 @@ fn rows(mut run: Run, most: usize) -> Rows {
                 last.extend_from_slice(row);
             }
             Err(why) => {
-                stopped = Some(*why);
+                stopped = why.diagnostics.into_iter().next();
                 break;
             }
         }

@@ -3,7 +3,7 @@
 use super::{At, Kind, Operand, Question};
 use crate::errors::Said;
 use crate::mechanism::{Meant, Mechanism};
-use mechc::{Diagnostics, SettableParam, Sources, seconds};
+use mechc::{Error, SettableParam, Sources, seconds};
 use numpy::{PyArray1, PyArrayMethods, PyReadonlyArrayDyn};
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
@@ -211,7 +211,7 @@ impl Told<'_> {
     }
 
     /// The value of a text (SI).
-    fn read(&self, text: &str, sources: &mut Sources) -> Result<f64, Diagnostics> {
+    fn read(&self, text: &str, sources: &mut Sources) -> Result<f64, Error> {
         let (of, option, what) = match self {
             Told::Time => return seconds("t", text, sources),
             Told::Input(of) => (of, "--input", "the input"),
@@ -261,7 +261,7 @@ fn formula(py: Python<'_>, text: &str, told: &Told<'_>) -> PyResult<f64> {
         return Err(usage(py, &message, help)?);
     }
     let mut sources = Sources::default();
-    told.read(text, &mut sources).map_err(|why| Said::of(&why, &sources).raised(py))
+    told.read(text, &mut sources).map_err(|why| Said::from(why).raised(py))
 }
 
 /// Values by elements, and the shape of these; none where all are single numbers.

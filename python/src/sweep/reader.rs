@@ -69,7 +69,7 @@ impl Pump {
         let units = whole.units.clone();
         let make = move |swept| Block::of(swept, units.as_deref());
         let sweep = whole.checked.sweep(&whole.compiled, &whole.variants, &options, make);
-        let sweep = sweep.map_err(|why| PyRuntimeError::new_err(why.message))?;
+        let sweep = sweep.map_err(|why| PyRuntimeError::new_err(why.to_string()))?;
         let (tell, blocks) = sync_channel(AHEAD);
         let pump = move || {
             for block in sweep {

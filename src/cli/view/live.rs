@@ -121,13 +121,13 @@ impl Host for CommandHost {
     fn times(&self, compiled: &Compiled, sources: &mut Sources) -> Result<Times, Diagnostics> {
         let times = input::requested_times(&self.interval, &[], compiled.analysis(), sources)
             .and_then(|times| Ok(times.grid()?));
-        times.map_err(|why| with_advice(&diagnostics_of(why)))
+        times.map_err(|why| with_advice(&why.into_diagnostics()))
     }
 
     fn write(&self, text: &str, is_due: &dyn Fn() -> bool) -> Result<bool, String> {
         let written = Output::replace_if(&self.file, text, is_due);
         written.map_err(|why| {
-            diagnostics_of(why).iter().map(|diagnostic| diagnostic.message.clone()).collect::<Vec<_>>().join("; ")
+            why.into_diagnostics().iter().map(|diagnostic| diagnostic.message.clone()).collect::<Vec<_>>().join("; ")
         })
     }
 }
@@ -144,13 +144,6 @@ fn with_advice(diagnostics: &Diagnostics) -> Diagnostics {
         all.push(one);
     }
     all
-}
-
-fn diagnostics_of(why: Failure) -> Diagnostics {
-    match why {
-        Failure::Reported(diagnostics) => diagnostics,
-        Failure::ReaderClosed => Diagnostics::default(),
-    }
 }
 
 /// Opens the browser, and prints an error if that fails. The address contains the token, and all users of a machine can see the arguments

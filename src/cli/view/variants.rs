@@ -12,7 +12,7 @@ use mechc_draw::view::page::{LONGEST, Variant, Vary};
 use mechc_engine::analysis::Times;
 use mechc_live::page;
 use mechc_pipeline::{Checked, Choice, Compiled, Parsed, RunOptions, SliderRange, Visualization};
-use mechc_text::diag::{Diagnostic, Diagnostics};
+use mechc_text::diag::{Diagnostic, Diagnostics, Error};
 use mechc_text::source::Sources;
 use std::mem::ManuallyDrop;
 
@@ -23,10 +23,7 @@ pub(super) fn view(arguments: &ViewArguments, output: &str, reporter: &mut Repor
     let (parsed, world) = (input::parsed(&arguments.input, reporter)?, CachedDisk::default());
     let choice = Choice { pictures_forces: true, ..input::choice(&arguments.input) };
     let nominal = input::checked_in(&parsed, &choice, &world, reporter)?;
-    let varied = nominal.slider_ranges(&arguments.vary, &choice, &world).map_err(|(sources, diagnostics)| {
-        reporter.sources = sources;
-        diagnostics
-    })?;
+    let varied = nominal.slider_ranges(&arguments.vary, &choice, &world)?;
     let file = Output::open(output, &reporter.protected())?;
     let solver = VariantSolver { arguments, parsed: &parsed, choice: &choice, world: &world, varied: &varied };
     let (variants, first) = solver.solve_all(reporter)?;
@@ -34,14 +31,16 @@ pub(super) fn view(arguments: &ViewArguments, output: &str, reporter: &mut Repor
     file.close_with_text(&text)?;
     solver.print_summary(&variants, text.len(), reporter);
     match &variants[first].stopped {
-        Some((sources, why)) => {
-            reporter.sources = sources.clone();
+        Some(why) => {
             let with = solver.settings(first).join(", ");
-            let with_settings =
-                why.iter().cloned().map(|why| if why.is_error() { why.note(format!("with {with}")) } else { why });
+            let with_settings = why
+                .diagnostics
+                .iter()
+                .cloned()
+                .map(|why| if why.is_error() { why.note(format!("with {with}")) } else { why });
             let mut diagnostics = Diagnostics::default();
             diagnostics.extend(with_settings);
-            Err(diagnostics.into())
+            Err(Error::new(diagnostics, &why.sources).into())
         }
         None => Ok(()),
     }
@@ -50,8 +49,8 @@ pub(super) fn view(arguments: &ViewArguments, output: &str, reporter: &mut Repor
 /// A solved variant.
 struct SolvedVariant {
     visualization: Visualization,
-    /// The reason why its motion is missing or incomplete, with the texts that this refers to.
-    stopped: Option<(Sources, Diagnostics)>,
+    /// The reason why its motion is missing or incomplete.
+    stopped: Option<Error>,
 }
 
 /// The outcome of solving a variant.
@@ -114,7 +113,7 @@ impl VariantSolver<'_> {
                 None if solved.as_ref().is_some_and(has_motion) => Diagnostics::default(),
                 None => errors_of(&diagnostics),
             };
-            let stopped = (!errors.is_empty()).then(|| (checked.sources().clone(), errors));
+            let stopped = (!errors.is_empty()).then(|| Error::new(errors, checked.sources()));
             let visualization = solved.unwrap_or_else(|| without_picture(diagnostics, &template));
             if visualization.columns != template.columns {
                 progress.finish();
@@ -166,10 +165,7 @@ impl VariantSolver<'_> {
         let (arguments, mut sources) = (self.arguments, checked.sources().clone());
         let requested = input::requested_times(&arguments.interval, &arguments.at, compiled.analysis(), &mut sources);
         let times = requested.and_then(|times| Ok(times.whole()?));
-        times.map_err(|why| match why {
-            Failure::Reported(diagnostics) => diagnostics,
-            Failure::ReaderClosed => Diagnostics::default(),
-        })
+        times.map_err(Failure::into_diagnostics)
     }
 
     fn page(&self, variants: &[SolvedVariant], first: usize, sources: &Sources) -> Result<String, Failure> {
@@ -199,18 +195,17 @@ impl VariantSolver<'_> {
             (0..variants.len()).filter(|&variant| variants[variant].stopped.is_some()).collect();
         let why = incomplete.first().and_then(|&variant| Some((variant, variants[variant].stopped.as_ref()?)));
         if reporter.is_machine_readable() {
-            if let Some((_, (sources, diagnostics))) = why {
-                reporter.sources = sources.clone();
-                reporter.print(diagnostics);
+            if let Some((_, why)) = why {
+                reporter.print_error(why);
             }
             return;
         }
         let count = variants.len();
         let mut text = format!("{count} variants, {} kB\n", size.div_ceil(1000));
-        if let Some((variant, (_, diagnostics))) = why {
+        if let Some((variant, why)) = why {
             let with = self.settings(variant).join(", ");
             text += &format!("{} of them cannot be shown whole; the first is that with {with}:\n", incomplete.len());
-            if let Some(error) = diagnostics.iter().find(|diagnostic| diagnostic.is_error()) {
+            if let Some(error) = why.diagnostics.iter().find(|diagnostic| diagnostic.is_error()) {
                 text += &format!("  {}[{}]: {}\n", error.severity().as_str(), error.code, error.message);
             }
         }

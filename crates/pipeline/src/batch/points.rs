@@ -6,7 +6,7 @@ use crate::options::RunOptions;
 use mechc_engine::analysis::Times;
 use mechc_engine::sweep::{BatchContext, BatchRequest, BatchRunner, LANES, Numbers, PerLane, RowBuffer};
 use mechc_ir::program::LaneValues;
-use mechc_text::diag::Diagnostic;
+use mechc_text::diag::Error;
 use std::array::from_fn;
 use std::sync::{Arc, Mutex, MutexGuard, TryLockError};
 
@@ -17,7 +17,7 @@ pub(crate) struct Query {
 }
 
 /// A query point, or why it cannot be evaluated.
-pub(crate) type QueryResult = Result<Query, Box<Diagnostic>>;
+pub(crate) type QueryResult = Result<Query, Error>;
 
 /// A new time is worth a new batch if this many points ask for it.
 const MIN_FOR_NEW_TIME: usize = LANES / 2;

@@ -17,7 +17,7 @@ use mechc_ir::ConstraintSystem;
 use mechc_lang::check::UNTIL;
 use mechc_parallel::{ParallelMap, default_jobs};
 use mechc_text::cancel::Cancel;
-use mechc_text::diag::{Code, Diagnostic, Diagnostics};
+use mechc_text::diag::{Code, Diagnostic, Diagnostics, Error};
 use std::ops::Range;
 use std::sync::{Arc, OnceLock};
 use topology_groups::{OutputMapping, OutputNames};
@@ -178,7 +178,7 @@ impl Checked {
         variants: &Variants,
         options: &SweepOptions,
         make: impl Fn(Swept) -> T + Send + Sync + 'static,
-    ) -> Result<Sweep<T>, Box<Diagnostic>> {
+    ) -> Result<Sweep<T>, Error> {
         let times = options.times.over(compiled.analysis())?.times()?;
         let (rows, width, most) = match &options.columns {
             Some(columns) => (times.len(), columns.len() as u64, MAX_VARIANTS_WITH_ROWS),
@@ -186,7 +186,7 @@ impl Checked {
         };
         let numbers = rows.saturating_mul(width);
         if numbers > MAX_NUMBERS_OF_VARIANT {
-            return Err(Box::new(too_many_rows(rows, width)));
+            return Err(too_many_rows(rows, width).into());
         }
         let size = VariantSize { numbers: numbers.max(1), columns: width };
         let blocks = Blocks::new(options, variants.points().count(), size, most);
@@ -504,7 +504,7 @@ impl SweepContext {
         let group = self.groups.group_of(params, &self.checked, &self.variants);
         let settings = self.variants.read_settings(params);
         let (model, diagnostics) = self.checked.model_with(settings, self.variants.sources());
-        let model = model.ok_or_else(|| first_error(&diagnostics))?;
+        let model = model.ok_or_else(|| VariantStop::of(&diagnostics))?;
         let times = self
             .options
             .times
@@ -514,7 +514,7 @@ impl SweepContext {
         match group.continuation.start_values(&values, &times, &options) {
             Outcome::Started(started) => self.follow(*started, &times, &options, &group.outputs, variant),
             Outcome::CannotStart(stop, system) => Err(VariantStop::new(&stop, system.system())),
-            Outcome::Refused(diagnostics) => Err(first_error(&diagnostics).into()),
+            Outcome::Refused(diagnostics) => Err(VariantStop::of(&diagnostics)),
             Outcome::NoPath(_) => {
                 variant.status = Status::Reassembled;
                 self.run_by_all_stages(params, variant)
@@ -556,18 +556,18 @@ impl SweepContext {
         let options = self.run_options();
         let checked = self.checked.continued_to(self.variants.read_settings(params), self.variants.sources());
         if !checked.is_sound() {
-            return Err(first_error(checked.diagnostics()).into());
+            return Err(VariantStop::of(checked.diagnostics()));
         }
         let (compiled, diagnostics) = checked.compile(self.options.redundant, &options.cancel);
         let group = self.groups.group_of(params, &self.checked, &self.variants);
-        let compiled = compiled.ok_or_else(|| first_error(&diagnostics))?;
+        let compiled = compiled.ok_or_else(|| VariantStop::of(&diagnostics))?;
         let compiled = compiled.with_continuation(Some(Arc::clone(&group.continuation)));
         let outputs = self.groups.outputs_of(&compiled);
         let times = self.options.times.over(compiled.analysis())?.times()?;
         let (run, report) = compiled.run_with_report(&times, &options);
         let Some(mut run) = run else {
             let t = report.stop.map(|stop| stop.t);
-            return Err(VariantStop { t, ..first_error(&report.diagnostics).into() });
+            return Err(VariantStop { t, ..VariantStop::of(&report.diagnostics) });
         };
         if report.stopped_path.is_some() {
             variant.status = Status::Reassembled;
@@ -575,7 +575,7 @@ impl SweepContext {
         while let Some(row) = run.next_row() {
             match row {
                 Ok(row) => self.push_row(row, &outputs, variant),
-                Err(why) => return Err(VariantStop { code: why.code, t: run.stopped_at() }),
+                Err(why) => return Err(VariantStop { t: run.stopped_at(), ..VariantStop::of(&why.diagnostics) }),
             }
         }
         set_results(&run.results().unwrap_or_default(), &outputs, variant);
@@ -609,11 +609,18 @@ impl VariantStop {
     fn new(stop: &Stop, system: &ConstraintSystem) -> VariantStop {
         VariantStop { code: stop.explain(system).code, t: Some(stop.t) }
     }
+
+    /// Returns the first error other than a path that stops. Cancelled work has no error, and its code is never shown.
+    fn of(diagnostics: &Diagnostics) -> VariantStop {
+        let is_cause = |diagnostic: &&Diagnostic| diagnostic.is_error() && diagnostic.code != Code::E0612;
+        let code = diagnostics.iter().find(is_cause).map_or(Code::E0601, |diagnostic| diagnostic.code);
+        VariantStop { code, t: None }
+    }
 }
 
-impl From<Box<Diagnostic>> for VariantStop {
-    fn from(diagnostic: Box<Diagnostic>) -> VariantStop {
-        VariantStop { code: diagnostic.code, t: None }
+impl From<Error> for VariantStop {
+    fn from(error: Error) -> VariantStop {
+        VariantStop::of(&error.diagnostics)
     }
 }
 
@@ -636,14 +643,6 @@ fn too_many_rows(rows: u64, width: u64) -> Diagnostic {
     let message = format!("a variant would have {rows} rows of {width} numbers, more than are held at once");
     let help = "take a larger step with `--every`, or fewer columns;\n`mechc run --lead --set …` writes the rows of one variant as they come";
     Diagnostic::new(Code::E0706, message).help(help)
-}
-
-/// Returns the first error other than a path that stops; where something could not be made, there is one.
-fn first_error(diagnostics: &Diagnostics) -> Box<Diagnostic> {
-    let is_cause = |diagnostic: &&Diagnostic| diagnostic.is_error() && diagnostic.code != Code::E0612;
-    // cancelled work has no error, and its diagnostic is never shown
-    let cancelled = || Diagnostic::new(Code::E0601, "it was not made");
-    Box::new(diagnostics.iter().find(is_cause).cloned().unwrap_or_else(cancelled))
 }
 
 #[cfg(test)]

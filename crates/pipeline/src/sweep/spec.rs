@@ -1,14 +1,14 @@
 //! Specifications of sweeps: reads `--vary` and `--sample`, and lists the variants.
 
 use crate::checked::VARY;
-use crate::option_reader::{OptionReader, SourcedResult, is_of_angles, refuse_duplicates, si_unit, unusable, written};
+use crate::option_reader::{OptionReader, is_of_angles, refuse_duplicates, si_unit, unusable, written};
 use crate::options::spaceless;
 use crate::{Checked, Choice};
 use mechc_engine::sweep::{Levels, MAX_SOBOL_DIMENSIONS, Method, Points, Sampling, Varying};
 use mechc_lang::check::{self, Column, ParamOverride};
 use mechc_lang::model::Dimension;
 use mechc_syntax::{self as syntax, ast};
-use mechc_text::diag::{Diagnostic, Diagnostics};
+use mechc_text::diag::{Diagnostic, Diagnostics, Error};
 use mechc_text::source::{Sources, Span};
 use mechc_text::world::{self, World};
 use std::path::{Path, PathBuf};
@@ -49,11 +49,11 @@ impl Variants {
         units: Vec<String>,
         mut sources: Sources,
         option: &str,
-    ) -> SourcedResult<Variants> {
+    ) -> Result<Variants, Error> {
         let mut ones = Vec::with_capacity(units.len());
         for (name, unit) in points.params().iter().zip(&units) {
             let file = sources.add_option(format!("{option} {name}"), written(1.0, unit));
-            ones.push(syntax::parse_expression(&sources, file).map_err(|why| (sources.clone(), why))?);
+            ones.push(syntax::parse_expression(&sources, file).map_err(|why| Error::new(why, &sources))?);
         }
         Ok(Variants { points, units, ones, sources, named_files: Vec::new(), count_params: OnceLock::new() })
     }
@@ -112,13 +112,8 @@ impl Checked {
     ///
     /// # Errors
     /// A param cannot vary as specified; with the texts that the diagnostics point into.
-    pub fn variants(
-        &self,
-        vary: &VaryOptions,
-        choice: &Choice,
-        world: &dyn World,
-    ) -> Result<Variants, (Sources, Diagnostics)> {
-        let with_sources = |why: Box<Diagnostic>| (self.sources().clone(), Diagnostics::from(*why));
+    pub fn variants(&self, vary: &VaryOptions, choice: &Choice, world: &dyn World) -> Result<Variants, Error> {
+        let with_sources = |why: Box<Diagnostic>| Error::new(why, self.sources());
         let arguments = vary.params.iter().map(|text| VaryArgument::parse(text)).collect::<Result<Vec<_>, _>>();
         let arguments = arguments.map_err(with_sources)?;
         refuse_without_counterpart(vary, &arguments).map_err(with_sources)?;
@@ -286,7 +281,7 @@ struct SpecBuilder<'r> {
 }
 
 impl SpecBuilder<'_> {
-    fn read(&mut self, argument: &VaryArgument) -> SourcedResult<ParsedArgument> {
+    fn read(&mut self, argument: &VaryArgument) -> Result<ParsedArgument, Error> {
         Ok(match argument {
             VaryArgument::Even { name, ends, count } => {
                 let (param, values) = self.param(name, ends)?;
@@ -306,7 +301,7 @@ impl SpecBuilder<'_> {
     }
 
     /// Evaluates formulas for a param, each of which it must accept; returns its index and their values (SI).
-    fn param(&mut self, name: &str, formulas: &[String]) -> SourcedResult<(usize, Vec<f64>)> {
+    fn param(&mut self, name: &str, formulas: &[String]) -> Result<(usize, Vec<f64>), Error> {
         let (mut values, mut dimension) = (Vec::with_capacity(formulas.len()), None);
         for formula in formulas {
             let (_, value, dimension_of) = self.reader.number(name, formula)?;
@@ -337,14 +332,14 @@ impl SpecBuilder<'_> {
     }
 
     /// Reads the variants that a table lists, a column for each param.
-    fn file(&mut self, path: &Path) -> SourcedResult<Varying> {
+    fn file(&mut self, path: &Path) -> Result<Varying, Error> {
         self.named_files.push(path.to_owned());
         let file = world::read_rows(self.reader.world, path, &mut self.sources);
-        let file = file.map_err(|why| (self.sources.clone(), (*why).into()))?;
+        let file = file.map_err(|why| Error::new(why, &self.sources))?;
         let columns = check::variants(self.sources.get(file), file).map_err(|faults| {
             let mut diagnostics = Diagnostics::default();
             diagnostics.extend(faults);
-            (self.sources.clone(), diagnostics)
+            Error::new(diagnostics, &self.sources)
         })?;
         let mut params = Vec::with_capacity(columns.len());
         for Column { name, span, dimension, is_of_angles, values } in &columns {
@@ -363,7 +358,8 @@ impl SpecBuilder<'_> {
     }
 
     /// Moves diagnostics of a column to its header: the value that was tried is in no text that a user has.
-    fn at_header(&self, header: Span, (mut sources, diagnostics): (Sources, Diagnostics)) -> (Sources, Diagnostics) {
+    fn at_header(&self, header: Span, why: Error) -> Error {
+        let Error { mut sources, diagnostics, .. } = why;
         let table = self.sources.get(header.file);
         let file = sources.add(table.name.clone(), table.text.clone());
         let mut relabeled = Diagnostics::default();
@@ -377,10 +373,10 @@ impl SpecBuilder<'_> {
             }
             relabeled.push(diagnostic);
         }
-        (sources, relabeled)
+        Error::new(relabeled, &sources)
     }
 
-    fn variants(self, points: Points) -> SourcedResult<Variants> {
+    fn variants(self, points: Points) -> Result<Variants, Error> {
         let units = self.params.into_iter().map(|param| param.unit).collect();
         Variants::new(points, units, self.sources, VARY)
             .map(|variants| Variants { named_files: self.named_files, ..variants })

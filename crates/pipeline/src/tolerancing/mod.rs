@@ -7,7 +7,7 @@ mod deviation;
 pub use deviation::{CornerReport, Deviation, DisplayUnit, OutputSensitivity, Tolerance};
 
 use crate::checked::TOL;
-use crate::option_reader::{OptionReader, SourcedResult, is_of_angles, number_and_unit, si_unit, unusable};
+use crate::option_reader::{OptionReader, is_of_angles, number_and_unit, si_unit, unusable};
 use crate::options::spaceless;
 use crate::{Checked, Choice, Compiled, RequestedTimes, RunOptions, SweepOptions, Variants};
 use mechc_engine::sweep::{Levels, Method, Points, Sampling, Status, Swept, Varying};
@@ -15,7 +15,7 @@ use mechc_expr::{Binary, Dependence, ExprId, Node, Unary};
 use mechc_ir::Measure;
 use mechc_ir::layout::ColumnUnit;
 use mechc_lang::model::Dimension;
-use mechc_text::diag::{Diagnostic, Diagnostics};
+use mechc_text::diag::{Diagnostic, Diagnostics, Error};
 use mechc_text::world::World;
 use std::collections::BTreeSet;
 
@@ -41,17 +41,17 @@ impl Checked {
         arguments: &[String],
         choice: &'c Choice,
         world: &'c dyn World,
-    ) -> SourcedResult<Tolerancing<'c>> {
-        let with_sources = |why: Diagnostic| (self.sources().clone(), Diagnostics::from(why));
+    ) -> Result<Tolerancing<'c>, Error> {
+        let refused = |why: Diagnostic| Error::new(why, self.sources());
         let plain = Choice { lead: false, results: Vec::new(), ..choice.clone() };
         let reader = OptionReader { parsed: &self.parsed, checked: self, choice: &plain, world, option: TOL };
         let mut tolerances: Vec<Tolerance> = Vec::new();
         for text in arguments {
-            let argument = ToleranceArgument::parse(text).map_err(|why| with_sources(*why))?;
+            let argument = ToleranceArgument::parse(text).map_err(|why| refused(*why))?;
             for tolerance in argument.tolerances(&reader)? {
                 if tolerances.iter().any(|other| other.name == tolerance.name) {
                     let why = unusable(format!("`{}` has two tolerances", tolerance.name));
-                    return Err(with_sources(why.help("say one of them")));
+                    return Err(refused(why.help("say one of them")));
                 }
                 tolerances.push(tolerance);
             }
@@ -103,8 +103,8 @@ impl ToleranceArgument {
         Ok(ToleranceArgument { name, ends })
     }
 
-    fn tolerances(&self, reader: &OptionReader<'_>) -> SourcedResult<Vec<Tolerance>> {
-        let with_sources = |why: Diagnostic| (reader.checked.sources().clone(), Diagnostics::from(why));
+    fn tolerances(&self, reader: &OptionReader<'_>) -> Result<Vec<Tolerance>, Error> {
+        let refused = |why: Diagnostic| Error::new(why, reader.checked.sources());
         let mut values = Vec::with_capacity(2);
         for end in &self.ends {
             values.push(reader.number(&self.name, end)?.1);
@@ -112,12 +112,12 @@ impl ToleranceArgument {
         let range = match values[..] {
             [one] if one < 0.0 => {
                 let why = unusable(format!("the tolerance of `{}` is negative: `{}`", self.name, self.ends[0]));
-                return Err(with_sources(why.help(TOL_HELP)));
+                return Err(refused(why.help(TOL_HELP)));
             }
             [low, high] if low > high => {
                 let [low, high] = [&self.ends[0], &self.ends[1]];
                 let why = unusable(format!("the tolerance of `{}` goes from `{low}` down to `{high}`", self.name));
-                return Err(with_sources(why.help(TOL_HELP)));
+                return Err(refused(why.help(TOL_HELP)));
             }
             [low, high] => [low, high],
             _ => [-values[0], values[0]],
@@ -125,7 +125,7 @@ impl ToleranceArgument {
         let params = reader.checked.symbolic_params(&self.name);
         if params.is_empty() {
             let message = format!("`{}` decides what is repeated, and cannot be a little off", self.name);
-            return Err(with_sources(unusable(message).help("give tolerances to lengths, angles and other numbers")));
+            return Err(refused(unusable(message).help("give tolerances to lengths, angles and other numbers")));
         }
         let is_angle = self.ends.iter().any(|end| is_of_angles(end));
         let unit_of = |dimension| match si_unit(dimension, is_angle) {
@@ -162,7 +162,7 @@ impl Tolerancing<'_> {
     ///
     /// # Errors
     /// The nominal mechanism does not run, or has no measure and no result; with the texts that the diagnostics point into.
-    pub fn sensitivities(&self, compiled: &Compiled, options: &SweepOptions) -> SourcedResult<Vec<OutputSensitivity>> {
+    pub fn sensitivities(&self, compiled: &Compiled, options: &SweepOptions) -> Result<Vec<OutputSensitivity>, Error> {
         let slopes = Some([options.times.from.is_none(), options.times.to.is_none()]);
         let by = self.tolerances.iter().map(|tolerance| tolerance.name.clone()).collect();
         // results that options add are in the tree already
@@ -173,7 +173,7 @@ impl Tolerancing<'_> {
             means = JumpMeans::default();
             checked = self.checked.parsed.check(&choice, self.world);
         }
-        let refused = |diagnostics: &Diagnostics| (checked.sources().clone(), diagnostics.clone());
+        let refused = |diagnostics: &Diagnostics| Error::new(diagnostics.clone(), checked.sources());
         if !checked.is_sound() {
             return Err(refused(checked.diagnostics()));
         }
@@ -190,10 +190,10 @@ impl Tolerancing<'_> {
         let columns = (!outputs.measures.is_empty()).then(|| outputs.columns());
         let options = SweepOptions { columns, jobs: Some(1), ..options.clone() };
         let sweep = checked.sweep(&with_slopes, &variants, &options, |swept| swept);
-        let swept: Option<Swept> = sweep.map_err(|why| refused(&(*why).into()))?.next();
+        let swept: Option<Swept> = sweep?.next();
         let Some(swept) = swept else { return Err(refused(&Diagnostics::default())) };
         if !swept.statuses[0].is_complete() {
-            return Err((self.checked.sources().clone(), nominal_failure(compiled, &options)));
+            return Err(Error::new(nominal_failure(compiled, &options), self.checked.sources()));
         }
         Ok(outputs.affected(&swept, &self.tolerances))
     }
@@ -215,14 +215,14 @@ impl Tolerancing<'_> {
         (0..self.tolerances.len()).collect()
     }
 
-    fn variants(&self, checked: &Checked, axes: Vec<Varying>) -> SourcedResult<Variants> {
+    fn variants(&self, checked: &Checked, axes: Vec<Varying>) -> Result<Variants, Error> {
         let names = self.tolerances.iter().map(|tolerance| tolerance.name.clone()).collect();
         let units = self
             .tolerances
             .iter()
             .map(|tolerance| if tolerance.si == "1" { String::new() } else { tolerance.si.clone() })
             .collect();
-        let too_many = || (checked.sources().clone(), unusable("there are too many corners".to_owned()).into());
+        let too_many = || unusable("there are too many corners".to_owned());
         let points = Points::new(names, axes).ok_or_else(too_many)?;
         Variants::new(points, units, checked.sources().clone(), TOL)
     }
@@ -290,16 +290,14 @@ impl Tolerancing<'_> {
         affected: &[OutputSensitivity],
         options: &SweepOptions,
         mut tick: impl FnMut(u64),
-    ) -> SourcedResult<CornerReport> {
+    ) -> Result<CornerReport, Error> {
         let (all, are_all_corners) = self.corners(affected);
         let mut search = CornerSearch::new(affected);
         for (group, axes) in all.into_iter().enumerate() {
             let variants = self.variants(self.checked, axes)?;
             search.variants += variants.points().count();
             for sweep_options in search.sweeps(options, &compiled.columns()) {
-                let sweep = self.checked.sweep(compiled, &variants, &sweep_options, |swept| swept);
-                let sweep = sweep.map_err(|why| (self.checked.sources().clone(), Diagnostics::from(*why)))?;
-                for swept in sweep {
+                for swept in self.checked.sweep(compiled, &variants, &sweep_options, |swept| swept)? {
                     search.take(&swept, sweep_options.columns.is_some(), group, &variants);
                     tick(swept.len() as u64);
                 }
@@ -314,13 +312,13 @@ fn nominal_failure(compiled: &Compiled, options: &SweepOptions) -> Diagnostics {
     let times = options.times.over(compiled.analysis()).and_then(|times| times.times());
     let times = match times {
         Ok(times) => times,
-        Err(why) => return (*why).into(),
+        Err(why) => return why.diagnostics,
     };
     let SweepOptions { tolerance, pass_bifurcations, ref cancel, .. } = *options;
     let options = RunOptions { tolerance, pass_bifurcations, cancel: cancel.clone(), ..RunOptions::default() };
     let (run, mut diagnostics) = compiled.run(&times, &options);
     if let Some(Err(why)) = run.and_then(|mut run| run.find(Result::is_err)) {
-        diagnostics.push(*why);
+        diagnostics.extend(why.diagnostics);
     }
     if !diagnostics.has_errors() {
         diagnostics.push(unusable("no way leads to what is set along the branch".to_owned()).help("leave `--set` out"));

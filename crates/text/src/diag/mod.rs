@@ -4,20 +4,20 @@
 //! stores and renders them, and does not depend on the language.
 
 mod codes;
+mod error;
 mod fix;
 mod nearest;
 mod number;
 mod options;
 mod render;
-mod responsibility;
 
 pub use codes::Code;
+pub use error::{Error, ErrorKind};
 pub use fix::{Applicability, Edit, Fix, fixed};
 pub use nearest::nearest;
 pub use number::readable;
 pub use options::OptionText;
 pub use render::{Color, Format, render, render_applied, visible};
-pub use responsibility::Responsibility;
 
 use crate::source::Span;
 use rustc_hash::FxHashSet;
@@ -266,6 +266,12 @@ impl Diagnostics {
     }
 }
 
+impl From<Box<Diagnostic>> for Diagnostics {
+    fn from(diagnostic: Box<Diagnostic>) -> Diagnostics {
+        (*diagnostic).into()
+    }
+}
+
 impl From<Diagnostic> for Diagnostics {
     fn from(diagnostic: Diagnostic) -> Diagnostics {
         let mut diagnostics = Diagnostics::default();
@@ -279,6 +285,14 @@ impl Extend<Diagnostic> for Diagnostics {
         for diagnostic in iter {
             self.push(diagnostic);
         }
+    }
+}
+
+impl FromIterator<Diagnostic> for Diagnostics {
+    fn from_iter<T: IntoIterator<Item = Diagnostic>>(iter: T) -> Diagnostics {
+        let mut diagnostics = Diagnostics::default();
+        diagnostics.extend(iter);
+        diagnostics
     }
 }
 
