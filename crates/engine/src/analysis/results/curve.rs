@@ -44,10 +44,12 @@ pub(super) struct Curve {
     coordinates: usize,
     has_jerk: bool,
     shape: Shape,
-    holds_rates: bool,
-    holds_forces: bool,
+    /// True if the formula contains time derivatives or variations of the coordinates, or forces.
+    pub holds_rates: bool,
+    /// True if the formula contains forces, which have no time derivatives.
+    pub holds_forces: bool,
     /// The maximum length (s) of a short cell.
-    short: f64,
+    pub short: f64,
     /// The loads that the forces in the formula come from.
     loads: Loads,
     /// The magnitudes of the moving quantities.
@@ -269,11 +271,6 @@ impl Curve {
         }
     }
 
-    /// Sets the length (s) up to which cells count as short.
-    pub fn set_short(&mut self, short: f64) {
-        self.short = short;
-    }
-
     /// Returns the number of available time derivatives: 0 to 2.
     pub fn derivatives(&self) -> usize {
         self.roots.len() - 1
@@ -284,19 +281,9 @@ impl Curve {
         !self.moving.is_empty()
     }
 
-    /// Returns whether the formula contains time derivatives or variations of the coordinates, or forces.
-    pub fn holds_rates(&self) -> bool {
-        self.holds_rates
-    }
-
     /// Returns whether a moving quantity has a single available order, so that its bounds in a cell need the point in the middle.
     pub fn needs_middles(&self) -> bool {
         self.holds_forces || self.moving.iter().map(|of| self.orders(*of)).any(|[from, to]| from == to)
-    }
-
-    /// Returns whether the formula contains forces, which have no time derivatives.
-    pub fn holds_forces(&self) -> bool {
-        self.holds_forces
     }
 
     /// Returns whether the formula may grow without bound towards a singular position: it contains forces or derivatives by parameters.

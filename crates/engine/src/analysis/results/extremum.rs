@@ -25,7 +25,7 @@ pub(super) struct Extremum {
     /// 1, or −1 for the least value.
     sign: f64,
     /// True if the time of the extremum is requested.
-    is_timed: bool,
+    pub is_timed: bool,
     /// A lower bound of the largest value, times the sign.
     best: f64,
     /// The estimate that this bound comes from.
@@ -37,9 +37,9 @@ pub(super) struct Extremum {
     /// The largest lower bound of a candidate that is not a sample, times the sign.
     largest: f64,
     /// A time (s) towards which the formula grows without bound.
-    unbounded: Option<f64>,
+    pub unbounded: Option<f64>,
     /// False if the range of a shortest cell is infinite, or one of its ends has no value.
-    is_bounded: bool,
+    pub is_bounded: bool,
     /// A bound of how far the extremum may exceed the best value, if the search was not finished.
     excess: f64,
 }
@@ -115,26 +115,18 @@ impl Ord for OpenCell {
 impl Extremum {
     pub fn new(largest: bool) -> Extremum {
         let sign = if largest { 1.0 } else { -1.0 };
-        let nothing = f64::NEG_INFINITY;
-        let (candidates, unbounded) = (Vec::new(), None);
-        let (best_estimate, best_at) = (Estimate::NOTHING, f64::NAN);
         Extremum {
             sign,
             is_timed: false,
-            best: nothing,
-            best_estimate,
-            best_at,
-            candidates,
-            largest: nothing,
-            unbounded,
+            best: f64::NEG_INFINITY,
+            best_estimate: Estimate::NOTHING,
+            best_at: f64::NAN,
+            candidates: Vec::new(),
+            largest: f64::NEG_INFINITY,
+            unbounded: None,
             is_bounded: true,
             excess: 0.0,
         }
-    }
-
-    /// Requests the time of the extremum.
-    pub fn request_time(&mut self) {
-        self.is_timed = true;
     }
 
     /// Records a value at a time (s).
@@ -186,16 +178,6 @@ impl Extremum {
     /// Returns the values at both ends of a cell, times the sign.
     fn values(&self, cell: &Cell) -> [f64; 2] {
         [&cell.a, &cell.b].map(|point| self.sign * point.sample.value)
-    }
-
-    /// Returns a time (s) towards which the formula grows without bound, if there is one.
-    pub fn unbounded(&self) -> Option<f64> {
-        self.unbounded
-    }
-
-    /// Returns false if the range of a shortest cell is infinite, or one of its ends has no value.
-    pub fn is_bounded(&self) -> bool {
-        self.is_bounded
     }
 
     /// Returns the largest value: that of a turn, an edge or an end, unless a sample exceeds it by more than its error. NaN if the formula has
@@ -296,7 +278,7 @@ impl IntervalSearch<'_> {
                 }
                 return scale;
             }
-            if self.curve.holds_forces() {
+            if self.curve.holds_forces {
                 // the magnitudes of loads may have grown since the cell was opened, which narrows its bounds
                 let reopened = self.open(open.cell.clone(), extremum, scale);
                 if reopened.upper < open.upper {
@@ -360,8 +342,8 @@ impl IntervalSearch<'_> {
             let [a, b] = extremum.values(&cell);
             upper = upper.min(between(a, b, extremum.oriented(first), cell.length())[1]);
             let is_open = !first.may_switch && !extremum.is_irrelevant(upper, scale);
-            let tells_bends = is_open && self.curve.derivatives() == 2;
-            derivatives = [Some(first), tells_bends.then(|| self.curve.derivative(2))];
+            let has_second = is_open && self.curve.derivatives() == 2;
+            derivatives = [Some(first), has_second.then(|| self.curve.derivative(2))];
         }
         // the errors of the ends overwrite the ranges, which are no longer needed here
         if verdict != Verdict::Rounding {

@@ -138,7 +138,7 @@ impl<'r> IntervalSearch<'r> {
         window: [f64; 2],
         span: f64,
     ) -> IntervalSearch<'r> {
-        curve.set_short(SHORT * span);
+        curve.short = SHORT * span;
         notes.most = notes.most.max(MOST_CELLS) + MOST_OF_A_STEP * steps.len();
         IntervalSearch {
             curve,
@@ -380,7 +380,7 @@ impl<'r> IntervalSearch<'r> {
             }
         }
         let jump = (before.sample.value - behind.sample.value).abs();
-        if self.curve.holds_forces() && jump > DIFFERENT * self.range {
+        if self.curve.holds_forces && jump > DIFFERENT * self.range {
             // the time of a load's jump is less accurate than the crossing
             let error = TIMES / SHORTEST * self.shortest;
             self.shift(cell.step, &mut before, -error);

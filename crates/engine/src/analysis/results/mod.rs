@@ -51,7 +51,7 @@ use state_sampler::StateSampler;
 use std::sync::Arc;
 use validity::SingularIntervals;
 
-/// Returns a diagnostic for each requested time outside the analysis, whose interval is in s.
+/// Returns a diagnostic for each requested time outside the interval (s) of the analysis.
 #[must_use]
 pub fn refused_results(system: &ConstraintSystem, interval @ [from, to]: [f64; 2]) -> Diagnostics {
     let mut diagnostics = Diagnostics::default();
@@ -333,7 +333,7 @@ impl Analysis {
             error += f64::max(more.abs(), less.abs());
             let is_of_time = matches!(self.system().results().reductions[k].kind, ReductionKind::At(_));
             let is_bent = (more + less).abs() > 0.5 * (more - less).abs();
-            // in both directions: a change in one direction only comes from another branch of the formula
+            // the change has to occur in both directions: one in a single direction comes from another branch of the formula
             if is_of_time && f64::min(more.abs(), less.abs()) >= 0.5 * value.abs() && is_bent {
                 return Estimate::NOTHING;
             }

@@ -31,7 +31,7 @@ pub(super) struct Integral {
     /// A bound of the error of `sum`.
     error: f64,
     /// The time (s) during which the formula has a value.
-    time: f64,
+    pub time: f64,
     /// The time (s) without a value that rounding may have hidden.
     hidden: f64,
     /// The duration of the analysis (s).
@@ -57,11 +57,6 @@ impl Integral {
             value: self.sum,
             error: self.error + (ROUNDING + hidden) * (self.size + (self.usual * self.time).abs()),
         }
-    }
-
-    /// Returns the time (s) during which the formula has a value.
-    pub fn time(&self) -> f64 {
-        self.time
     }
 
     /// Returns the average distance of the formula from a usual value.

@@ -18,9 +18,9 @@ use std::rc::Rc;
 
 /// A formula in a window of the motion, and its reductions.
 pub(super) struct FormulaReductions {
-    curve: Curve,
+    pub curve: Curve,
     /// The first and the last time (s).
-    window: [f64; 2],
+    pub window: [f64; 2],
     extrema: [Option<Extremum>; 2],
     integral: Option<Integral>,
     /// The findings of the two extrema and of the integral, in this order.
@@ -68,9 +68,7 @@ impl FormulaReductions {
             ReductionKind::Extreme { .. } | ReductionKind::Mean if is_moment => time(from),
             ReductionKind::Extreme { largest, when } => {
                 let extremum = self.extrema[usize::from(largest)].get_or_insert_with(|| Extremum::new(largest));
-                if when {
-                    extremum.request_time();
-                }
+                extremum.is_timed |= when;
             }
             ReductionKind::Integral if is_moment => {}
             ReductionKind::Mean | ReductionKind::Integral => self.integral = Some(Integral::default()),
@@ -83,11 +81,6 @@ impl FormulaReductions {
     /// Returns whether the window is a single time.
     fn is_moment(&self) -> bool {
         self.window[1] <= self.window[0]
-    }
-
-    /// Returns the window (s).
-    pub fn window(&self) -> [f64; 2] {
-        self.window
     }
 
     /// Returns the estimate of a reduction, or why it has no value; `at` is the time (s) of [`ReductionKind::At`].
@@ -116,7 +109,7 @@ impl FormulaReductions {
                 let (Some(extremum), Some(scale)) = (&self.extrema[which], self.scales[which]) else {
                     return Err(NoValueCause::Nowhere(from));
                 };
-                if let Some(t) = extremum.unbounded() {
+                if let Some(t) = extremum.unbounded {
                     return Err(NoValueCause::Unbounded(t));
                 }
                 let value = extremum.value(scale);
@@ -125,7 +118,7 @@ impl FormulaReductions {
                 }
                 if value.value.abs() > LARGEST || self.is_uncertain(value, scale.range, scale) {
                     // growth without bound may be hidden by rounding
-                    let why = if extremum.is_bounded() { NoValueCause::Unknown } else { NoValueCause::Unbounded };
+                    let why = if extremum.is_bounded { NoValueCause::Unknown } else { NoValueCause::Unbounded };
                     return Err(why(extremum.time(scale).value));
                 }
                 let found = if when { extremum.time(scale) } else { value };
@@ -134,14 +127,14 @@ impl FormulaReductions {
                 if is_certain { Ok(found) } else { Err(NoValueCause::Unknown(found.value)) }
             }
             ReductionKind::Mean | ReductionKind::Integral => {
-                let integral = self.integral.as_ref().filter(|integral| integral.time() > 0.0);
+                let integral = self.integral.as_ref().filter(|integral| integral.time > 0.0);
                 let Some(integral) = integral else { return Err(NoValueCause::Nowhere(from)) };
                 if let Some(t) = integral.unbounded() {
                     return Err(NoValueCause::Unbounded(t));
                 }
-                let divisor = if kind == ReductionKind::Mean { integral.time() } else { 1.0 };
+                let divisor = if kind == ReductionKind::Mean { integral.time } else { 1.0 };
                 let found = integral.estimate();
-                let mean = Estimate { value: found.value / integral.time(), error: found.error / integral.time() };
+                let mean = Estimate { value: found.value / integral.time, error: found.error / integral.time };
                 if self.is_uncertain(mean, integral.deviation(), self.scale(0.0)) {
                     return Err(integral.grows_at().map_or(NoValueCause::Unknown(from), NoValueCause::Unbounded));
                 }
@@ -175,19 +168,9 @@ impl FormulaReductions {
         self.times.iter_mut().for_each(|request| request.found = found);
     }
 
-    /// Returns whether the formula depends on the motion, and not on time alone.
-    pub fn moves(&self) -> bool {
-        self.curve.moves()
-    }
-
     /// Returns whether only values at single times are requested.
     fn has_only_times(&self) -> bool {
         self.extrema.iter().all(Option::is_none) && self.integral.is_none()
-    }
-
-    /// Returns whether the formula contains time derivatives or variations of the coordinates, or forces.
-    pub fn holds_rates(&self) -> bool {
-        self.curve.holds_rates()
     }
 
     /// Returns the first time (s) of the largest or least value.
@@ -295,7 +278,7 @@ impl FormulaReductions {
                 if let Some(middle) = search.point(cell, cell.middle()) {
                     cell.take_middle(search.curve, middle);
                 }
-                if search.curve.holds_forces() {
+                if search.curve.holds_forces {
                     // the time of a load's jump at an edge of the motion is accurate to rounding only
                     let step = &steps[cell.step];
                     if step.begins_at_edge && cell.a.state.t > window[0] {
@@ -320,7 +303,7 @@ impl FormulaReductions {
             *kept = Some(search.search(&cells, samples, extremum, scale));
         }
         if let Some(integral) = integral {
-            let is_smooth = curve.settles() && sampler.is_plain() && steps.iter().all(|step| step.bridge.is_none());
+            let is_smooth = curve.settles() && sampler.is_plain && steps.iter().all(|step| step.bridge.is_none());
             let is_whole = cells[0].a.state.t <= window[0] && cells[cells.len() - 1].b.state.t >= window[1];
             let has_edges = cells[1..].iter().any(|cell| steps[cell.step].begins_at_edge);
             let mut search = IntervalSearch::new(curve, of_integral, sampler, steps, window, span);

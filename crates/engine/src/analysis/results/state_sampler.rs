@@ -31,7 +31,7 @@ pub(super) struct StateSampler {
     signals: Ranges,
     signal_count: usize,
     /// True if the equations are smooth everywhere, so that [`StateSampler::settled`] is available.
-    is_plain: bool,
+    pub is_plain: bool,
     /// The derivatives by inputs and parameters, if results need any.
     sensitivities: Option<Sensitivities>,
     /// The start (s) of the segment.
@@ -246,11 +246,6 @@ impl StateSampler {
         }
         self.solved.insert(key, Solved { state: state.clone(), multipliers: Vec::new() });
         Some(state)
-    }
-
-    /// Returns whether the equations are smooth everywhere, so that [`StateSampler::settled`] is available.
-    pub fn is_plain(&self) -> bool {
-        self.is_plain
     }
 
     /// Returns the state at a time (s) close to that of a state of the segment, with bits that depend on the time only and not on that state, as

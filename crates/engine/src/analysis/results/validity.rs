@@ -82,13 +82,13 @@ impl ResultQuery {
         at: f64,
         singular: &SingularIntervals,
     ) -> Result<(), NoValueCause> {
-        if singular.is_clear() || !of.moves() {
+        if singular.is_clear() || !of.curve.moves() {
             return Ok(());
         }
-        let [from, to] = of.window();
+        let [from, to] = of.window;
         let time = match kind {
             // integrals of positions are accurate near singular positions, those of rates may not be
-            ReductionKind::Mean | ReductionKind::Integral if of.holds_rates() => {
+            ReductionKind::Mean | ReductionKind::Integral if of.curve.holds_rates => {
                 return self.check_rows_at(singular.ends().into_iter().filter(|t| from <= *t && *t <= to).collect());
             }
             ReductionKind::Mean | ReductionKind::Integral => return Ok(()),
