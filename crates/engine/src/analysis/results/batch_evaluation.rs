@@ -133,8 +133,8 @@ impl SmoothFormula {
 
 /// Returns the factor by which a coordinate is perturbed to measure how a formula amplifies rounding, for one of several perturbations.
 #[must_use]
-pub fn moved(k: usize, way: u32) -> f64 {
+pub fn moved(k: usize, perturbation: u32) -> f64 {
     // a pseudorandom direction, so that no formula cancels the perturbations systematically
-    let is_up = (k as u32 + 1).wrapping_mul(0x9E37_79B9 ^ way.wrapping_mul(0x85EB_CA6B)) >> 31 == 0;
+    let is_up = (k as u32 + 1).wrapping_mul(0x9E37_79B9 ^ perturbation.wrapping_mul(0x85EB_CA6B)) >> 31 == 0;
     if is_up { 1.0 + MOVED } else { 1.0 - MOVED }
 }

@@ -40,7 +40,7 @@ enum Cell {
     /// No value exceeds both ends.
     Nothing,
     /// A single maximum near a time (s): its value, the error bound of that, and the second derivative.
-    Turn { t: f64, value: f64, error: f64, bend: f64 },
+    Turn { t: f64, value: f64, error: f64, second: f64 },
     /// Any values up to this bound.
     Bounded(f64),
 }
@@ -91,9 +91,9 @@ impl Course<'_> {
             match kink.unwrap_or_else(|| Cell::new(ends, times)) {
                 Cell::Nothing => {}
                 Cell::Bounded(most) => best.add(most, 0.0, None),
-                Cell::Turn { t, value, error, bend } => {
+                Cell::Turn { t, value, error, second } => {
                     let is_within = f64::min(t - self.times[0], self.times[last] - t) >= AWAY * span;
-                    let is_certain = weight <= CERTAIN * f64::min(range, -bend * span * span);
+                    let is_certain = weight <= CERTAIN * f64::min(range, -second * span * span);
                     best.add(value, error, (is_within && is_certain).then_some(Place::Turn(t)));
                 }
             }
@@ -131,7 +131,7 @@ fn kink([a, b]: [Tower; 2], [from, to]: [f64; 2]) -> Option<Cell> {
 
 /// Bounds of a formula between two steps.
 struct Limits {
-    bends: [f64; 2],
+    curvatures: [f64; 2],
     slopes: [f64; 2],
     values: [f64; 2],
 }
@@ -139,10 +139,10 @@ struct Limits {
 impl Limits {
     fn new([[v, s, c], [w, r, d]]: [Tower; 2], [from, to]: [f64; 2]) -> Limits {
         let h = to - from;
-        let bend = SAFETY * ((r - s) / h - 0.5 * (c + d)).abs();
-        let bends = [c.min(d) - bend, c.max(d) + bend];
-        let slopes = between(s, r, bends, h);
-        Limits { bends, slopes, values: between(v, w, slopes, h) }
+        let deviation = SAFETY * ((r - s) / h - 0.5 * (c + d)).abs();
+        let curvatures = [c.min(d) - deviation, c.max(d) + deviation];
+        let slopes = between(s, r, curvatures, h);
+        Limits { curvatures, slopes, values: between(v, w, slopes, h) }
     }
 }
 
@@ -151,12 +151,12 @@ impl Cell {
     fn new([a, b]: [Tower; 2], [from, to]: [f64; 2]) -> Cell {
         let h = to - from;
         let ([v, s, c], [w, r, d]) = (a, b);
-        let Limits { bends, slopes, values: [_, most] } = Limits::new([a, b], [from, to]);
+        let Limits { curvatures, slopes, values: [_, most] } = Limits::new([a, b], [from, to]);
         let is_monotone = slopes[0] > 0.0 || slopes[1] < 0.0;
-        if is_monotone || bends[0] > 0.0 {
+        if is_monotone || curvatures[0] > 0.0 {
             return Cell::Nothing;
         }
-        if bends[1] >= 0.0 || !most.is_finite() {
+        if curvatures[1] >= 0.0 || !most.is_finite() {
             return Cell::Bounded(most);
         }
         if !(s > 0.0 && r <= 0.0) {
@@ -167,11 +167,11 @@ impl Cell {
         let curve = quintic(a, b, h);
         let mut x = s / (s - r);
         for _ in 0..ITERATIONS {
-            let [_, slope, bend] = value_and_derivatives(&curve, x);
-            x = (x - slope / bend).clamp(0.0, 1.0);
+            let [_, slope, second] = value_and_derivatives(&curve, x);
+            x = (x - slope / second).clamp(0.0, 1.0);
         }
-        let [_, _, bend] = value_and_derivatives(&curve, x);
-        Cell::Turn { t: from + x * h, value: along(&curve, x), error, bend: bend / (h * h) }
+        let [_, _, second] = value_and_derivatives(&curve, x);
+        Cell::Turn { t: from + x * h, value: along(&curve, x), error, second: second / (h * h) }
     }
 }
 
@@ -201,8 +201,8 @@ pub fn find_bends(times: &[f64], towers: &mut [Tower]) {
             0 => behind(towers) + h(0) * h(0) / 12.0 * fourth(0, towers),
             _ if k == last => before(towers) + h(k - 1) * h(k - 1) / 12.0 * fourth(k - 2, towers),
             _ => {
-                let off = (h(k - 1) * h(k - 1) + h(k) * h(k)) / 24.0 * fourth(k - 1, towers);
-                0.5 * (before(towers) + behind(towers)) + off
+                let correction = (h(k - 1) * h(k - 1) + h(k) * h(k)) / 24.0 * fourth(k - 1, towers);
+                0.5 * (before(towers) + behind(towers)) + correction
             }
         };
     }

@@ -132,7 +132,7 @@ pub(super) struct Point {
     /// The loads, if the formula contains forces.
     loads: Vec<f64>,
     /// The states of the guards.
-    marks: Vec<GuardState>,
+    guard_states: Vec<GuardState>,
     /// True if the point lies on the bridge over a singular position, whose velocities and accelerations are those of a fitted curve.
     is_on_bridge: bool,
     pub sample: Sampled,
@@ -153,12 +153,12 @@ pub(super) struct Shift {
 impl Point {
     /// Returns the side of its threshold on which a guard is at the point.
     pub fn side(&self, guard: usize) -> f64 {
-        self.marks[guard].side
+        self.guard_states[guard].side
     }
 
     /// Returns the argument of a guard at the point.
     pub fn argument(&self, guard: usize) -> f64 {
-        self.marks[guard].argument
+        self.guard_states[guard].argument
     }
 
     /// Returns whether the formula has a value at the point.
@@ -208,13 +208,13 @@ impl Curve {
         let holds_rates =
             dependence.highest_order() > Some(0) || dependence.highest_varied_order().is_some() || holds_forces;
         let loads = if holds_forces { loads } else { &[] };
-        let (mut graph, found, smooth) = Smooth::extract_from(graph, value, loads, system);
-        let shape = shape(&graph, found[0], system);
-        let derivatives = with_derivatives(&mut graph, found[0], has_jerk);
+        let (mut graph, extracted, smooth) = Smooth::extract_from(graph, value, loads, system);
+        let shape = shape(&graph, extracted[0], system);
+        let derivatives = with_derivatives(&mut graph, extracted[0], has_jerk);
         let local = derivatives.len();
         // `ranges` numbers formulas in this order: the formula, its loads, the arguments of guards with their slopes, and the derivatives
-        let mut formulas = found.clone();
-        let arguments = arguments(&mut graph, &found);
+        let mut formulas = extracted.clone();
+        let arguments = arguments(&mut graph, &extracted);
         let slopes = slopes(&mut graph, &arguments, |graph, id| is_available(graph, id, has_jerk));
         let mut witnesses = FxHashMap::default();
         for (&argument, slope) in arguments.iter().zip(slopes) {
@@ -242,7 +242,7 @@ impl Curve {
         let (program, outputs, nodes) = Program::from_formulas_with_nodes(&graph, counts, &formulas);
         let params = system.param_values();
         let registers = program.start(&params);
-        let values = &outputs[..found.len()];
+        let values = &outputs[..extracted.len()];
         let guards = guards(&mut graph, &program, values, &nodes, &witnesses);
         let loads = Loads::new(&values[1..]);
         let roots: Vec<Register> =
@@ -337,7 +337,7 @@ impl Curve {
         self.run(state.t, &moving);
         let value = |order: usize| self.roots.get(order).map_or(f64::NAN, |&root| self.registers.get(root));
         let sample = Sampled { value: value(0), first: value(1), second: value(2) };
-        let marks: Vec<GuardState> = self.guards.iter().map(|guard| guard.mark(&self.registers)).collect();
+        let guard_states: Vec<GuardState> = self.guards.iter().map(|guard| guard.state(&self.registers)).collect();
         moving.iter().enumerate().for_each(|(k, tower)| self.sizes.note(k, tower));
         let loads = self.loads.values(&self.registers);
         if self.loads.count() > 0 && self.evaluations.is_multiple_of(EVERY) {
@@ -349,7 +349,7 @@ impl Curve {
             state,
             moving,
             loads,
-            marks,
+            guard_states,
             is_on_bridge,
             sample,
             shift: Shift::default(),
@@ -365,9 +365,9 @@ impl Curve {
 
     /// Records the magnitudes of the guards' arguments at a typical point: near a pole they are not typical.
     pub fn note_arguments(&mut self, point: &Point) {
-        for (largest, mark) in self.largest_arguments.iter_mut().zip(&point.marks) {
-            if mark.argument.is_finite() {
-                *largest = largest.max(mark.argument.abs());
+        for (largest, state) in self.largest_arguments.iter_mut().zip(&point.guard_states) {
+            if state.argument.is_finite() {
+                *largest = largest.max(state.argument.abs());
             }
         }
     }
@@ -402,10 +402,10 @@ impl Curve {
     /// Returns a bound of the error of the value at a point.
     pub fn uncertainty(&mut self, point: &Point) -> f64 {
         self.set_rounding(point);
-        for (guard, mark) in self.guards.iter().zip(&point.marks) {
+        for (guard, state) in self.guards.iter().zip(&point.guard_states) {
             // the value belongs to the side of the point
-            if guard.crossing(&self.ranges, [*mark; 2]) != Crossing::Never {
-                guard.hold(mark.side, &mut self.ranges);
+            if guard.crossing(&self.ranges, [*state; 2]) != Crossing::Never {
+                guard.hold(state.side, &mut self.ranges);
             }
         }
         let Range { low, high, .. } = self.ranges.range(&self.program, &self.registers, 0);
@@ -421,7 +421,7 @@ impl Curve {
     /// Returns whether rounding alone decides on which side of its threshold a guard is at a point.
     pub fn is_rounding(&mut self, guard: usize, point: &Point) -> bool {
         self.set_rounding(point);
-        self.guards[guard].is_within_rounding(&self.ranges, point.marks[guard])
+        self.guards[guard].is_within_rounding(&self.ranges, point.guard_states[guard])
     }
 
     /// Returns whether rounding alone decides on which side of its threshold some guard is at a point.
@@ -430,8 +430,8 @@ impl Curve {
             return false;
         }
         self.set_rounding(point);
-        let mut guards = self.guards.iter().zip(&point.marks);
-        guards.any(|(guard, mark)| guard.is_within_rounding(&self.ranges, *mark))
+        let mut guards = self.guards.iter().zip(&point.guard_states);
+        guards.any(|(guard, state)| guard.is_within_rounding(&self.ranges, *state))
     }
 
     /// Returns a bound of the error of a guard's argument at a point.
@@ -448,11 +448,11 @@ impl Curve {
 
     /// Returns whether a guard is exactly at its threshold at a point, but not at an adjacent one: the value may be that of neither side.
     pub fn is_at_threshold(&self, point: &Point, adjacent: &Point) -> bool {
-        let marks = point.marks.iter().zip(&adjacent.marks);
+        let states = point.guard_states.iter().zip(&adjacent.guard_states);
         self.guards
             .iter()
-            .zip(marks)
-            .any(|(guard, (mark, adjacent))| guard.is_at_threshold(*mark) && mark.differs_from(adjacent))
+            .zip(states)
+            .any(|(guard, (state, adjacent))| guard.is_at_threshold(*state) && state.differs_from(adjacent))
     }
 
     /// Computes the formula and its derivatives from the moving quantities at a time (s).
@@ -488,7 +488,7 @@ impl Curve {
 
     /// Returns the distances of a guard's argument at two points from the threshold between them.
     pub fn distances(&self, guard: usize, [a, b]: [&Point; 2]) -> [f64; 2] {
-        self.guards[guard].distances([a.marks[guard], b.marks[guard]], &self.registers)
+        self.guards[guard].distances([a.guard_states[guard], b.guard_states[guard]], &self.registers)
     }
 
     /// Returns the resolved values of the formula where the argument of a function is exactly at a point at which the function is not smooth:
@@ -498,13 +498,14 @@ impl Curve {
             return Vec::new();
         }
         let there = if a.exists() { a } else { b };
-        let mut found = Vec::new();
+        let mut values = Vec::new();
         for k in 0..self.guards.len() {
             let usual = self.largest_arguments[k];
-            let between = self.guards[k].value_between([a.marks[k], b.marks[k]], usual).map(|value| (there, value));
+            let between =
+                self.guards[k].value_between([a.guard_states[k], b.guard_states[k]], usual).map(|value| (there, value));
             let touched = || {
                 [a, b].into_iter().filter(|point| point.exists()).find_map(|point| {
-                    let value = self.guards[k].value_near(point.marks[k], usual)?;
+                    let value = self.guards[k].value_near(point.guard_states[k], usual)?;
                     self.is_rounding(k, point).then_some((point, value))
                 })
             };
@@ -517,10 +518,10 @@ impl Curve {
             let Range { low, high, .. } = self.ranges.range(&self.program, &self.registers, 0);
             let is_finite = low.is_finite() && high.is_finite();
             if is_finite && high - low <= KNOWN * f64::max(low.abs(), high.abs()) + NOTHING {
-                found.push(if low <= 0.0 && high >= 0.0 { 0.0 } else { 0.5 * low + 0.5 * high });
+                values.push(if low <= 0.0 && high >= 0.0 { 0.0 } else { 0.5 * low + 0.5 * high });
             }
         }
-        found
+        values
     }
 }
 

@@ -53,7 +53,7 @@ struct Candidate {
     /// A bound of the error of the value.
     error: f64,
     /// A lower bound of the value.
-    least: f64,
+    lower: f64,
     kind: CandidateKind,
 }
 
@@ -64,8 +64,8 @@ impl Candidate {
     }
 
     /// Returns an upper bound of the value; its lower bound if the value is inaccurate.
-    fn most(&self, scale: Scale) -> f64 {
-        if self.is_accurate(scale) { self.value + self.error } else { self.least }
+    fn upper(&self, scale: Scale) -> f64 {
+        if self.is_accurate(scale) { self.value + self.error } else { self.lower }
     }
 }
 
@@ -130,44 +130,47 @@ impl Extremum {
     }
 
     /// Records a value at a time (s).
-    fn record(&mut self, t: f64, found: Estimate) {
-        if self.sign * found.value - found.error > self.best {
-            (self.best, self.best_estimate, self.best_at) = (self.sign * found.value - found.error, found, t);
+    fn record(&mut self, t: f64, estimate: Estimate) {
+        if self.sign * estimate.value - estimate.error > self.best {
+            (self.best, self.best_estimate, self.best_at) = (self.sign * estimate.value - estimate.error, estimate, t);
         }
     }
 
     /// Adds an edge or an end of the window as a candidate, with the estimates of its time (s) and its value.
     pub fn note_edge(&mut self, at: Estimate, Estimate { value, error }: Estimate, scale: Scale) {
         let (value, t, time_error) = (self.sign * value, at.value, at.error);
-        self.add(Candidate { t, time_error, value, error, least: value - error, kind: CandidateKind::Edge }, scale);
+        self.add(Candidate { t, time_error, value, error, lower: value - error, kind: CandidateKind::Edge }, scale);
     }
 
-    fn add(&mut self, found: Candidate, scale: Scale) {
-        if !found.value.is_finite() {
+    fn add(&mut self, candidate: Candidate, scale: Scale) {
+        if !candidate.value.is_finite() {
             return;
         }
-        self.record(found.t, Estimate { value: self.sign * found.value, error: found.value - found.least });
-        if found.most(scale) < self.best - scale.alike() {
+        self.record(
+            candidate.t,
+            Estimate { value: self.sign * candidate.value, error: candidate.value - candidate.lower },
+        );
+        if candidate.upper(scale) < self.best - scale.tolerance() {
             return;
         }
         // a sample does not displace others: a better candidate may be found near it
-        if found.kind != CandidateKind::Sample && found.least > self.largest {
-            self.largest = found.least;
-            let least = found.value - scale.alike();
-            self.candidates.retain(|candidate| candidate.most(scale) >= least);
+        if candidate.kind != CandidateKind::Sample && candidate.lower > self.largest {
+            self.largest = candidate.lower;
+            let least = candidate.value - scale.tolerance();
+            self.candidates.retain(|other| other.upper(scale) >= least);
         }
-        self.candidates.push(found);
+        self.candidates.push(candidate);
     }
 
     /// Returns whether no value up to `upper` can improve the extremum noticeably.
     fn is_above(&self, upper: f64, scale: Scale) -> bool {
         let gap = scale.gap(GAP);
-        upper < self.best - scale.alike() - gap || upper <= self.largest + gap
+        upper < self.best - scale.tolerance() - gap || upper <= self.largest + gap
     }
 
     /// Returns whether no value up to `upper` can be the extremum, or agree with it if its time is requested.
     fn is_irrelevant(&self, upper: f64, scale: Scale) -> bool {
-        upper < self.best - scale.alike() || (!self.is_timed && upper <= self.largest + scale.gap(GAP))
+        upper < self.best - scale.tolerance() || (!self.is_timed && upper <= self.largest + scale.gap(GAP))
     }
 
     /// Returns the ends of a range times the sign, in ascending order.
@@ -184,12 +187,12 @@ impl Extremum {
     /// no value.
     pub fn value(&self, scale: Scale) -> Estimate {
         let reliable = self.candidates.iter().filter(|candidate| {
-            let is_accurate = candidate.least >= self.largest || candidate.is_accurate(scale);
+            let is_accurate = candidate.lower >= self.largest || candidate.is_accurate(scale);
             candidate.kind != CandidateKind::Sample && is_accurate && candidate.value >= self.largest
         });
         let candidate = reliable.max_by(|a, b| a.value.total_cmp(&b.value));
         match candidate {
-            Some(candidate) if self.best <= candidate.most(scale) + scale.gap(GAP) => {
+            Some(candidate) if self.best <= candidate.upper(scale) + scale.gap(GAP) => {
                 Estimate { value: self.sign * candidate.value, error: candidate.error.max(self.excess) }
             }
             _ => Estimate {
@@ -201,34 +204,34 @@ impl Extremum {
 
     /// Returns the first time (s) of the largest value.
     pub fn time(&self, scale: Scale) -> Estimate {
-        let found = |t: f64, part: f64| Estimate { value: t, error: part * scale.span };
-        let Some(first) = self.first(scale) else { return found(self.best_at, TIMES_OF_VALUES) };
+        let estimate = |t: f64, part: f64| Estimate { value: t, error: part * scale.span };
+        let Some(first) = self.first(scale) else { return estimate(self.best_at, TIMES_OF_VALUES) };
         let is_it = |next: &&Candidate| {
             let distance = if first.kind == CandidateKind::Turn { BESIDE } else { FACTOR * SHORTEST };
             let is_behind = next.t > first.t && next.t - first.t <= distance * scale.span;
-            next.kind == CandidateKind::Edge && is_behind && next.most(scale) >= first.least
+            next.kind == CandidateKind::Edge && is_behind && next.upper(scale) >= first.lower
         };
-        let candidate = self.alike(scale).find(is_it).unwrap_or(&first);
+        let candidate = self.tied(scale).find(is_it).unwrap_or(&first);
         match candidate.kind {
             CandidateKind::Edge => {
                 Estimate { value: candidate.t, error: f64::max(SHORTEST * scale.span, candidate.time_error) }
             }
-            CandidateKind::Turn => found(candidate.t, TIMES),
-            CandidateKind::Sample => found(candidate.t, TIMES_OF_VALUES),
+            CandidateKind::Turn => estimate(candidate.t, TIMES),
+            CandidateKind::Sample => estimate(candidate.t, TIMES_OF_VALUES),
         }
     }
 
     /// Returns the candidates with the largest value.
-    fn alike(&self, scale: Scale) -> impl Iterator<Item = &Candidate> {
-        let least = self.best - scale.alike();
-        self.candidates.iter().filter(move |candidate| candidate.most(scale) >= least)
+    fn tied(&self, scale: Scale) -> impl Iterator<Item = &Candidate> {
+        let least = self.best - scale.tolerance();
+        self.candidates.iter().filter(move |candidate| candidate.upper(scale) >= least)
     }
 
     /// Returns the earliest candidate with the largest value, which is a sample only if no other candidate has that value.
     fn first(&self, scale: Scale) -> Option<Candidate> {
         let earliest = |is_sample: bool| {
             let those =
-                self.alike(scale).filter(move |candidate| (candidate.kind == CandidateKind::Sample) == is_sample);
+                self.tied(scale).filter(move |candidate| (candidate.kind == CandidateKind::Sample) == is_sample);
             those.min_by(|a, b| a.t.total_cmp(&b.t)).copied()
         };
         earliest(false).or_else(|| earliest(true))
@@ -236,7 +239,7 @@ impl Extremum {
 
     /// Returns the median distance of samples from the largest value, which a pole in the other direction does not distort.
     fn spread(&self, samples: &[Estimate], rounding: f64) -> f64 {
-        let distance = |found: &Estimate| ((self.best - self.sign * found.value).abs(), found.error.max(rounding));
+        let distance = |sample: &Estimate| ((self.best - self.sign * sample.value).abs(), sample.error.max(rounding));
         let different =
             samples.iter().map(distance).filter(|(distance, rounding)| distance > rounding && distance.is_finite());
         median(different.map(|(distance, _)| distance).collect())
@@ -300,7 +303,7 @@ impl IntervalSearch<'_> {
 
     /// Searches the remaining cells for earlier times with the same value.
     fn search_earlier(&mut self, mut open: Vec<OpenCell>, extremum: &mut Extremum, scale: Scale) {
-        open.retain(|open| open.upper >= extremum.best - scale.alike());
+        open.retain(|open| open.upper >= extremum.best - scale.tolerance());
         open.sort_by(|a, b| b.cell.a.state.t.total_cmp(&a.cell.a.state.t));
         let mut parts = Vec::new();
         while let Some(next) = open.pop() {
@@ -311,7 +314,7 @@ impl IntervalSearch<'_> {
             if first.is_some_and(|first| first.t <= next.cell.a.state.t) || self.notes.cause.is_some() {
                 return;
             }
-            if next.upper >= extremum.best - scale.alike() {
+            if next.upper >= extremum.best - scale.tolerance() {
                 self.search_cell(&next, extremum, scale, &mut parts);
                 parts.reverse();
                 open.append(&mut parts);
@@ -404,8 +407,8 @@ impl IntervalSearch<'_> {
                 self.miss(cell.step, point.state.t);
             }
         }
-        let rises = ends.map(|point| sign * point.sample.first);
-        let goes_on = (rises[0] > 0.0 && rises[1] > 0.0) || (rises[0] < 0.0 && rises[1] < 0.0);
+        let slopes = ends.map(|point| sign * point.sample.first);
+        let goes_on = (slopes[0] > 0.0 && slopes[1] > 0.0) || (slopes[0] < 0.0 && slopes[1] < 0.0);
         let step = (ends[0].sample.value - ends[1].sample.value).abs();
         for (point, other, outward) in [(&cell.a, &cell.b, -1.0), (&cell.b, &cell.a, 1.0)] {
             // a value at the threshold that belongs to neither side does not count
@@ -417,16 +420,16 @@ impl IntervalSearch<'_> {
             if !point.exists() || is_apart {
                 continue;
             }
-            let found = self.curve.estimate(point);
+            let estimate = self.curve.estimate(point);
             if goes_on && step <= scale.gap(GAP) {
-                extremum.record(point.state.t, found);
+                extremum.record(point.state.t, estimate);
             } else {
                 let error = cell.length().max(point.shift.time).max(point.crossing_error);
-                extremum.note_edge(Estimate { value: point.state.t, error }, found, scale);
+                extremum.note_edge(Estimate { value: point.state.t, error }, estimate, scale);
             }
         }
         for value in self.curve.between_points(&cell.a, &cell.b) {
-            if sign * value >= extremum.best - scale.alike() && self.converges_to(value, cell, scale) {
+            if sign * value >= extremum.best - scale.tolerance() && self.converges_to(value, cell, scale) {
                 let error = cell.length().max(cell.b.shift.time).max(cell.b.crossing_error);
                 let at = Estimate { value: cell.b.state.t, error };
                 extremum.note_edge(at, Estimate { value, error: KNOWN * value.abs() }, scale);
@@ -444,7 +447,7 @@ impl IntervalSearch<'_> {
     fn converges_to(&mut self, value: f64, cell: &Cell, scale: Scale) -> bool {
         [(&cell.a, -1.0), (&cell.b, 1.0)].into_iter().any(|(point, direction)| {
             self.samples_near(cell.step, point, direction, cell.length(), scale).is_some_and(|[near, far, _]| {
-                let [left, before] = [near, far].map(|found| (found.value - value).abs());
+                let [left, before] = [near, far].map(|sample| (sample.value - value).abs());
                 left <= CONVERGES * before + near.error + far.error
             })
         })
@@ -487,11 +490,11 @@ impl IntervalSearch<'_> {
         scale: Scale,
     ) -> bool {
         let sign = extremum.sign;
-        let [[falls, rises], [bends_down, bends_up]] =
+        let [[slope_low, slope_high], [second_low, second_high]] =
             derivatives.map(|range| range.map_or([f64::NEG_INFINITY, f64::INFINITY], |range| extremum.oriented(range)));
         let [a, b] = extremum.values(cell);
         let turns = sign * cell.a.sample.first > 0.0 && sign * cell.b.sample.first <= 0.0;
-        if falls >= 0.0 || rises <= 0.0 {
+        if slope_low >= 0.0 || slope_high <= 0.0 {
             if turns {
                 // the turn is at the end of the cell
                 self.note_turn(cell, &cell.b, cell.b.state.t, extremum, scale);
@@ -504,11 +507,11 @@ impl IntervalSearch<'_> {
         if extremum.is_irrelevant(*upper, scale) || (is_small && !turns) {
             return true;
         }
-        let turns_once = bends_up < 0.0;
+        let turns_once = second_high < 0.0;
         if turns && (is_small || turns_once) {
             self.solve_for_turn(cell, extremum, scale);
         }
-        is_small || turns_once || bends_down > 0.0
+        is_small || turns_once || second_low > 0.0
     }
 
     /// Finds and records the time at which the slope times the sign falls through zero in a cell, by Newton's method safeguarded by bisection.
@@ -560,7 +563,7 @@ impl IntervalSearch<'_> {
         let [t, value] = refined.unwrap_or([t, near.sample.value]);
         let value = extremum.sign * value;
         extremum.add(
-            Candidate { t, time_error: 0.0, value, error, least: value - error, kind: CandidateKind::Turn },
+            Candidate { t, time_error: 0.0, value, error, lower: value - error, kind: CandidateKind::Turn },
             scale,
         );
     }
@@ -575,9 +578,9 @@ impl IntervalSearch<'_> {
         let mut samples = [Sampled::NOTHING; MOST_LOOKS];
         loop {
             for (look, sample) in samples.iter_mut().enumerate().take(turn.looks()) {
-                let (t, step_here) = (turn.time(look), &self.steps[step]);
-                let is_before = step_here.begins_at_edge && t < step_here.from.t;
-                let is_behind = step_here.ends_at_edge && t > step_here.to.t;
+                let (t, segment) = (turn.time(look), &self.steps[step]);
+                let is_before = segment.begins_at_edge && t < segment.from.t;
+                let is_behind = segment.ends_at_edge && t > segment.to.t;
                 if is_before || is_behind {
                     return None;
                 }
@@ -586,9 +589,9 @@ impl IntervalSearch<'_> {
             }
             match turn.go_on(&samples[..turn.looks()]) {
                 Turning::On => {}
-                Turning::Settled(found @ [t, _]) => {
+                Turning::Settled(extremum @ [t, _]) => {
                     let [from, to] = self.window;
-                    return (from <= t && t <= to).then_some(found);
+                    return (from <= t && t <= to).then_some(extremum);
                 }
                 Turning::Lost => return None,
             }
@@ -600,12 +603,12 @@ impl IntervalSearch<'_> {
     fn is_done_by_values(&mut self, cell: &Cell, upper: f64, extremum: &mut Extremum, scale: Scale) -> bool {
         let [a, b] = extremum.values(cell);
         let is_small = upper <= f64::max(a, b).min(extremum.best) + scale.gap(GAP_OF_VALUES);
-        if is_small && f64::max(a, b) >= extremum.best - scale.alike() {
+        if is_small && f64::max(a, b) >= extremum.best - scale.tolerance() {
             let (point, value) = if b > a { (&cell.b, b) } else { (&cell.a, a) };
             let error = scale.gap(GAP_OF_VALUES);
             let t = point.state.t;
             extremum
-                .add(Candidate { t, time_error: 0.0, value, error, least: value, kind: CandidateKind::Sample }, scale);
+                .add(Candidate { t, time_error: 0.0, value, error, lower: value, kind: CandidateKind::Sample }, scale);
             if let Some(top) = self.top_near(cell, point, extremum.sign, scale) {
                 extremum.add(top, scale);
             }
@@ -623,15 +626,15 @@ impl IntervalSearch<'_> {
             let h = apart.min(0.5 * (to - from));
             let center = t.clamp(from + h, (to - h).max(from + h));
             let [before, middle, behind] = self.values_at(cell.step, [center - h, center, center + h], sign)?;
-            let (rise, bend) = (0.5 * (behind - before), behind - 2.0 * middle + before);
-            if bend >= -rounding {
+            let (rise, curvature) = (0.5 * (behind - before), behind - 2.0 * middle + before);
+            if curvature >= -rounding {
                 // the values are constant or on a straight line
                 if fit == 0 && rise.abs() > rounding {
                     return None;
                 }
                 break;
             }
-            let offset = -rise / bend;
+            let offset = -rise / curvature;
             if offset.abs() > FARTHEST {
                 return None;
             }
@@ -643,7 +646,7 @@ impl IntervalSearch<'_> {
         }
         let [value] = self.values_at(cell.step, [t], sign)?;
         let error = scale.gap(GAP_OF_VALUES);
-        Some(Candidate { t, time_error: 0.0, value, error, least: value, kind: CandidateKind::Turn })
+        Some(Candidate { t, time_error: 0.0, value, error, lower: value, kind: CandidateKind::Turn })
     }
 
     /// Returns the values at some times (s) of a step, times the sign, or `None` if a state cannot be solved for.

@@ -83,16 +83,16 @@ impl Settling {
     /// Takes one step of the refinement from the samples at the times of [`Settling::time`].
     pub fn go_on(&mut self, samples: &[Sampled]) -> Turning {
         let Sampled { value, first, second } = self.at_point(samples);
-        let off = -first / second;
-        let (beyond, from_begin) = (off.abs() / self.cell, (self.t + off - self.start).abs() / self.cell);
-        if !(off.is_finite() && from_begin <= FARTHEST) || self.left == 0 {
+        let correction = -first / second;
+        let (beyond, from_begin) = (correction.abs() / self.cell, (self.t + correction - self.start).abs() / self.cell);
+        if !(correction.is_finite() && from_begin <= FARTHEST) || self.left == 0 {
             return Turning::Lost;
         }
         if beyond <= self.bound {
-            return Turning::Settled([self.t + off, value + 0.5 * first * off]);
+            return Turning::Settled([self.t + correction, value + 0.5 * first * correction]);
         }
         let (bound, cells) = going_on(beyond, self.bound, BORDER);
-        self.t = next_point(self.t, off, self.cell, cells, BORDER);
+        self.t = next_point(self.t, correction, self.cell, cells, BORDER);
         (self.bound, self.left) = (bound, self.left - 1);
         Turning::On
     }

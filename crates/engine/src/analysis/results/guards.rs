@@ -94,7 +94,7 @@ impl Guard {
     }
 
     /// Returns the state of the guard from the registers of a program that has been run.
-    pub fn mark(&self, registers: &Registers) -> GuardState {
+    pub fn state(&self, registers: &Registers) -> GuardState {
         let get = |register: Register| registers.get(register);
         let sign = |x: f64| if x == 0.0 { 0.0 } else { x.signum() };
         let (side, argument) = match self.kind {
@@ -112,23 +112,23 @@ impl Guard {
     }
 
     /// Returns whether the guard is exactly at its threshold, where the formula may have the value of neither side.
-    pub fn is_at_threshold(&self, mark: GuardState) -> bool {
+    pub fn is_at_threshold(&self, state: GuardState) -> bool {
         match self.kind {
-            Kind::Zero { .. } | Kind::Step { is_whole: false, .. } => mark.side == 0.0,
+            Kind::Zero { .. } | Kind::Step { is_whole: false, .. } => state.side == 0.0,
             _ => false,
         }
     }
 
     /// Returns whether the guard is on the side where its function has no value.
-    pub fn is_beyond_end(&self, mark: GuardState) -> bool {
-        let is_beyond = if matches!(self.kind, Kind::Unit { .. }) { mark.side == 0.0 } else { mark.side < 0.0 };
+    pub fn is_beyond_end(&self, state: GuardState) -> bool {
+        let is_beyond = if matches!(self.kind, Kind::Unit { .. }) { state.side == 0.0 } else { state.side < 0.0 };
         self.ends && is_beyond
     }
 
     /// Returns the distances of the arguments of two states from the threshold between them; NaN if several thresholds lie between.
-    pub fn distances(&self, marks: [GuardState; 2], registers: &Registers) -> [f64; 2] {
-        let later = marks[0].side.max(marks[1].side);
-        let is_next = (marks[0].side - marks[1].side).abs() <= 1.0;
+    pub fn distances(&self, states: [GuardState; 2], registers: &Registers) -> [f64; 2] {
+        let later = states[0].side.max(states[1].side);
+        let is_next = (states[0].side - states[1].side).abs() <= 1.0;
         let threshold = match self.kind {
             Kind::Step { is_whole: true, .. } if is_next => later,
             Kind::Tangent { .. } if is_next => (later - 0.5) * PI,
@@ -138,7 +138,7 @@ impl Guard {
             Kind::Step { is_whole: true, .. } | Kind::Piece { .. } | Kind::Tangent { .. } => f64::NAN,
             _ => 0.0,
         };
-        marks.map(|mark| mark.argument - threshold)
+        states.map(|state| state.argument - threshold)
     }
 
     /// Returns whether the formula of the last [`Ranges::find_live`] depends on the guard.
@@ -184,15 +184,15 @@ impl Guard {
     }
 
     /// Returns whether rounding alone decides on which side the guard is at a state, by the ranges around that.
-    pub fn is_within_rounding(&self, ranges: &Ranges, mark: GuardState) -> bool {
+    pub fn is_within_rounding(&self, ranges: &Ranges, state: GuardState) -> bool {
         let side: fn(f64) -> f64 = match self.kind {
             Kind::Step { is_whole: true, .. } => f64::floor,
             Kind::Tangent { .. } => branch_of_tangent,
-            Kind::Piece { .. } => return self.crossing(ranges, [mark; 2]) != Crossing::Never,
+            Kind::Piece { .. } => return self.crossing(ranges, [state; 2]) != Crossing::Never,
             _ => |x| if x == 0.0 { 0.0 } else { x.signum() },
         };
         let [low, high] = self.argument(ranges);
-        let ends = [low, high].map(|end| side(mark.argument + NOISE * (end - mark.argument)));
+        let ends = [low, high].map(|end| side(state.argument + NOISE * (end - state.argument)));
         ends[0].total_cmp(&ends[1]).is_ne()
     }
 
@@ -244,11 +244,11 @@ impl Guard {
     }
 
     /// Returns a value at which the function is not smooth, if the argument is close to it, relative to its `usual` magnitude.
-    pub fn value_near(&self, mark: GuardState, usual: f64) -> Option<f64> {
-        let is_near = mark.argument.abs() <= NEAR * usual;
+    pub fn value_near(&self, state: GuardState, usual: f64) -> Option<f64> {
+        let is_near = state.argument.abs() <= NEAR * usual;
         match self.kind {
             Kind::Zero { .. } if is_near => Some(0.0),
-            Kind::Unit { .. } if is_near => Some(mark.sign),
+            Kind::Unit { .. } if is_near => Some(state.sign),
             _ => None,
         }
     }
@@ -332,7 +332,7 @@ pub(super) fn guards(
             _ => return None,
         };
     };
-    let mut found: Vec<Guard> = Vec::new();
+    let mut all: Vec<Guard> = Vec::new();
     for op in program.operations_behind(roots, Stage::Measures) {
         let Some(kind) = Guard::kind_of(op, program) else { continue };
         let argument = match kind {
@@ -351,7 +351,7 @@ pub(super) fn guards(
                 if is_constant(graph, a) {
                     continue;
                 }
-                if let Some(same) = found.iter_mut().find(|guard| is_same(guard)) {
+                if let Some(same) = all.iter_mut().find(|guard| is_same(guard)) {
                     same.ends |= ends(op);
                     continue;
                 }
@@ -362,14 +362,14 @@ pub(super) fn guards(
             Kind::Choice { a, b } => operations.iter().filter_map(|op| compared(op, a, b)).collect(),
             _ => Vec::new(),
         };
-        found.push(Guard {
+        all.push(Guard {
             kind,
             comparisons,
             ends: ends(op),
             witness: argument.and_then(|id| witnesses.get(&id).copied()),
         });
     }
-    found
+    all
 }
 
 /// Returns the time derivatives of some formulas, if both the formula and its derivative are available.

@@ -26,7 +26,7 @@ pub(super) struct Scale {
 
 impl Scale {
     /// Returns the difference up to which values count as equal: rounding of a constant value is no change.
-    pub fn alike(self) -> f64 {
+    pub fn tolerance(self) -> f64 {
         self.gap(ALIKE)
     }
 
@@ -75,7 +75,7 @@ pub(super) struct Notes {
     pub missing: Option<f64>,
     /// The number of cells that were evaluated, and its limit.
     cells: usize,
-    most: usize,
+    limit: usize,
 }
 
 impl Notes {
@@ -88,7 +88,7 @@ impl Notes {
 
     /// Returns whether the limit of evaluated cells is exceeded.
     pub fn are_exhausted(&self) -> bool {
-        self.cells > self.most
+        self.cells > self.limit
     }
 
     /// Records a time (s) at which the formula has no value.
@@ -139,7 +139,7 @@ impl<'r> IntervalSearch<'r> {
         span: f64,
     ) -> IntervalSearch<'r> {
         curve.short = SHORT * span;
-        notes.most = notes.most.max(MOST_CELLS) + MOST_OF_A_STEP * steps.len();
+        notes.limit = notes.limit.max(MOST_CELLS) + MOST_OF_A_STEP * steps.len();
         IntervalSearch {
             curve,
             sampler,
@@ -227,15 +227,15 @@ impl<'r> IntervalSearch<'r> {
     ) -> Option<[Estimate; 3]> {
         let mut far = FACTOR * self.shortest.max(width).max(point.shift.time);
         loop {
-            let mut found = [Estimate::NOTHING; 3];
+            let mut samples = [Estimate::NOTHING; 3];
             let mut distance = far;
-            for found in &mut found {
+            for sample in &mut samples {
                 let there = self.point_near(step, point.state.t + direction * distance)?;
-                *found = self.curve.estimate(&there);
+                *sample = self.curve.estimate(&there);
                 distance *= FACTOR;
             }
-            if found[0].error <= scale.gap(RELIABLE).max(RELIABLE * found[0].value.abs()) {
-                return Some(found);
+            if samples[0].error <= scale.gap(RELIABLE).max(RELIABLE * samples[0].value.abs()) {
+                return Some(samples);
             }
             far *= FACTOR;
             if far > FARTHEST * scale.span {

@@ -80,8 +80,8 @@ impl Magnitudes {
         towers.into_iter().zip(&self.largest).zip(&self.kinds).map(move |((tower, largest), kind)| {
             let least = kind.map_or([0.0; 4], |kind| self.of_all.of(kind));
             [0, 1, 2, 3].map(|order| {
-                let off = largest[order].max(least[order]) * if order == 0 { of_values } else { of_rates };
-                [tower[order] - off, tower[order] + off]
+                let error = largest[order].max(least[order]) * if order == 0 { of_values } else { of_rates };
+                [tower[order] - error, tower[order] + error]
             })
         })
     }

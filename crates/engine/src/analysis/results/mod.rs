@@ -214,7 +214,7 @@ impl Analysis {
                 Err(cause) => self.estimates[k] = Some(Err(cause)),
             }
         }
-        let resolved = |k: usize| self.estimates[k].and_then(Result::ok).map_or(0.0, |found| found.value);
+        let resolved = |k: usize| self.estimates[k].and_then(Result::ok).map_or(0.0, |estimate| estimate.value);
         let new_sampler = || StateSampler::new(self.query.kinematics.clone(), self.query.solver.clone());
         let mut sampler = self.sampler.take().unwrap_or_else(new_sampler);
         let (all, curve_of) = curves(system, &of, resolved, sampler.variations());
@@ -279,7 +279,7 @@ impl Analysis {
             // steps towards a singular position are replaced when the bridge over it is found
             let is_full = steps.len() >= CHUNK.min(1 + NUMBERS / (1 + motion.here().q.len()));
             if is_end || (is_full && motion.was_clear_here()) {
-                steps = cut_where_unlike(steps, sampler);
+                steps = divide_unresolved(steps, sampler);
                 for reduced in all.iter_mut() {
                     reduced.evaluate(&steps, self.largest, sampler, span);
                 }
@@ -315,11 +315,11 @@ impl Analysis {
     /// Returns the value of a formula with the reduction `varied` moved by `times` times its error bound.
     fn value_with(&self, formula: ExprId, unknown_is_false: bool, varied: usize, times: f64) -> f64 {
         let system = self.system();
-        let found = |k: usize| {
-            let found = self.estimates[k].and_then(Result::ok).unwrap_or(Estimate::NOTHING);
-            found.value + if k == varied { times * found.error } else { 0.0 }
+        let reduction = |k: usize| {
+            let estimate = self.estimates[k].and_then(Result::ok).unwrap_or(Estimate::NOTHING);
+            estimate.value + if k == varied { times * estimate.error } else { 0.0 }
         };
-        value_of(system.graph(), formula, unknown_is_false, |k| system.params()[k as usize].value, found)
+        value_of(system.graph(), formula, unknown_is_false, |k| system.params()[k as usize].value, reduction)
     }
 
     /// Returns the estimate of an outcome, with an error bound from those of its reductions. It has no value if it divides by a value at a time that
@@ -349,8 +349,8 @@ impl Analysis {
         let mut answers = Answers { has_all_rows, ..Answers::default() };
         for outcome in &system.results().outcomes {
             let needed = needed(system.graph(), outcome.value);
-            let found = self.estimate(outcome, &needed);
-            let value = found.value;
+            let estimate = self.estimate(outcome, &needed);
+            let value = estimate.value;
             if !value.is_finite() {
                 let cause = needed.into_iter().find_map(|k| self.estimates[k].and_then(Result::err));
                 answers.values.push(None);
@@ -358,7 +358,7 @@ impl Analysis {
                 answers.notes.push(errors::result_without_value(outcome, cause));
                 continue;
             }
-            let digits = found.certain_digits();
+            let digits = estimate.certain_digits();
             // −0 would surprise a reader
             answers.values.push(Some(value + 0.0));
             answers.digits.push(digits);
@@ -392,30 +392,30 @@ fn push_step(steps: &mut Vec<SmoothSegment>, mut step: SmoothSegment) {
 }
 
 /// Divides steps in which the states at both ends do not determine the motion: a driver may start and stop within one.
-fn cut_where_unlike(steps: Vec<SmoothSegment>, sampler: &mut StateSampler) -> Vec<SmoothSegment> {
+fn divide_unresolved(steps: Vec<SmoothSegment>, sampler: &mut StateSampler) -> Vec<SmoothSegment> {
     if !sampler.has_signals() {
         return steps;
     }
-    let mut found = Vec::with_capacity(steps.len());
+    let mut parts = Vec::with_capacity(steps.len());
     for step in steps {
         let shortest = SHORTEST * (step.to.t - step.from.t);
         let mut open = vec![step];
         while let Some(step) = open.pop() {
-            match sampler.unlike(&step).filter(|_| step.to.t - step.from.t > shortest) {
+            match sampler.deviating_state(&step).filter(|_| step.to.t - step.from.t > shortest) {
                 Some(within) => open.extend(step.cut_at(within).into_iter().rev()),
-                None => found.push(step),
+                None => parts.push(step),
             }
         }
     }
-    found
+    parts
 }
 
-/// Returns the distinct formulas of some reductions with their windows, and the index of each reduction's formula. `found` returns the value that
+/// Returns the distinct formulas of some reductions with their windows, and the index of each reduction's formula. `reduction` returns the value that
 /// replaces a reduction within a formula.
 fn curves<W: Copy + PartialEq>(
     system: &ConstraintSystem,
     requests: &[(ExprId, W)],
-    found: impl Fn(usize) -> f64,
+    reduction: impl Fn(usize) -> f64,
     variations: usize,
 ) -> (Vec<(Curve, W)>, Vec<usize>) {
     let (mut graph, mut imported) = (Graph::new(), FxHashMap::default());
@@ -424,7 +424,7 @@ fn curves<W: Copy + PartialEq>(
     let mut ids: Vec<(ExprId, W)> = Vec::new();
     for (of, window) in requests {
         graph.import(system.graph(), &[*of], &mut imported, |graph, symbol| match symbol {
-            Symbol::Named(k) => graph.constant(found(k as usize)),
+            Symbol::Named(k) => graph.constant(reduction(k as usize)),
             other => graph.symbol(other),
         });
         let id = (imported[of], *window);
@@ -447,12 +447,12 @@ fn value_of(
     formula: ExprId,
     unknown_is_false: bool,
     params: impl Fn(u32) -> f64,
-    found: impl Fn(usize) -> f64,
+    reduction: impl Fn(usize) -> f64,
 ) -> f64 {
     let value = |symbol| match symbol {
         Symbol::Param(k) => params(k),
         Symbol::Shift(_) => 0.0,
-        Symbol::Named(k) => found(k as usize),
+        Symbol::Named(k) => reduction(k as usize),
         _ => f64::NAN,
     };
     match graph.node(formula) {

@@ -45,8 +45,8 @@ pub(super) struct Integral {
 }
 
 /// Clamps the result of a rule to the bounds that the values in the cell allow: at a kink the derivatives may be those of the other side.
-fn clamped(found: f64, [least, most]: [f64; 2]) -> f64 {
-    if found.is_finite() && least <= most { found.max(least).min(most) } else { found }
+fn clamped(value: f64, [least, most]: [f64; 2]) -> f64 {
+    if value.is_finite() && least <= most { value.max(least).min(most) } else { value }
 }
 
 impl Integral {
@@ -81,8 +81,8 @@ impl Integral {
     }
 
     /// Returns the integral over a duration (s) that was computed elsewhere.
-    pub fn from_estimate(found: Estimate, time: f64) -> Integral {
-        Integral { sum: found.value, error: found.error, time, ..Integral::default() }
+    pub fn from_estimate(estimate: Estimate, time: f64) -> Integral {
+        Integral { sum: estimate.value, error: estimate.error, time, ..Integral::default() }
     }
 
     fn add(&mut self, sum: f64, error: f64, time: f64) {
@@ -100,7 +100,7 @@ struct Part {
     from: f64,
     /// The length (s) of the cell.
     length: f64,
-    found: f64,
+    sum: f64,
     error: f64,
 }
 
@@ -146,7 +146,7 @@ impl IntervalSearch<'_> {
             let (mut error, mut size) = (0.0, 0.0);
             for part in parts {
                 error += part.error;
-                size += if part.error.is_finite() { (part.found - usual * part.length).abs() } else { 0.0 };
+                size += if part.error.is_finite() { (part.sum - usual * part.length).abs() } else { 0.0 };
             }
             let is_far_off = error > f64::max(ACCURACY * size, ROUNDING * scale.weight * scale.span).max(NOTHING);
             is_far_off && integral.unbounded_with(size).is_none()
@@ -172,7 +172,7 @@ impl IntervalSearch<'_> {
             if self.notes.are_exhausted() && part.error == f64::INFINITY {
                 self.notes.fail(NoValueCause::Unknown(part.from));
             }
-            integral.add(part.found, part.error, part.length);
+            integral.add(part.sum, part.error, part.length);
         }
     }
 
@@ -222,16 +222,16 @@ impl IntervalSearch<'_> {
                 continue;
             }
             let values = points.map(|point| point.sample.value);
-            let (mut found, mut error) = (0.0, f64::INFINITY);
+            let (mut sum, mut error) = (0.0, f64::INFINITY);
             if values.iter().all(|value| value.is_finite()) {
                 let rule = self.rule(&cell, &halves);
-                found = clamped(rule.value, [range.low * h, range.high * h]);
+                sum = clamped(rule.value, [range.low * h, range.high * h]);
                 let largest = values.iter().fold(0.0, |largest, value| f64::max(largest, value.abs()));
                 let rounding = ROUNDING * largest * h;
                 let by_rule = if is_smooth { rule.error - rounding } else { f64::INFINITY };
                 error = by_rule.min((range.high - range.low) * h).max(0.0);
             }
-            parts.push(Part { halves, from: cell.a.state.t, length: h, found, error });
+            parts.push(Part { halves, from: cell.a.state.t, length: h, sum, error });
         }
     }
 
@@ -240,8 +240,8 @@ impl IntervalSearch<'_> {
         if !point.exists() {
             return true;
         }
-        let found = self.curve.estimate(point);
-        found.certain_digits() == 0 && found.error > NOTHING
+        let estimate = self.curve.estimate(point);
+        estimate.certain_digits() == 0 && estimate.error > NOTHING
     }
 
     /// Adds the integral over a cell that is too short to be divided. The contribution of a pole in it is bounded from the values on both sides.

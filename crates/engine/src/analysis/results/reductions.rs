@@ -38,7 +38,7 @@ struct RequestedValue {
     t: f64,
     /// The formula at the time, once the motion has reached it.
     point: Option<Rc<Point>>,
-    found: Estimate,
+    estimate: Estimate,
 }
 
 impl FormulaReductions {
@@ -60,7 +60,7 @@ impl FormulaReductions {
         let ([from, to], is_moment) = (self.window, self.is_moment());
         let mut time = |t: f64| {
             if self.times.iter().all(|other| other.t.total_cmp(&t).is_ne()) {
-                self.times.push(RequestedValue { t, point: None, found: Estimate::NOTHING });
+                self.times.push(RequestedValue { t, point: None, estimate: Estimate::NOTHING });
             }
         };
         match kind {
@@ -90,13 +90,14 @@ impl FormulaReductions {
             return Err(cause);
         }
         let of_time = |t: f64| {
-            let found = self.times.iter().find(|request| request.t.total_cmp(&t).is_eq()).map(|request| request.found);
-            let found = found.filter(|found| found.value.is_finite() && found.error < f64::INFINITY);
-            let found = found.ok_or(NoValueCause::Missing(t))?;
+            let estimate =
+                self.times.iter().find(|request| request.t.total_cmp(&t).is_eq()).map(|request| request.estimate);
+            let estimate = estimate.filter(|estimate| estimate.value.is_finite() && estimate.error < f64::INFINITY);
+            let estimate = estimate.ok_or(NoValueCause::Missing(t))?;
             let scale = self.scale(0.0);
             // an exact zero is certain
-            let is_uncertain = found.value != 0.0 && self.is_uncertain(found, scale.range, scale);
-            if is_uncertain { Err(NoValueCause::Unknown(t)) } else { Ok(found) }
+            let is_uncertain = estimate.value != 0.0 && self.is_uncertain(estimate, scale.range, scale);
+            if is_uncertain { Err(NoValueCause::Unknown(t)) } else { Ok(estimate) }
         };
         match kind {
             ReductionKind::Extreme { when: true, .. } if self.is_moment() => {
@@ -121,10 +122,10 @@ impl FormulaReductions {
                     let why = if extremum.is_bounded { NoValueCause::Unknown } else { NoValueCause::Unbounded };
                     return Err(why(extremum.time(scale).value));
                 }
-                let found = if when { extremum.time(scale) } else { value };
+                let estimate = if when { extremum.time(scale) } else { value };
                 // rounding alone may decide at which of several times the extremum is
-                let is_certain = !when || found.error < f64::INFINITY;
-                if is_certain { Ok(found) } else { Err(NoValueCause::Unknown(found.value)) }
+                let is_certain = !when || estimate.error < f64::INFINITY;
+                if is_certain { Ok(estimate) } else { Err(NoValueCause::Unknown(estimate.value)) }
             }
             ReductionKind::Mean | ReductionKind::Integral => {
                 let integral = self.integral.as_ref().filter(|integral| integral.time > 0.0);
@@ -133,13 +134,13 @@ impl FormulaReductions {
                     return Err(NoValueCause::Unbounded(t));
                 }
                 let divisor = if kind == ReductionKind::Mean { integral.time } else { 1.0 };
-                let found = integral.estimate();
-                let mean = Estimate { value: found.value / integral.time, error: found.error / integral.time };
+                let estimate = integral.estimate();
+                let mean = Estimate { value: estimate.value / integral.time, error: estimate.error / integral.time };
                 if self.is_uncertain(mean, integral.deviation(), self.scale(0.0)) {
                     return Err(integral.grows_at().map_or(NoValueCause::Unknown(from), NoValueCause::Unbounded));
                 }
-                let found = Estimate { value: found.value / divisor, error: found.error / divisor };
-                if found.value.is_finite() { Ok(found) } else { Err(NoValueCause::Unknown(from)) }
+                let estimate = Estimate { value: estimate.value / divisor, error: estimate.error / divisor };
+                if estimate.value.is_finite() { Ok(estimate) } else { Err(NoValueCause::Unknown(from)) }
             }
             ReductionKind::First => of_time(from),
             ReductionKind::Last => of_time(to),
@@ -164,8 +165,8 @@ impl FormulaReductions {
     /// Evaluates the formula at the only state of an analysis of a single time.
     pub fn evaluate_start(&mut self, state: &State, sampler: &mut StateSampler) {
         let point = self.curve.at(state.clone(), sampler);
-        let found = self.curve.estimate(&point);
-        self.times.iter_mut().for_each(|request| request.found = found);
+        let estimate = self.curve.estimate(&point);
+        self.times.iter_mut().for_each(|request| request.estimate = estimate);
     }
 
     /// Returns whether only values at single times are requested.
@@ -184,19 +185,19 @@ impl FormulaReductions {
 
     /// Returns the scale of the formula, from its values at the ends of steps.
     fn scale(&self, span: f64) -> Scale {
-        let low = self.samples.iter().map(|found| found.value).fold(f64::INFINITY, f64::min);
-        let high = self.samples.iter().map(|found| found.value).fold(f64::NEG_INFINITY, f64::max);
+        let low = self.samples.iter().map(|estimate| estimate.value).fold(f64::INFINITY, f64::min);
+        let high = self.samples.iter().map(|estimate| estimate.value).fold(f64::NEG_INFINITY, f64::max);
         // neither the few values near a pole nor zeros are typical of the rounding of the others, hence the median
-        let weights = self.samples.iter().map(|found| f64::max(found.error / ROUNDING, found.value.abs()));
+        let weights = self.samples.iter().map(|estimate| f64::max(estimate.error / ROUNDING, estimate.value.abs()));
         let weight = median(weights.filter(|weight| *weight > 0.0 && weight.is_finite()).collect());
         Scale { range: f64::max(high - low, 0.0), weight, span }
     }
 
     /// Returns whether no digit of an estimate is certain although its error is not small, relative to the samples, to their terms, and to
     /// `deviation`, the usual difference of values.
-    fn is_uncertain(&self, found: Estimate, deviation: f64, scale: Scale) -> bool {
-        let usual = median(self.samples.iter().map(|found| found.value.abs()).collect());
-        found.certain_digits() == 0 && found.error > SMALL * usual.max(scale.weight).max(deviation)
+    fn is_uncertain(&self, estimate: Estimate, deviation: f64, scale: Scale) -> bool {
+        let usual = median(self.samples.iter().map(|estimate| estimate.value.abs()).collect());
+        estimate.certain_digits() == 0 && estimate.error > SMALL * usual.max(scale.weight).max(deviation)
     }
 
     /// Evaluates the formula at the requested times that lie in a step.
@@ -259,9 +260,9 @@ impl FormulaReductions {
         self.curve.note_all(largest);
         let mut cells: Vec<Cell> = (0..steps.len()).filter_map(|step| self.cell(step, steps, sampler)).collect();
         // rounding depends on the largest magnitudes so far
-        for RequestedValue { point, found, .. } in &mut self.times {
+        for RequestedValue { point, estimate, .. } in &mut self.times {
             if let Some(point) = point {
-                *found = self.curve.estimate(point);
+                *estimate = self.curve.estimate(point);
             }
         }
         if cells.is_empty() {
@@ -296,8 +297,8 @@ impl FormulaReductions {
             for cell in &cells {
                 let [is_begin, is_end] = edges(&steps[cell.step], [cell.a.state.t, cell.b.state.t], window);
                 for (_, point) in [(is_begin, &cell.a), (is_end, &cell.b)].into_iter().filter(|(is_edge, _)| *is_edge) {
-                    let found = search.curve.estimate(point);
-                    extremum.note_edge(Estimate { value: point.state.t, error: point.shift.time }, found, scale);
+                    let estimate = search.curve.estimate(point);
+                    extremum.note_edge(Estimate { value: point.state.t, error: point.shift.time }, estimate, scale);
                 }
             }
             *kept = Some(search.search(&cells, samples, extremum, scale));
@@ -311,7 +312,7 @@ impl FormulaReductions {
             if let Some(spectral) = spectral {
                 *integral = Integral::from_estimate(spectral, window[1] - window[0]);
             } else {
-                let usual = median(samples.iter().map(|found| found.value).collect());
+                let usual = median(samples.iter().map(|estimate| estimate.value).collect());
                 search.integrate(&cells, usual, scale, integral);
             }
         }
@@ -362,8 +363,8 @@ impl FormulaReductions {
             for point in is_begin.then_some(&cell.a).into_iter().chain([&cell.b]) {
                 if point.exists() {
                     self.curve.note_arguments(point);
-                    let found = self.curve.estimate(point);
-                    self.samples.push(found);
+                    let estimate = self.curve.estimate(point);
+                    self.samples.push(estimate);
                 } else {
                     self.notes.iter_mut().for_each(|notes| notes.miss(point.state.t));
                 }

@@ -51,15 +51,15 @@ impl SmoothFormulas {
         &self.reductions
     }
 
-    /// Returns the value of a formula of parameters (SI) and of reductions, whose values are `found` by number; a missing one is NaN. The formula
-    /// comes with whether a condition over unknown values counts as false.
+    /// Returns the value of a formula of parameters (SI) and reductions; `reductions` holds the values of these by number, a missing one is NaN.
+    /// `unknown_is_false` makes conditions over unknown values false.
     #[must_use]
     pub fn value(
         system: &ConstraintSystem,
         (formula, unknown_is_false): (ExprId, bool),
         params: impl Fn(u32) -> f64,
-        found: &[f64],
+        reductions: &[f64],
     ) -> f64 {
-        value_of(system.graph(), formula, unknown_is_false, params, |k| found.get(k).copied().unwrap_or(f64::NAN))
+        value_of(system.graph(), formula, unknown_is_false, params, |k| reductions.get(k).copied().unwrap_or(f64::NAN))
     }
 }

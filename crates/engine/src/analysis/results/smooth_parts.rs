@@ -69,17 +69,17 @@ impl Smooth {
         system: &ConstraintSystem,
     ) -> (Graph, Vec<ExprId>, Smooth) {
         let kinds = kinds(graph, value, system);
-        let found = largest(graph, value, &kinds);
+        let parts = largest(graph, value, &kinds);
         let (mut local, mut imported) = (Graph::new(), FxHashMap::default());
         local.import_tables(graph, &mut imported, Graph::symbol);
-        let mut towers = Vec::with_capacity(found.len());
+        let mut towers = Vec::with_capacity(parts.len());
         let first = system.coordinates().len();
-        for (k, &SmoothPart { of, value, is_square, order }) in found.iter().enumerate() {
+        for (k, &SmoothPart { of, value, is_square, order }) in parts.iter().enumerate() {
             let stands = local.symbol(Symbol::Coordinate { index: (first + k) as u32, order });
             imported.insert(of, if is_square { local.unary(Unary::Sqrt, stands) } else { stands });
             towers.push(tower(graph, value, order, system.jerk().is_some()));
         }
-        let kinds: Vec<(usize, bool)> = found.iter().map(|found| (usize::from(found.order), found.is_square)).collect();
+        let kinds: Vec<(usize, bool)> = parts.iter().map(|part| (usize::from(part.order), part.is_square)).collect();
         let requested = [&[value], others].concat();
         local.import(graph, &requested, &mut imported, Graph::symbol);
         let formulas = requested.iter().map(|id| imported[id]).collect();
@@ -255,7 +255,7 @@ impl Kind {
 
 /// Returns the largest smooth parts of a formula, other than single coordinates.
 fn largest(graph: &mut Graph, value: ExprId, kinds: &FxHashMap<ExprId, Kind>) -> Vec<SmoothPart> {
-    let (mut found, mut open) = (Vec::new(), vec![value]);
+    let (mut parts, mut open) = (Vec::new(), vec![value]);
     let mut visited = rustc_hash::FxHashSet::default();
     while let Some(id) = open.pop() {
         let node = graph.node(id);
@@ -265,16 +265,16 @@ fn largest(graph: &mut Graph, value: ExprId, kinds: &FxHashMap<ExprId, Kind>) ->
         let whole = |order: u8| SmoothPart { of: id, value: id, is_square: false, order };
         match kinds[&id] {
             Kind::Constant => {}
-            Kind::Turn => found.push(whole(0)),
-            Kind::Smooth { order, .. } => found.push(whole(order)),
+            Kind::Turn => parts.push(whole(0)),
+            Kind::Smooth { order, .. } => parts.push(whole(order)),
             Kind::Other => match square(graph, node, kinds) {
-                Some((value, order)) => found.push(SmoothPart { value, is_square: true, ..whole(order) }),
+                Some((value, order)) => parts.push(SmoothPart { value, is_square: true, ..whole(order) }),
                 None => open.extend_from_slice(node.children().as_slice()),
             },
         }
     }
-    found.sort_unstable_by_key(|found| found.of);
-    found
+    parts.sort_unstable_by_key(|part| part.of);
+    parts
 }
 
 /// Returns the square of a length and its order, if the square is smooth.

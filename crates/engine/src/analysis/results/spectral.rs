@@ -71,19 +71,19 @@ impl SpectralIntegral {
             let values = self.values.iter().step_by(1 << (self.level - level));
             half * weights(level).iter().zip(values).map(|(weight, value)| weight * of(*value)).sum::<f64>()
         };
-        let [found, coarse, coarser] = [0, 1, 2].map(|less| sum(self.level - less, &|value| value));
-        let mean = found / (2.0 * half);
+        let [finest, coarse, coarser] = [0, 1, 2].map(|less| sum(self.level - less, &|value| value));
+        let mean = finest / (2.0 * half);
         let size = sum(self.level, &|value| (value - mean).abs());
         let largest = self.values.iter().fold(0.0, |largest: f64, value| largest.max(value.abs()));
         let ([change, before], rounding) =
-            ([found - coarse, coarse - coarser].map(f64::abs), ROUNDING * 2.0 * half * largest);
+            ([finest - coarse, coarse - coarser].map(f64::abs), ROUNDING * 2.0 * half * largest);
         // the number of certain digits grows in proportion to the number of samples
-        let off = if change < LESS * before { change * (change / before) } else { change };
-        if off <= (ACCURACY * size).max(rounding) {
-            let is_alike = (found - by_steps()).abs() <= (part * size).max(part * part * 2.0 * half * largest);
-            return if is_alike { Settled::Known([found, off + rounding]) } else { Settled::Lost };
+        let error = if change < LESS * before { change * (change / before) } else { change };
+        if error <= (ACCURACY * size).max(rounding) {
+            let is_alike = (finest - by_steps()).abs() <= (part * size).max(part * part * 2.0 * half * largest);
+            return if is_alike { Settled::Known([finest, error + rounding]) } else { Settled::Lost };
         }
-        if self.level == LAST || off.is_nan() {
+        if self.level == LAST || error.is_nan() {
             return Settled::Lost;
         }
         self.level += 1;
@@ -137,7 +137,7 @@ impl IntervalSearch<'_> {
             let by_steps = || cells.iter().map(|cell| self.rule_of_ends(&cell.a, &cell.b)).sum();
             match integral.go_on(ALIKE, by_steps) {
                 Settled::On => {}
-                Settled::Known([value, off]) => return Some(Estimate { value, error: off }),
+                Settled::Known([value, error]) => return Some(Estimate { value, error }),
                 Settled::Lost => return None,
             }
         }

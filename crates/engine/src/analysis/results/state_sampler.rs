@@ -195,21 +195,21 @@ impl StateSampler {
     }
 
     /// Returns a state within a segment if it differs from the dense output between both ends, or else `None`.
-    pub fn unlike(&mut self, segment: &SmoothSegment) -> Option<State> {
+    pub fn deviating_state(&mut self, segment: &SmoothSegment) -> Option<State> {
         let SmoothSegment { from, to, bridge: None, .. } = segment else { return None };
         let h = to.t - from.t;
         self.enter(segment);
         let within = self.solve(segment, [from, to], from.t + WITHIN * h)?;
         let x = (within.t - from.t) / h;
-        let is_unlike = |k: usize| {
+        let deviates = |k: usize| {
             let (a, b) = (from.tower(k), to.tower(k));
-            let off = |order: usize| ((b[order - 1] - a[order - 1]) / h - 0.5 * (a[order] + b[order])).abs();
+            let error = |order: usize| ((b[order - 1] - a[order - 1]) / h - 0.5 * (a[order] + b[order])).abs();
             // a coordinate at rest at zero is as accurate as one of the usual size
             let size = self.kinematics.system().coordinates()[k].scale.max(a[0].abs()).max(b[0].abs());
-            let allowed = h * h * off(2) + LITTLE * size;
+            let allowed = h * h * error(2) + LITTLE * size;
             (within.q[k] - along(&quintic_between(from, to, k, h), x)).abs() > allowed
         };
-        (0..within.q.len()).any(is_unlike).then_some(within)
+        (0..within.q.len()).any(deviates).then_some(within)
     }
 
     /// Returns the state at a time (s) between two states of a segment, or `None` if it cannot be solved for.

@@ -59,15 +59,15 @@ impl ResultQuery {
         at: f64,
         singular: &SingularIntervals,
     ) -> Result<Estimate, NoValueCause> {
-        let found = of.outcome(kind, at);
-        match found {
+        let outcome = of.outcome(kind, at);
+        match outcome {
             Err(
                 cause @ (NoValueCause::Missing(_)
                 | NoValueCause::Nowhere(_)
                 | NoValueCause::Unbounded(_)
                 | NoValueCause::Uncertain(_)),
             ) => Err(cause),
-            _ => self.check_rows(of, kind, at, singular).and(found),
+            _ => self.check_rows(of, kind, at, singular).and(outcome),
         }
     }
 

@@ -18,9 +18,9 @@ pub struct Cell {
     pub b: Rc<Point>,
     /// Deviations from a straight line in the cell: those of the second and third derivative of each moving quantity, or of its only available
     /// order; then those of the values of the formula and of the loads. `None` if they have not been computed yet.
-    bends: Option<Rc<[[f64; 2]]>>,
-    /// The length (s) of the cell that `bends` belongs to; this cell may be a part of it.
-    bends_length: f64,
+    deviations: Option<Rc<[[f64; 2]]>>,
+    /// The length (s) of the cell that `deviations` belongs to; this cell may be a part of it.
+    deviations_length: f64,
     /// The point in the middle, if it has been evaluated.
     pub middle: Option<Rc<Point>>,
 }
@@ -28,7 +28,14 @@ pub struct Cell {
 impl Cell {
     /// Returns the cell between two points, without bounds of the formula between them.
     pub fn new(step: usize, a: &Rc<Point>, b: &Rc<Point>) -> Cell {
-        Cell { step, a: Rc::clone(a), b: Rc::clone(b), bends: None, bends_length: f64::INFINITY, middle: None }
+        Cell {
+            step,
+            a: Rc::clone(a),
+            b: Rc::clone(b),
+            deviations: None,
+            deviations_length: f64::INFINITY,
+            middle: None,
+        }
     }
 
     /// Returns the length (s).
@@ -49,19 +56,23 @@ impl Cell {
 
     /// Returns the cell between two points of this one, with the bounds of this one.
     pub fn between(&self, a: &Rc<Point>, b: &Rc<Point>) -> Cell {
-        Cell { bends: self.bends.clone(), bends_length: self.bends_length, ..Cell::new(self.step, a, b) }
+        Cell {
+            deviations: self.deviations.clone(),
+            deviations_length: self.deviations_length,
+            ..Cell::new(self.step, a, b)
+        }
     }
 
     /// Stores the point in the middle, and measures there the deviations of quantities that have no derivatives.
     pub fn take_middle(&mut self, curve: &Curve, middle: Rc<Point>) {
-        self.bends = Some(curve.bends_at(self, &middle));
+        self.deviations = Some(curve.deviations_at(self, &middle));
         self.middle = Some(middle);
     }
 
     /// Divides the cell at a point.
     pub fn cut(&self, curve: &Curve, at: &Rc<Point>) -> [Cell; 2] {
-        let bends = Some(curve.bends_at(self, at));
-        [(&self.a, at), (at, &self.b)].map(|(a, b)| Cell { bends: bends.clone(), ..self.between(a, b) })
+        let deviations = Some(curve.deviations_at(self, at));
+        [(&self.a, at), (at, &self.b)].map(|(a, b)| Cell { deviations: deviations.clone(), ..self.between(a, b) })
     }
 }
 
@@ -90,7 +101,7 @@ impl Curve {
 
     /// Returns the classification and the range of the formula in a cell; crossings of the `ignored` guards do not count.
     pub fn enclose(&mut self, cell: &mut Cell, ignored: &[usize]) -> (Verdict, Range) {
-        (cell.bends, cell.bends_length) = (Some(self.bends_of(cell)), cell.length());
+        (cell.deviations, cell.deviations_length) = (Some(self.deviations_of(cell)), cell.length());
         self.set_cell(cell);
         let mut held = vec![false; self.guards.len()];
         for &guard in ignored {
@@ -111,17 +122,17 @@ impl Curve {
                 if *held || !(self.holds_forces || self.guards[k].is_live(&self.ranges)) {
                     continue;
                 }
-                let marks = [&cell.a, &cell.b].map(|point| point.marks[k]);
-                match self.guards[k].crossing(&self.ranges, marks) {
+                let states = [&cell.a, &cell.b].map(|point| point.guard_states[k]);
+                match self.guards[k].crossing(&self.ranges, states) {
                     // the function has no value on this side, and so neither has the formula
-                    Crossing::Never if !exists && self.guards[k].is_beyond_end(marks[0]) => {
+                    Crossing::Never if !exists && self.guards[k].is_beyond_end(states[0]) => {
                         return (Verdict::Missing, range);
                     }
                     Crossing::Never => {}
                     Crossing::Sure => return (Verdict::Crosses(k), range),
                     Crossing::Possible if self.is_monotone(k) => {
                         *held = true;
-                        monotone.push((k, marks[0].side));
+                        monotone.push((k, states[0].side));
                     }
                     Crossing::Possible => verdict = Verdict::Open(Some(k)),
                 }
@@ -154,9 +165,11 @@ impl Curve {
         let Curve { ranges, program, registers, loads, .. } = self;
         let range = ranges.range(program, registers, 0);
         let is_resolved = range.is_resolved && is_smooth;
-        let Some(bends) = cell.bends.as_ref().map(|bends| &bends[self.moving.len()..]) else { return range };
+        let Some(deviations) = cell.deviations.as_ref().map(|deviations| &deviations[self.moving.len()..]) else {
+            return range;
+        };
         let by_values = || {
-            let [low, high] = around(cell.a.sample.value, cell.b.sample.value, bends[0][0]);
+            let [low, high] = around(cell.a.sample.value, cell.b.sample.value, deviations[0][0]);
             Range { low: range.low.max(low), high: range.high.min(high), ..range }
         };
         if !self.holds_forces {
@@ -164,7 +177,7 @@ impl Curve {
             let is_short = cell.length() <= self.short && cell.a.exists() && cell.b.exists();
             return if is_short && is_resolved { by_values() } else { range };
         }
-        let bounds = |k: usize| around(cell.a.loads[k], cell.b.loads[k], bends[1 + k][0]);
+        let bounds = |k: usize| around(cell.a.loads[k], cell.b.loads[k], deviations[1 + k][0]);
         let up_to = |most: f64| Range { low: -most, high: most, is_resolved: false, ..range };
         match loads.hidden(program, registers, ranges, bounds) {
             Hidden::Unbounded => up_to(f64::INFINITY),
@@ -184,16 +197,16 @@ impl Curve {
         let h = cell.length();
         self.ranges.release();
         self.ranges.set_times([cell.a.state.t, cell.b.state.t]);
-        let Some(bends) = &cell.bends else { return };
+        let Some(deviations) = &cell.deviations else { return };
         let ends = cell.a.moving.iter().zip(&cell.b.moving);
-        for ((of, (a, b)), bends) in self.moving.iter().zip(ends).zip(bends.iter()) {
+        for ((of, (a, b)), deviations) in self.moving.iter().zip(ends).zip(deviations.iter()) {
             let registers = of.registers(&self.program.inputs);
             if of.is_of_forces() {
-                registers.into_iter().flatten().for_each(|at| self.ranges.set(at, around(a[0], b[0], bends[0])));
+                registers.into_iter().flatten().for_each(|at| self.ranges.set(at, around(a[0], b[0], deviations[0])));
                 continue;
             }
-            let third = around(a[3], b[3], bends[1]);
-            let second = around(a[2], b[2], bends[0]);
+            let third = around(a[3], b[3], deviations[1]);
+            let second = around(a[2], b[2], deviations[0]);
             let first = between(a[1], b[1], second, h);
             let mut ranges = [between(a[0], b[0], first, h), first, second, third];
             if let Some(order) = self.order_of_square(*of) {
@@ -215,37 +228,38 @@ impl Curve {
         }
     }
 
-    /// Returns [`Cell::bends`] of a cell: the deviations of second and third derivatives follow from the lower derivatives at both ends.
-    fn bends_of(&self, cell: &Cell) -> Rc<[[f64; 2]]> {
+    /// Returns [`Cell::deviations`] of a cell: the deviations of second and third derivatives follow from the lower derivatives at both ends.
+    fn deviations_of(&self, cell: &Cell) -> Rc<[[f64; 2]]> {
         let h = cell.length();
-        let previous = |k: usize| cell.bends.as_ref().map_or([f64::INFINITY; 2], |bends| bends[k]);
+        let previous = |k: usize| cell.deviations.as_ref().map_or([f64::INFINITY; 2], |deviations| deviations[k]);
         // in very short cells differences are rounding; the deviation in a part of a cell falls with the square of its length
-        let part = h / cell.bends_length;
+        let part = h / cell.deviations_length;
         let less = f64::min(LESS * part * part, 1.0);
         let of = |(k, of): (usize, &Moving)| {
             let (a, b) = (&cell.a.moving[k], &cell.b.moving[k]);
             let error = |order: usize| ((b[order - 1] - a[order - 1]) / h - 0.5 * (a[order] + b[order])).abs();
-            let bends = match self.orders(*of) {
+            let deviations = match self.orders(*of) {
                 [from, to] if from == to => return previous(k),
                 [2, _] => [h * (0.125 * (b[3] - a[3]).abs() + error(3)), 2.0 * error(3)],
                 [_, 3] => [error(2) + h * (0.125 * (b[3] - a[3]).abs() + error(3)), 2.0 * error(3)],
                 _ => [2.0 * error(2), 0.0],
             };
-            [0, 1]
-                .map(|order| f64::min(bends[order], if less > 0.0 { less * previous(k)[order] } else { f64::INFINITY }))
+            [0, 1].map(|order| {
+                f64::min(deviations[order], if less > 0.0 { less * previous(k)[order] } else { f64::INFINITY })
+            })
         };
         let values = (self.moving.len()..self.moving.len() + 1 + self.loads.count()).map(previous);
         self.moving.iter().enumerate().map(of).chain(values).collect()
     }
 
-    /// Returns [`Cell::bends`] of both parts of a cell divided at a point, where quantities with a single available order are measured.
-    fn bends_at(&self, cell: &Cell, at: &Point) -> Rc<[[f64; 2]]> {
+    /// Returns [`Cell::deviations`] of both parts of a cell divided at a point, where quantities with a single available order are measured.
+    fn deviations_at(&self, cell: &Cell, at: &Point) -> Rc<[[f64; 2]]> {
         let (a, b) = (&*cell.a, &*cell.b);
         let x = (at.state.t - a.state.t) / (b.state.t - a.state.t);
         let error = |of: &dyn Fn(&Point) -> f64| (of(at) - (1.0 - x) * of(a) - x * of(b)).abs();
         let of_moving = |(k, of): (usize, &Moving)| match self.orders(*of) {
             [order, to] if order == to => [error(&|point: &Point| point.moving[k][order]); 2],
-            _ => cell.bends.as_ref().map_or([f64::INFINITY; 2], |bends| bends[k]),
+            _ => cell.deviations.as_ref().map_or([f64::INFINITY; 2], |deviations| deviations[k]),
         };
         let local = [error(&|point: &Point| point.sample.value); 2];
         let of_loads = (0..self.loads.count()).map(|k| [error(&|point: &Point| point.loads[k]); 2]);
@@ -253,8 +267,8 @@ impl Curve {
     }
 }
 
-/// Returns the interval between two values, widened by [`SAFETY`] times `bend` on both sides.
-fn around(a: f64, b: f64, bend: f64) -> [f64; 2] {
-    let beyond = SAFETY * bend;
+/// Returns the interval between two values, widened by [`SAFETY`] times `deviation` on both sides.
+fn around(a: f64, b: f64, deviation: f64) -> [f64; 2] {
+    let beyond = SAFETY * deviation;
     [a.min(b) - beyond, a.max(b) + beyond]
 }
