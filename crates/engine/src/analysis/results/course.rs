@@ -98,9 +98,9 @@ impl Course<'_> {
                 }
             }
         }
-        let is_alone = best.value - best.error - best.others >= MARGIN * range;
+        let is_unique = best.value - best.error - best.others >= MARGIN * range;
         let is_finite = self.towers.as_flattened().iter().all(|value| value.is_finite());
-        best.place.filter(|_| range > 0.0 && is_alone && is_finite)
+        best.place.filter(|_| range > 0.0 && is_unique && is_finite)
     }
 
     /// Returns the cells between steps: the towers at both ends, and their times (s).

@@ -109,9 +109,9 @@ impl Moving {
         matches!(self, Moving::Multiplier(_) | Moving::VariedMultiplier { .. })
     }
 
-    /// Returns the registers of the quantity and its time derivatives; `None` for a derivative that does not exist.
-    fn registers(self, inputs: &Inputs) -> [Option<Register>; 4] {
-        match self {
+    /// Returns the registers of the quantity and its existing time derivatives, with their orders.
+    fn registers(self, inputs: &Inputs) -> impl Iterator<Item = (usize, Register)> + use<> {
+        let registers = match self {
             Moving::Coordinate(index) => inputs.coordinates.map(|first| Some(first + index as Register)),
             Moving::Multiplier(row) => [Some(inputs.multipliers + row as Register), None, None, None],
             Moving::VariedMultiplier { variation, row } => {
@@ -119,7 +119,8 @@ impl Moving {
             }
             Moving::Varied { variation, index } => [0, 1, 2, 3]
                 .map(|order| (order < VARIED_ORDERS).then(|| inputs.varied(variation, order) + index as Register)),
-        }
+        };
+        registers.into_iter().enumerate().filter_map(|(order, register)| Some((order, register?)))
     }
 }
 
@@ -384,11 +385,7 @@ impl Curve {
                 Moving::Coordinate(k) if k >= self.coordinates => self.smooth.ranges(k - self.coordinates),
                 _ => ranges,
             };
-            for (register, range) in of.registers(&inputs).into_iter().zip(ranges) {
-                if let Some(register) = register {
-                    self.ranges.set(register, range);
-                }
-            }
+            of.registers(&inputs).for_each(|(order, register)| self.ranges.set(register, ranges[order]));
         }
     }
 
@@ -460,11 +457,7 @@ impl Curve {
         let inputs = self.program.inputs;
         self.registers.set(inputs.time, t);
         for (of, values) in self.moving.iter().zip(moving) {
-            for (register, value) in of.registers(&inputs).into_iter().zip(values) {
-                if let Some(register) = register {
-                    self.registers.set(register, *value);
-                }
-            }
+            of.registers(&inputs).for_each(|(order, register)| self.registers.set(register, values[order]));
         }
         self.program.run_operations(&self.operations, &mut self.registers);
     }

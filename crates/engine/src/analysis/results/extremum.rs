@@ -408,7 +408,7 @@ impl IntervalSearch<'_> {
             }
         }
         let slopes = ends.map(|point| sign * point.sample.first);
-        let goes_on = (slopes[0] > 0.0 && slopes[1] > 0.0) || (slopes[0] < 0.0 && slopes[1] < 0.0);
+        let is_monotone = (slopes[0] > 0.0 && slopes[1] > 0.0) || (slopes[0] < 0.0 && slopes[1] < 0.0);
         let step = (ends[0].sample.value - ends[1].sample.value).abs();
         for (point, other, outward) in [(&cell.a, &cell.b, -1.0), (&cell.b, &cell.a, 1.0)] {
             // a value at the threshold that belongs to neither side does not count
@@ -421,7 +421,7 @@ impl IntervalSearch<'_> {
                 continue;
             }
             let estimate = self.curve.estimate(point);
-            if goes_on && step <= scale.gap(GAP) {
+            if is_monotone && step <= scale.gap(GAP) {
                 extremum.record(point.state.t, estimate);
             } else {
                 let error = cell.length().max(point.shift.time).max(point.crossing_error);
@@ -447,8 +447,8 @@ impl IntervalSearch<'_> {
     fn converges_to(&mut self, value: f64, cell: &Cell, scale: Scale) -> bool {
         [(&cell.a, -1.0), (&cell.b, 1.0)].into_iter().any(|(point, direction)| {
             self.samples_near(cell.step, point, direction, cell.length(), scale).is_some_and(|[near, far, _]| {
-                let [left, before] = [near, far].map(|sample| (sample.value - value).abs());
-                left <= CONVERGES * before + near.error + far.error
+                let [remaining, before] = [near, far].map(|sample| (sample.value - value).abs());
+                remaining <= CONVERGES * before + near.error + far.error
             })
         })
     }
@@ -457,13 +457,11 @@ impl IntervalSearch<'_> {
     /// to the next does not shrink, while their distances from the cell shrink by equal factors.
     fn record_growth(&mut self, cell: &Cell, extremum: &mut Extremum, scale: Scale) {
         for (point, direction) in [(&cell.a, -1.0), (&cell.b, 1.0)] {
-            let Some(candidates) = self.samples_near(cell.step, point, direction, cell.length(), scale) else {
-                continue;
-            };
+            let samples = self.samples_near(cell.step, point, direction, cell.length(), scale);
+            let Some([near, middle, far]) = samples else { continue };
             let gain =
                 |near: Estimate, far: Estimate| (extremum.sign * (near.value - far.value), near.error + far.error);
-            let ((last, error), (before, error_before)) =
-                (gain(candidates[0], candidates[1]), gain(candidates[1], candidates[2]));
+            let ((last, error), (before, error_before)) = (gain(near, middle), gain(middle, far));
             if before > error_before && error <= before && last + error >= CONVERGES * before {
                 extremum.unbounded = Some(cell.b.state.t);
             }
@@ -561,11 +559,8 @@ impl IntervalSearch<'_> {
         let error = self.curve.uncertainty(near);
         let refined = self.refined_turn(cell.step, &near.state, t, scale.span);
         let [t, value] = refined.unwrap_or([t, near.sample.value]);
-        let value = extremum.sign * value;
-        extremum.add(
-            Candidate { t, time_error: 0.0, value, error, lower: value - error, kind: CandidateKind::Turn },
-            scale,
-        );
+        let (value, kind) = (extremum.sign * value, CandidateKind::Turn);
+        extremum.add(Candidate { t, time_error: 0.0, value, error, lower: value - error, kind }, scale);
     }
 
     /// Returns the time (s) and the value of a turn near a state and a time, refined on a grid so that they do not depend on the start; `None` if
@@ -605,10 +600,8 @@ impl IntervalSearch<'_> {
         let is_small = upper <= f64::max(a, b).min(extremum.best) + scale.gap(GAP_OF_VALUES);
         if is_small && f64::max(a, b) >= extremum.best - scale.tolerance() {
             let (point, value) = if b > a { (&cell.b, b) } else { (&cell.a, a) };
-            let error = scale.gap(GAP_OF_VALUES);
-            let t = point.state.t;
-            extremum
-                .add(Candidate { t, time_error: 0.0, value, error, lower: value, kind: CandidateKind::Sample }, scale);
+            let (t, error, kind) = (point.state.t, scale.gap(GAP_OF_VALUES), CandidateKind::Sample);
+            extremum.add(Candidate { t, time_error: 0.0, value, error, lower: value, kind }, scale);
             if let Some(top) = self.top_near(cell, point, extremum.sign, scale) {
                 extremum.add(top, scale);
             }
@@ -620,10 +613,10 @@ impl IntervalSearch<'_> {
     /// three points, whose distance is the length of the cell at first and then decreases.
     fn top_near(&mut self, cell: &Cell, near: &Rc<Point>, sign: f64, scale: Scale) -> Option<Candidate> {
         let [from, to] = [&self.steps[cell.step].from, &self.steps[cell.step].to].map(|state| state.t);
-        let (mut t, mut apart) = (near.state.t, cell.length());
+        let (mut t, mut distance) = (near.state.t, cell.length());
         let (rounding, finest) = (scale.gap(0.0), FINEST * scale.span);
         for fit in 0.. {
-            let h = apart.min(0.5 * (to - from));
+            let h = distance.min(0.5 * (to - from));
             let center = t.clamp(from + h, (to - h).max(from + h));
             let [before, middle, behind] = self.values_at(cell.step, [center - h, center, center + h], sign)?;
             let (rise, curvature) = (0.5 * (behind - before), behind - 2.0 * middle + before);
@@ -639,10 +632,10 @@ impl IntervalSearch<'_> {
                 return None;
             }
             t = (center + offset * h).clamp(from, to);
-            if apart <= finest {
+            if distance <= finest {
                 break;
             }
-            apart = finest.max(CLOSER * apart);
+            distance = finest.max(CLOSER * distance);
         }
         let [value] = self.values_at(cell.step, [t], sign)?;
         let error = scale.gap(GAP_OF_VALUES);

@@ -221,13 +221,13 @@ impl Analysis {
         let mut all: Vec<FormulaReductions> =
             all.into_iter().map(|(curve, window)| FormulaReductions::new(curve, window.map(f64::from_bits))).collect();
         for (request, &of) in requests.iter().zip(&curve_of) {
-            all[of].request(request.kind, request.at);
+            all[of].request(request);
         }
         self.evaluate(&mut all, &mut sampler)?;
         self.sampler = Some(sampler);
-        for (Request { k, kind, at }, of) in requests.into_iter().zip(curve_of) {
-            self.estimates[k] = Some(self.query.certain_estimate(&all[of], kind, at, &self.singular));
-            self.missing[k] = all[of].missing(kind);
+        for (request, of) in requests.iter().zip(curve_of) {
+            self.estimates[request.k] = Some(self.query.certain_estimate(&all[of], request, &self.singular));
+            self.missing[request.k] = all[of].missing(request.kind);
         }
         Ok(())
     }
@@ -270,7 +270,7 @@ impl Analysis {
                 push_step(&mut steps, step);
             }
             if is_end && span <= 0.0 {
-                sampler.enter_where(&motion.switches());
+                sampler.set_variation_switches(&motion.switches());
                 for reduced in all.iter_mut() {
                     reduced.evaluate_start(motion.here(), sampler);
                 }

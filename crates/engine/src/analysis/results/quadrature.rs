@@ -148,8 +148,8 @@ impl IntervalSearch<'_> {
                 error += part.error;
                 size += if part.error.is_finite() { (part.sum - usual * part.length).abs() } else { 0.0 };
             }
-            let is_far_off = error > f64::max(ACCURACY * size, ROUNDING * scale.weight * scale.span).max(NOTHING);
-            is_far_off && integral.unbounded_with(size).is_none()
+            let is_inaccurate = error > f64::max(ACCURACY * size, ROUNDING * scale.weight * scale.span).max(NOTHING);
+            is_inaccurate && integral.unbounded_with(size).is_none()
         };
         // the total error is computed only after several parts have been refined
         let mut left = 0;
@@ -187,9 +187,9 @@ impl IntervalSearch<'_> {
                 continue;
             }
             if h <= POLE_DISTANCE * integral.span
-                && let Some([sum, error]) = self.integrate_near_pole(&cell)
+                && let Some(estimate) = self.integrate_near_pole(&cell)
             {
-                integral.add(sum, error, h);
+                integral.add(estimate.value, estimate.error, h);
                 continue;
             }
             let (verdict, range) = self.enclose(&mut cell);
@@ -263,15 +263,16 @@ impl IntervalSearch<'_> {
         }
         let growth = self.growth_into(cell, integral.usual);
         if growth > LEAST_GROWTH && !finite.is_empty() {
-            let held = largest * h.max(hidden);
-            if growth >= pow(2.0, STEEPEST) && held > integral.steepest[0] {
-                integral.steepest = [held, cell.a.state.t];
+            let contribution = largest * h.max(hidden);
+            if growth >= pow(2.0, STEEPEST) && contribution > integral.steepest[0] {
+                integral.steepest = [contribution, cell.a.state.t];
             }
             // a longer cell comes here because all its values may be rounding
             let part = if self.is_shortest(cell) { PART_OF_POLE } else { 1.0 };
             // values hidden by rounding grow by the same power
-            let grown = if hidden > h { held / (1.0 - log10(growth) / log10(2.0)).max(1.0 - STEEPEST) } else { 0.0 };
-            integral.add(0.0, f64::max(part * h * largest, grown), h);
+            let hidden_part =
+                if hidden > h { contribution / (1.0 - log10(growth) / log10(2.0)).max(1.0 - STEEPEST) } else { 0.0 };
+            integral.add(0.0, f64::max(part * h * largest, hidden_part), h);
         } else if !finite.is_empty() {
             integral.add(h * finite.iter().sum::<f64>() / finite.len() as f64, 2.0 * h * largest, h);
         }
@@ -300,7 +301,7 @@ impl IntervalSearch<'_> {
 
     /// Returns the integral over a short cell with a pole at one end, and its error bound. The formula is a power of the distance from the pole, by
     /// its values at three distances. Returns `None` if it is not.
-    fn integrate_near_pole(&mut self, cell: &Cell) -> Option<[f64; 2]> {
+    fn integrate_near_pole(&mut self, cell: &Cell) -> Option<Estimate> {
         let size = |point: &Point| if point.exists() { point.sample.value.abs() } else { f64::INFINITY };
         let (pole, far) = if size(&cell.a) > size(&cell.b) { (&cell.a, &cell.b) } else { (&cell.b, &cell.a) };
         if size(pole) < LEAST_GROWTH * size(far) {
@@ -316,8 +317,9 @@ impl IntervalSearch<'_> {
         if !(LEAST_GROWTH..pow(2.0, STEEPEST)).contains(&farther) || differs > ALIKE || power.is_nan() {
             return None;
         }
-        let sum = distance.abs() * whole / (1.0 - power);
-        Some([sum, sum.abs() * (differs + f64::EPSILON * t.abs() / distance.abs()) / (1.0 - power)])
+        let value = distance.abs() * whole / (1.0 - power);
+        let error = value.abs() * (differs + f64::EPSILON * t.abs() / distance.abs()) / (1.0 - power);
+        Some(Estimate { value, error })
     }
 
     /// Returns the integral over a cell from its halves, with an error bound.
@@ -328,10 +330,10 @@ impl IntervalSearch<'_> {
         let whole = self.rule_of_ends(&cell.a, &cell.b);
         let parts = self.rule_of_ends(&halves[0].a, &halves[0].b) + self.rule_of_ends(&halves[1].a, &halves[1].b);
         // Richardson extrapolation from the whole cell and its halves
-        let gained = if self.curve.derivatives() == 1 { 15.0 } else { 63.0 };
-        let better = (parts - whole) / gained;
-        if better.is_finite() {
-            return Estimate { value: parts + better, error: SAFETY * better.abs() };
+        let factor = if self.curve.derivatives() == 1 { 15.0 } else { 63.0 };
+        let correction = (parts - whole) / factor;
+        if correction.is_finite() {
+            return Estimate { value: parts + correction, error: SAFETY * correction.abs() };
         }
         let middle = halves[0].b.sample.value;
         let value = 0.25 * cell.length() * (cell.a.sample.value + 2.0 * middle + cell.b.sample.value);

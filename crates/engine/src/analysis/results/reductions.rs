@@ -1,5 +1,6 @@
 //! A formula along the whole motion, and its requested reductions.
 
+use super::Request;
 use super::curve::{Cell, Curve, Estimate, Point};
 use super::extremum::Extremum;
 use super::interval_search::{IntervalSearch, NoValueCause, Notes, Scale};
@@ -55,15 +56,15 @@ impl FormulaReductions {
         }
     }
 
-    /// Adds a reduction; `at` is the time (s) of [`ReductionKind::At`].
-    pub fn request(&mut self, kind: ReductionKind, at: f64) {
+    /// Adds a reduction.
+    pub fn request(&mut self, request: &Request) {
         let ([from, to], is_moment) = (self.window, self.is_moment());
         let mut time = |t: f64| {
             if self.times.iter().all(|other| other.t.total_cmp(&t).is_ne()) {
                 self.times.push(RequestedValue { t, point: None, estimate: Estimate::NOTHING });
             }
         };
-        match kind {
+        match request.kind {
             // in a window of a single time these reductions are the value
             ReductionKind::Extreme { .. } | ReductionKind::Mean if is_moment => time(from),
             ReductionKind::Extreme { largest, when } => {
@@ -74,7 +75,7 @@ impl FormulaReductions {
             ReductionKind::Mean | ReductionKind::Integral => self.integral = Some(Integral::default()),
             ReductionKind::First => time(from),
             ReductionKind::Last => time(to),
-            ReductionKind::At(_) => time(at),
+            ReductionKind::At(_) => time(request.at),
         }
     }
 
@@ -83,8 +84,8 @@ impl FormulaReductions {
         self.window[1] <= self.window[0]
     }
 
-    /// Returns the estimate of a reduction, or why it has no value; `at` is the time (s) of [`ReductionKind::At`].
-    pub fn outcome(&self, kind: ReductionKind, at: f64) -> Result<Estimate, NoValueCause> {
+    /// Returns the estimate of a reduction, or why it has no value.
+    pub fn outcome(&self, &Request { kind, at, .. }: &Request) -> Result<Estimate, NoValueCause> {
         let [from, to] = self.window;
         if let Some(cause) = self.notes_of(kind).and_then(|notes| notes.cause) {
             return Err(cause);

@@ -75,8 +75,8 @@ impl Smooth {
         let mut towers = Vec::with_capacity(parts.len());
         let first = system.coordinates().len();
         for (k, &SmoothPart { of, value, is_square, order }) in parts.iter().enumerate() {
-            let stands = local.symbol(Symbol::Coordinate { index: (first + k) as u32, order });
-            imported.insert(of, if is_square { local.unary(Unary::Sqrt, stands) } else { stands });
+            let symbol = local.symbol(Symbol::Coordinate { index: (first + k) as u32, order });
+            imported.insert(of, if is_square { local.unary(Unary::Sqrt, symbol) } else { symbol });
             towers.push(tower(graph, value, order, system.jerk().is_some()));
         }
         let kinds: Vec<(usize, bool)> = parts.iter().map(|part| (usize::from(part.order), part.is_square)).collect();

@@ -35,7 +35,7 @@ pub(super) struct StateSampler {
     /// The derivatives by inputs and parameters, if results need any.
     sensitivities: Option<Sensitivities>,
     /// The start (s) of the segment.
-    begins: f64,
+    start: f64,
     /// The solved states by the start of their segment and by time: several formulas request the same ones.
     solved: FxHashMap<[u64; 2], Solved>,
     /// The key of the state whose multipliers were computed last; `None` if `kinematics` holds them.
@@ -55,10 +55,7 @@ impl StateSampler {
         let (program, values) = kinematics.program();
         let signals = Ranges::new(program, values, &registers, Stage::Time, true);
         let first = (kinematics.clone(), solver.clone());
-        let solver = solver.map(|solver| {
-            let alone = SingleRow::new(&kinematics, &solver);
-            (solver, alone)
-        });
+        let solver = solver.map(|solver| (Arc::clone(&solver), SingleRow::new(&kinematics, &solver)));
         StateSampler {
             curve: vec![[0.0; 6]; n],
             delta: vec![0.0; n],
@@ -72,7 +69,7 @@ impl StateSampler {
             sensitivities: Sensitivities::from_motion(&kinematics),
             chosen: None,
             first,
-            begins: f64::NAN,
+            start: f64::NAN,
             solved: FxHashMap::default(),
             with_multipliers: None,
             kinematics,
@@ -90,9 +87,9 @@ impl StateSampler {
         self.kinematics.freeze(true, true);
         self.kinematics.set_switches(&segment.switches);
         self.has_bounds = false;
-        self.begins = segment.from.t;
+        self.start = segment.from.t;
         self.bridge = segment.bridge.as_ref().map_or([f64::NAN; 2], |bridge| [bridge.from.t, bridge.to.t]);
-        self.enter_where(&segment.switches);
+        self.set_variation_switches(&segment.switches);
     }
 
     /// Switches to the equations of a segment.
@@ -119,7 +116,7 @@ impl StateSampler {
     }
 
     /// Sets the results of the equations' switches for variations only.
-    pub fn enter_where(&mut self, switches: &[f64]) {
+    pub fn set_variation_switches(&mut self, switches: &[f64]) {
         if let Some(sensitivities) = &mut self.sensitivities {
             sensitivities.set_switches(switches);
         }
@@ -160,7 +157,7 @@ impl StateSampler {
     }
 
     fn key(&self, t: f64) -> [u64; 2] {
-        [self.begins, t].map(f64::to_bits)
+        [self.start, t].map(f64::to_bits)
     }
 
     /// Returns the row of the selected equations for a row of those at the start, or `None` if it is left out.
@@ -240,7 +237,7 @@ impl StateSampler {
         for (k, curve) in self.curve.iter_mut().enumerate() {
             *curve = quintic_between(a, b, k, h);
         }
-        let state = self.solve_by_lanes(segment, a, t, h)?;
+        let state = self.solve_row(segment, a, t, h)?;
         if self.solved.len() * (1 + state.q.len()) > NUMBERS {
             self.solved.clear();
         }
@@ -259,23 +256,23 @@ impl StateSampler {
         for (k, curve) in self.curve.iter_mut().enumerate() {
             *curve = [near.q[k], near.qd[k] * h, 0.5 * near.qdd[k] * h * h, 0.0, 0.0, 0.0];
         }
-        self.solve_by_lanes(segment, near, t, h)
+        self.solve_row(segment, near, t, h)
     }
 
     /// Solves for the state at a time (s) of the segment as rows do, from `curve`, which begins at a state and has the length `h` (s). Returns
     /// `None` if the equations do not hold there.
-    fn solve_by_lanes(&mut self, segment: &SmoothSegment, from: &State, t: f64, h: f64) -> Option<State> {
+    fn solve_row(&mut self, segment: &SmoothSegment, from: &State, t: f64, h: f64) -> Option<State> {
         if !self.has_bounds {
             self.kinematics.restore(&segment.from);
             self.kinematics.write_bounds(&mut self.bounds);
             self.has_bounds = true;
         }
-        let (solver, alone) = self.solver.as_mut()?;
+        let (solver, single) = self.solver.as_mut()?;
         let batch = Batch { times: [t], from: from.t, length: h, curve: &self.curve, bends: &[], bounds: &self.bounds };
-        let holds = alone.solve(&self.kinematics, solver, &batch);
+        let holds = single.solve(&self.kinematics, solver, &batch);
         let layout = solver.layout();
-        let is_finite = layout.position(alone.row()).iter().all(|x| x.is_finite());
-        (holds && is_finite).then(|| state_of_row(layout, alone.row(), from, t))
+        let is_finite = layout.position(single.row()).iter().all(|x| x.is_finite());
+        (holds && is_finite).then(|| state_of_row(layout, single.row(), from, t))
     }
 
     /// Solves for a state by Newton's method from a position. Returns `None` if it does not converge, or if the nearness to a singular position is

@@ -1,9 +1,9 @@
 //! The validity of results near singular positions: a result is not reported if it depends on a time at which a row would be refused.
 
-use super::ResultQuery;
 use super::curve::Estimate;
 use super::interval_search::NoValueCause;
 use super::reductions::FormulaReductions;
+use super::{Request, ResultQuery};
 use crate::analysis::follow::{Follower, SmoothSegment};
 use crate::analysis::state::Times;
 use mechc_ir::ReductionKind;
@@ -50,16 +50,14 @@ impl SingularIntervals {
 }
 
 impl ResultQuery {
-    /// Returns the estimate of a reduction if it is as reliable as the rows at its times, or why it has no value. `at` is the time (s) of
-    /// [`ReductionKind::At`].
+    /// Returns the estimate of a reduction if it is as reliable as the rows at its times, or why it has no value.
     pub(super) fn certain_estimate(
         &self,
         of: &FormulaReductions,
-        kind: ReductionKind,
-        at: f64,
+        request: &Request,
         singular: &SingularIntervals,
     ) -> Result<Estimate, NoValueCause> {
-        let outcome = of.outcome(kind, at);
+        let outcome = of.outcome(request);
         match outcome {
             Err(
                 cause @ (NoValueCause::Missing(_)
@@ -67,7 +65,7 @@ impl ResultQuery {
                 | NoValueCause::Unbounded(_)
                 | NoValueCause::Uncertain(_)),
             ) => Err(cause),
-            _ => self.check_rows(of, kind, at, singular).and(outcome),
+            _ => self.check_rows(of, request, singular).and(outcome),
         }
     }
 
@@ -78,15 +76,14 @@ impl ResultQuery {
     fn check_rows(
         &self,
         of: &FormulaReductions,
-        kind: ReductionKind,
-        at: f64,
+        request: &Request,
         singular: &SingularIntervals,
     ) -> Result<(), NoValueCause> {
         if singular.is_clear() || !of.curve.moves() {
             return Ok(());
         }
         let [from, to] = of.window;
-        let time = match kind {
+        let time = match request.kind {
             // integrals of positions are accurate near singular positions, those of rates may not be
             ReductionKind::Mean | ReductionKind::Integral if of.curve.holds_rates => {
                 return self.check_rows_at(singular.ends().into_iter().filter(|t| from <= *t && *t <= to).collect());
@@ -95,7 +92,7 @@ impl ResultQuery {
             ReductionKind::Extreme { largest, .. } => of.time_of_extreme(largest),
             ReductionKind::First => from,
             ReductionKind::Last => to,
-            ReductionKind::At(_) => at,
+            ReductionKind::At(_) => request.at,
         };
         if singular.contains(time) { self.check_rows_at(vec![time]) } else { Ok(()) }
     }

@@ -1,8 +1,8 @@
 //! The range of a formula between two states, and whether its guards cross their thresholds there.
 
-use super::super::guards::Crossing;
-use super::super::loads::Hidden;
 use super::{Curve, Moving, Point};
+use crate::analysis::results::guards::Crossing;
+use crate::analysis::results::loads::Hidden;
 use mechc_expr::math::between;
 use mechc_ir::program::Range;
 use mechc_ir::tolerances::results::curve::{LESS, SAFETY};
@@ -20,7 +20,7 @@ pub struct Cell {
     /// order; then those of the values of the formula and of the loads. `None` if they have not been computed yet.
     deviations: Option<Rc<[[f64; 2]]>>,
     /// The length (s) of the cell that `deviations` belongs to; this cell may be a part of it.
-    deviations_length: f64,
+    measured_length: f64,
     /// The point in the middle, if it has been evaluated.
     pub middle: Option<Rc<Point>>,
 }
@@ -28,14 +28,8 @@ pub struct Cell {
 impl Cell {
     /// Returns the cell between two points, without bounds of the formula between them.
     pub fn new(step: usize, a: &Rc<Point>, b: &Rc<Point>) -> Cell {
-        Cell {
-            step,
-            a: Rc::clone(a),
-            b: Rc::clone(b),
-            deviations: None,
-            deviations_length: f64::INFINITY,
-            middle: None,
-        }
+        let (a, b) = (Rc::clone(a), Rc::clone(b));
+        Cell { step, a, b, deviations: None, measured_length: f64::INFINITY, middle: None }
     }
 
     /// Returns the length (s).
@@ -56,11 +50,8 @@ impl Cell {
 
     /// Returns the cell between two points of this one, with the bounds of this one.
     pub fn between(&self, a: &Rc<Point>, b: &Rc<Point>) -> Cell {
-        Cell {
-            deviations: self.deviations.clone(),
-            deviations_length: self.deviations_length,
-            ..Cell::new(self.step, a, b)
-        }
+        let (deviations, measured_length) = (self.deviations.clone(), self.measured_length);
+        Cell { deviations, measured_length, ..Cell::new(self.step, a, b) }
     }
 
     /// Stores the point in the middle, and measures there the deviations of quantities that have no derivatives.
@@ -101,7 +92,7 @@ impl Curve {
 
     /// Returns the classification and the range of the formula in a cell; crossings of the `ignored` guards do not count.
     pub fn enclose(&mut self, cell: &mut Cell, ignored: &[usize]) -> (Verdict, Range) {
-        (cell.deviations, cell.deviations_length) = (Some(self.deviations_of(cell)), cell.length());
+        (cell.deviations, cell.measured_length) = (Some(self.deviations_of(cell)), cell.length());
         self.set_cell(cell);
         let mut held = vec![false; self.guards.len()];
         for &guard in ignored {
@@ -202,7 +193,7 @@ impl Curve {
         for ((of, (a, b)), deviations) in self.moving.iter().zip(ends).zip(deviations.iter()) {
             let registers = of.registers(&self.program.inputs);
             if of.is_of_forces() {
-                registers.into_iter().flatten().for_each(|at| self.ranges.set(at, around(a[0], b[0], deviations[0])));
+                registers.for_each(|(_, at)| self.ranges.set(at, around(a[0], b[0], deviations[0])));
                 continue;
             }
             let third = around(a[3], b[3], deviations[1]);
@@ -212,11 +203,7 @@ impl Curve {
             if let Some(order) = self.order_of_square(*of) {
                 ranges[order][0] = ranges[order][0].max(0.0);
             }
-            for (register, range) in registers.into_iter().zip(ranges) {
-                if let Some(register) = register {
-                    self.ranges.set(register, range);
-                }
-            }
+            registers.for_each(|(order, register)| self.ranges.set(register, ranges[order]));
         }
     }
 
@@ -233,7 +220,7 @@ impl Curve {
         let h = cell.length();
         let previous = |k: usize| cell.deviations.as_ref().map_or([f64::INFINITY; 2], |deviations| deviations[k]);
         // in very short cells differences are rounding; the deviation in a part of a cell falls with the square of its length
-        let part = h / cell.deviations_length;
+        let part = h / cell.measured_length;
         let less = f64::min(LESS * part * part, 1.0);
         let of = |(k, of): (usize, &Moving)| {
             let (a, b) = (&cell.a.moving[k], &cell.b.moving[k]);
