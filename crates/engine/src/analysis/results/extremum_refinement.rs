@@ -1,5 +1,5 @@
-//! Refinement of the time of an extremum on a grid of times, like that of the solver's tearing variables (`crates/runtime/src/grid.rs`): from any start the formula
-//! is sampled at the same times, so that the extremum has the same bits.
+//! Refinement of the time of an extremum on a grid, like that of the solver's tearing variables (`crates/runtime/src/grid.rs`): from any start the
+//! formula is sampled at the same times, so that the extremum has the same bits.
 
 use mechc_expr::math::grid::{bound_at_first, going_on, next_point, on_grid};
 use mechc_expr::math::power_of_two_below;
