@@ -1,4 +1,4 @@
-//! A formula of results that follows from the coordinates by operations alone.
+//! Smooth formulas as operations on the coordinates, for evaluation in batches.
 
 use mechc_ir::program::{Op, Program, Register, Registers, Stage};
 use mechc_ir::tolerances::results::curve::MOVED;
@@ -7,25 +7,25 @@ use mechc_ir::tolerances::results::curve::MOVED;
 pub struct SmoothFormula {
     /// The computations in order: first the smooth parts, then what depends on them.
     stages: Vec<Computed>,
-    /// The registers of the last stage that hold the value and its time derivatives: two at least.
+    /// The registers of the last stage with the value and its time derivatives: two at least.
     roots: Vec<Register>,
     is_length: bool,
 }
 
-/// A computation from coordinates and from results of earlier stages.
+/// A computation from coordinates and from results of the previous stage.
 pub struct Computed {
     program: Program,
     registers: Registers,
     /// The operations behind the requested registers.
     operations: Vec<Op>,
-    /// Register, order of time derivative and number of each coordinate that is read.
+    /// The register, order of time derivative and number of each coordinate that is read.
     inputs: Vec<(Register, u32, usize)>,
-    /// Register here and register of the stage before, for each value that is taken over.
+    /// The register in this stage and in the previous one, for each value that is copied.
     taken: Vec<(Register, Register)>,
 }
 
 impl Computed {
-    /// A computation by a program over `coordinates` coordinates, and perhaps further ones, with the requested results in some registers.
+    /// Returns the computation by a program over `coordinates` coordinates that leaves the requested results in some registers.
     pub(super) fn new(program: Program, registers: Registers, coordinates: usize, requested: &[Register]) -> Computed {
         let mut inputs = Vec::new();
         for (order, first) in program.inputs.coordinates.into_iter().enumerate() {
@@ -35,11 +35,13 @@ impl Computed {
         Computed { program, registers, operations, inputs, taken: Vec::new() }
     }
 
-    /// Adds results of the stage before as further coordinates, given by the registers of each value and its time derivatives. `None` if one is missing.
+    /// Adds results of the previous stage as coordinates from number `coordinates` on, given by the registers of each value and its time
+    /// derivatives. Returns `None` if one that is read is missing.
     pub(super) fn behind(
         mut self,
         before: &[[Option<Register>; 4]],
-        (coordinates, requested): (usize, &[Register]),
+        coordinates: usize,
+        requested: &[Register],
     ) -> Option<Computed> {
         let is_read = self.is_read(requested);
         for (order, first) in self.program.inputs.coordinates.into_iter().enumerate() {
@@ -65,8 +67,8 @@ impl Computed {
         is_read
     }
 
-    /// Leaves out the inputs that nothing reads.
-    fn need(&mut self, requested: &[Register]) {
+    /// Removes the inputs that no operation reads and that are not requested.
+    fn retain_inputs(&mut self, requested: &[Register]) {
         let is_read = self.is_read(requested);
         self.inputs.retain(|(register, ..)| is_read[*register as usize]);
     }
@@ -77,19 +79,19 @@ impl Computed {
         (&self.program, &self.registers)
     }
 
-    /// Returns the operations that depend on parameters alone, and those that depend on coordinates.
+    /// Returns the operations that depend on parameters only, and those that depend on coordinates.
     #[must_use]
     pub fn operations(&self) -> [&[Op]; 2] {
         [self.program.stage(Stage::Prologue), &self.operations]
     }
 
-    /// Returns register, order of time derivative and number of each coordinate that is read.
+    /// Returns the register, order of time derivative and number of each coordinate that is read.
     #[must_use]
     pub fn inputs(&self) -> &[(Register, u32, usize)] {
         &self.inputs
     }
 
-    /// Returns register here and register of the stage before, for each value that is taken over.
+    /// Returns the register in this stage and in the previous one, for each value that is copied.
     #[must_use]
     pub fn taken(&self) -> &[(Register, Register)] {
         &self.taken
@@ -97,7 +99,7 @@ impl Computed {
 }
 
 impl SmoothFormula {
-    /// A formula computed in stages, the last of which leaves the value and its derivatives in `roots`.
+    /// Returns the formula that is computed in stages, the last of which leaves the value and its derivatives in `roots`.
     pub(super) fn new(mut stages: Vec<Computed>, roots: Vec<Register>, is_length: bool) -> SmoothFormula {
         let count = stages.len();
         for k in 0..count {
@@ -105,7 +107,7 @@ impl SmoothFormula {
                 Some(next) => next.taken.iter().map(|&(_, from)| from).collect(),
                 None => roots.clone(),
             };
-            stages[k].need(&requested);
+            stages[k].retain_inputs(&requested);
         }
         SmoothFormula { stages, roots, is_length }
     }
@@ -116,13 +118,13 @@ impl SmoothFormula {
         &self.stages
     }
 
-    /// Returns the registers of the last stage that hold the value and its time derivatives.
+    /// Returns the registers of the last stage with the value and its time derivatives.
     #[must_use]
     pub fn roots(&self) -> &[Register] {
         &self.roots
     }
 
-    /// Returns whether it is a length, which has a kink where it is zero.
+    /// Returns whether the formula is a length, which has a kink at zero.
     #[must_use]
     pub fn is_length(&self) -> bool {
         self.is_length
@@ -131,8 +133,8 @@ impl SmoothFormula {
 
 /// Returns the factor by which a coordinate is perturbed to measure how a formula amplifies rounding, for one of several perturbations.
 #[must_use]
-pub fn moved(k: usize, way: u32) -> f64 {
-    // up and down without a pattern that a formula could have
-    let is_up = (k as u32 + 1).wrapping_mul(0x9E37_79B9 ^ way.wrapping_mul(0x85EB_CA6B)) >> 31 == 0;
+pub fn moved(k: usize, perturbation: u32) -> f64 {
+    // a pseudorandom direction, so that no formula cancels the perturbations systematically
+    let is_up = (k as u32 + 1).wrapping_mul(0x9E37_79B9 ^ perturbation.wrapping_mul(0x85EB_CA6B)) >> 31 == 0;
     if is_up { 1.0 + MOVED } else { 1.0 - MOVED }
 }

@@ -1,8 +1,8 @@
-//! Where along its course a smooth formula has its largest value, as far as that is beyond doubt: for variants that are evaluated in a batch, which are
-//! looked at no more closely. Where it is in doubt a variant is looked at alone, by branch and bound (`extremum.rs`).
+//! The location of the extremum of a smooth formula for variants that are evaluated in a batch, as far as values, slopes and second derivatives at
+//! steps determine it. A variant with a doubtful extremum is evaluated alone, by branch and bound (`extremum.rs`).
 //!
-//! The course is known at steps, with its slope and its second derivative. In a cell between two of them the second derivative stays near the
-//! straight line between its ends, as far as the quintic through both tells; so it is known where the slope may pass zero.
+//! In a cell between two steps the second derivative stays close to the straight line between its ends, as far as the quintic through both is
+//! accurate; this bounds where the slope may pass zero.
 
 use mechc_expr::math::{along, between, integral_of_quintic, quintic, value_and_derivatives};
 use mechc_ir::tolerances::solving::course::{AWAY, CERTAIN, ITERATIONS, MARGIN, RESTS, SAFETY, STEEP, STEPS_TO_KINK};
@@ -16,51 +16,53 @@ pub struct Course<'c> {
     pub times: &'c [f64],
     /// The value, slope and second derivative at each of them.
     pub towers: &'c [Tower],
-    /// True if it is a length, with a kink where it is zero.
+    /// True if the formula is a length, with a kink at zero.
     pub is_length: bool,
-    /// The size of the numbers that values are sums of: what rounding of values goes by.
+    /// The magnitude of the terms that values are sums of, which determines rounding.
     pub weight: f64,
-    /// The nearness to a singular position, with which rounding grows.
+    /// The nearness to a singular position: rounding is inversely proportional to it.
     pub nearness: f64,
 }
 
 /// The location of an extremum.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub enum Place {
-    /// The first or the last time (s).
+    /// The extremum is at the first or the last time (s).
     End(f64),
-    /// A time (s) between these, approximately.
+    /// The extremum is near a time (s) between these.
     Turn(f64),
-    /// All times: the formula is constant.
+    /// The formula is constant.
     Rest,
 }
 
 /// The contents of a cell.
 enum Cell {
-    /// No value larger than both its ends.
+    /// No value exceeds both ends.
     Nothing,
-    /// One extremum, more or less at a time (s), with a value that may be off by so much, and a second derivative.
-    Turn { t: f64, value: f64, off: f64, bend: f64 },
-    /// Values up to this one.
-    Unknown(f64),
+    /// A single maximum near a time (s): its value, the error bound of that, and the second derivative.
+    Turn { t: f64, value: f64, error: f64, second: f64 },
+    /// Any values up to this bound.
+    Bounded(f64),
 }
 
-/// The largest of what has been looked at.
+/// The largest candidate so far.
 struct Best {
+    /// The location, or `None` if it is in doubt.
     place: Option<Place>,
     value: f64,
-    off: f64,
+    /// The error bound of the value.
+    error: f64,
     /// An upper bound of all other candidates.
     others: f64,
 }
 
 impl Best {
-    fn take(&mut self, value: f64, off: f64, place: Option<Place>) {
+    fn add(&mut self, value: f64, error: f64, place: Option<Place>) {
         if value > self.value {
-            self.others = self.others.max(self.value + self.off);
-            (self.value, self.off, self.place) = (value, off, place);
+            self.others = self.others.max(self.value + self.error);
+            (self.value, self.error, self.place) = (value, error, place);
         } else {
-            self.others = self.others.max(value + off);
+            self.others = self.others.max(value + error);
         }
     }
 }
@@ -69,7 +71,7 @@ impl Course<'_> {
     /// Returns the location of the largest or least value, or `None` if it is in doubt.
     #[must_use]
     pub fn extreme(&self, largest: bool) -> Option<Place> {
-        if self.rests() {
+        if self.is_constant() {
             return Some(Place::Rest);
         }
         let sign = if largest { 1.0 } else { -1.0 };
@@ -77,28 +79,28 @@ impl Course<'_> {
         let (low, high) = (values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max));
         let (range, last) = (high - low, self.times.len() - 1);
         let (span, weight) = (self.times[last] - self.times[0], self.weight / self.nearness);
-        let mut best = Best { place: None, value: f64::NEG_INFINITY, off: 0.0, others: f64::NEG_INFINITY };
+        let mut best = Best { place: None, value: f64::NEG_INFINITY, error: 0.0, others: f64::NEG_INFINITY };
         for (end, inward) in [(0, -1.0), (last, 1.0)] {
             let [value, slope, _] = self.towers[end].map(|value| sign * value);
             let is_steep = inward * slope * span >= STEEP * range && weight <= CERTAIN * range;
-            best.take(value, 0.0, is_steep.then_some(Place::End(self.times[end])));
+            best.add(value, 0.0, is_steep.then_some(Place::End(self.times[end])));
         }
         for (ends, times) in self.cells() {
             let ends = ends.map(|tower| tower.map(|value| sign * value));
             let kink = if self.is_length { kink(ends, times) } else { None };
-            match kink.unwrap_or_else(|| look_into(ends, times)) {
+            match kink.unwrap_or_else(|| Cell::new(ends, times)) {
                 Cell::Nothing => {}
-                Cell::Unknown(most) => best.take(most, 0.0, None),
-                Cell::Turn { t, value, off, bend } => {
+                Cell::Bounded(most) => best.add(most, 0.0, None),
+                Cell::Turn { t, value, error, second } => {
                     let is_within = f64::min(t - self.times[0], self.times[last] - t) >= AWAY * span;
-                    let is_certain = weight <= CERTAIN * f64::min(range, -bend * span * span);
-                    best.take(value, off, (is_within && is_certain).then_some(Place::Turn(t)));
+                    let is_certain = weight <= CERTAIN * f64::min(range, -second * span * span);
+                    best.add(value, error, (is_within && is_certain).then_some(Place::Turn(t)));
                 }
             }
         }
-        let is_alone = best.value - best.off - best.others >= MARGIN * range;
+        let is_unique = best.value - best.error - best.others >= MARGIN * range;
         let is_finite = self.towers.as_flattened().iter().all(|value| value.is_finite());
-        best.place.filter(|_| range > 0.0 && is_alone && is_finite)
+        best.place.filter(|_| range > 0.0 && is_unique && is_finite)
     }
 
     /// Returns the cells between steps: the towers at both ends, and their times (s).
@@ -107,29 +109,29 @@ impl Course<'_> {
         self.towers.windows(2).map(|pair| [pair[0], pair[1]]).zip(times)
     }
 
-    /// Returns whether it is where it was all the time, but for rounding.
-    fn rests(&self) -> bool {
-        let (begun, little) = (self.towers[0][0], RESTS * self.weight);
-        let is_there = |value: f64| (value - begun).abs() <= little;
-        self.cells().all(|(ends, times)| Limits::new(ends, times).values.into_iter().all(is_there))
+    /// Returns whether the formula is constant up to rounding.
+    fn is_constant(&self) -> bool {
+        let (first, rounding) = (self.towers[0][0], RESTS * self.weight);
+        let is_equal = |value: f64| (value - first).abs() <= rounding;
+        self.cells().all(|(ends, times)| Limits::new(ends, times).values.into_iter().all(is_equal))
     }
 }
 
-/// Returns an upper bound in a cell of a length that comes too near to its kink at zero. Its square has no kink: near zero its second derivative
-/// shows the speed.
+/// Returns an upper bound in a cell in which a length comes too close to its kink at zero, or else `None`. The square of a length has no kink: its
+/// second derivative shows the speed near zero.
 fn kink([a, b]: [Tower; 2], [from, to]: [f64; 2]) -> Option<Cell> {
     let h = to - from;
     let fastest = (b[0] * b[1] - a[0] * a[1]) / h;
-    let way = 2.0 * h * fastest.max(a[1] * a[1]).max(b[1] * b[1]).sqrt();
+    let path = 2.0 * h * fastest.max(a[1] * a[1]).max(b[1] * b[1]).sqrt();
     let least = f64::min(a[0].abs(), b[0].abs());
-    let is_far = way == 0.0 || STEPS_TO_KINK * way <= 2.0 * least;
-    let most = a[0].max(b[0]) + way;
-    (!is_far).then(|| Cell::Unknown(if most.is_finite() { most } else { f64::INFINITY }))
+    let is_far = path == 0.0 || STEPS_TO_KINK * path <= 2.0 * least;
+    let most = a[0].max(b[0]) + path;
+    (!is_far).then(|| Cell::Bounded(if most.is_finite() { most } else { f64::INFINITY }))
 }
 
 /// Bounds of a formula between two steps.
 struct Limits {
-    bends: [f64; 2],
+    curvatures: [f64; 2],
     slopes: [f64; 2],
     values: [f64; 2],
 }
@@ -137,42 +139,44 @@ struct Limits {
 impl Limits {
     fn new([[v, s, c], [w, r, d]]: [Tower; 2], [from, to]: [f64; 2]) -> Limits {
         let h = to - from;
-        let bend = SAFETY * ((r - s) / h - 0.5 * (c + d)).abs();
-        let bends = [c.min(d) - bend, c.max(d) + bend];
-        let slopes = between(s, r, bends, h);
-        Limits { bends, slopes, values: between(v, w, slopes, h) }
+        let deviation = SAFETY * ((r - s) / h - 0.5 * (c + d)).abs();
+        let curvatures = [c.min(d) - deviation, c.max(d) + deviation];
+        let slopes = between(s, r, curvatures, h);
+        Limits { curvatures, slopes, values: between(v, w, slopes, h) }
     }
 }
 
-/// Classifies the cell between two steps by values above both its ends.
-fn look_into([a, b]: [Tower; 2], [from, to]: [f64; 2]) -> Cell {
-    let h = to - from;
-    let ([v, s, c], [w, r, d]) = (a, b);
-    let Limits { bends, slopes, values: [_, most] } = Limits::new([a, b], [from, to]);
-    let is_monotone = slopes[0] > 0.0 || slopes[1] < 0.0;
-    if is_monotone || bends[0] > 0.0 {
-        return Cell::Nothing;
+impl Cell {
+    /// Classifies the cell between two steps by the values that exceed both ends.
+    fn new([a, b]: [Tower; 2], [from, to]: [f64; 2]) -> Cell {
+        let h = to - from;
+        let ([v, s, c], [w, r, d]) = (a, b);
+        let Limits { curvatures, slopes, values: [_, most] } = Limits::new([a, b], [from, to]);
+        let is_monotone = slopes[0] > 0.0 || slopes[1] < 0.0;
+        if is_monotone || curvatures[0] > 0.0 {
+            return Cell::Nothing;
+        }
+        if curvatures[1] >= 0.0 || !most.is_finite() {
+            return Cell::Bounded(most);
+        }
+        if !(s > 0.0 && r <= 0.0) {
+            return Cell::Nothing;
+        }
+        // the difference of the slopes' integral from the change of the value: the quintic is much more accurate
+        let error = (w - v - 0.5 * h * (s + r) - h * h / 12.0 * (c - d)).abs();
+        let curve = quintic(a, b, h);
+        let mut x = s / (s - r);
+        for _ in 0..ITERATIONS {
+            let [_, slope, second] = value_and_derivatives(&curve, x);
+            x = (x - slope / second).clamp(0.0, 1.0);
+        }
+        let [_, _, second] = value_and_derivatives(&curve, x);
+        Cell::Turn { t: from + x * h, value: along(&curve, x), error, second: second / (h * h) }
     }
-    if bends[1] >= 0.0 || !most.is_finite() {
-        return Cell::Unknown(most);
-    }
-    if !(s > 0.0 && r <= 0.0) {
-        return Cell::Nothing;
-    }
-    // how far both slopes lead elsewhere than the values: the quintic between is much nearer than that
-    let off = (w - v - 0.5 * h * (s + r) - h * h / 12.0 * (c - d)).abs();
-    let curve = quintic(a, b, h);
-    let mut x = s / (s - r);
-    for _ in 0..ITERATIONS {
-        let [_, slope, bend] = value_and_derivatives(&curve, x);
-        x = (x - slope / bend).clamp(0.0, 1.0);
-    }
-    let [_, _, bend] = value_and_derivatives(&curve, x);
-    Cell::Turn { t: from + x * h, value: along(&curve, x), off, bend: bend / (h * h) }
 }
 
-/// Finds the second derivatives of a formula at steps from its values and slopes there: at each from the cubics of both cells beside it, of which
-/// each is off by what the fourth derivative makes of it.
+/// Computes the second derivatives of a formula at steps from its values and slopes there: at each from the cubics of the adjacent cells, corrected
+/// by their error term with the fourth derivative.
 pub fn find_bends(times: &[f64], towers: &mut [Tower]) {
     let last = times.len() - 1;
     let h = |k: usize| times[k + 1] - times[k];
@@ -197,8 +201,8 @@ pub fn find_bends(times: &[f64], towers: &mut [Tower]) {
             0 => behind(towers) + h(0) * h(0) / 12.0 * fourth(0, towers),
             _ if k == last => before(towers) + h(k - 1) * h(k - 1) / 12.0 * fourth(k - 2, towers),
             _ => {
-                let off = (h(k - 1) * h(k - 1) + h(k) * h(k)) / 24.0 * fourth(k - 1, towers);
-                0.5 * (before(towers) + behind(towers)) + off
+                let correction = (h(k - 1) * h(k - 1) + h(k) * h(k)) / 24.0 * fourth(k - 1, towers);
+                0.5 * (before(towers) + behind(towers)) + correction
             }
         };
     }

@@ -1,11 +1,11 @@
-//! Results that have no value.
+//! Diagnostics of results without a value, with gaps, or with few certain digits.
 
 use super::interval_search::NoValueCause;
 use crate::analysis::explain::errors::at;
 use mechc_ir::{Outcome, Reduction};
 use mechc_text::diag::{Code, Diagnostic};
 
-/// A formula in it has no value at some time, or it could not be found out; or else its own formula is not finite.
+/// Reports a result without a value: because of a reduction in its formula (`cause`), or else because the formula itself is not finite.
 pub fn result_without_value(outcome: &Outcome, cause: Option<NoValueCause>) -> Diagnostic {
     let name = &outcome.name;
     let (message, label) = match cause {
@@ -48,13 +48,13 @@ pub fn result_without_value(outcome: &Outcome, cause: Option<NoValueCause>) -> D
     }
 }
 
-/// Times at which a formula has no value, the first of which is told (s), are left out of a result.
+/// Reports that a result leaves out the times at which a formula has no value, of which `t` (s) is the first.
 pub fn result_with_gaps(outcome: &Outcome, t: f64) -> Diagnostic {
     let message = format!("result `{}` leaves out the times at which what it speaks of has no value", outcome.name);
     Diagnostic::new(Code::N0605, message).at(outcome.span, format!("such as {}", at(t))).datum("t", t)
 }
 
-/// Fewer digits of a result are certain than users count on.
+/// Reports that few digits of a result are certain.
 pub fn result_with_few_digits(outcome: &Outcome, digits: u32) -> Diagnostic {
     let which = if digits == 1 { "one digit".to_owned() } else { format!("{digits} digits") };
     Diagnostic::new(
@@ -65,7 +65,7 @@ pub fn result_with_few_digits(outcome: &Outcome, digits: u32) -> Diagnostic {
     .datum("digits", f64::from(digits))
 }
 
-/// The motion ends behind the last row, but before the analysis does.
+/// Reports that results have no value because the motion ends before the analysis.
 pub fn results_without_motion(first: &Outcome, count: usize, why: &Diagnostic) -> Diagnostic {
     let which = if count == 1 { format!("result `{}` has", first.name) } else { format!("the {count} results have") };
     Diagnostic::new(Code::N0604, format!("{which} no value: the motion does not come to the end of the analysis"))
@@ -73,7 +73,7 @@ pub fn results_without_motion(first: &Outcome, count: usize, why: &Diagnostic) -
         .note(why.message.clone())
 }
 
-/// `at` a time that does not belong to the analysis.
+/// Reports a value that is requested at a time (s) outside the analysis.
 pub fn at_outside(reduction: &Reduction, t: f64, [from, to]: [f64; 2]) -> Diagnostic {
     Diagnostic::new(Code::E0422, format!("{} is outside the analysis", at(t)))
         .at(reduction.span, format!("the analysis goes from {} to {}", at(from), at(to)))

@@ -1,5 +1,5 @@
-//! The time of an extremum, refined on a grid as the tearing variables of the solver are on theirs (`math/grid.rs`): from any start the formula
-//! is sampled at the same times, so the extremum has the same bits.
+//! Refinement of the time of an extremum on a grid, like that of the solver's tearing variables (`crates/runtime/src/grid.rs`): from any start the
+//! formula is sampled at the same times, so that the extremum has the same bits.
 
 use mechc_expr::math::grid::{bound_at_first, going_on, next_point, on_grid};
 use mechc_expr::math::power_of_two_below;
@@ -10,9 +10,9 @@ use mechc_ir::tolerances::results::turns::{APART, BORDER, CELL, FARTHEST, ITERAT
 pub struct Sampled {
     /// The value.
     pub value: f64,
-    /// Its first time derivative (1/s).
+    /// The first time derivative (1/s).
     pub first: f64,
-    /// Its second one (1/s²).
+    /// The second time derivative (1/s²).
     pub second: f64,
 }
 
@@ -29,15 +29,16 @@ pub const MOST_LOOKS: usize = 3;
 pub struct Settling {
     /// The grid point (s).
     t: f64,
-    /// The first grid point (s), and the width of a grid cell (s).
-    begun: f64,
+    /// The first grid point (s).
+    start: f64,
+    /// The width of a grid cell (s).
     cell: f64,
-    /// The largest correction with which it has converged, in cells.
+    /// The largest correction, in cells, that counts as converged.
     bound: f64,
     /// The number of corrections that are left.
     left: u32,
-    /// True if the second derivative of the formula is known.
-    knows_bends: bool,
+    /// True if the second derivative of the formula is available.
+    has_second: bool,
 }
 
 /// The outcome of one step of the refinement.
@@ -52,24 +53,24 @@ pub enum Turning {
 }
 
 impl Settling {
-    /// Starts near a time (s) of an analysis of length `span` (s), for a formula with a known slope. Returns `None` if
-    /// the time is too large for the grid.
+    /// Starts near a time (s) of an analysis of duration `span` (s), for a formula with an available slope. Returns `None` if the time is too large
+    /// for the grid.
     #[must_use]
-    pub fn near(t: f64, span: f64, knows_bends: bool) -> Option<Settling> {
+    pub fn near(t: f64, span: f64, has_second: bool) -> Option<Settling> {
         let cell = CELL * power_of_two_below(span);
         let is_fine = span > 0.0 && t.abs() <= MOST_CELLS * cell;
-        let begun = on_grid(t, cell);
+        let start = on_grid(t, cell);
         let (bound, left) = (bound_at_first(BORDER), ITERATIONS);
-        is_fine.then_some(Settling { t: begun, begun, cell, bound, left, knows_bends })
+        is_fine.then_some(Settling { t: start, start, cell, bound, left, has_second })
     }
 
     /// Returns the number of times at which the formula has to be sampled.
     #[must_use]
     pub fn looks(&self) -> usize {
-        if self.knows_bends { 1 } else { MOST_LOOKS }
+        if self.has_second { 1 } else { MOST_LOOKS }
     }
 
-    /// Returns one of these times (s): the grid point, or one on either side of it.
+    /// Returns a sample time (s): the grid point, or a time on either side of it.
     #[must_use]
     pub fn time(&self, look: usize) -> f64 {
         match look {
@@ -79,24 +80,24 @@ impl Settling {
         }
     }
 
-    /// Takes one step of the refinement from the samples at these times.
+    /// Takes one step of the refinement from the samples at the times of [`Settling::time`].
     pub fn go_on(&mut self, samples: &[Sampled]) -> Turning {
         let Sampled { value, first, second } = self.at_point(samples);
-        let off = -first / second;
-        let (beyond, from_begin) = (off.abs() / self.cell, (self.t + off - self.begun).abs() / self.cell);
-        if !(off.is_finite() && from_begin <= FARTHEST) || self.left == 0 {
+        let correction = -first / second;
+        let (beyond, from_begin) = (correction.abs() / self.cell, (self.t + correction - self.start).abs() / self.cell);
+        if !(correction.is_finite() && from_begin <= FARTHEST) || self.left == 0 {
             return Turning::Lost;
         }
         if beyond <= self.bound {
-            return Turning::Settled([self.t + off, value + 0.5 * first * off]);
+            return Turning::Settled([self.t + correction, value + 0.5 * first * correction]);
         }
         let (bound, cells) = going_on(beyond, self.bound, BORDER);
-        self.t = next_point(self.t, off, self.cell, cells, BORDER);
+        self.t = next_point(self.t, correction, self.cell, cells, BORDER);
         (self.bound, self.left) = (bound, self.left - 1);
         Turning::On
     }
 
-    /// Returns the sample at the grid point; an unknown second derivative is the difference quotient of the slopes on both sides.
+    /// Returns the sample at the grid point; without a second derivative, the difference quotient of the slopes on both sides replaces it.
     fn at_point(&self, samples: &[Sampled]) -> Sampled {
         match *samples {
             [at] => at,

@@ -1,8 +1,8 @@
-//! Thresholds within a formula: where it may jump, bend, grow without bound or cease to exist.
+//! Guards: the thresholds within a formula at which it may jump, have a kink, grow without bound or cease to exist.
 //!
-//! A formula is smooth but for its conditions, `sign`, `floor` and `mod`, the knots of tables, and the places at which the argument of
-//! `abs`, `sqrt`, `ln`, a power, a quotient or `atan2` passes zero. Each of these is a guard: an argument that goes with the motion, and a
-//! threshold. Between crossings of its guards a formula is as smooth as the motion.
+//! A formula is smooth except at its conditions, `sign`, `floor` and `mod`, the knots of tables, and where the argument of `abs`, `sqrt`, `ln`, a
+//! power, a quotient or `atan2` passes zero. Each of these is a guard: an argument that changes with the motion, and a threshold. Between crossings
+//! of its guards a formula is as smooth as the motion.
 
 use mechc_expr::{Binary, Comparison, ExprId, Graph, Node, Unary};
 use mechc_ir::ConstraintSystem;
@@ -11,15 +11,15 @@ use mechc_ir::tolerances::results::guards::{NEAR, NOISE};
 use rustc_hash::FxHashMap;
 use std::f64::consts::PI;
 
-/// One threshold of a formula.
+/// A threshold in a formula.
 #[derive(Clone, Debug)]
 pub(super) struct Guard {
     kind: Kind,
-    /// The comparisons of the registers of a choice that derivatives contain, and the side on which each is true.
+    /// The comparisons of the two registers of a choice, which its derivatives contain, and the side on which each is true.
     comparisons: Vec<(Register, f64)>,
     /// True if a function has no value on one side: below zero, or beyond −1 and 1.
     ends: bool,
-    /// Among the formulas whose ranges are known: the argument, and its time derivative where it has one.
+    /// The indices in [`Ranges`] of the argument and its time derivative, if that is available.
     pub witness: Option<[usize; 2]>,
 }
 
@@ -33,15 +33,15 @@ enum Kind {
     Piece { to: Register, a: Register, knots: Register },
     /// The larger or the smaller one of two registers.
     Choice { a: Register, b: Register },
-    /// An argument of a function that is not smooth at zero.
+    /// The argument of a function that is not smooth at zero.
     Zero { a: Register },
-    /// An argument of `asin` or `acos`, whose slopes have no end at −1 and 1.
+    /// The argument of `asin` or `acos`, whose slopes are infinite at −1 and 1.
     Unit { a: Register },
     /// The argument of a tangent, which has a pole at every odd multiple of π/2.
     Tangent { a: Register },
 }
 
-/// Returns the number of the pole of a tangent before an argument.
+/// Returns the number of the branch of the tangent that an argument lies on.
 fn branch_of_tangent(a: f64) -> f64 {
     (a / PI + 0.5).floor()
 }
@@ -51,14 +51,14 @@ fn branch_of_tangent(a: f64) -> f64 {
 pub(super) struct GuardState {
     /// The side of the threshold, or the number of the step or piece.
     pub side: f64,
-    /// The argument, less the threshold where there is but one.
+    /// The argument, less the threshold if there is only one.
     pub argument: f64,
-    /// The argument's sign.
+    /// The sign of the argument.
     sign: f64,
 }
 
 impl GuardState {
-    /// Returns whether another one is on another side.
+    /// Returns whether the two states are on different sides.
     pub fn differs_from(&self, other: &GuardState) -> bool {
         self.side.total_cmp(&other.side).is_ne()
     }
@@ -93,8 +93,8 @@ impl Guard {
         })
     }
 
-    /// Returns the guard's state, from the registers of a program that has been run.
-    pub fn mark(&self, registers: &Registers) -> GuardState {
+    /// Returns the state of the guard from the registers of a program that has been run.
+    pub fn state(&self, registers: &Registers) -> GuardState {
         let get = |register: Register| registers.get(register);
         let sign = |x: f64| if x == 0.0 { 0.0 } else { x.signum() };
         let (side, argument) = match self.kind {
@@ -111,24 +111,24 @@ impl Guard {
         GuardState { side, argument, sign: sign(argument) }
     }
 
-    /// Returns whether the formula may have a value of its own where the guard is: neither that of before nor that of behind.
-    pub fn is_at_threshold(&self, mark: GuardState) -> bool {
+    /// Returns whether the guard is exactly at its threshold, where the formula may have the value of neither side.
+    pub fn is_at_threshold(&self, state: GuardState) -> bool {
         match self.kind {
-            Kind::Zero { .. } | Kind::Step { is_whole: false, .. } => mark.side == 0.0,
+            Kind::Zero { .. } | Kind::Step { is_whole: false, .. } => state.side == 0.0,
             _ => false,
         }
     }
 
-    /// Returns whether the formula may have no value where the guard is.
-    pub fn is_beyond_end(&self, mark: GuardState) -> bool {
-        let is_beyond = if matches!(self.kind, Kind::Unit { .. }) { mark.side == 0.0 } else { mark.side < 0.0 };
+    /// Returns whether the guard is on the side where its function has no value.
+    pub fn is_beyond_end(&self, state: GuardState) -> bool {
+        let is_beyond = if matches!(self.kind, Kind::Unit { .. }) { state.side == 0.0 } else { state.side < 0.0 };
         self.ends && is_beyond
     }
 
-    /// Returns the distances of both arguments from the threshold between two sides; NaN if several thresholds lie between.
-    pub fn distances(&self, marks: [GuardState; 2], registers: &Registers) -> [f64; 2] {
-        let later = marks[0].side.max(marks[1].side);
-        let is_next = (marks[0].side - marks[1].side).abs() <= 1.0;
+    /// Returns the distances of the arguments of two states from the threshold between them; NaN if several thresholds lie between.
+    pub fn distances(&self, states: [GuardState; 2], registers: &Registers) -> [f64; 2] {
+        let later = states[0].side.max(states[1].side);
+        let is_next = (states[0].side - states[1].side).abs() <= 1.0;
         let threshold = match self.kind {
             Kind::Step { is_whole: true, .. } if is_next => later,
             Kind::Tangent { .. } if is_next => (later - 0.5) * PI,
@@ -138,10 +138,10 @@ impl Guard {
             Kind::Step { is_whole: true, .. } | Kind::Piece { .. } | Kind::Tangent { .. } => f64::NAN,
             _ => 0.0,
         };
-        marks.map(|mark| mark.argument - threshold)
+        states.map(|state| state.argument - threshold)
     }
 
-    /// Returns whether a formula depends on the guard, in ranges.
+    /// Returns whether the formula of the last [`Ranges::find_live`] depends on the guard.
     pub fn is_live(&self, ranges: &Ranges) -> bool {
         match self.kind {
             Kind::Comparison { to, .. } | Kind::Step { to, .. } | Kind::Piece { to, .. } => ranges.is_live(to),
@@ -150,7 +150,7 @@ impl Guard {
         }
     }
 
-    /// Classifies the guard between two states, by the ranges there.
+    /// Classifies the guard between two states by the ranges there.
     pub fn crossing(&self, ranges: &Ranges, [a, b]: [GuardState; 2]) -> Crossing {
         let is_decided = match self.kind {
             Kind::Comparison { to, .. } | Kind::Step { to, .. } | Kind::Piece { to, .. } => {
@@ -177,26 +177,26 @@ impl Guard {
         match (a.side - b.side).abs() {
             _ if is_decided => Crossing::Never,
             0.0 => Crossing::Possible,
-            // what is not a number on one side has no threshold
+            // NaN on one side has no threshold
             difference if difference > 0.0 => Crossing::Sure,
             _ => Crossing::Possible,
         }
     }
 
-    /// Returns whether rounding alone decides on which side the guard is at a state, by the ranges of what it is made of there.
-    pub fn is_within_rounding(&self, ranges: &Ranges, mark: GuardState) -> bool {
+    /// Returns whether rounding alone decides on which side the guard is at a state, by the ranges around that.
+    pub fn is_within_rounding(&self, ranges: &Ranges, state: GuardState) -> bool {
         let side: fn(f64) -> f64 = match self.kind {
             Kind::Step { is_whole: true, .. } => f64::floor,
             Kind::Tangent { .. } => branch_of_tangent,
-            Kind::Piece { .. } => return self.crossing(ranges, [mark; 2]) != Crossing::Never,
+            Kind::Piece { .. } => return self.crossing(ranges, [state; 2]) != Crossing::Never,
             _ => |x| if x == 0.0 { 0.0 } else { x.signum() },
         };
         let [low, high] = self.argument(ranges);
-        let ends = [low, high].map(|end| side(mark.argument + NOISE * (end - mark.argument)));
+        let ends = [low, high].map(|end| side(state.argument + NOISE * (end - state.argument)));
         ends[0].total_cmp(&ends[1]).is_ne()
     }
 
-    /// Returns the range of the argument, less the threshold if there is only one.
+    /// Returns the interval of the argument, less the threshold if there is only one.
     pub fn argument(&self, ranges: &Ranges) -> [f64; 2] {
         match self.kind {
             Kind::Comparison { a, b, .. } | Kind::Choice { a, b } => {
@@ -212,7 +212,7 @@ impl Guard {
         }
     }
 
-    /// Keeps the guard on a side, in ranges.
+    /// Restricts ranges to a side of the guard.
     pub fn hold(&self, side: f64, ranges: &mut Ranges) {
         match self.kind {
             Kind::Comparison { to, .. } | Kind::Step { to, .. } | Kind::Piece { to, .. } => {
@@ -226,13 +226,13 @@ impl Guard {
                     ranges.hold(to, Restriction::At(f64::from(u8::from(true_on * side > 0.0))));
                 }
             }
-            // at its ends it is not held: a slope without an end is one
+            // the ends of `asin` and `acos` are not excluded: their slopes are infinite there
             Kind::Choice { .. } | Kind::Zero { .. } | Kind::Unit { .. } | Kind::Tangent { .. } => {}
         }
     }
 
-    /// A value of the argument at which the formula is not smooth, if it lies between two states beside each other. How large the argument usually
-    /// is tells whether it goes there, or jumps.
+    /// Returns a value of the argument at which the function is not smooth, if it lies between two adjacent states. `usual`, the usual magnitude of
+    /// the argument, decides whether the argument is continuous there or jumps.
     pub fn value_between(&self, [a, b]: [GuardState; 2], usual: f64) -> Option<f64> {
         let is_between = match self.kind {
             Kind::Zero { .. } => a.differs_from(&b),
@@ -243,17 +243,17 @@ impl Guard {
         value.filter(|_| is_between)
     }
 
-    /// A value of the argument at which the formula is not smooth, and which the argument is near to.
-    pub fn value_near(&self, mark: GuardState, usual: f64) -> Option<f64> {
-        let is_near = mark.argument.abs() <= NEAR * usual;
+    /// Returns a value at which the function is not smooth, if the argument is close to it, relative to its `usual` magnitude.
+    pub fn value_near(&self, state: GuardState, usual: f64) -> Option<f64> {
+        let is_near = state.argument.abs() <= NEAR * usual;
         match self.kind {
             Kind::Zero { .. } if is_near => Some(0.0),
-            Kind::Unit { .. } if is_near => Some(mark.sign),
+            Kind::Unit { .. } if is_near => Some(state.sign),
             _ => None,
         }
     }
 
-    /// Keeps the argument at a value, in ranges.
+    /// Restricts ranges to one value of the argument.
     pub fn hold_at(&self, value: f64, ranges: &mut Ranges) {
         if let Kind::Zero { a } | Kind::Unit { a } = self.kind {
             ranges.hold(a, Restriction::At(value));
@@ -270,7 +270,7 @@ fn ends(op: Op) -> bool {
     )
 }
 
-/// Returns the formulas whose time derivatives show whether guards cross their thresholds at most once, such as differences that are compared.
+/// Returns the arguments of guards, such as compared differences: their time derivatives show whether guards cross their thresholds at most once.
 pub(super) fn arguments(graph: &mut Graph, formulas: &[ExprId]) -> Vec<ExprId> {
     let mut arguments = Vec::new();
     for id in graph.reachable(formulas) {
@@ -304,10 +304,11 @@ pub(super) fn arguments(graph: &mut Graph, formulas: &[ExprId]) -> Vec<ExprId> {
     arguments
 }
 
-/// The guards of some formulas of a program, the inner ones first, by the nodes that stand in its registers and by what is known of some of
-/// these.
+/// Returns the guards of some formulas of a program, inner ones first. `nodes` holds the node in each register; `witnesses` holds
+/// [`Guard::witness`] by argument.
 pub(super) fn guards(
-    (graph, program): (&mut Graph, &Program),
+    graph: &mut Graph,
+    program: &Program,
     roots: &[Register],
     nodes: &FxHashMap<Register, ExprId>,
     witnesses: &FxHashMap<ExprId, [usize; 2]>,
@@ -319,25 +320,25 @@ pub(super) fn guards(
         Some(&id) => graph.dependence(id).is_constant(),
         None => !written.contains_key(&register),
     };
-    // what a register is of, but for a shift and a factor that rest: those of periods stand for no node
+    // the node of a register, up to a constant factor and a shift by periods, which have no nodes
     let node_of = |graph: &Graph, mut register: Register| loop {
         if let Some(id) = nodes.get(&register) {
             return Some(*id);
         }
         register = match written.get(&register)? {
             Op::Div { a, b, .. } if is_constant(graph, *b) => *a,
-            // a period is taken off where its own guard says how often
+            // another guard determines how many periods are subtracted
             Op::Sub { a, .. } => *a,
             _ => return None,
         };
     };
-    let mut found: Vec<Guard> = Vec::new();
+    let mut all: Vec<Guard> = Vec::new();
     for op in program.operations_behind(roots, Stage::Measures) {
         let Some(kind) = Guard::kind_of(op, program) else { continue };
         let argument = match kind {
             Kind::Comparison { a, b, .. } | Kind::Choice { a, b } => match (node_of(graph, a), node_of(graph, b)) {
                 (Some(a), Some(b)) => Some(graph.sub(a, b)),
-                // a zero may be one of its own
+                // a constant zero may have a register without a node
                 (Some(a), None) => Some(a),
                 _ => None,
             },
@@ -350,7 +351,7 @@ pub(super) fn guards(
                 if is_constant(graph, a) {
                     continue;
                 }
-                if let Some(same) = found.iter_mut().find(|guard| is_same(guard)) {
+                if let Some(same) = all.iter_mut().find(|guard| is_same(guard)) {
                     same.ends |= ends(op);
                     continue;
                 }
@@ -361,31 +362,31 @@ pub(super) fn guards(
             Kind::Choice { a, b } => operations.iter().filter_map(|op| compared(op, a, b)).collect(),
             _ => Vec::new(),
         };
-        found.push(Guard {
+        all.push(Guard {
             kind,
             comparisons,
             ends: ends(op),
             witness: argument.and_then(|id| witnesses.get(&id).copied()),
         });
     }
-    found
+    all
 }
 
-/// Returns the time derivatives of some formulas, as far as they are known.
+/// Returns the time derivatives of some formulas, if both the formula and its derivative are available.
 pub(super) fn slopes(
     graph: &mut Graph,
     formulas: &[ExprId],
-    is_known: impl Fn(&Graph, ExprId) -> bool,
+    is_available: impl Fn(&Graph, ExprId) -> bool,
 ) -> Vec<Option<ExprId>> {
     let all = ConstraintSystem::time_derivatives(graph, formulas, 3);
     formulas
         .iter()
         .zip(all)
-        .map(|(&of, slope)| (is_known(graph, of) && is_known(graph, slope)).then_some(slope))
+        .map(|(&of, slope)| (is_available(graph, of) && is_available(graph, slope)).then_some(slope))
         .collect()
 }
 
-/// Returns the result of a comparison of two registers, and the sign of their difference with which it is true.
+/// Returns the result register of a comparison of `a` and `b`, and the sign of `a` − `b` for which it is true; `None` for another operation.
 fn compared(op: &Op, a: Register, b: Register) -> Option<(Register, f64)> {
     match *op {
         Op::Compare { comparison: Comparison::Less | Comparison::LessEqual, to, a: x, b: y } => match (x, y) {

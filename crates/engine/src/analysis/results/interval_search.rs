@@ -1,4 +1,4 @@
-//! Looking at a formula between the ends of the motion's steps.
+//! Evaluation of a formula between the ends of the motion's steps: the tools that the searches for extrema and integrals share.
 
 use super::curve::{Cell, Curve, Estimate, Point, Shift, Verdict};
 use super::state_sampler::StateSampler;
@@ -16,17 +16,17 @@ use std::rc::Rc;
 /// The scale of a formula, which decides what counts as a difference.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(super) struct Scale {
-    /// The range of its values, or how far they usually are from the one that is looked for.
+    /// The range of the values, or their median distance from the extremum that is searched for.
     pub range: f64,
-    /// The magnitude of the numbers that its values are sums of: the unit of rounding.
+    /// The magnitude of the terms that the values are sums of, which determines rounding.
     pub weight: f64,
-    /// The time of the analysis (s).
+    /// The duration of the analysis (s).
     pub span: f64,
 }
 
 impl Scale {
     /// Returns the difference up to which values count as equal: rounding of a constant value is no change.
-    pub fn alike(self) -> f64 {
+    pub fn tolerance(self) -> f64 {
         self.gap(ALIKE)
     }
 
@@ -39,21 +39,22 @@ impl Scale {
 /// The reason why a reduction has no value.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub enum NoValueCause {
-    /// The formula has no value at a time (s) that is asked for.
+    /// The formula has no value at a requested time (s).
     Missing(f64),
-    /// It has none at any time from this one (s) on.
+    /// The formula has no value at any time from this one (s) on.
     Nowhere(f64),
     /// The formula grows without bound towards a time (s).
     Unbounded(f64),
-    /// It could not be found out around a time (s).
+    /// No digit of the value is certain, because of the formula around a time (s).
     Unknown(f64),
-    /// It is of a time (s) at which a row would be more rounding than digits.
+    /// The value depends on a time (s) so close to a singular position that a row would be refused.
     Uncertain(f64),
-    /// A bound of its window is not a time (s) of the analysis, or comes before the other one.
+    /// A bound of the window (s) lies outside the analysis, or the window ends before it begins.
     Window(f64),
 }
 
 impl NoValueCause {
+    /// Returns the time (s) of the cause.
     pub fn t(self) -> f64 {
         match self {
             NoValueCause::Missing(t)
@@ -74,60 +75,71 @@ pub(super) struct Notes {
     pub missing: Option<f64>,
     /// The number of cells that were evaluated, and its limit.
     cells: usize,
-    most: usize,
+    limit: usize,
 }
 
 impl Notes {
-    /// Records why there is no value; the earliest time counts.
-    pub fn meet(&mut self, cause: NoValueCause) {
-        if self.cause.is_none_or(|known| cause.t() < known.t()) {
+    /// Records a cause of a missing value; the earliest one is kept.
+    pub fn fail(&mut self, cause: NoValueCause) {
+        if self.cause.is_none_or(|earlier| cause.t() < earlier.t()) {
             self.cause = Some(cause);
         }
     }
 
     /// Returns whether the limit of evaluated cells is exceeded.
     pub fn are_exhausted(&self) -> bool {
-        self.cells > self.most
+        self.cells > self.limit
     }
 
     /// Records a time (s) at which the formula has no value.
     pub fn miss(&mut self, t: f64) {
-        if self.missing.is_none_or(|known| t < known) {
+        if self.missing.is_none_or(|earlier| t < earlier) {
             self.missing = Some(t);
         }
     }
 }
 
-/// The search in a formula over some steps of the motion.
+/// A search in a formula over some steps of the motion.
 pub(super) struct IntervalSearch<'r> {
     pub curve: &'r mut Curve,
     sampler: &'r mut StateSampler,
     pub steps: &'r [SmoothSegment],
     /// The first and the last time (s) at which the formula is evaluated.
     pub window: [f64; 2],
+    /// The step that the sampler has entered.
     entered: Option<usize>,
     pub notes: &'r mut Notes,
-    /// No cell is cut that is no longer than this (s).
+    /// The length (s) up to which cells are not divided.
     pub shortest: f64,
     /// The usual difference of values.
     pub range: f64,
-    /// In a cell that is no longer than this (s) values may be nothing but rounding.
+    /// The length (s) up to which rounding may dominate the differences in a cell.
     pub short: f64,
-    /// True if it matters when guards cross their thresholds.
+    /// True if the times at which guards cross their thresholds matter.
     pub is_timed: bool,
-    /// The last guard with a located crossing, the time (s) of that, and its error bound (s).
-    last_crossing: Option<(usize, f64, f64)>,
+    last_crossing: Option<LocatedCrossing>,
+}
+
+/// A located crossing of a guard: its time (s) and the error bound (s) of that.
+#[derive(Clone, Copy)]
+struct LocatedCrossing {
+    guard: usize,
+    t: f64,
+    error: f64,
 }
 
 impl<'r> IntervalSearch<'r> {
+    /// Starts a search in a window (s) of an analysis of duration `span` (s).
     pub fn new(
-        (curve, notes): (&'r mut Curve, &'r mut Notes),
+        curve: &'r mut Curve,
+        notes: &'r mut Notes,
         sampler: &'r mut StateSampler,
         steps: &'r [SmoothSegment],
-        (window, span): ([f64; 2], f64),
+        window: [f64; 2],
+        span: f64,
     ) -> IntervalSearch<'r> {
-        curve.set_short(SHORT * span);
-        notes.most = notes.most.max(MOST_CELLS) + MOST_OF_A_STEP * steps.len();
+        curve.short = SHORT * span;
+        notes.limit = notes.limit.max(MOST_CELLS) + MOST_OF_A_STEP * steps.len();
         IntervalSearch {
             curve,
             sampler,
@@ -150,13 +162,13 @@ impl<'r> IntervalSearch<'r> {
         }
     }
 
-    /// Records a time (s) of a step at which the formula has no value. Beside a singular position forces and derivatives by parameters are not
-    /// left out: they may be of any size there.
+    /// Records a time (s) of a step at which the formula has no value. Next to a singular position forces and derivatives by parameters may have
+    /// any size, so that the time must not be left out there.
     pub fn miss(&mut self, step: usize, t: f64) {
         if let Some(bridge) = &self.steps[step].bridge
             && self.curve.may_be_singular()
         {
-            self.notes.meet(NoValueCause::Uncertain(bridge.at));
+            self.notes.fail(NoValueCause::Uncertain(bridge.at));
         }
         self.notes.miss(t);
     }
@@ -167,19 +179,19 @@ impl<'r> IntervalSearch<'r> {
         self.curve.at(state, self.sampler)
     }
 
-    /// Evaluates the formula at a time (s) within a cell. `None` if the motion cannot be solved for.
+    /// Evaluates the formula at a time (s) within a cell. Returns `None` if the motion cannot be solved for.
     pub fn point(&mut self, cell: &Cell, t: f64) -> Option<Rc<Point>> {
         self.between(cell.step, [&cell.a.state, &cell.b.state], t)
     }
 
-    /// Evaluates the formula at a time (s) within a cell, with the bits of rows. `None` if those cannot be had.
+    /// Evaluates the formula at a time (s) within a cell, with exactly the bits of a row. Returns `None` if the solver of rows fails there.
     pub fn exact_point(&mut self, cell: &Cell, t: f64) -> Option<Rc<Point>> {
         self.enter(cell.step);
         let state = self.sampler.solve_exactly(&self.steps[cell.step], [&cell.a.state, &cell.b.state], t)?;
         Some(self.curve.at(state, self.sampler))
     }
 
-    /// Evaluates the formula at a time (s) of a step.
+    /// Evaluates the formula at a time (s) of a step. Returns `None` if the motion cannot be solved for.
     pub fn point_of_step(&mut self, step: usize, t: f64) -> Option<Rc<Point>> {
         let ends @ [from, to] = [&self.steps[step].from, &self.steps[step].to];
         match [from, to].into_iter().find(|end| end.t.total_cmp(&t).is_eq()) {
@@ -188,7 +200,8 @@ impl<'r> IntervalSearch<'r> {
         }
     }
 
-    /// The formula at a time (s) in a step or in those before and behind it; `None` beyond an edge or the window, or where the motion cannot be solved for.
+    /// Evaluates the formula at a time (s) in a step or its neighbors. Returns `None` beyond an edge or the window, or if the motion cannot be
+    /// solved for.
     pub fn point_near(&mut self, mut step: usize, t: f64) -> Option<Rc<Point>> {
         let steps = self.steps;
         while step > 0 && t < steps[step].from.t && !steps[step].begins_at_edge {
@@ -202,26 +215,27 @@ impl<'r> IntervalSearch<'r> {
         if is_within { self.point_of_step(step, t) } else { None }
     }
 
-    /// The formula at three times beside a point, before (−1) or behind it (1), each [`FACTOR`] times as far away as the one before; the first of these
-    /// is no nearer than a width (s), and so far away that the value is more than rounding. `None` where there are no such times near by.
+    /// Evaluates the formula at three times before (−1) or behind (1) a point, each [`FACTOR`] times as far away as the previous one. The first is
+    /// at least `width` (s) away, and so far that its value is reliable. Returns `None` if there are no such times nearby.
     pub fn samples_near(
         &mut self,
         step: usize,
         point: &Point,
-        (direction, width): (f64, f64),
+        direction: f64,
+        width: f64,
         scale: Scale,
     ) -> Option<[Estimate; 3]> {
         let mut far = FACTOR * self.shortest.max(width).max(point.shift.time);
         loop {
-            let mut found = [Estimate::NOTHING; 3];
+            let mut samples = [Estimate::NOTHING; 3];
             let mut distance = far;
-            for found in &mut found {
+            for sample in &mut samples {
                 let there = self.point_near(step, point.state.t + direction * distance)?;
-                *found = self.curve.estimate(&there);
+                *sample = self.curve.estimate(&there);
                 distance *= FACTOR;
             }
-            if found[0].error <= scale.gap(RELIABLE).max(RELIABLE * found[0].value.abs()) {
-                return Some(found);
+            if samples[0].error <= scale.gap(RELIABLE).max(RELIABLE * samples[0].value.abs()) {
+                return Some(samples);
             }
             far *= FACTOR;
             if far > FARTHEST * scale.span {
@@ -236,7 +250,7 @@ impl<'r> IntervalSearch<'r> {
             self.notes.cells += SOLVED;
             let solved = self.sampler.solve(&self.steps[step], [a, b], t);
             if solved.is_none() && b.t - a.t > self.shortest * OPAQUE / SHORTEST {
-                self.notes.meet(NoValueCause::Unknown(t));
+                self.notes.fail(NoValueCause::Unknown(t));
             }
             solved?
         } else {
@@ -246,25 +260,26 @@ impl<'r> IntervalSearch<'r> {
         Some(self.curve.at(state, self.sampler))
     }
 
-    /// The state beside one of a step, as rows have it; `None` where that cannot be had.
+    /// Returns [`StateSampler::settled`] in a step.
     pub fn settled(&mut self, step: usize, near: &State, t: f64) -> Option<State> {
         self.enter(step);
         self.sampler.settled(&self.steps[step], near, t)
     }
 
-    /// Classifies and encloses the formula in a cell; open if the states at its ends do not determine the motion between.
+    /// Returns the classification and the range of the formula in a cell: open and unbounded if the states at its ends do not determine the motion
+    /// between them.
     pub fn enclose(&mut self, cell: &mut Cell) -> (Verdict, Range) {
         self.enter(cell.step);
         self.notes.cells += 1;
-        // a pole at a singular position shows at neither end of a cell around it
+        // the ends of a cell do not reveal a pole at a singular position between them
         let is_within = |t: f64| cell.a.state.t <= t && t <= cell.b.state.t;
         let bridge = self.steps[cell.step].bridge.as_ref().filter(|_| self.curve.may_be_singular());
         let may_be_singular = bridge.is_some_and(|bridge| is_within(bridge.at) || bridge.again.is_some_and(is_within));
-        let is_known = !self.curve.moves()
+        let is_determined = !self.curve.moves()
             || !may_be_singular
                 && self.sampler.signals_are_resolved([cell.a.state.t, cell.b.state.t])
                 && !self.curve.turns_far(cell);
-        if is_known {
+        if is_determined {
             let mut ignored = Vec::new();
             loop {
                 let (verdict, range) = self.curve.enclose(cell, &ignored);
@@ -274,7 +289,7 @@ impl<'r> IntervalSearch<'r> {
                 let has_no_bound = range.high - range.low == f64::INFINITY;
                 let guard = match verdict {
                     Verdict::Crosses(guard) => guard,
-                    // a quotient that goes on over a zero of both
+                    // a quotient that is continuous although both its terms vanish
                     Verdict::Open(Some(guard)) if has_no_bound => guard,
                     _ => return (verdict, range),
                 };
@@ -296,8 +311,8 @@ impl<'r> IntervalSearch<'r> {
         (Verdict::Open(None), Range { low, high, may_switch: true, is_resolved: false, crosses_knots: true })
     }
 
-    /// The formula at both ends and in the middle of a short cell all over which rounding alone decides on which side of its threshold a guard is;
-    /// none where it is not like that.
+    /// Returns the values at both ends and in the middle of a short cell if rounding alone decides at each of them on which side of its threshold a
+    /// guard is, or else `None`.
     fn values_of_rounding(&mut self, cell: &Cell, guard: usize) -> Option<[f64; 3]> {
         if cell.length() > self.short || self.is_shortest(cell) {
             return None;
@@ -310,8 +325,8 @@ impl<'r> IntervalSearch<'r> {
         is_rounding(self.curve, &middle).then(|| [&cell.a, &middle, &cell.b].map(|point| point.sample.value))
     }
 
-    /// Returns whether a formula has no value in a short cell, as far as its ends and its middle show, where rounding alone decides about a guard: a quotient
-    /// of two that both rest, which no range tells of.
+    /// Returns whether the formula has no value at the ends and in the middle of a short cell because of a guard that only rounding decides, such as
+    /// a quotient of two constant zeros, which ranges do not reveal.
     fn is_hole(&mut self, cell: &Cell) -> bool {
         let is_short = cell.length() <= self.short && !self.is_shortest(cell);
         let mut is_missing = |point: &Point| !point.exists() && self.curve.is_undecided(point);
@@ -319,12 +334,12 @@ impl<'r> IntervalSearch<'r> {
         are_missing && self.point(cell, cell.middle()).is_none_or(|middle| !middle.exists())
     }
 
-    /// Returns whether a cell is too short to be cut.
+    /// Returns whether a cell is too short to be divided.
     pub fn is_shortest(&self, cell: &Cell) -> bool {
         cell.length() <= self.shortest || cell.is_empty()
     }
 
-    /// The parts of a cell on both sides of its middle; `None` where the motion cannot be solved for there.
+    /// Divides a cell in its middle. Returns `None` if the motion cannot be solved for there.
     pub fn halve(&mut self, cell: &Cell) -> Option<[Cell; 2]> {
         let middle = match &cell.middle {
             Some(middle) => Rc::clone(middle),
@@ -333,14 +348,14 @@ impl<'r> IntervalSearch<'r> {
         Some(cell.cut(self.curve, &middle))
     }
 
-    /// The parts of a cell before and behind the time at which a guard crosses its threshold, and the shortest cell between. A part is missing
-    /// where the crossing is at that end of the cell. `None` where the motion cannot be solved for.
+    /// Divides a cell where a guard crosses its threshold, into the part before, the shortest cell around the crossing, and the part behind. A part
+    /// is missing if the crossing is at that end of the cell. Returns `None` if the motion cannot be solved for.
     pub fn cut_at_crossing(&mut self, cell: &Cell, guard: usize) -> Option<[Option<Cell>; 3]> {
         let side = cell.a.side(guard);
         let (mut before, mut behind) = (Rc::clone(&cell.a), Rc::clone(&cell.b));
         let offs = self.curve.distances(guard, [&before, &behind]);
         let ends = [[before.state.t, offs[0].abs()], [behind.state.t, offs[1].abs()]];
-        // on a grid, so that formulas that share a guard share what is solved for
+        // on a grid, so that formulas that share a guard share the solved states
         enclose_root(ends, power_of_two_below(self.shortest), |t| {
             let point = self.between(cell.step, [&before.state, &behind.state], t)?;
             let is_behind = point.side(guard).total_cmp(&side).is_ne();
@@ -350,36 +365,34 @@ impl<'r> IntervalSearch<'r> {
         })?;
         if self.is_timed {
             let crossing_error = match self.last_crossing {
-                // beside another crossing of the same guard, in what is rounding there
-                Some((other, t, crossing_error)) if other == guard && (before.state.t - t).abs() <= crossing_error => {
-                    crossing_error
-                }
+                // rounding makes a guard cross several times at one crossing
+                Some(last) if last.guard == guard && (before.state.t - last.t).abs() <= last.error => last.error,
                 _ => {
                     let of =
                         |(end, direction): (&Rc<Point>, f64)| self.crossing_error(cell.step, guard, end, direction);
-                    let doubts = [(&before, -1.0), (&behind, 1.0)].map(of);
-                    f64::min(doubts[0], doubts[1])
+                    let errors = [(&before, -1.0), (&behind, 1.0)].map(of);
+                    f64::min(errors[0], errors[1])
                 }
             };
-            self.last_crossing = Some((guard, before.state.t, crossing_error));
+            self.last_crossing = Some(LocatedCrossing { guard, t: before.state.t, error: crossing_error });
             for end in [&mut before, &mut behind] {
                 Rc::make_mut(end).crossing_error = crossing_error;
             }
         }
         let jump = (before.sample.value - behind.sample.value).abs();
-        if self.curve.holds_forces() && jump > DIFFERENT * self.range {
-            // a load may jump a little beside where its argument says
-            let beside = TIMES / SHORTEST * self.shortest;
-            self.shift(cell.step, &mut before, -beside);
-            self.shift(cell.step, &mut behind, beside);
+        if self.curve.holds_forces && jump > DIFFERENT * self.range {
+            // the time of a load's jump is less accurate than the crossing
+            let error = TIMES / SHORTEST * self.shortest;
+            self.shift(cell.step, &mut before, -error);
+            self.shift(cell.step, &mut behind, error);
         }
         self.record_hole(cell.step, [&mut before, &mut behind]);
         let part = |a: &Rc<Point>, b: &Rc<Point>| (b.state.t > a.state.t).then(|| cell.between(a, b));
         Some([part(&cell.a, &before), part(&before, &behind), part(&behind, &cell.b)])
     }
 
-    /// Returns the error bound (s) of a crossing near a point, before (−1) or behind it (1): the rounding of the guard's argument divided by its
-    /// rate.
+    /// Returns the error bound (s) of a crossing at a point: the rounding of the guard's argument divided by its rate before (−1) or behind (1)
+    /// the point.
     fn crossing_error(&mut self, step: usize, guard: usize, end: &Point, direction: f64) -> f64 {
         let error = self.curve.rounding_of_argument(guard, end);
         let mut width = FACTOR * FACTOR * self.shortest;
@@ -394,15 +407,15 @@ impl<'r> IntervalSearch<'r> {
         f64::INFINITY
     }
 
-    /// Widens the error bound of a crossing with a value on one side only and a value again farther on: rounding may have hidden it there, so its
-    /// limit is known no better than it changes over that distance.
+    /// Widens the error bound of a crossing at which the formula has a value on one side only, but has one farther on the other side as well:
+    /// rounding may hide the values between, so that the time of the crossing is uncertain by that distance.
     fn record_hole(&mut self, step: usize, [before, behind]: [&mut Rc<Point>; 2]) {
-        let (known, missing) = match [before.exists(), behind.exists()] {
+        let (valid, missing) = match [before.exists(), behind.exists()] {
             [true, false] => (before, &*behind),
             [false, true] => (behind, &*before),
             _ => return,
         };
-        let direction = (missing.state.t - known.state.t).signum();
+        let direction = (missing.state.t - valid.state.t).signum();
         let mut width = self.shortest;
         while width <= self.shortest * OPAQUE / SHORTEST {
             let t = missing.state.t + direction * width;
@@ -412,17 +425,17 @@ impl<'r> IntervalSearch<'r> {
                 return;
             }
             if is_end || there.is_some_and(|there| there.exists()) {
-                self.shift(step, known, -direction * width);
+                self.shift(step, valid, -direction * width);
                 return;
             }
             width *= 4.0;
         }
     }
 
-    /// Records that a point may be meant for a time that is so much (s) beside its own.
-    pub fn shift(&mut self, step: usize, point: &mut Rc<Point>, beside: f64) {
-        let there = self.point_near(step, point.state.t + beside);
+    /// Records that the intended time of a point may differ from its time by `offset` (s), and the change of the value over that.
+    pub fn shift(&mut self, step: usize, point: &mut Rc<Point>, offset: f64) {
+        let there = self.point_near(step, point.state.t + offset);
         let value = there.map_or(f64::INFINITY, |there| (there.sample.value - point.sample.value).abs());
-        Rc::make_mut(point).shift = Shift { time: beside.abs(), value };
+        Rc::make_mut(point).shift = Shift { time: offset.abs(), value };
     }
 }

@@ -1,14 +1,15 @@
-//! What loads may do between two states.
+//! Bounds of loads between two states.
 //!
-//! Of forces only values are known, and those only at states that were solved for. What inertia makes of them goes as smoothly as the motion,
-//! but a load is any formula: between two states it may strike and be gone again. What it can be there is what its formula can be.
+//! Forces are available only as values at solved states. Their inertial part is as smooth as the motion, but a load is an arbitrary formula, which
+//! may have a short pulse between two states. The range of its formula bounds it there.
 
 use mechc_ir::program::{Program, Range, Ranges, Register, Registers};
 use mechc_ir::tolerances::results::loads::{LITTLE, ROUNDINGS, SEEN};
 
-/// A bound of what loads do in a cell beyond what its ends and its middle show.
+/// A bound of the deviation of loads in a cell from the values at its ends and in its middle.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(super) enum Hidden {
+    /// No load exceeds its bounds noticeably.
     Nothing,
     /// A load may exceed its bounds by this much.
     AtMost(f64),
@@ -16,21 +17,21 @@ pub(super) enum Hidden {
     Unbounded,
 }
 
-/// All loads of a mechanism. Their ranges are those of the formulas 1, 2, … of a [`Ranges`].
+/// All loads of a mechanism; their ranges are those of the formulas 1, 2, … in [`Ranges`].
 pub(super) struct Loads {
     each: Vec<Load>,
 }
 
 struct Load {
     value: Register,
-    /// The largest magnitude that was seen.
+    /// The largest magnitude so far.
     largest: f64,
-    /// The largest effect of rounding that was seen.
+    /// The largest effect of rounding so far.
     rounding: f64,
 }
 
 impl Loads {
-    /// Loads whose values a program leaves in some registers.
+    /// Returns the loads whose values a program leaves in some registers.
     pub fn new(values: &[Register]) -> Loads {
         let load = |&value: &Register| Load { value, largest: 0.0, rounding: 0.0 };
         Loads { each: values.iter().map(load).collect() }
@@ -41,7 +42,7 @@ impl Loads {
         self.each.len()
     }
 
-    /// Returns their values at a state that the program has just been run at.
+    /// Returns the values of all loads from the registers of a program that has been run, and records their magnitudes.
     pub fn values(&mut self, registers: &Registers) -> Vec<f64> {
         let value = |load: &mut Load| {
             let value = registers.get(load.value);
@@ -51,8 +52,8 @@ impl Loads {
         self.each.iter_mut().map(value).collect()
     }
 
-    /// Records what rounding makes of them at a state that ranges were set to.
-    pub fn look_at_rounding(&mut self, (program, registers): (&Program, &Registers), ranges: &mut Ranges) {
+    /// Records the effect of rounding on the loads at the state that the ranges were set to.
+    pub fn record_rounding(&mut self, program: &Program, registers: &Registers, ranges: &mut Ranges) {
         for (k, load) in self.each.iter_mut().enumerate() {
             let range = ranges.range(program, registers, 1 + k);
             let width = range.high - range.low;
@@ -60,10 +61,11 @@ impl Loads {
         }
     }
 
-    /// Returns how far loads may go beyond `bounds`, the interval in which each seems to stay.
+    /// Returns how far loads may exceed `bounds`, the expected interval of each.
     pub fn hidden(
         &mut self,
-        (program, registers): (&Program, &Registers),
+        program: &Program,
+        registers: &Registers,
         ranges: &mut Ranges,
         bounds: impl Fn(usize) -> [f64; 2],
     ) -> Hidden {
@@ -84,9 +86,9 @@ impl Loads {
     }
 }
 
-/// Returns how far a range goes beyond an interval; infinite if the range has no end.
+/// Returns how far a range exceeds an interval; infinite if the range is unbounded.
 fn beyond(range: Range, [low, high]: [f64; 2]) -> f64 {
     let [below, above] = [low - range.low, range.high - high];
-    // what is infinite or no number on one side is so in the sum
+    // the sum is finite only if both terms are
     if (below + above).is_finite() { below.max(above).max(0.0) } else { f64::INFINITY }
 }

@@ -1,19 +1,19 @@
-//! How far rounding may be off in what moves.
+//! The magnitudes of moving quantities, which determine their rounding.
 
 use crate::analysis::state::State;
 use mechc_ir::CoordinateKind;
 
-/// The largest magnitudes of a mechanism's coordinates, by time derivative: what rests is as far off as what moves.
+/// The largest magnitudes of a mechanism's coordinates, by time derivative: the rounding of a coordinate at rest is that of the moving ones.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Largest {
-    /// In m and s.
+    /// The magnitudes of lengths (m, m/s, m/s²).
     lengths: [f64; 3],
-    /// In rad and s.
+    /// The magnitudes of angles (rad, rad/s, rad/s²).
     angles: [f64; 3],
 }
 
 impl Largest {
-    /// Records a state's coordinates, of which these are angles.
+    /// Records the coordinates of a state, whose kinds are given.
     pub fn note(&mut self, state: &State, kinds: impl Iterator<Item = CoordinateKind>) {
         for (k, kind) in kinds.enumerate() {
             let largest = match kind {
@@ -27,8 +27,8 @@ impl Largest {
         }
     }
 
-    /// Returns the least size, by time derivative, that rounding of a coordinate of this kind is a part of. A turn moves what is far away by
-    /// a length, and the other way round.
+    /// Returns the least magnitude, by time derivative, that determines the rounding of a coordinate of a kind. Rotations and translations are
+    /// converted into each other by the largest distance.
     fn of(&self, kind: CoordinateKind) -> [f64; 4] {
         let (lengths, angles) = (self.lengths, self.angles);
         let far = lengths[0];
@@ -41,7 +41,7 @@ impl Largest {
     }
 }
 
-/// The largest magnitudes that were seen of some things that move, each with three time derivatives: rounding goes by these.
+/// The largest magnitudes so far of some moving quantities, each with three time derivatives.
 pub(super) struct Magnitudes {
     largest: Vec<[f64; 4]>,
     /// The kind of each quantity that is a coordinate.
@@ -51,12 +51,12 @@ pub(super) struct Magnitudes {
 }
 
 impl Magnitudes {
-    /// Magnitudes of quantities of these kinds; `None` for one that is not a coordinate.
+    /// Returns magnitudes of zero for quantities of some kinds; `None` for one that is not a coordinate.
     pub fn new(kinds: Vec<Option<CoordinateKind>>) -> Magnitudes {
         Magnitudes { largest: vec![[0.0; 4]; kinds.len()], kinds, of_all: Largest::default() }
     }
 
-    /// Records one of them with its derivatives.
+    /// Records a quantity with its time derivatives.
     pub fn note(&mut self, k: usize, tower: &[f64; 4]) {
         for (largest, value) in self.largest[k].iter_mut().zip(tower) {
             if value.is_finite() {
@@ -65,23 +65,23 @@ impl Magnitudes {
         }
     }
 
-    /// Records how large the coordinates of the mechanism are.
+    /// Records the largest magnitudes of the mechanism's coordinates.
     pub fn note_all(&mut self, of_all: Largest) {
         self.of_all = of_all;
     }
 
-    /// Returns, for each quantity, the intervals of its value and derivatives at a state, if their errors are these parts of the largest
-    /// magnitudes.
+    /// Returns, for each quantity, the intervals of its value and time derivatives at a state, whose errors are parts of the largest magnitudes:
+    /// `of_values` for values, `of_rates` for derivatives.
     pub fn around<'s>(
         &'s self,
         towers: impl IntoIterator<Item = [f64; 4]> + 's,
-        [of_places, of_rates]: [f64; 2],
+        [of_values, of_rates]: [f64; 2],
     ) -> impl Iterator<Item = [[f64; 2]; 4]> + 's {
         towers.into_iter().zip(&self.largest).zip(&self.kinds).map(move |((tower, largest), kind)| {
             let least = kind.map_or([0.0; 4], |kind| self.of_all.of(kind));
             [0, 1, 2, 3].map(|order| {
-                let off = largest[order].max(least[order]) * if order == 0 { of_places } else { of_rates };
-                [tower[order] - off, tower[order] + off]
+                let error = largest[order].max(least[order]) * if order == 0 { of_values } else { of_rates };
+                [tower[order] - error, tower[order] + error]
             })
         })
     }

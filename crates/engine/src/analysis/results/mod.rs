@@ -1,11 +1,11 @@
-//! Results: numbers for the whole analysis, which do not depend on the rows that are asked for.
+//! Results: numbers for the whole analysis, which do not depend on the requested rows.
 //!
 //! ```text
-//! Started ──▶ its own Motion ──▶ segments ──▶ extremes, integrals, values ──▶ reductions ──▶ results
+//! Started ──▶ separate Follower ──▶ segments ──▶ extrema, integrals, values ──▶ reductions ──▶ results
 //! ```
 //!
-//! The motion is followed once more, in the steps that it allows, and looked at between their ends as closely as each
-//! formula needs. No bit of a row depends on it.
+//! The motion is followed a second time, in steps as long as it allows, and sampled between their ends as densely as each formula needs. No bit of
+//! a row depends on this.
 
 mod batch_evaluation;
 pub mod course;
@@ -51,12 +51,12 @@ use state_sampler::StateSampler;
 use std::sync::Arc;
 use validity::SingularIntervals;
 
-/// Returns the faults of the results for an analysis from one time to another (s).
+/// Returns a diagnostic for each requested time outside the interval (s) of the analysis.
 #[must_use]
 pub fn refused_results(system: &ConstraintSystem, interval @ [from, to]: [f64; 2]) -> Diagnostics {
     let mut diagnostics = Diagnostics::default();
     for reduction in &system.results().reductions {
-        // one at the time of another reduction is within
+        // the time of another reduction lies within the analysis
         for at in times(reduction).filter(|at| needed(system.graph(), *at).is_empty()) {
             let t = system.value_at(at, &[]);
             if !(from <= t && t <= to) {
@@ -82,11 +82,11 @@ pub struct ResultQuery {
 pub struct Answers {
     /// The values by result, in SI.
     pub values: Vec<Option<f64>>,
-    /// The number of certain significant digits by result, 17 at most; 0 if it has no value or cannot be told from zero.
+    /// The number of certain significant digits by result, 17 at most; 0 if it has no value or cannot be distinguished from zero.
     pub digits: Vec<u32>,
     /// Notes on results without a value, with gaps or with few certain digits.
     pub notes: Vec<Diagnostic>,
-    /// True if the motion was followed to its end, nowhere near a singular position, and holds no forces: so it has a row at any time.
+    /// True if the motion has a row at any time: it was followed to its end, never close to a singular position, and has no forces.
     pub has_all_rows: bool,
 }
 
@@ -94,14 +94,14 @@ impl Answers {
     /// Returns the least number of certain digits of all results with a value; 0 if no result has one.
     #[must_use]
     pub fn certain_digits(&self) -> u32 {
-        let known = self.values.iter().zip(&self.digits).filter(|(value, _)| value.is_some());
-        known.map(|(_, digits)| *digits).min().unwrap_or(0)
+        let valid = self.values.iter().zip(&self.digits).filter(|(value, _)| value.is_some());
+        valid.map(|(_, digits)| *digits).min().unwrap_or(0)
     }
 }
 
 impl Started {
-    /// Returns the query of results over an interval (s), at the start of which the mechanism is assembled; `pass` continues beyond
-    /// bifurcations. `cancel` ends the work.
+    /// Returns the query for results over an interval (s), at the start of which the mechanism is assembled. `pass` continues beyond bifurcations;
+    /// `cancel` stops the computation.
     #[must_use]
     pub fn asked(&self, interval: [f64; 2], pass: bool, cancel: &Cancel) -> ResultQuery {
         let (kinematics, state, solver) = self.parts();
@@ -109,15 +109,24 @@ impl Started {
     }
 }
 
-/// The motion in some chunks of its segments, and what follows from it.
+/// A reduction with a valid window.
+struct Request {
+    /// The number of the reduction.
+    k: usize,
+    kind: ReductionKind,
+    /// The time (s) of [`ReductionKind::At`]; NaN for other kinds.
+    at: f64,
+}
+
+/// The motion in chunks of segments, and the estimates of the reductions.
 struct Analysis {
     query: ResultQuery,
     determined: Arc<Determined>,
     /// The estimate of each reduction, or why it has no value.
     estimates: Vec<Option<Result<Estimate, NoValueCause>>>,
-    /// The first time (s) that each reduction leaves out because its formula has no value.
+    /// The first time (s) that each reduction leaves out because its formula has no value there.
     missing: Vec<Option<f64>>,
-    /// The steps of the motion, once they are known and are not too many to be kept.
+    /// The steps of the motion, once it has been followed, unless there are too many to keep.
     steps: Option<Vec<SmoothSegment>>,
     /// The solver of states between the ends of steps.
     sampler: Option<StateSampler>,
@@ -127,7 +136,7 @@ struct Analysis {
 }
 
 impl ResultQuery {
-    /// Computes the results by following the motion once more. Returns `None` if that is cancelled.
+    /// Computes the results by following the motion a second time. Returns `None` if cancelled.
     #[must_use]
     pub fn answer(self) -> Option<Answers> {
         let determined = self.kinematics.determined();
@@ -155,7 +164,7 @@ impl ResultQuery {
         Some(analysis.answers())
     }
 
-    /// Returns a follower of its own to some times.
+    /// Returns a separate follower of the motion to some times.
     fn motion(&self, times: Times) -> Follower {
         let mut motion = Follower::new((self.kinematics.clone(), self.state.clone(), self.solver.clone()), times);
         if self.pass {
@@ -170,7 +179,7 @@ impl Analysis {
         self.determined.system()
     }
 
-    /// Returns the reductions that can be computed now, because those in their formulas are resolved, or `None` if no reduction is left.
+    /// Returns the reductions that can be computed next, because those in their formulas have estimates, or `None` if no reduction is left.
     fn next_level(&mut self) -> Option<Vec<usize>> {
         let determined = Arc::clone(&self.determined);
         let system = determined.system();
@@ -189,39 +198,36 @@ impl Analysis {
         (!level.is_empty()).then_some(level)
     }
 
-    /// Follows the motion for some reductions.
+    /// Follows the motion to estimate some reductions.
     fn follow(&mut self, level: &[usize]) -> Result<(), Box<Stop>> {
         let determined = Arc::clone(&self.determined);
         let system = determined.system();
-        let mut requests: Vec<(usize, Reduction, [f64; 2])> = Vec::with_capacity(level.len());
+        let (mut requests, mut of) = (Vec::with_capacity(level.len()), Vec::with_capacity(level.len()));
         for &k in level {
             let reduction = system.results().reductions[k];
             match self.window(&reduction) {
-                Ok(window) => requests.push((k, reduction, window)),
+                Ok(window) => {
+                    let at = if let ReductionKind::At(at) = reduction.kind { self.value(at, false) } else { f64::NAN };
+                    requests.push(Request { k, kind: reduction.kind, at });
+                    of.push((reduction.of, window.map(f64::to_bits)));
+                }
                 Err(cause) => self.estimates[k] = Some(Err(cause)),
             }
         }
-        let of: Vec<(ExprId, [u64; 2])> =
-            requests.iter().map(|(_, reduction, window)| (reduction.of, window.map(f64::to_bits))).collect();
-        let known = |k: usize| self.estimates[k].and_then(Result::ok).map_or(0.0, |found| found.value);
-        let new_places = || StateSampler::new(self.query.kinematics.clone(), self.query.solver.clone());
-        let mut sampler = self.sampler.take().unwrap_or_else(new_places);
-        let (all, curve_of) = curves(system, &of, known, sampler.variations());
+        let resolved = |k: usize| self.estimates[k].and_then(Result::ok).map_or(0.0, |estimate| estimate.value);
+        let new_sampler = || StateSampler::new(self.query.kinematics.clone(), self.query.solver.clone());
+        let mut sampler = self.sampler.take().unwrap_or_else(new_sampler);
+        let (all, curve_of) = curves(system, &of, resolved, sampler.variations());
         let mut all: Vec<FormulaReductions> =
             all.into_iter().map(|(curve, window)| FormulaReductions::new(curve, window.map(f64::from_bits))).collect();
-        let at = |reduction: &Reduction| match reduction.kind {
-            ReductionKind::At(at) => self.value(at, false),
-            _ => f64::NAN,
-        };
-        let at: Vec<f64> = requests.iter().map(|(_, reduction, _)| at(reduction)).collect();
-        for (((_, reduction, _), &of), &at) in requests.iter().zip(&curve_of).zip(&at) {
-            all[of].request(reduction.kind, at);
+        for (request, &of) in requests.iter().zip(&curve_of) {
+            all[of].request(request);
         }
-        self.look(&mut all, &mut sampler)?;
+        self.evaluate(&mut all, &mut sampler)?;
         self.sampler = Some(sampler);
-        for (((k, reduction, _), &of), &at) in requests.iter().zip(&curve_of).zip(&at) {
-            self.estimates[*k] = Some(self.query.certain(&all[of], (reduction.kind, at), &self.singular));
-            self.missing[*k] = all[of].missing(reduction.kind);
+        for (request, of) in requests.iter().zip(curve_of) {
+            self.estimates[request.k] = Some(self.query.certain_estimate(&all[of], request, &self.singular));
+            self.missing[request.k] = all[of].missing(request.kind);
         }
         Ok(())
     }
@@ -238,13 +244,13 @@ impl Analysis {
         }
     }
 
-    /// Evaluates formulas along the whole motion, which is followed once if its steps can be kept.
-    fn look(&mut self, all: &mut [FormulaReductions], sampler: &mut StateSampler) -> Result<(), Box<Stop>> {
+    /// Evaluates formulas along the whole motion, which is followed only once if its steps can be kept.
+    fn evaluate(&mut self, all: &mut [FormulaReductions], sampler: &mut StateSampler) -> Result<(), Box<Stop>> {
         let [from, to] = self.query.interval;
         let span = to - from;
         if let Some(steps) = &self.steps {
             for reduced in all.iter_mut() {
-                reduced.look((steps, self.largest), sampler, span);
+                reduced.evaluate(steps, self.largest, sampler, span);
             }
             return Ok(());
         }
@@ -256,7 +262,7 @@ impl Analysis {
             let next = motion.next_segment()?;
             let is_end = next.is_none();
             if let Some(step) = next {
-                self.singular.take_note(&step, &motion);
+                self.singular.record(&step, &motion);
                 for state in [&step.from, &step.to] {
                     self.largest
                         .note(state, determined.system().coordinates().iter().map(|coordinate| coordinate.kind));
@@ -264,18 +270,18 @@ impl Analysis {
                 push_step(&mut steps, step);
             }
             if is_end && span <= 0.0 {
-                sampler.enter_where(&motion.switches());
+                sampler.set_variation_switches(&motion.switches());
                 for reduced in all.iter_mut() {
-                    reduced.look_at_start(motion.here(), sampler);
+                    reduced.evaluate_start(motion.here(), sampler);
                 }
                 return Ok(());
             }
-            // steps towards a singular position are replaced once the way over it is known
+            // steps towards a singular position are replaced when the bridge over it is found
             let is_full = steps.len() >= CHUNK.min(1 + NUMBERS / (1 + motion.here().q.len()));
             if is_end || (is_full && motion.was_clear_here()) {
-                steps = cut_where_unlike(steps, sampler);
+                steps = divide_unresolved(steps, sampler);
                 for reduced in all.iter_mut() {
-                    reduced.look((&steps, self.largest), sampler, span);
+                    reduced.evaluate(&steps, self.largest, sampler, span);
                 }
                 if is_end {
                     self.steps = is_whole.then_some(steps);
@@ -301,33 +307,33 @@ impl Analysis {
         }
     }
 
-    /// Returns the value of a formula of parameters and resolved reductions; NaN if one of them has none.
+    /// Returns the value of a formula of parameters and estimated reductions; NaN if one of them has no value.
     fn value(&self, formula: ExprId, unknown_is_false: bool) -> f64 {
-        self.value_with(formula, unknown_is_false, (usize::MAX, 0.0))
+        self.value_with(formula, unknown_is_false, usize::MAX, 0.0)
     }
 
     /// Returns the value of a formula with the reduction `varied` moved by `times` times its error bound.
-    fn value_with(&self, formula: ExprId, unknown_is_false: bool, (varied, times): (usize, f64)) -> f64 {
+    fn value_with(&self, formula: ExprId, unknown_is_false: bool, varied: usize, times: f64) -> f64 {
         let system = self.system();
-        let found = |k: usize| {
-            let found = self.estimates[k].and_then(Result::ok).unwrap_or(Estimate::NOTHING);
-            found.value + if k == varied { times * found.error } else { 0.0 }
+        let reduction = |k: usize| {
+            let estimate = self.estimates[k].and_then(Result::ok).unwrap_or(Estimate::NOTHING);
+            estimate.value + if k == varied { times * estimate.error } else { 0.0 }
         };
-        value_of(system.graph(), (formula, unknown_is_false), |k| system.params()[k as usize].value, found)
+        value_of(system.graph(), formula, unknown_is_false, |k| system.params()[k as usize].value, reduction)
     }
 
-    /// Returns the estimate of an outcome, with an error bound from those of its reductions; no value if it divides by a reduction that cannot be
-    /// told from zero.
+    /// Returns the estimate of an outcome, with an error bound from those of its reductions. It has no value if it divides by a value at a time that
+    /// cannot be distinguished from zero: the error of that changes it by half or more, and out of proportion.
     fn estimate(&self, outcome: &Outcome, needed: &[usize]) -> Estimate {
         let (formula, is_false) = (outcome.value, outcome.unknown_is_false);
         let value = self.value(formula, is_false);
         let mut error = 0.0;
         for &k in needed {
-            let [more, less] = [1.0, -1.0].map(|times| self.value_with(formula, is_false, (k, times)) - value);
+            let [more, less] = [1.0, -1.0].map(|times| self.value_with(formula, is_false, k, times) - value);
             error += f64::max(more.abs(), less.abs());
             let is_of_time = matches!(self.system().results().reductions[k].kind, ReductionKind::At(_));
             let is_bent = (more + less).abs() > 0.5 * (more - less).abs();
-            // whichever way it is off: what goes to one side alone is another branch
+            // the change has to occur in both directions: one in a single direction comes from another branch of the formula
             if is_of_time && f64::min(more.abs(), less.abs()) >= 0.5 * value.abs() && is_bent {
                 return Estimate::NOTHING;
             }
@@ -335,6 +341,7 @@ impl Analysis {
         Estimate { value, error }
     }
 
+    /// Returns the values of all results, with notes.
     fn answers(&self) -> Answers {
         let system = self.system();
         let was_followed = self.sampler.is_some();
@@ -342,8 +349,8 @@ impl Analysis {
         let mut answers = Answers { has_all_rows, ..Answers::default() };
         for outcome in &system.results().outcomes {
             let needed = needed(system.graph(), outcome.value);
-            let found = self.estimate(outcome, &needed);
-            let value = found.value;
+            let estimate = self.estimate(outcome, &needed);
+            let value = estimate.value;
             if !value.is_finite() {
                 let cause = needed.into_iter().find_map(|k| self.estimates[k].and_then(Result::err));
                 answers.values.push(None);
@@ -351,7 +358,7 @@ impl Analysis {
                 answers.notes.push(errors::result_without_value(outcome, cause));
                 continue;
             }
-            let digits = found.certain_digits();
+            let digits = estimate.certain_digits();
             // −0 would surprise a reader
             answers.values.push(Some(value + 0.0));
             answers.digits.push(digits);
@@ -366,7 +373,7 @@ impl Analysis {
     }
 }
 
-/// Adds a step to others. One over a singular position stands for those too that have come near to that: it begins where the motion was clear.
+/// Appends a step. A step over a singular position replaces those that approached it: it begins where the motion was still clear.
 fn push_step(steps: &mut Vec<SmoothSegment>, mut step: SmoothSegment) {
     if let Some(bridge) = &step.bridge {
         let clear = &bridge.from;
@@ -384,43 +391,43 @@ fn push_step(steps: &mut Vec<SmoothSegment>, mut step: SmoothSegment) {
     steps.push(step);
 }
 
-/// Cuts steps in which the states at both ends do not determine the motion: a driver may start and stop within one.
-fn cut_where_unlike(steps: Vec<SmoothSegment>, sampler: &mut StateSampler) -> Vec<SmoothSegment> {
+/// Divides steps in which the states at both ends do not determine the motion: a driver may start and stop within one.
+fn divide_unresolved(steps: Vec<SmoothSegment>, sampler: &mut StateSampler) -> Vec<SmoothSegment> {
     if !sampler.has_signals() {
         return steps;
     }
-    let mut found = Vec::with_capacity(steps.len());
+    let mut parts = Vec::with_capacity(steps.len());
     for step in steps {
         let shortest = SHORTEST * (step.to.t - step.from.t);
         let mut open = vec![step];
         while let Some(step) = open.pop() {
-            match sampler.unlike(&step).filter(|_| step.to.t - step.from.t > shortest) {
+            match sampler.deviating_state(&step).filter(|_| step.to.t - step.from.t > shortest) {
                 Some(within) => open.extend(step.cut_at(within).into_iter().rev()),
-                None => found.push(step),
+                None => parts.push(step),
             }
         }
     }
-    found
+    parts
 }
 
-/// Returns the distinct formulas of some reductions with their windows, and the index of each reduction's formula. Reductions that a formula
-/// contains are replaced by their values as far as these are known.
+/// Returns the distinct formulas of some reductions with their windows, and the index of each reduction's formula. `reduction` returns the value that
+/// replaces a reduction within a formula.
 fn curves<W: Copy + PartialEq>(
     system: &ConstraintSystem,
     requests: &[(ExprId, W)],
-    found: impl Fn(usize) -> f64,
+    reduction: impl Fn(usize) -> f64,
     variations: usize,
 ) -> (Vec<(Curve, W)>, Vec<usize>) {
-    let (mut graph, mut known) = (Graph::new(), FxHashMap::default());
-    graph.import_tables(system.graph(), &mut known, Graph::symbol);
+    let (mut graph, mut imported) = (Graph::new(), FxHashMap::default());
+    graph.import_tables(system.graph(), &mut imported, Graph::symbol);
     let mut curve_of: Vec<usize> = Vec::new();
     let mut ids: Vec<(ExprId, W)> = Vec::new();
     for (of, window) in requests {
-        graph.import(system.graph(), &[*of], &mut known, |graph, symbol| match symbol {
-            Symbol::Named(k) => graph.constant(found(k as usize)),
+        graph.import(system.graph(), &[*of], &mut imported, |graph, symbol| match symbol {
+            Symbol::Named(k) => graph.constant(reduction(k as usize)),
             other => graph.symbol(other),
         });
-        let id = (known[of], *window);
+        let id = (imported[of], *window);
         let at = ids.iter().position(|&other| other == id).unwrap_or_else(|| {
             ids.push(id);
             ids.len() - 1
@@ -428,34 +435,35 @@ fn curves<W: Copy + PartialEq>(
         curve_of.push(at);
     }
     let given: Vec<ExprId> = system.loads().iter().map(|load| load.force).collect();
-    graph.import(system.graph(), &given, &mut known, Graph::symbol);
-    let loads: Vec<ExprId> = given.iter().map(|load| known[load]).collect();
+    graph.import(system.graph(), &given, &mut imported, Graph::symbol);
+    let loads: Vec<ExprId> = given.iter().map(|load| imported[load]).collect();
     let curve = |(id, window)| (Curve::new(&mut graph, id, &loads, system, variations), window);
     (ids.into_iter().map(curve).collect(), curve_of)
 }
 
-/// Returns the value of a formula of parameters and reductions; NaN if one of them has none.
+/// Returns the value of a formula of parameters and reductions; NaN if one of them has no value.
 fn value_of(
     graph: &Graph,
-    (formula, unknown_is_false): (ExprId, bool),
+    formula: ExprId,
+    unknown_is_false: bool,
     params: impl Fn(u32) -> f64,
-    found: impl Fn(usize) -> f64,
+    reduction: impl Fn(usize) -> f64,
 ) -> f64 {
     let value = |symbol| match symbol {
         Symbol::Param(k) => params(k),
         Symbol::Shift(_) => 0.0,
-        Symbol::Named(k) => found(k as usize),
+        Symbol::Named(k) => reduction(k as usize),
         _ => f64::NAN,
     };
     match graph.node(formula) {
-        // most results are a reduction and nothing else
+        // most results are a single reduction
         Node::Symbol(symbol) => value(symbol),
         _ if unknown_is_false => graph.value(formula, value),
         _ => graph.value_if_known(formula, value),
     }
 }
 
-/// Returns the formulas of the times (s) in a reduction: that of a value, those of a window.
+/// Returns the formulas of the times (s) in a reduction: that of [`ReductionKind::At`], and those of the window.
 fn times(reduction: &Reduction) -> impl Iterator<Item = ExprId> {
     let at = if let ReductionKind::At(at) = reduction.kind { Some(at) } else { None };
     at.into_iter().chain(reduction.window.into_iter().flatten())

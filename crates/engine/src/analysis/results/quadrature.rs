@@ -1,5 +1,5 @@
-//! Integrals over time, by formulas that take value and derivatives of both ends of a cell (Euler and Maclaurin); of what has no
-//! derivatives by values within (Lobatto and Kronrod).
+//! Integrals over time by adaptive quadrature: from the values and derivatives at both ends of a cell (Euler and Maclaurin) or, of a formula
+//! without derivatives, from values within (Lobatto and Kronrod).
 
 use super::curve::{Cell, Estimate, Point, Verdict};
 use super::interval_search::{IntervalSearch, NoValueCause, Scale};
@@ -11,7 +11,7 @@ use mechc_ir::tolerances::results::quadrature::{
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
-/// Lobatto's rule of four points, exact for polynomials of degree 5, and Kronrod's extension of it to seven, of degree 9: places within a cell
+/// Inner nodes of Lobatto's rule of four points, exact for polynomials of degree 5, and of Kronrod's extension to seven, of degree 9, in a cell
 /// from −1 to 1, with the weights of both. Source: W. Gander, W. Gautschi, *Adaptive Quadrature – Revisited*, BIT 40, 2000.
 const WITHIN: [[f64; 3]; 4] = [
     [-0.816_496_580_927_726, 0.0, 72.0 / 245.0],
@@ -19,37 +19,38 @@ const WITHIN: [[f64; 3]; 4] = [
     [0.447_213_595_499_957_9, 5.0 / 6.0, 125.0 / 294.0],
     [0.816_496_580_927_726, 0.0, 72.0 / 245.0],
 ];
+/// Weights of the ends in both rules.
 const ENDS: [f64; 2] = [1.0 / 6.0, 11.0 / 210.0];
+/// Weight of the middle in Kronrod's rule.
 const MIDDLE: f64 = 16.0 / 35.0;
 
 /// An integral over time.
 #[derive(Clone, Copy, Default, Debug)]
 pub(super) struct Integral {
     sum: f64,
-    /// A bound of its error.
+    /// A bound of the error of `sum`.
     error: f64,
     /// The time (s) during which the formula has a value.
-    time: f64,
+    pub time: f64,
     /// The time (s) without a value that rounding may have hidden.
     hidden: f64,
-    /// The time of the analysis (s).
+    /// The duration of the analysis (s).
     span: f64,
-    /// A value that is usual, and the integral of how far the formula is from that.
+    /// A usual value of the formula.
     usual: f64,
+    /// The integral of the distance of the formula from its usual value.
     size: f64,
-    /// What the cell too short to be cut that holds the most may hold, of those into which the formula grows so fast that the integral has no end, and
-    /// its time (s).
+    /// The largest contribution of a shortest cell towards which the formula grows so fast that the integral may diverge, and its time (s).
     steepest: [f64; 2],
 }
 
-/// What a rule finds of a cell, and the values in it allow: where the formula bends at an end of the cell its derivatives there may be those of the
-/// other side.
-fn within(found: f64, [least, most]: [f64; 2]) -> f64 {
-    if found.is_finite() && least <= most { found.max(least).min(most) } else { found }
+/// Clamps the result of a rule to the bounds that the values in the cell allow: at a kink the derivatives may be those of the other side.
+fn clamped(value: f64, [least, most]: [f64; 2]) -> f64 {
+    if value.is_finite() && least <= most { value.max(least).min(most) } else { value }
 }
 
 impl Integral {
-    /// The integral, and how far off it may be.
+    /// Returns the integral with its error bound.
     pub fn estimate(&self) -> Estimate {
         let hidden = if self.hidden > 0.0 { self.hidden / self.time } else { 0.0 };
         Estimate {
@@ -58,35 +59,30 @@ impl Integral {
         }
     }
 
-    /// Returns the time (s) during which the formula has a value.
-    pub fn time(&self) -> f64 {
-        self.time
-    }
-
     /// Returns the average distance of the formula from a usual value.
     pub fn deviation(&self) -> f64 {
         self.size / self.time
     }
 
-    /// A time (s) towards which the formula grows so fast that the integral does not exist.
+    /// Returns a time (s) towards which the formula grows so fast that the integral diverges.
     pub fn unbounded(&self) -> Option<f64> {
-        self.unbounded_beside(0.0)
+        self.unbounded_with(0.0)
     }
 
-    /// A time (s) towards which the formula grows fast enough for that, if there is one.
+    /// Returns a time (s) towards which the formula grows fast enough for divergence, even if its contribution is small.
     pub fn grows_at(&self) -> Option<f64> {
         Some(self.steepest[1]).filter(|_| self.steepest[0] > 0.0)
     }
 
-    /// As [`Integral::unbounded`], where so much more is known of its size.
-    fn unbounded_beside(&self, size: f64) -> Option<f64> {
+    /// Returns [`Integral::unbounded`] for an integral whose size is larger by `size`.
+    fn unbounded_with(&self, size: f64) -> Option<f64> {
         let [most, t] = self.steepest;
         (most > DIVERGES * (self.size + size)).then_some(t)
     }
 
-    /// One that is known, over some time (s).
-    pub fn from_estimate(found: Estimate, time: f64) -> Integral {
-        Integral { sum: found.value, error: found.error, time, ..Integral::default() }
+    /// Returns the integral over a duration (s) that was computed elsewhere.
+    pub fn from_estimate(estimate: Estimate, time: f64) -> Integral {
+        Integral { sum: estimate.value, error: estimate.error, time, ..Integral::default() }
     }
 
     fn add(&mut self, sum: f64, error: f64, time: f64) {
@@ -97,13 +93,14 @@ impl Integral {
     }
 }
 
-/// A cell with what is known of the integral over it.
+/// A divided cell with the estimate of the integral over it.
 struct Part {
     halves: [Cell; 2],
-    /// The cell's first time (s), and its length (s).
+    /// The first time (s) of the cell.
     from: f64,
+    /// The length (s) of the cell.
     length: f64,
-    found: f64,
+    sum: f64,
     error: f64,
 }
 
@@ -122,15 +119,15 @@ impl PartialOrd for Part {
 }
 
 impl Ord for Part {
-    /// Orders parts by their error bounds; of equal ones the earlier is greater.
+    /// Orders parts by their error bounds; among equal ones the earlier part is greater.
     fn cmp(&self, other: &Part) -> Ordering {
         self.error.total_cmp(&other.error).then(other.from.total_cmp(&self.from))
     }
 }
 
 impl IntervalSearch<'_> {
-    /// Adds the integral of the formula over some cells. What may be farthest off is made better first, until all together is good enough beside the
-    /// integral of how far the formula is from a value that is usual.
+    /// Adds the integral of the formula over some cells. The part with the largest error is refined first, until the total error is small,
+    /// relative to the integral of the distance of the formula from its usual value.
     pub(super) fn integrate(&mut self, cells: &[Cell], usual: f64, scale: Scale, integral: &mut Integral) {
         (integral.usual, integral.span, self.range, self.is_timed) = (usual, scale.span, scale.range, true);
         let mut parts = BinaryHeap::new();
@@ -138,7 +135,7 @@ impl IntervalSearch<'_> {
             self.take(cell.clone(), &mut parts, integral);
         }
         for pair in cells.windows(2) {
-            // a load may jump a little beside
+            // the time of a load's jump between two cells is uncertain
             let [before, behind] = [&pair[0].b, &pair[1].a];
             let jump = (before.sample.value - behind.sample.value).abs();
             if behind.shift.time > 0.0 && jump.is_finite() {
@@ -149,12 +146,12 @@ impl IntervalSearch<'_> {
             let (mut error, mut size) = (0.0, 0.0);
             for part in parts {
                 error += part.error;
-                size += if part.error.is_finite() { (part.found - usual * part.length).abs() } else { 0.0 };
+                size += if part.error.is_finite() { (part.sum - usual * part.length).abs() } else { 0.0 };
             }
-            let is_far_off = error > f64::max(ACCURACY * size, ROUNDING * scale.weight * scale.span).max(NOTHING);
-            is_far_off && integral.unbounded_beside(size).is_none()
+            let is_inaccurate = error > f64::max(ACCURACY * size, ROUNDING * scale.weight * scale.span).max(NOTHING);
+            is_inaccurate && integral.unbounded_with(size).is_none()
         };
-        // all together is looked at no more often than some have been cut
+        // the total error is computed only after several parts have been refined
         let mut left = 0;
         loop {
             if left == 0 {
@@ -173,13 +170,14 @@ impl IntervalSearch<'_> {
         parts.sort_unstable_by(|a, b| a.from.total_cmp(&b.from));
         for part in parts {
             if self.notes.are_exhausted() && part.error == f64::INFINITY {
-                self.notes.meet(NoValueCause::Unknown(part.from));
+                self.notes.fail(NoValueCause::Unknown(part.from));
             }
-            integral.add(part.found, part.error, part.length);
+            integral.add(part.sum, part.error, part.length);
         }
     }
 
-    /// Takes in a cell: what is known of the integral over it, or over its parts where a guard crosses its threshold in it.
+    /// Integrates over a cell, which is divided where guards cross their thresholds. What may need refinement is added to `parts`, the rest to
+    /// `integral`.
     fn take(&mut self, cell: Cell, parts: &mut BinaryHeap<Part>, integral: &mut Integral) {
         let mut open = vec![cell];
         while let Some(mut cell) = open.pop() {
@@ -189,9 +187,9 @@ impl IntervalSearch<'_> {
                 continue;
             }
             if h <= POLE_DISTANCE * integral.span
-                && let Some([sum, error]) = self.integrate_beside_pole(&cell)
+                && let Some(estimate) = self.integrate_near_pole(&cell)
             {
-                integral.add(sum, error, h);
+                integral.add(estimate.value, estimate.error, h);
                 continue;
             }
             let (verdict, range) = self.enclose(&mut cell);
@@ -219,129 +217,130 @@ impl IntervalSearch<'_> {
             let is_unbounded = h <= self.short && range.high - range.low == f64::INFINITY;
             let exists = points.iter().any(|point| point.exists());
             if is_unbounded && exists && points.into_iter().all(|point| self.is_noise(point)) {
-                // nearer to a pole than rounding allows to look
+                // so close to a pole that every value is rounding
                 self.integrate_shortest(&cell, integral);
                 continue;
             }
             let values = points.map(|point| point.sample.value);
-            let (mut found, mut error) = (0.0, f64::INFINITY);
+            let (mut sum, mut error) = (0.0, f64::INFINITY);
             if values.iter().all(|value| value.is_finite()) {
-                let (sum, rule_error) = self.rule(&cell, &halves);
-                found = within(sum, [range.low * h, range.high * h]);
+                let rule = self.rule(&cell, &halves);
+                sum = clamped(rule.value, [range.low * h, range.high * h]);
                 let largest = values.iter().fold(0.0, |largest, value| f64::max(largest, value.abs()));
                 let rounding = ROUNDING * largest * h;
-                let by_rule = if is_smooth { rule_error - rounding } else { f64::INFINITY };
+                let by_rule = if is_smooth { rule.error - rounding } else { f64::INFINITY };
                 error = by_rule.min((range.high - range.low) * h).max(0.0);
             }
-            parts.push(Part { halves, from: cell.a.state.t, length: h, found, error });
+            parts.push(Part { halves, from: cell.a.state.t, length: h, sum, error });
         }
     }
 
-    /// Returns whether rounding may make more of the value at a point than values differ elsewhere, if there is one.
+    /// Returns whether a point has no value, or one without a certain digit.
     fn is_noise(&mut self, point: &Point) -> bool {
         if !point.exists() {
             return true;
         }
-        let found = self.curve.estimate(point);
-        found.certain_digits() == 0 && found.error > NOTHING
+        let estimate = self.curve.estimate(point);
+        estimate.certain_digits() == 0 && estimate.error > NOTHING
     }
 
-    /// As [`IntervalSearch::integrate`], over a cell too short to be cut. What there is of an integral in one with a pole is counted on both sides of it.
+    /// Adds the integral over a cell that is too short to be divided. The contribution of a pole in it is bounded from the values on both sides.
     fn integrate_shortest(&mut self, cell: &Cell, integral: &mut Integral) {
         let h = cell.length();
         let values = [&cell.a, &cell.b].map(|point| point.sample.value);
-        let known: Vec<f64> = values.into_iter().filter(|value| value.is_finite()).collect();
-        if known.len() < 2 {
-            self.miss(cell.step, cell.a.state.t);
-        }
+        let finite: Vec<f64> = values.into_iter().filter(|value| value.is_finite()).collect();
         let hidden = cell.a.shift.time.max(cell.b.shift.time);
-        // both ends of a hole tell of it
-        if known.len() < 2 {
+        if finite.len() < 2 {
+            self.miss(cell.step, cell.a.state.t);
+            // both ends of a hole count it, half each
             integral.hidden += 0.5 * (cell.a.shift.time + cell.b.shift.time);
         }
-        let largest = known.iter().fold(0.0, |largest, value| f64::max(largest, (value - integral.usual).abs()));
-        if let [a, b] = known[..] {
-            // of a jump that may as well be beside
-            let beside = hidden.max(cell.a.crossing_error).max(cell.b.crossing_error);
-            integral.error += (a - b).abs() * beside.min(self.short);
+        let largest = finite.iter().fold(0.0, |largest, value| f64::max(largest, (value - integral.usual).abs()));
+        if let [a, b] = finite[..] {
+            // the time of a jump is uncertain
+            let offset = hidden.max(cell.a.crossing_error).max(cell.b.crossing_error);
+            integral.error += (a - b).abs() * offset.min(self.short);
         }
         let growth = self.growth_into(cell, integral.usual);
-        if growth > LEAST_GROWTH && !known.is_empty() {
-            let held = largest * h.max(hidden);
-            if growth >= pow(2.0, STEEPEST) && held > integral.steepest[0] {
-                integral.steepest = [held, cell.a.state.t];
+        if growth > LEAST_GROWTH && !finite.is_empty() {
+            let contribution = largest * h.max(hidden);
+            if growth >= pow(2.0, STEEPEST) && contribution > integral.steepest[0] {
+                integral.steepest = [contribution, cell.a.state.t];
             }
-            // all around a pole that is touched values may be rounding
+            // a longer cell comes here because all its values may be rounding
             let part = if self.is_shortest(cell) { PART_OF_POLE } else { 1.0 };
-            // what rounding hides grows on as the power tells
-            let grown = if hidden > h { held / (1.0 - log10(growth) / log10(2.0)).max(1.0 - STEEPEST) } else { 0.0 };
-            integral.add(0.0, f64::max(part * h * largest, grown), h);
-        } else if !known.is_empty() {
-            integral.add(h * known.iter().sum::<f64>() / known.len() as f64, 2.0 * h * largest, h);
+            // values hidden by rounding grow by the same power
+            let hidden_part =
+                if hidden > h { contribution / (1.0 - log10(growth) / log10(2.0)).max(1.0 - STEEPEST) } else { 0.0 };
+            integral.add(0.0, f64::max(part * h * largest, hidden_part), h);
+        } else if !finite.is_empty() {
+            integral.add(h * finite.iter().sum::<f64>() / finite.len() as f64, 2.0 * h * largest, h);
         }
     }
 
-    /// The factor by which the formula grows, from a value that is usual, whenever the way to a shortest cell becomes half as long; 1 where it does
-    /// not go on to grow into the cell: a pole does so, and a jump does not.
+    /// Returns the factor by which the distance of the formula from a usual value grows when the distance from a shortest cell is halved; 1 if it
+    /// does not grow on into the cell, as at a jump.
     fn growth_into(&mut self, cell: &Cell, usual: f64) -> f64 {
         let error = |point: &Point| (point.sample.value - usual).abs();
-        let sides = [(&cell.a, -1.0), (&cell.b, 1.0)].map(|(end, way)| {
-            let way = way * cell.length().max(end.shift.time);
-            let mut off_at = |far: f64| {
-                let there = self.point_near(cell.step, end.state.t + far * way);
+        let sides = [(&cell.a, -1.0), (&cell.b, 1.0)].map(|(end, direction)| {
+            let offset = direction * cell.length().max(end.shift.time);
+            let mut error_at = |far: f64| {
+                let there = self.point_near(cell.step, end.state.t + far * offset);
                 there.map_or(f64::NAN, |there| error(&there))
             };
-            let near = off_at(FARTHER[0]);
+            let near = error_at(FARTHER[0]);
             if end.exists() && error(end) <= LEAST_GROWTH * near {
                 return 1.0;
             }
-            let far = off_at(FARTHER[1]);
-            // the one is four times as far away as the other
+            let far = error_at(FARTHER[1]);
+            // `far` is at four times the distance of `near`: two halvings
             if near > far { (near / far).sqrt() } else { 1.0 }
         });
         f64::max(sides[0], sides[1])
     }
 
-    /// The integral over a short cell with a pole of the formula at one end, and how far off it may be: the formula goes with a power of the
-    /// distance from the pole, by its values at three distances. `None` where it is not like that.
-    fn integrate_beside_pole(&mut self, cell: &Cell) -> Option<[f64; 2]> {
+    /// Returns the integral over a short cell with a pole at one end, and its error bound. The formula is a power of the distance from the pole, by
+    /// its values at three distances. Returns `None` if it is not.
+    fn integrate_near_pole(&mut self, cell: &Cell) -> Option<Estimate> {
         let size = |point: &Point| if point.exists() { point.sample.value.abs() } else { f64::INFINITY };
         let (pole, far) = if size(&cell.a) > size(&cell.b) { (&cell.a, &cell.b) } else { (&cell.b, &cell.a) };
         if size(pole) < LEAST_GROWTH * size(far) {
             return None;
         }
-        let (t, way) = (pole.state.t, far.state.t - pole.state.t);
-        let mut at = |part: f64| Some(self.point(cell, t + part * way)?.sample.value);
+        let (t, distance) = (pole.state.t, far.state.t - pole.state.t);
+        let mut at = |part: f64| Some(self.point(cell, t + part * distance)?.sample.value);
         let [quarter, half, whole] = [at(0.25)?, at(0.5)?, far.sample.value];
         let [closer, farther] = [quarter / half, half / whole];
         let differs = (closer - farther).abs();
-        // what they differ grows with the distance
+        // the deviation from a power grows with the distance: extrapolate to the pole
         let power = log10(closer + (closer - farther)) / log10(2.0);
         if !(LEAST_GROWTH..pow(2.0, STEEPEST)).contains(&farther) || differs > ALIKE || power.is_nan() {
             return None;
         }
-        let sum = way.abs() * whole / (1.0 - power);
-        Some([sum, sum.abs() * (differs + f64::EPSILON * t.abs() / way.abs()) / (1.0 - power)])
+        let value = distance.abs() * whole / (1.0 - power);
+        let error = value.abs() * (differs + f64::EPSILON * t.abs() / distance.abs()) / (1.0 - power);
+        Some(Estimate { value, error })
     }
 
-    /// The integral over a cell, by its halves, and how far off it may be.
-    fn rule(&mut self, cell: &Cell, halves: &[Cell; 2]) -> (f64, f64) {
+    /// Returns the integral over a cell from its halves, with an error bound.
+    fn rule(&mut self, cell: &Cell, halves: &[Cell; 2]) -> Estimate {
         if self.curve.derivatives() == 0 {
             return self.rule_of_values(cell, &halves[0].b);
         }
         let whole = self.rule_of_ends(&cell.a, &cell.b);
         let parts = self.rule_of_ends(&halves[0].a, &halves[0].b) + self.rule_of_ends(&halves[1].a, &halves[1].b);
-        // made better by what the whole says
-        let gained = if self.curve.derivatives() == 1 { 15.0 } else { 63.0 };
-        let better = (parts - whole) / gained;
-        if better.is_finite() {
-            return (parts + better, SAFETY * better.abs());
+        // Richardson extrapolation from the whole cell and its halves
+        let factor = if self.curve.derivatives() == 1 { 15.0 } else { 63.0 };
+        let correction = (parts - whole) / factor;
+        if correction.is_finite() {
+            return Estimate { value: parts + correction, error: SAFETY * correction.abs() };
         }
         let middle = halves[0].b.sample.value;
-        (0.25 * cell.length() * (cell.a.sample.value + 2.0 * middle + cell.b.sample.value), f64::INFINITY)
+        let value = 0.25 * cell.length() * (cell.a.sample.value + 2.0 * middle + cell.b.sample.value);
+        Estimate { value, error: f64::INFINITY }
     }
 
-    /// The integral of the polynomial that has the values and derivatives of two points.
+    /// Returns the integral of the polynomial with the values and derivatives of two points.
     pub(super) fn rule_of_ends(&self, a: &Point, b: &Point) -> f64 {
         let (h, [a, b]) = (b.state.t - a.state.t, [a.sample, b.sample]);
         match self.curve.derivatives() {
@@ -350,13 +349,13 @@ impl IntervalSearch<'_> {
         }
     }
 
-    /// As [`IntervalSearch::rule`], by values alone; infinitely far off where one cannot be had.
-    fn rule_of_values(&mut self, cell: &Cell, middle: &Point) -> (f64, f64) {
+    /// Returns the integral over a cell from values alone, with an error bound, which is infinite if one of the values is missing.
+    fn rule_of_values(&mut self, cell: &Cell, middle: &Point) -> Estimate {
         let half = 0.5 * cell.length();
         let ends = cell.a.sample.value + cell.b.sample.value;
         let (mut rough, mut fine) = (ENDS[0] * ends, ENDS[1] * ends + MIDDLE * middle.sample.value);
-        for [place, of_rough, of_fine] in WITHIN {
-            let t = middle.state.t + place * half;
+        for [node, of_rough, of_fine] in WITHIN {
+            let t = middle.state.t + node * half;
             let value = self.point(cell, t).map_or(f64::NAN, |point| point.sample.value);
             rough += of_rough * value;
             fine += of_fine * value;
@@ -366,10 +365,10 @@ impl IntervalSearch<'_> {
                 + (2.0 * middle.sample.value - ends).abs()
                 + (middle.sample.value - 0.5 * fine).abs();
             let error = (fine - rough).abs();
-            // the finer rule is of an order that is higher by half
+            // the order of the finer rule is higher by half
             let part = (SURER * error / size).sqrt();
-            return (half * fine, half * error * if part < 1.0 { part } else { 1.0 });
+            return Estimate { value: half * fine, error: half * error * if part < 1.0 { part } else { 1.0 } };
         }
-        (0.5 * half * (ends + 2.0 * middle.sample.value), f64::INFINITY)
+        Estimate { value: 0.5 * half * (ends + 2.0 * middle.sample.value), error: f64::INFINITY }
     }
 }

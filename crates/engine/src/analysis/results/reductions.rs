@@ -1,5 +1,6 @@
-//! A formula along the whole motion, and the numbers that are asked of it.
+//! A formula along the whole motion, and its requested reductions.
 
+use super::Request;
 use super::curve::{Cell, Curve, Estimate, Point};
 use super::extremum::Extremum;
 use super::interval_search::{IntervalSearch, NoValueCause, Notes, Scale};
@@ -16,29 +17,29 @@ use mechc_ir::tolerances::results::probe::{FACTOR, SHORTEST};
 use mechc_ir::tolerances::results::stretches::{LARGEST, SMALL};
 use std::rc::Rc;
 
-/// A formula over a part of the motion, and its reductions.
+/// A formula in a window of the motion, and its reductions.
 pub(super) struct FormulaReductions {
-    curve: Curve,
+    pub curve: Curve,
     /// The first and the last time (s).
-    window: [f64; 2],
+    pub window: [f64; 2],
     extrema: [Option<Extremum>; 2],
     integral: Option<Integral>,
     /// The findings of the two extrema and of the integral, in this order.
     notes: [Notes; 3],
-    /// The times (s) at which values are requested, and the values.
+    /// The values that are requested at single times.
     times: Vec<RequestedValue>,
-    /// Its values at the ends of steps.
+    /// The values at the ends of steps.
     samples: Vec<Estimate>,
-    /// The scales that the searches of the extrema ended with.
+    /// The scales that the searches for the extrema ended with.
     scales: [Option<Scale>; 2],
 }
 
 /// A value that is requested at a time (s).
 struct RequestedValue {
     t: f64,
-    /// The formula there, once the motion has come there.
+    /// The formula at the time, once the motion has reached it.
     point: Option<Rc<Point>>,
-    found: Estimate,
+    estimate: Estimate,
 }
 
 impl FormulaReductions {
@@ -55,55 +56,49 @@ impl FormulaReductions {
         }
     }
 
-    /// Adds a reduction; `at` is the time (s) of a value at a time.
-    pub fn request(&mut self, kind: ReductionKind, at: f64) {
+    /// Adds a reduction.
+    pub fn request(&mut self, request: &Request) {
         let ([from, to], is_moment) = (self.window, self.is_moment());
         let mut time = |t: f64| {
-            if self.times.iter().all(|known| known.t.total_cmp(&t).is_ne()) {
-                self.times.push(RequestedValue { t, point: None, found: Estimate::NOTHING });
+            if self.times.iter().all(|other| other.t.total_cmp(&t).is_ne()) {
+                self.times.push(RequestedValue { t, point: None, estimate: Estimate::NOTHING });
             }
         };
-        match kind {
-            // of a single time all that is asked for is the value
+        match request.kind {
+            // in a window of a single time these reductions are the value
             ReductionKind::Extreme { .. } | ReductionKind::Mean if is_moment => time(from),
             ReductionKind::Extreme { largest, when } => {
                 let extremum = self.extrema[usize::from(largest)].get_or_insert_with(|| Extremum::new(largest));
-                if when {
-                    extremum.request_time();
-                }
+                extremum.is_timed |= when;
             }
             ReductionKind::Integral if is_moment => {}
             ReductionKind::Mean | ReductionKind::Integral => self.integral = Some(Integral::default()),
             ReductionKind::First => time(from),
             ReductionKind::Last => time(to),
-            ReductionKind::At(_) => time(at),
+            ReductionKind::At(_) => time(request.at),
         }
     }
 
-    /// Returns whether it is of a single time.
+    /// Returns whether the window is a single time.
     fn is_moment(&self) -> bool {
         self.window[1] <= self.window[0]
     }
 
-    /// The window (s).
-    pub fn window(&self) -> [f64; 2] {
-        self.window
-    }
-
-    /// Returns the estimate of a reduction, or why it has no value; `at` is the time (s) of a value at a time.
-    pub fn outcome(&self, kind: ReductionKind, at: f64) -> Result<Estimate, NoValueCause> {
+    /// Returns the estimate of a reduction, or why it has no value.
+    pub fn outcome(&self, &Request { kind, at, .. }: &Request) -> Result<Estimate, NoValueCause> {
         let [from, to] = self.window;
         if let Some(cause) = self.notes_of(kind).and_then(|notes| notes.cause) {
             return Err(cause);
         }
         let of_time = |t: f64| {
-            let found = self.times.iter().find(|asked| asked.t.total_cmp(&t).is_eq()).map(|asked| asked.found);
-            let found = found.filter(|found| found.value.is_finite() && found.error < f64::INFINITY);
-            let found = found.ok_or(NoValueCause::Missing(t))?;
+            let estimate =
+                self.times.iter().find(|request| request.t.total_cmp(&t).is_eq()).map(|request| request.estimate);
+            let estimate = estimate.filter(|estimate| estimate.value.is_finite() && estimate.error < f64::INFINITY);
+            let estimate = estimate.ok_or(NoValueCause::Missing(t))?;
             let scale = self.scale(0.0);
-            // what is nothing was found to be that
-            let is_uncertain = found.value != 0.0 && self.is_uncertain(found, scale.range, scale);
-            if is_uncertain { Err(NoValueCause::Unknown(t)) } else { Ok(found) }
+            // an exact zero is certain
+            let is_uncertain = estimate.value != 0.0 && self.is_uncertain(estimate, scale.range, scale);
+            if is_uncertain { Err(NoValueCause::Unknown(t)) } else { Ok(estimate) }
         };
         match kind {
             ReductionKind::Extreme { when: true, .. } if self.is_moment() => {
@@ -116,7 +111,7 @@ impl FormulaReductions {
                 let (Some(extremum), Some(scale)) = (&self.extrema[which], self.scales[which]) else {
                     return Err(NoValueCause::Nowhere(from));
                 };
-                if let Some(t) = extremum.unbounded() {
+                if let Some(t) = extremum.unbounded {
                     return Err(NoValueCause::Unbounded(t));
                 }
                 let value = extremum.value(scale);
@@ -124,29 +119,29 @@ impl FormulaReductions {
                     return Err(NoValueCause::Nowhere(from));
                 }
                 if value.value.abs() > LARGEST || self.is_uncertain(value, scale.range, scale) {
-                    // it may go on to grow where rounding hides it
-                    let why = if extremum.is_bounded() { NoValueCause::Unknown } else { NoValueCause::Unbounded };
+                    // growth without bound may be hidden by rounding
+                    let why = if extremum.is_bounded { NoValueCause::Unknown } else { NoValueCause::Unbounded };
                     return Err(why(extremum.time(scale).value));
                 }
-                let found = if when { extremum.time(scale) } else { value };
-                // rounding alone may decide when it is
-                let is_known = !when || found.error < f64::INFINITY;
-                if is_known { Ok(found) } else { Err(NoValueCause::Unknown(found.value)) }
+                let estimate = if when { extremum.time(scale) } else { value };
+                // rounding alone may decide at which of several times the extremum is
+                let is_certain = !when || estimate.error < f64::INFINITY;
+                if is_certain { Ok(estimate) } else { Err(NoValueCause::Unknown(estimate.value)) }
             }
             ReductionKind::Mean | ReductionKind::Integral => {
-                let integral = self.integral.as_ref().filter(|integral| integral.time() > 0.0);
+                let integral = self.integral.as_ref().filter(|integral| integral.time > 0.0);
                 let Some(integral) = integral else { return Err(NoValueCause::Nowhere(from)) };
                 if let Some(t) = integral.unbounded() {
                     return Err(NoValueCause::Unbounded(t));
                 }
-                let over = if kind == ReductionKind::Mean { integral.time() } else { 1.0 };
-                let found = integral.estimate();
-                let mean = Estimate { value: found.value / integral.time(), error: found.error / integral.time() };
+                let divisor = if kind == ReductionKind::Mean { integral.time } else { 1.0 };
+                let estimate = integral.estimate();
+                let mean = Estimate { value: estimate.value / integral.time, error: estimate.error / integral.time };
                 if self.is_uncertain(mean, integral.deviation(), self.scale(0.0)) {
                     return Err(integral.grows_at().map_or(NoValueCause::Unknown(from), NoValueCause::Unbounded));
                 }
-                let found = Estimate { value: found.value / over, error: found.error / over };
-                if found.value.is_finite() { Ok(found) } else { Err(NoValueCause::Unknown(from)) }
+                let estimate = Estimate { value: estimate.value / divisor, error: estimate.error / divisor };
+                if estimate.value.is_finite() { Ok(estimate) } else { Err(NoValueCause::Unknown(from)) }
             }
             ReductionKind::First => of_time(from),
             ReductionKind::Last => of_time(to),
@@ -154,7 +149,7 @@ impl FormulaReductions {
         }
     }
 
-    /// Returns the first time (s) without a value, which was left out.
+    /// Returns the first time (s) that a reduction left out because the formula has no value there.
     pub fn missing(&self, kind: ReductionKind) -> Option<f64> {
         self.notes_of(kind).and_then(|notes| notes.missing)
     }
@@ -168,26 +163,16 @@ impl FormulaReductions {
         }
     }
 
-    /// Takes the state of an analysis of a single time.
-    pub fn look_at_start(&mut self, state: &State, sampler: &mut StateSampler) {
+    /// Evaluates the formula at the only state of an analysis of a single time.
+    pub fn evaluate_start(&mut self, state: &State, sampler: &mut StateSampler) {
         let point = self.curve.at(state.clone(), sampler);
-        let found = self.curve.estimate(&point);
-        self.times.iter_mut().for_each(|asked| asked.found = found);
+        let estimate = self.curve.estimate(&point);
+        self.times.iter_mut().for_each(|request| request.estimate = estimate);
     }
 
-    /// Returns whether it changes with the motion, and not with time alone.
-    pub fn moves(&self) -> bool {
-        self.curve.moves()
-    }
-
-    /// Returns whether only values at some times are requested.
-    fn is_of_times_alone(&self) -> bool {
+    /// Returns whether only values at single times are requested.
+    fn has_only_times(&self) -> bool {
         self.extrema.iter().all(Option::is_none) && self.integral.is_none()
-    }
-
-    /// Returns whether it holds derivatives of the coordinates.
-    pub fn holds_rates(&self) -> bool {
-        self.curve.holds_rates()
     }
 
     /// Returns the first time (s) of the largest or least value.
@@ -199,25 +184,25 @@ impl FormulaReductions {
         }
     }
 
-    /// Returns the scale of the formula, by its values at the ends of steps.
+    /// Returns the scale of the formula, from its values at the ends of steps.
     fn scale(&self, span: f64) -> Scale {
-        let low = self.samples.iter().map(|found| found.value).fold(f64::INFINITY, f64::min);
-        let high = self.samples.iter().map(|found| found.value).fold(f64::NEG_INFINITY, f64::max);
-        // what a pole makes of a few values says nothing of the others' rounding, and neither do those that are nothing
-        let weights = self.samples.iter().map(|found| f64::max(found.error / ROUNDING, found.value.abs()));
+        let low = self.samples.iter().map(|estimate| estimate.value).fold(f64::INFINITY, f64::min);
+        let high = self.samples.iter().map(|estimate| estimate.value).fold(f64::NEG_INFINITY, f64::max);
+        // neither the few values near a pole nor zeros are typical of the rounding of the others, hence the median
+        let weights = self.samples.iter().map(|estimate| f64::max(estimate.error / ROUNDING, estimate.value.abs()));
         let weight = median(weights.filter(|weight| *weight > 0.0 && weight.is_finite()).collect());
         Scale { range: f64::max(high - low, 0.0), weight, span }
     }
 
-    /// Returns whether nothing is certain of a value that is not small beside others, which usually differ so much from it, nor beside the numbers that these
-    /// are sums of.
-    fn is_uncertain(&self, found: Estimate, differ: f64, scale: Scale) -> bool {
-        let usual = median(self.samples.iter().map(|found| found.value.abs()).collect());
-        found.certain_digits() == 0 && found.error > SMALL * usual.max(scale.weight).max(differ)
+    /// Returns whether no digit of an estimate is certain although its error is not small, relative to the samples, to their terms, and to
+    /// `deviation`, the usual difference of values.
+    fn is_uncertain(&self, estimate: Estimate, deviation: f64, scale: Scale) -> bool {
+        let usual = median(self.samples.iter().map(|estimate| estimate.value.abs()).collect());
+        estimate.certain_digits() == 0 && estimate.error > SMALL * usual.max(scale.weight).max(deviation)
     }
 
-    /// Takes in the values at times that lie in a step.
-    fn take_times(&mut self, segment: &SmoothSegment, sampler: &mut StateSampler) {
+    /// Evaluates the formula at the requested times that lie in a step.
+    fn evaluate_times(&mut self, segment: &SmoothSegment, sampler: &mut StateSampler) {
         for k in 0..self.times.len() {
             let t = self.times[k].t;
             let behind = shortly_after(t);
@@ -231,26 +216,26 @@ impl FormulaReductions {
             } else {
                 sampler.solve(segment, [&segment.from, &segment.to], t)
             };
-            // of an edge the later side counts, which comes later
+            // at an edge the next step overwrites the value: the later side counts
             self.times[k].point = state.map(|state| self.edge(state, t, segment, sampler));
         }
     }
 
-    /// An end of a step, or a time (s) that is as good as that, with the bits that rows have there where nothing is in doubt.
+    /// Returns the state at an end of a step, or at a time (s) that practically coincides with it, with the bits of a row if the formula settles.
     fn end(&self, state: &State, t: f64, segment: &SmoothSegment, sampler: &mut StateSampler) -> State {
         let settled = self.curve.settles().then(|| sampler.settled(segment, state, t));
         settled.flatten().unwrap_or_else(|| state.clone())
     }
 
-    /// The formula at a state of a time (s) in a step. Where rounding alone decides on which side of a jump an end of the window is, it is that of
-    /// within.
+    /// Evaluates the formula at a state of a step, for the time `t` (s). If rounding alone decides on which side of a jump an end of the window is,
+    /// the side within the window counts.
     fn edge(&mut self, state: State, t: f64, segment: &SmoothSegment, sampler: &mut StateSampler) -> Rc<Point> {
         let point = self.curve.at(state, sampler);
         let [from, to] = self.window;
         let inward = [(t <= from, 1.0), (t >= to, -1.0)].into_iter().find(|(is_end, _)| *is_end);
         let Some((_, direction)) = inward.filter(|_| self.curve.is_undecided(&point)) else { return point };
-        let [near, far] = [FACTOR, FACTOR * FACTOR].map(|beside| {
-            let t = point.state.t + direction * beside * SHORTEST * (to - from);
+        let [near, far] = [FACTOR, FACTOR * FACTOR].map(|distance| {
+            let t = point.state.t + direction * distance * SHORTEST * (to - from);
             let is_within = segment.from.t <= t && t <= segment.to.t;
             let state = if is_within { sampler.solve(segment, [&segment.from, &segment.to], t) } else { None };
             state.map(|state| self.curve.at(state, sampler))
@@ -260,25 +245,25 @@ impl FormulaReductions {
         if !near.exists() {
             return near;
         }
-        // what has no jump goes on as it comes; of a pole nothing is known
+        // without a jump the first difference is about as large as the second; near a pole the errors are infinite
         let error = self.curve.uncertainty(&point) + self.curve.uncertainty(&near);
         if step <= 2.0 * change + error {
             return point;
         }
-        // it is a little within, and so as far off as that changes it
+        // the value is taken slightly within the window, and is uncertain by its change over that distance
         let mut within = (*near).clone();
         within.shift.value += change;
         Rc::new(within)
     }
 
-    /// Looks at some steps of a mechanism whose coordinates are so large.
-    pub fn look(&mut self, (steps, largest): (&[SmoothSegment], Largest), sampler: &mut StateSampler, span: f64) {
+    /// Evaluates the reductions in some steps of an analysis of duration `span` (s); `largest` holds the magnitudes of the coordinates.
+    pub fn evaluate(&mut self, steps: &[SmoothSegment], largest: Largest, sampler: &mut StateSampler, span: f64) {
         self.curve.note_all(largest);
         let mut cells: Vec<Cell> = (0..steps.len()).filter_map(|step| self.cell(step, steps, sampler)).collect();
-        // rounding goes by the largest that was seen
-        for RequestedValue { point, found, .. } in &mut self.times {
+        // rounding depends on the largest magnitudes so far
+        for RequestedValue { point, estimate, .. } in &mut self.times {
             if let Some(point) = point {
-                *found = self.curve.estimate(point);
+                *estimate = self.curve.estimate(point);
             }
         }
         if cells.is_empty() {
@@ -290,14 +275,13 @@ impl FormulaReductions {
         let FormulaReductions { curve, notes, extrema, integral, samples, scales, .. } = self;
         let [of_least, of_largest, of_integral] = notes;
         if curve.needs_middles() {
-            let mut search =
-                IntervalSearch::new((&mut *curve, &mut *of_integral), &mut *sampler, steps, (window, span));
+            let mut search = IntervalSearch::new(curve, of_integral, sampler, steps, window, span);
             for cell in &mut cells {
                 if let Some(middle) = search.point(cell, cell.middle()) {
                     cell.take_middle(search.curve, middle);
                 }
-                if search.curve.holds_forces() {
-                    // a load may jump where the motion says, whose last digits are rounding
+                if search.curve.holds_forces {
+                    // the time of a load's jump at an edge of the motion is accurate to rounding only
                     let step = &steps[cell.step];
                     if step.begins_at_edge && cell.a.state.t > window[0] {
                         search.shift(cell.step, &mut cell.a, TIMES * span);
@@ -310,38 +294,39 @@ impl FormulaReductions {
         }
         for ((extremum, kept), notes) in extrema.iter_mut().zip(scales).zip([of_least, of_largest]) {
             let Some(extremum) = extremum else { continue };
-            let mut search = IntervalSearch::new((&mut *curve, notes), &mut *sampler, steps, (window, span));
+            let mut search = IntervalSearch::new(curve, notes, sampler, steps, window, span);
             for cell in &cells {
                 let [is_begin, is_end] = edges(&steps[cell.step], [cell.a.state.t, cell.b.state.t], window);
                 for (_, point) in [(is_begin, &cell.a), (is_end, &cell.b)].into_iter().filter(|(is_edge, _)| *is_edge) {
-                    let found = search.curve.estimate(point);
-                    extremum.note_edge(Estimate { value: point.state.t, error: point.shift.time }, found, scale);
+                    let estimate = search.curve.estimate(point);
+                    extremum.note_edge(Estimate { value: point.state.t, error: point.shift.time }, estimate, scale);
                 }
             }
             *kept = Some(search.search(&cells, samples, extremum, scale));
         }
         if let Some(integral) = integral {
-            let is_smooth = curve.settles() && sampler.is_plain() && steps.iter().all(|step| step.bridge.is_none());
+            let is_smooth = curve.settles() && sampler.is_plain && steps.iter().all(|step| step.bridge.is_none());
             let is_whole = cells[0].a.state.t <= window[0] && cells[cells.len() - 1].b.state.t >= window[1];
             let has_edges = cells[1..].iter().any(|cell| steps[cell.step].begins_at_edge);
-            let mut search = IntervalSearch::new((curve, of_integral), sampler, steps, (window, span));
-            let known = if is_smooth && is_whole && !has_edges { search.integrate_whole(&cells) } else { None };
-            if let Some(known) = known {
-                *integral = Integral::from_estimate(known, window[1] - window[0]);
+            let mut search = IntervalSearch::new(curve, of_integral, sampler, steps, window, span);
+            let spectral = if is_smooth && is_whole && !has_edges { search.integrate_whole(&cells) } else { None };
+            if let Some(spectral) = spectral {
+                *integral = Integral::from_estimate(spectral, window[1] - window[0]);
             } else {
-                let usual = median(samples.iter().map(|found| found.value).collect());
+                let usual = median(samples.iter().map(|estimate| estimate.value).collect());
                 search.integrate(&cells, usual, scale, integral);
             }
         }
     }
 
-    /// A step, with the formula at both ends; `None` where only values at some times are asked for.
+    /// Returns the part of a step within the window, with the formula at both ends, or `None` if it is empty or unsolvable, or if only values at
+    /// single times are requested.
     fn cell(&mut self, number: usize, steps: &[SmoothSegment], sampler: &mut StateSampler) -> Option<Cell> {
         let step = &steps[number];
         sampler.enter(step);
-        self.take_times(step, sampler);
-        if self.is_of_times_alone() {
-            // how large it becomes
+        self.evaluate_times(step, sampler);
+        if self.has_only_times() {
+            // the scale of the formula needs samples
             let point = self.curve.at(step.to.clone(), sampler);
             if point.exists() {
                 self.samples.push(Estimate { value: point.sample.value, error: 0.0 });
@@ -365,7 +350,7 @@ impl FormulaReductions {
             Some(if is_edge { self.edge(state, t, step, sampler) } else { self.curve.at(state, sampler) })
         });
         let (Some(Some(from)), Some(Some(to))) = (points.next(), points.next()) else {
-            self.notes.iter_mut().for_each(|notes| notes.meet(NoValueCause::Unknown(from)));
+            self.notes.iter_mut().for_each(|notes| notes.fail(NoValueCause::Unknown(from)));
             return None;
         };
         Some(Cell::new(number, &from, &to))
@@ -374,13 +359,13 @@ impl FormulaReductions {
     /// Records the values at the ends of steps.
     fn take_samples(&mut self, cells: &[Cell], steps: &[SmoothSegment]) {
         for cell in cells {
-            // but for edges, a step begins where the one before has ended
+            // except at edges, a step begins with the last point of the previous one
             let [is_begin, _] = edges(&steps[cell.step], [cell.a.state.t, cell.b.state.t], self.window);
             for point in is_begin.then_some(&cell.a).into_iter().chain([&cell.b]) {
                 if point.exists() {
                     self.curve.note_arguments(point);
-                    let found = self.curve.estimate(point);
-                    self.samples.push(found);
+                    let estimate = self.curve.estimate(point);
+                    self.samples.push(estimate);
                 } else {
                     self.notes.iter_mut().for_each(|notes| notes.miss(point.state.t));
                 }
@@ -389,7 +374,7 @@ impl FormulaReductions {
     }
 }
 
-/// Returns whether the formula differs before and behind a part of a step, from one time to another (s), or is not looked at there: beyond its window.
+/// Returns whether the part of a step between two times (s) begins and ends at an edge of the motion or at an end of the window.
 fn edges(step: &SmoothSegment, [from, to]: [f64; 2], window: [f64; 2]) -> [bool; 2] {
     [
         step.begins_at_edge && from <= step.from.t || from <= window[0],

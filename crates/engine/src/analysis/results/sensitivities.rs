@@ -7,7 +7,7 @@ use mechc_ir::program::{Program, Register, Registers, Stage};
 /// The derivatives of coordinates and multipliers by inputs and parameters at a state.
 pub(super) struct Sensitivities {
     kinematics: Kinematics,
-    /// Returns whether equations that were left out go on to hold; `None` where none was.
+    /// The check of the equations that were left out as redundant; `None` if there are none.
     dropped: Option<DroppedEquations>,
 }
 
@@ -72,8 +72,7 @@ impl Sensitivities {
         self.kinematics.set_switches(switches);
     }
 
-    /// Solves for all variations at a state. They are NaN if they cannot be trusted or if an equation that was left out would cease to
-    /// hold.
+    /// Solves for all variations at a state. A variation is NaN if it cannot be trusted or if an equation that was left out would cease to hold.
     pub fn solve_at(&mut self, state: &State) {
         self.kinematics.vary_at(state);
         if let Some(dropped) = &mut self.dropped {
@@ -94,6 +93,7 @@ impl Sensitivities {
         if self.is_broken(number) { f64::NAN } else { self.kinematics.varied_multiplier(number, row) }
     }
 
+    /// Returns whether an equation that was left out would cease to hold in a variation.
     fn is_broken(&self, number: u32) -> bool {
         self.dropped.as_ref().is_some_and(|dropped| dropped.broken.contains(&number))
     }

@@ -1,4 +1,4 @@
-//! Smooth formulas that results ask of the motion, for variants that are evaluated in a batch: extrema of them, integrals, and values at some times.
+//! The smooth formulas of results, whose extrema, integrals and values at single times are computed for variants in a batch.
 
 use super::batch_evaluation::SmoothFormula;
 use super::curve::Curve;
@@ -9,12 +9,12 @@ use mechc_ir::{ConstraintSystem, ReductionKind};
 /// The smooth formulas of all results of a mechanism.
 pub struct SmoothFormulas {
     each: Vec<SmoothFormula>,
-    /// The formula of each reduction, by its number, and the kind of the reduction.
+    /// The number of the formula and the kind of each reduction.
     reductions: Vec<(usize, ReductionKind)>,
 }
 
 impl SmoothFormulas {
-    /// Returns the formulas of a system with smooth equations, or `None` if its results need anything else.
+    /// Returns the formulas of a system with smooth equations, or `None` if its results need other formulas, windows or variations.
     #[must_use]
     pub fn of(system: &ConstraintSystem) -> Option<SmoothFormulas> {
         let results = system.results();
@@ -34,7 +34,7 @@ impl SmoothFormulas {
         let of: Vec<(ExprId, ())> = all.iter().map(|reduction| (reduction.of, ())).collect();
         let (curves, curve_of) = curves(system, &of, |_| f64::NAN, 0);
         let each: Option<Vec<SmoothFormula>> =
-            curves.into_iter().map(|(curve, ())| Curve::into_quantity(curve)).collect();
+            curves.into_iter().map(|(curve, ())| Curve::into_smooth_formula(curve)).collect();
         let reductions = curve_of.into_iter().zip(all).map(|(of, reduction)| (of, reduction.kind)).collect();
         Some(SmoothFormulas { each: each?, reductions })
     }
@@ -45,21 +45,21 @@ impl SmoothFormulas {
         &self.each
     }
 
-    /// Returns the formula of each reduction, by its number, and the kind of the reduction.
+    /// Returns the number of the formula and the kind of each reduction.
     #[must_use]
     pub fn reductions(&self) -> &[(usize, ReductionKind)] {
         &self.reductions
     }
 
-    /// A formula of parameters (SI), and of the reductions, by their numbers, where they are known; with whether a condition over what is not
-    /// known does not hold.
+    /// Returns the value of a formula of parameters (SI) and reductions; `reductions` holds the values of these by number, a missing one is NaN.
+    /// `unknown_is_false` makes conditions over unknown values false.
     #[must_use]
     pub fn value(
         system: &ConstraintSystem,
-        formula: (ExprId, bool),
+        (formula, unknown_is_false): (ExprId, bool),
         params: impl Fn(u32) -> f64,
-        found: &[f64],
+        reductions: &[f64],
     ) -> f64 {
-        value_of(system.graph(), formula, params, |k| found.get(k).copied().unwrap_or(f64::NAN))
+        value_of(system.graph(), formula, unknown_is_false, params, |k| reductions.get(k).copied().unwrap_or(f64::NAN))
     }
 }

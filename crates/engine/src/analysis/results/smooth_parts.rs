@@ -1,7 +1,7 @@
-//! What of a formula is made of places and of sines of turns alone, by sums and products: it moves as smoothly as they do.
+//! The smooth parts of a formula: sums and products of coordinates and of sines of angles, which move as smoothly as the coordinates do.
 //!
-//! What is seen from a body that moves is a sum of this kind, of terms that may be much larger than it is itself: what these can be in
-//! a cell says little of what it can be. So it is looked at as the coordinates are, by its own time derivatives at the ends of the cell.
+//! A position relative to a moving body is such a sum, of terms that may be much larger than the sum itself, so that the ranges of the terms in a
+//! cell bound it badly. A smooth part is therefore bounded like a coordinate: from its own time derivatives at the ends of the cell.
 
 use super::magnitudes::{Largest, Magnitudes};
 use crate::analysis::state::State;
@@ -14,11 +14,11 @@ use rustc_hash::FxHashMap;
 /// The kind of a formula.
 #[derive(Clone, Copy, PartialEq, Debug)]
 enum Kind {
-    /// It does not change.
+    /// A formula that does not change with the motion.
     Constant,
-    /// A sum of turns and of what does not change.
+    /// A sum of angles and constants.
     Turn,
-    /// A sum of products of what is smooth.
+    /// A sum of products of smooth formulas.
     Smooth {
         /// The highest time derivative of a coordinate in it.
         order: u8,
@@ -28,14 +28,14 @@ enum Kind {
     Other,
 }
 
-/// Something smooth within a formula.
+/// A smooth part of a formula.
 struct SmoothPart {
-    /// The part of the formula that it replaces.
+    /// The node of the formula that the part replaces.
     of: ExprId,
-    /// It, or the square of what it stands for: a length goes to zero with a kink, its square does not.
+    /// The node itself, or its square if it is a length: a length has a kink at zero, its square has none.
     value: ExprId,
     is_square: bool,
-    /// The highest time derivative of a coordinate in it.
+    /// The highest time derivative of a coordinate in the part.
     order: u8,
 }
 
@@ -43,43 +43,46 @@ struct SmoothPart {
 pub(super) struct Smooth {
     program: Program,
     registers: Registers,
-    /// The ranges of these, and how large the coordinates are.
+    /// The ranges of the parts and their time derivatives.
     ranges: Ranges,
+    /// The magnitudes of the coordinates.
     sizes: Magnitudes,
-    /// The registers of each part and its time derivatives, starting at the order that its value has as a coordinate.
+    /// The registers of each part and its time derivatives, by order, from the order at which the part stands as a coordinate.
     towers: Vec<[Option<Register>; 4]>,
     /// The order at which each part stands, and whether it is a square.
     kinds: Vec<(usize, bool)>,
-    /// The coordinates that they hold.
+    /// The coordinates that the parts contain.
     coordinates: Vec<usize>,
-    /// The angles among these, and all angles of the mechanism.
+    /// The angles among `coordinates`.
     turns: Vec<usize>,
+    /// All angles of the mechanism.
     all_turns: Vec<usize>,
 }
 
 impl Smooth {
-    /// A formula in a graph of its own, in which what is smooth of it stands as further coordinates, behind those that there are; others
-    /// behind it in that graph; and what is smooth.
+    /// Replaces the smooth parts of a formula by further coordinates, numbered after those of the system. Returns a new graph, the formula and the
+    /// unchanged `others` in it, and the smooth parts.
     pub fn extract_from(
         graph: &mut Graph,
-        (value, others): (ExprId, &[ExprId]),
+        value: ExprId,
+        others: &[ExprId],
         system: &ConstraintSystem,
     ) -> (Graph, Vec<ExprId>, Smooth) {
         let kinds = kinds(graph, value, system);
-        let found = largest(graph, value, &kinds);
-        let (mut local, mut known) = (Graph::new(), FxHashMap::default());
-        local.import_tables(graph, &mut known, Graph::symbol);
-        let mut towers = Vec::with_capacity(found.len());
+        let parts = largest(graph, value, &kinds);
+        let (mut local, mut imported) = (Graph::new(), FxHashMap::default());
+        local.import_tables(graph, &mut imported, Graph::symbol);
+        let mut towers = Vec::with_capacity(parts.len());
         let first = system.coordinates().len();
-        for (k, &SmoothPart { of, value, is_square, order }) in found.iter().enumerate() {
-            let stands = local.symbol(Symbol::Coordinate { index: (first + k) as u32, order });
-            known.insert(of, if is_square { local.unary(Unary::Sqrt, stands) } else { stands });
+        for (k, &SmoothPart { of, value, is_square, order }) in parts.iter().enumerate() {
+            let symbol = local.symbol(Symbol::Coordinate { index: (first + k) as u32, order });
+            imported.insert(of, if is_square { local.unary(Unary::Sqrt, symbol) } else { symbol });
             towers.push(tower(graph, value, order, system.jerk().is_some()));
         }
-        let kinds: Vec<(usize, bool)> = found.iter().map(|found| (usize::from(found.order), found.is_square)).collect();
+        let kinds: Vec<(usize, bool)> = parts.iter().map(|part| (usize::from(part.order), part.is_square)).collect();
         let requested = [&[value], others].concat();
-        local.import(graph, &requested, &mut known, Graph::symbol);
-        let formulas = requested.iter().map(|id| known[id]).collect();
+        local.import(graph, &requested, &mut imported, Graph::symbol);
+        let formulas = requested.iter().map(|id| imported[id]).collect();
         (local, formulas, Smooth::new(graph, &towers, kinds, system))
     }
 
@@ -112,24 +115,24 @@ impl Smooth {
         self.towers.len()
     }
 
-    /// Returns the order at which a part stands that is a square, and so never below zero.
+    /// Returns the order at which a square stands, which is never negative; `None` for any other part.
     pub fn square(&self, k: usize) -> Option<usize> {
         let (order, is_square) = self.kinds[k];
         is_square.then_some(order)
     }
 
-    /// Returns the order at which a part stands: it has no derivatives below.
+    /// Returns the order at which a part stands as a coordinate; lower orders do not exist.
     pub fn order(&self, k: usize) -> usize {
         self.kinds[k].0
     }
 
-    /// Records how large the coordinates of the mechanism are.
+    /// Records the largest magnitudes of the mechanism's coordinates.
     pub fn note_all(&mut self, of_all: Largest) {
         self.sizes.note_all(of_all);
     }
 
-    /// Computes all of them at a state.
-    pub fn look(&mut self, state: &State) {
+    /// Computes all parts and their time derivatives at a state.
+    pub fn evaluate(&mut self, state: &State) {
         let inputs = self.program.inputs;
         for (number, &k) in self.coordinates.iter().enumerate() {
             let tower = state.tower(k);
@@ -141,14 +144,14 @@ impl Smooth {
         self.program.run(Stage::Measures, &mut self.registers);
     }
 
-    /// One of them and its time derivatives at the state that was looked at, by their orders; 0 where there is none.
+    /// Returns a part and its time derivatives, by order, at the state that was evaluated last; 0 for an order that does not exist.
     pub fn tower(&self, k: usize) -> [f64; 4] {
         self.towers[k].map(|register| register.map_or(0.0, |register| self.registers.get(register)))
     }
 
-    /// Finds the ranges of all of them at a state that may be off by such parts of the largest that was looked at: in places, and in their
-    /// derivatives.
-    pub fn look_around(&mut self, state: &State, parts: [f64; 2]) {
+    /// Computes the ranges of all parts around a state. `parts` are the margins of coordinates and of their time derivatives, as parts of the
+    /// largest magnitudes.
+    pub fn find_ranges(&mut self, state: &State, parts: [f64; 2]) {
         let inputs = self.program.inputs;
         let towers = self.coordinates.iter().map(|&k| state.tower(k));
         for (&k, ranges) in self.coordinates.iter().zip(self.sizes.around(towers, parts)) {
@@ -159,7 +162,7 @@ impl Smooth {
         self.ranges.run_all(&self.program, &self.registers);
     }
 
-    /// Returns the ranges of a part and of its time derivatives that were found last, by their orders.
+    /// Returns the ranges of a part and of its time derivatives, by order, of the last [`Smooth::find_ranges`].
     pub fn ranges(&self, k: usize) -> [[f64; 2]; 4] {
         self.towers[k].map(|register| {
             let [low, high] = register.map_or([0.0; 2], |register| self.ranges.interval(register));
@@ -167,13 +170,13 @@ impl Smooth {
         })
     }
 
-    /// What computes them, and where that leaves each with its time derivatives, by their orders.
-    pub fn into_towers(self) -> ((Program, Registers), Vec<[Option<Register>; 4]>) {
-        ((self.program, self.registers), self.towers)
+    /// Returns the program with its registers, and those of each part and its time derivatives, by order.
+    pub fn into_towers(self) -> (Program, Registers, Vec<[Option<Register>; 4]>) {
+        (self.program, self.registers, self.towers)
     }
 
-    /// Returns whether a body turns too far between two states for them to tell what its sine is between, or any body what a place is that goes about
-    /// with it: a driven one is where it was after a whole turn, and nothing else tells of that.
+    /// Returns whether a body turns too far between two states for these to bound its sine, or whether any body turns too far for them to bound
+    /// positions on it: after a whole turn of a driven body the states at both ends are equal.
     pub fn turns_far(&self, [a, b]: [&State; 2]) -> bool {
         let turned = |&k: &usize| {
             let fastest = f64::max(a.qd[k].abs(), b.qd[k].abs());
@@ -191,7 +194,7 @@ fn coordinate_of(symbol: Symbol) -> Option<usize> {
     }
 }
 
-/// Returns the kinds of all nodes behind a formula.
+/// Returns the kinds of all nodes that a formula depends on.
 fn kinds(graph: &Graph, value: ExprId, system: &ConstraintSystem) -> FxHashMap<ExprId, Kind> {
     let mut kinds = FxHashMap::default();
     for id in graph.reachable(&[value]) {
@@ -223,7 +226,7 @@ fn kind_of(node: Node, system: &ConstraintSystem, of: impl Fn(ExprId) -> Kind) -
 }
 
 impl Kind {
-    /// Returns the highest time derivative, and the number of factors.
+    /// Returns the highest time derivative and the number of factors of a smooth formula.
     fn smooth(self) -> Option<(u8, u32)> {
         match self {
             Kind::Constant => Some((0, 0)),
@@ -250,31 +253,31 @@ impl Kind {
     }
 }
 
-/// The largest formulas within a formula that are smooth, and that are more than a coordinate.
+/// Returns the largest smooth parts of a formula, other than single coordinates.
 fn largest(graph: &mut Graph, value: ExprId, kinds: &FxHashMap<ExprId, Kind>) -> Vec<SmoothPart> {
-    let (mut found, mut open) = (Vec::new(), vec![value]);
-    let mut seen = rustc_hash::FxHashSet::default();
+    let (mut parts, mut open) = (Vec::new(), vec![value]);
+    let mut visited = rustc_hash::FxHashSet::default();
     while let Some(id) = open.pop() {
         let node = graph.node(id);
-        if !seen.insert(id) || matches!(node, Node::Symbol(_)) {
+        if !visited.insert(id) || matches!(node, Node::Symbol(_)) {
             continue;
         }
         let whole = |order: u8| SmoothPart { of: id, value: id, is_square: false, order };
         match kinds[&id] {
             Kind::Constant => {}
-            Kind::Turn => found.push(whole(0)),
-            Kind::Smooth { order, .. } => found.push(whole(order)),
+            Kind::Turn => parts.push(whole(0)),
+            Kind::Smooth { order, .. } => parts.push(whole(order)),
             Kind::Other => match square(graph, node, kinds) {
-                Some((value, order)) => found.push(SmoothPart { value, is_square: true, ..whole(order) }),
+                Some((value, order)) => parts.push(SmoothPart { value, is_square: true, ..whole(order) }),
                 None => open.extend_from_slice(node.children().as_slice()),
             },
         }
     }
-    found.sort_unstable_by_key(|found| found.of);
-    found
+    parts.sort_unstable_by_key(|part| part.of);
+    parts
 }
 
-/// The square of a length, if it is as smooth as coordinates are, and its order.
+/// Returns the square of a length and its order, if the square is smooth.
 fn square(graph: &mut Graph, length: Node, kinds: &FxHashMap<ExprId, Kind>) -> Option<(ExprId, u8)> {
     let (value, kind) = match length {
         Node::Unary(Unary::Sqrt, a) if is_sum_of_squares(graph, a) => (a, kinds[&a]),
@@ -292,7 +295,7 @@ fn square(graph: &mut Graph, length: Node, kinds: &FxHashMap<ExprId, Kind>) -> O
     }
 }
 
-/// Returns whether a formula is a sum of squares, as it is written.
+/// Returns whether a formula is syntactically a sum of squares.
 fn is_sum_of_squares(graph: &Graph, formula: ExprId) -> bool {
     match graph.node(formula) {
         Node::Add(a, b) => is_sum_of_squares(graph, a) && is_sum_of_squares(graph, b),
@@ -303,15 +306,15 @@ fn is_sum_of_squares(graph: &Graph, formula: ExprId) -> bool {
     }
 }
 
-/// A formula and its time derivatives, by their orders, as many as there are.
+/// Returns a formula of some order and its available time derivatives, by order.
 fn tower(graph: &mut Graph, value: ExprId, order: u8, has_jerk: bool) -> [Option<ExprId>; 4] {
     let mut tower = [None; 4];
     tower[usize::from(order)] = Some(value);
     for next in usize::from(order) + 1..4 {
         let last = tower[next - 1].into_iter().collect::<Vec<_>>();
         let formula = ConstraintSystem::time_derivatives(graph, &last, 3).pop();
-        let is_known = |&formula: &ExprId| has_jerk || graph.dependence(formula).highest_order() != Some(3);
-        tower[next] = formula.filter(is_known);
+        let is_available = |&formula: &ExprId| has_jerk || graph.dependence(formula).highest_order() != Some(3);
+        tower[next] = formula.filter(is_available);
         if tower[next].is_none() {
             break;
         }

@@ -1,5 +1,5 @@
-//! Integrals of formulas that are smooth over the whole analysis, by the rule of Clenshaw and Curtis: the times at which they are looked at depend
-//! on the analysis alone, so that a variant has the same bits in the lanes of a sweep and on its own.
+//! Integrals of formulas that are smooth over the whole analysis, by the rule of Clenshaw and Curtis: the sample times depend on the analysis
+//! alone, so that a variant has the same bits in the lanes of a sweep and outside a sweep.
 //!
 //! Source: C. W. Clenshaw, A. R. Curtis, *A method for numerical integration on an automatic computer*, Numerische Mathematik 2, 1960.
 
@@ -16,13 +16,13 @@ use std::sync::OnceLock;
 pub struct SpectralIntegral {
     /// The first and the last time (s).
     interval: [f64; 2],
-    /// There are so many intervals between the times, as a power of two.
+    /// The binary logarithm of the number of intervals between sample times.
     level: usize,
-    /// The formula at these times, as far as it has been looked at.
+    /// The formula at the sample times; NaN where it has not been evaluated yet.
     values: Vec<f64>,
 }
 
-/// The outcome of a refinement, once the formula is known at all times.
+/// The outcome of a refinement with the formula at all sample times.
 #[derive(Clone, Copy, Debug)]
 pub enum Settled {
     /// The integral needs twice as many samples.
@@ -34,61 +34,61 @@ pub enum Settled {
 }
 
 impl SpectralIntegral {
-    /// An integral over an analysis from one time to another (s).
+    /// Returns an integral over an analysis from one time to another (s), without samples.
     #[must_use]
     pub fn new(interval: [f64; 2]) -> SpectralIntegral {
         SpectralIntegral { interval, level: FIRST, values: vec![f64::NAN; (1 << FIRST) + 1] }
     }
 
-    /// The numbers of the times at which the formula has to be looked at now, and these times (s), in order.
+    /// Returns the numbers and times (s) of the samples that have to be evaluated next, in order.
     pub fn times(&self) -> impl Iterator<Item = (usize, f64)> + use<> {
         let ([from, to], level) = (self.interval, self.level);
         let count = 1_usize << level;
         let is_new = move |k: &usize| level == FIRST || k % 2 == 1;
         (0..=count).filter(is_new).map(move |k| {
-            let place = cos(PI * (k as f64 / count as f64));
+            let node = cos(PI * (k as f64 / count as f64));
             let t = if k == 0 {
                 from
             } else if k == count {
                 to
             } else {
-                0.5 * (from + to) - 0.5 * (to - from) * place
+                0.5 * (from + to) - 0.5 * (to - from) * node
             };
             (k, t)
         })
     }
 
-    /// Records the value at a time, by its number.
+    /// Records the value of a sample, by its number.
     pub fn take(&mut self, k: usize, value: f64) {
         self.values[k] = value;
     }
 
-    /// Goes on once the formula is known at all times; `by_steps` tells the integral by the ends of the motion's steps, which may differ by a part of
-    /// the size.
+    /// Estimates the integral once all samples are evaluated. `by_steps` returns the integral from the ends of the motion's steps, which may differ
+    /// by `part` of the size.
     pub fn go_on(&mut self, part: f64, by_steps: impl FnOnce() -> f64) -> Settled {
         let half = 0.5 * (self.interval[1] - self.interval[0]);
         let sum = |level: usize, of: &dyn Fn(f64) -> f64| {
             let values = self.values.iter().step_by(1 << (self.level - level));
             half * weights(level).iter().zip(values).map(|(weight, value)| weight * of(*value)).sum::<f64>()
         };
-        let [found, coarse, coarser] = [0, 1, 2].map(|less| sum(self.level - less, &|value| value));
-        let mean = found / (2.0 * half);
+        let [finest, coarse, coarser] = [0, 1, 2].map(|less| sum(self.level - less, &|value| value));
+        let mean = finest / (2.0 * half);
         let size = sum(self.level, &|value| (value - mean).abs());
         let largest = self.values.iter().fold(0.0, |largest: f64, value| largest.max(value.abs()));
         let ([change, before], rounding) =
-            ([found - coarse, coarse - coarser].map(f64::abs), ROUNDING * 2.0 * half * largest);
-        // the number of certain digits grows with the number of times
-        let off = if change < LESS * before { change * (change / before) } else { change };
-        if off <= (ACCURACY * size).max(rounding) {
-            let is_alike = (found - by_steps()).abs() <= (part * size).max(part * part * 2.0 * half * largest);
-            return if is_alike { Settled::Known([found, off + rounding]) } else { Settled::Lost };
+            ([finest - coarse, coarse - coarser].map(f64::abs), ROUNDING * 2.0 * half * largest);
+        // the number of certain digits grows in proportion to the number of samples
+        let error = if change < LESS * before { change * (change / before) } else { change };
+        if error <= (ACCURACY * size).max(rounding) {
+            let is_alike = (finest - by_steps()).abs() <= (part * size).max(part * part * 2.0 * half * largest);
+            return if is_alike { Settled::Known([finest, error + rounding]) } else { Settled::Lost };
         }
-        if self.level == LAST || off.is_nan() {
+        if self.level == LAST || error.is_nan() {
             return Settled::Lost;
         }
         self.level += 1;
-        let known = std::mem::take(&mut self.values);
-        self.values = known.into_iter().flat_map(|value| [value, f64::NAN]).collect();
+        let values = std::mem::take(&mut self.values);
+        self.values = values.into_iter().flat_map(|value| [value, f64::NAN]).collect();
         self.values.pop();
         Settled::On
     }
@@ -114,7 +114,7 @@ fn weights(level: usize) -> &'static [f64] {
 }
 
 impl IntervalSearch<'_> {
-    /// The integral of a formula that settles over cells that follow on each other without edges; `None` where so many times are not enough.
+    /// Returns the integral of a formula that settles over adjacent cells without edges between them, or `None` if the rule does not converge.
     pub(super) fn integrate_whole(&mut self, cells: &[Cell]) -> Option<Estimate> {
         let (first, last) = (cells.first()?, cells.last()?);
         let mut integral = SpectralIntegral::new([first.a.state.t, last.b.state.t]);
@@ -137,7 +137,7 @@ impl IntervalSearch<'_> {
             let by_steps = || cells.iter().map(|cell| self.rule_of_ends(&cell.a, &cell.b)).sum();
             match integral.go_on(ALIKE, by_steps) {
                 Settled::On => {}
-                Settled::Known([value, off]) => return Some(Estimate { value, error: off }),
+                Settled::Known([value, error]) => return Some(Estimate { value, error }),
                 Settled::Lost => return None,
             }
         }

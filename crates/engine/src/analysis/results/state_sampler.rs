@@ -1,4 +1,4 @@
-//! States within a segment of the motion, solved for where they are asked for.
+//! States within a segment of the motion, solved for on request.
 
 use super::sensitivities::Sensitivities;
 use crate::analysis::follow::{SelectedRows, SingleRow, SmoothSegment, quintic_between, state_of_row};
@@ -14,29 +14,31 @@ use std::sync::Arc;
 /// A solver of states between the ends of segments.
 pub(super) struct StateSampler {
     kinematics: Kinematics,
-    /// The equations that are solved, if they differ from those at the start.
+    /// The selected equations, if they differ from those at the start.
     chosen: Option<Arc<SelectedRows>>,
     /// The equations at the start, with their solver.
     first: (Kinematics, Option<Arc<Solver>>),
     solver: Option<(Arc<Solver>, SingleRow)>,
     curve: Vec<[f64; 6]>,
     delta: Vec<f64>,
-    /// One over the allowed residual of each row of Φ in the segment, if `has_bounds`.
+    /// The reciprocal of the allowed residual of each row of Φ in the segment, if `has_bounds`.
     bounds: Vec<f64>,
+    /// True if `bounds` belongs to the segment that was entered last.
     has_bounds: bool,
     /// The first and the last time (s) of the bridge over a singular position, if the segment is one.
     bridge: [f64; 2],
     /// The terms of the equations that depend on time alone.
     signals: Ranges,
     signal_count: usize,
-    /// True if the equations are such that states can be settled.
-    is_plain: bool,
+    /// True if the equations are smooth everywhere, so that [`StateSampler::settled`] is available.
+    pub is_plain: bool,
     /// The derivatives by inputs and parameters, if results need any.
     sensitivities: Option<Sensitivities>,
-    /// The start of the segment (s), and the solved states by that and by time: several formulas request the same.
-    begins: f64,
+    /// The start (s) of the segment.
+    start: f64,
+    /// The solved states by the start of their segment and by time: several formulas request the same ones.
     solved: FxHashMap<[u64; 2], Solved>,
-    /// The key of the state whose multipliers were found last; `None` if the kinematics have them.
+    /// The key of the state whose multipliers were computed last; `None` if `kinematics` holds them.
     with_multipliers: Option<[u64; 2]>,
 }
 
@@ -53,10 +55,7 @@ impl StateSampler {
         let (program, values) = kinematics.program();
         let signals = Ranges::new(program, values, &registers, Stage::Time, true);
         let first = (kinematics.clone(), solver.clone());
-        let solver = solver.map(|solver| {
-            let alone = SingleRow::new(&kinematics, &solver);
-            (solver, alone)
-        });
+        let solver = solver.map(|solver| (Arc::clone(&solver), SingleRow::new(&kinematics, &solver)));
         StateSampler {
             curve: vec![[0.0; 6]; n],
             delta: vec![0.0; n],
@@ -70,7 +69,7 @@ impl StateSampler {
             sensitivities: Sensitivities::from_motion(&kinematics),
             chosen: None,
             first,
-            begins: f64::NAN,
+            start: f64::NAN,
             solved: FxHashMap::default(),
             with_multipliers: None,
             kinematics,
@@ -82,15 +81,15 @@ impl StateSampler {
         self.sensitivities.as_ref().map_or(0, Sensitivities::count)
     }
 
-    /// Enters a segment.
+    /// Enters a segment: the states that follow belong to it.
     pub fn enter(&mut self, segment: &SmoothSegment) {
         self.change_equations(segment);
         self.kinematics.freeze(true, true);
         self.kinematics.set_switches(&segment.switches);
         self.has_bounds = false;
-        self.begins = segment.from.t;
+        self.start = segment.from.t;
         self.bridge = segment.bridge.as_ref().map_or([f64::NAN; 2], |bridge| [bridge.from.t, bridge.to.t]);
-        self.enter_where(&segment.switches);
+        self.set_variation_switches(&segment.switches);
     }
 
     /// Switches to the equations of a segment.
@@ -116,52 +115,52 @@ impl StateSampler {
         *self = StateSampler { chosen: segment.chosen.clone(), first: (first, solver), ..other };
     }
 
-    /// Sets the results of the equations' switches, for variations alone.
-    pub fn enter_where(&mut self, switches: &[f64]) {
+    /// Sets the results of the equations' switches for variations only.
+    pub fn set_variation_switches(&mut self, switches: &[f64]) {
         if let Some(sensitivities) = &mut self.sensitivities {
             sensitivities.set_switches(switches);
         }
     }
 
-    /// Returns whether a time (s) lies on the bridge over a singular position, in the segment that was entered last.
+    /// Returns whether a time (s) lies on the segment's bridge over a singular position.
     pub fn is_on_bridge(&self, t: f64) -> bool {
         let [from, to] = self.bridge;
         from <= t && t <= to
     }
 
-    /// Finds the variations at a state of the segment.
+    /// Solves for the variations at a state of the segment.
     pub fn vary(&mut self, state: &State) {
         if let Some(sensitivities) = &mut self.sensitivities {
             sensitivities.solve_at(state);
         }
     }
 
-    /// Finds the multipliers at a state of the segment.
+    /// Computes the multipliers at a state of the segment.
     pub fn find_multipliers(&mut self, state: &State) {
         let key = self.key(state.t);
-        let known = self.solved.get_mut(&key).filter(|solved| solved.state == *state);
-        self.with_multipliers = known.is_some().then_some(key);
-        if known.as_ref().is_none_or(|solved| solved.multipliers.is_empty()) {
+        let cached = self.solved.get_mut(&key).filter(|solved| solved.state == *state);
+        self.with_multipliers = cached.is_some().then_some(key);
+        if cached.as_ref().is_none_or(|solved| solved.multipliers.is_empty()) {
             self.kinematics.vary_at(state);
         }
-        if let Some(solved) = known.filter(|solved| solved.multipliers.is_empty()) {
+        if let Some(solved) = cached.filter(|solved| solved.multipliers.is_empty()) {
             let rows = 0..self.kinematics.system().rows().len();
             solved.multipliers = rows.map(|row| self.kinematics.multiplier(row)).collect();
         }
     }
 
-    /// The multiplier of a row of the equations at the start, which has been found; none at a position where it cannot be trusted.
+    /// Returns the multiplier of a row of the equations at the start, after [`StateSampler::find_multipliers`]; 0 for a row that is left out.
     pub fn multiplier(&self, row: usize) -> f64 {
-        let known = self.with_multipliers.and_then(|key| self.solved.get(&key));
-        let of = |row: usize| known.map_or_else(|| self.kinematics.multiplier(row), |known| known.multipliers[row]);
+        let cached = self.with_multipliers.and_then(|key| self.solved.get(&key));
+        let of = |row: usize| cached.map_or_else(|| self.kinematics.multiplier(row), |cached| cached.multipliers[row]);
         self.row(row).map_or(0.0, of)
     }
 
     fn key(&self, t: f64) -> [u64; 2] {
-        [self.begins, t].map(f64::to_bits)
+        [self.start, t].map(f64::to_bits)
     }
 
-    /// A row of the equations at the start among those that are solved; `None` where it is left out.
+    /// Returns the row of the selected equations for a row of those at the start, or `None` if it is left out.
     fn row(&self, row: usize) -> Option<usize> {
         let first = self.first.0.determined();
         self.chosen.as_ref().map_or(Some(row), |chosen| chosen.row_in_place_of(row, &first))
@@ -180,37 +179,37 @@ impl StateSampler {
         self.sensitivities.as_ref().map_or([f64::NAN; 3], |sensitivities| sensitivities.variation(number, coordinate))
     }
 
-    /// Returns whether what time alone asks of the equations changes so little between two times (s) that the states there tell all.
+    /// Returns whether the terms that depend on time alone change so little between two times (s) that the states there determine the motion.
     pub fn signals_are_resolved(&mut self, times: [f64; 2]) -> bool {
         self.signals.set_times(times);
         let (program, registers) = self.kinematics.program();
         (0..self.signal_count).all(|k| self.signals.range(program, registers, k).is_resolved)
     }
 
-    /// Returns whether time alone decides about the motion, and not as a straight line.
+    /// Returns whether the equations have terms that depend on time alone, other than linear ones.
     pub fn has_signals(&self) -> bool {
         self.signal_count > 0
     }
 
-    /// Returns a state within a segment that differs from what both ends predict, or `None` if there is none.
-    pub fn unlike(&mut self, segment: &SmoothSegment) -> Option<State> {
+    /// Returns a state within a segment if it differs from the dense output between both ends, or else `None`.
+    pub fn deviating_state(&mut self, segment: &SmoothSegment) -> Option<State> {
         let SmoothSegment { from, to, bridge: None, .. } = segment else { return None };
         let h = to.t - from.t;
         self.enter(segment);
         let within = self.solve(segment, [from, to], from.t + WITHIN * h)?;
         let x = (within.t - from.t) / h;
-        let is_unlike = |k: usize| {
+        let deviates = |k: usize| {
             let (a, b) = (from.tower(k), to.tower(k));
-            let off = |order: usize| ((b[order - 1] - a[order - 1]) / h - 0.5 * (a[order] + b[order])).abs();
-            // what rests at zero is as good as what is usual
+            let error = |order: usize| ((b[order - 1] - a[order - 1]) / h - 0.5 * (a[order] + b[order])).abs();
+            // a coordinate at rest at zero is as accurate as one of the usual size
             let size = self.kinematics.system().coordinates()[k].scale.max(a[0].abs()).max(b[0].abs());
-            let allowed = h * h * off(2) + LITTLE * size;
+            let allowed = h * h * error(2) + LITTLE * size;
             (within.q[k] - along(&quintic_between(from, to, k, h), x)).abs() > allowed
         };
-        (0..within.q.len()).any(is_unlike).then_some(within)
+        (0..within.q.len()).any(deviates).then_some(within)
     }
 
-    /// The state at a time (s) between two states of a segment; `None` where it cannot be solved for.
+    /// Returns the state at a time (s) between two states of a segment, or `None` if it cannot be solved for.
     pub fn solve(&mut self, segment: &SmoothSegment, [a, b]: [&State; 2], t: f64) -> Option<State> {
         if let Some(bridge) = segment.bridge.as_ref().filter(|bridge| t > bridge.from.t) {
             let on_bridge = bridge.best_state_at(t);
@@ -228,17 +227,17 @@ impl StateSampler {
         self.solve_from(state, None)
     }
 
-    /// As [`StateSampler::solve`], with the bits that rows have there; `None` where that cannot be had.
+    /// Returns the state at a time (s) between two states of a segment with exactly the bits of a row, or `None` if the solver of rows fails.
     pub fn solve_exactly(&mut self, segment: &SmoothSegment, [a, b]: [&State; 2], t: f64) -> Option<State> {
         let key = self.key(t);
-        if let Some(known) = self.solved.get(&key) {
-            return Some(known.state.clone());
+        if let Some(cached) = self.solved.get(&key) {
+            return Some(cached.state.clone());
         }
         let h = b.t - a.t;
         for (k, curve) in self.curve.iter_mut().enumerate() {
             *curve = quintic_between(a, b, k, h);
         }
-        let state = self.solve_by_lanes(segment, a, (t, h))?;
+        let state = self.solve_row(segment, a, t, h)?;
         if self.solved.len() * (1 + state.q.len()) > NUMBERS {
             self.solved.clear();
         }
@@ -246,41 +245,38 @@ impl StateSampler {
         Some(state)
     }
 
-    /// Returns whether the equations are such that states can be settled.
-    pub fn is_plain(&self) -> bool {
-        self.is_plain
-    }
-
-    /// The state at a time (s) that is a little beside that of a state of the segment, as rows have it: its bits depend on the time alone, and
-    /// not on the path that led there. `None` where the equations are not smooth everywhere, or where it cannot be had.
+    /// Returns the state at a time (s) close to that of a state of the segment, with bits that depend on the time only and not on that state, as
+    /// those of rows do. Returns `None` if the equations are not smooth everywhere, on a bridge, or if the solver of rows fails.
     pub fn settled(&mut self, segment: &SmoothSegment, near: &State, t: f64) -> Option<State> {
         if !self.is_plain || segment.bridge.is_some() {
             return None;
         }
-        // the curve is a parabola, so that its length says nothing
+        // the curve is a parabola, so that its length is arbitrary
         let h = 1.0;
         for (k, curve) in self.curve.iter_mut().enumerate() {
             *curve = [near.q[k], near.qd[k] * h, 0.5 * near.qdd[k] * h * h, 0.0, 0.0, 0.0];
         }
-        self.solve_by_lanes(segment, near, (t, h))
+        self.solve_row(segment, near, t, h)
     }
 
-    /// The state at a time (s) of the segment, from the curve that leads on from one in a time `h` (s); `None` where it does not hold.
-    fn solve_by_lanes(&mut self, segment: &SmoothSegment, from: &State, (t, h): (f64, f64)) -> Option<State> {
+    /// Solves for the state at a time (s) of the segment as rows do, from `curve`, which begins at a state and has the length `h` (s). Returns
+    /// `None` if the equations do not hold there.
+    fn solve_row(&mut self, segment: &SmoothSegment, from: &State, t: f64, h: f64) -> Option<State> {
         if !self.has_bounds {
             self.kinematics.restore(&segment.from);
             self.kinematics.write_bounds(&mut self.bounds);
             self.has_bounds = true;
         }
-        let (solver, alone) = self.solver.as_mut()?;
+        let (solver, single) = self.solver.as_mut()?;
         let batch = Batch { times: [t], from: from.t, length: h, curve: &self.curve, bends: &[], bounds: &self.bounds };
-        let holds = alone.solve(&self.kinematics, solver, &batch);
+        let holds = single.solve(&self.kinematics, solver, &batch);
         let layout = solver.layout();
-        let is_finite = layout.position(alone.row()).iter().all(|x| x.is_finite());
-        (holds && is_finite).then(|| state_of_row(layout, alone.row(), from, t))
+        let is_finite = layout.position(single.row()).iter().all(|x| x.is_finite());
+        (holds && is_finite).then(|| state_of_row(layout, single.row(), from, t))
     }
 
-    /// Newton from a position; `None` where it does not arrive, or is nearer to a singular position than a limit.
+    /// Solves for a state by Newton's method from a position. Returns `None` if it does not converge, or if the nearness to a singular position is
+    /// below the limit.
     fn solve_from(&mut self, mut state: State, limit: Option<f64>) -> Option<State> {
         self.kinematics.set_time(state.t);
         self.kinematics.set_position(&state.q).ok()?;
