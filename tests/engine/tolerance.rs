@@ -36,7 +36,7 @@ fn subject(text: &str, results: &[&str]) -> Subject {
 
 /// What is refused, as it is told.
 fn reported(why: mechc::Error) -> String {
-    why.diagnostics.iter().map(|message| message.message.clone()).collect::<Vec<_>>().join("; ")
+    why.diagnostics.into_iter().map(|diagnostic| diagnostic.message).collect::<Vec<_>>().join("; ")
 }
 
 impl Subject {
