@@ -26,7 +26,7 @@ pub enum Doubt {
     /// A bifurcation was passed on the way from where the drivers are drawn to where they begin.
     Passed,
     /// No way leads from the drawn position to where the drivers begin: the equations were closed from the estimates with the drivers there.
-    NotLed,
+    NotDriven,
     /// The estimate of a body is far off.
     Far(FarBody),
 }

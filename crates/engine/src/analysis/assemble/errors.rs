@@ -40,7 +40,7 @@ pub fn far_estimates(system: &ConstraintSystem, doubt: Doubt, [from, to]: [&[f64
             "went on along the branch that continues smoothly",
             "draw it beyond the bifurcation, with poses in `at`",
         ),
-        Doubt::NotLed => (
+        Doubt::NotDriven => (
             format!("no way leads from the drawn position to where the drivers begin at {}", at(t)),
             system.span(),
             "assembled from the estimates with the drivers there, which may mean another branch",

@@ -306,7 +306,7 @@ fn fastest_driver(kinematics: &mut Kinematics, state: &State, t: f64) -> Option<
     kinematics.restore(state);
     // the speeds that are asked for are known though those of the mechanism may not be
     let _ = kinematics.derivatives(&mut state.clone());
-    let speeds: Vec<f64> = (0..system.rows().len()).map(|row| kinematics.asked_speed(row)).collect();
+    let speeds: Vec<f64> = (0..system.rows().len()).map(|row| kinematics.prescribed_speed(row)).collect();
     kinematics.set_time(t);
     let is_set = kinematics.set_position(&state.q).is_ok();
     let speed = |row: usize| {

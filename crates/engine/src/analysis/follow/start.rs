@@ -65,8 +65,8 @@ pub fn start_from(whole: &Unassembled, estimates: Option<&[f64]>, solving: Solvi
     let (q, doubt) = match free.and_then(|(q, residuals)| close_and_drive(whole, &q, &residuals)) {
         Some(closed) => (closed.q, Doubt::DriversLeftOut),
         None => match (begun, whole.determined.start()) {
-            (Err(_), Some(q)) => (q.to_vec(), Doubt::NotLed),
-            (begun, _) => (begun?.q, Doubt::NotLed),
+            (Err(_), Some(q)) => (q.to_vec(), Doubt::NotDriven),
+            (begun, _) => (begun?.q, Doubt::NotDriven),
         },
     };
     Ok(whole.assemble_at_with(kinematics, &q, solving)?.with_doubt(Some(doubt)))
@@ -96,9 +96,9 @@ pub fn lead(
 struct Closed {
     /// Its coordinates at the start [m, rad].
     q: Vec<f64>,
-    /// How far closing moved what it had to iterate for, scaled.
+    /// Distance by which closing moved what it had to iterate for, scaled.
     moved: f64,
-    /// What leaves in doubt that it closed as it is drawn.
+    /// Doubt that it closed as it is drawn.
     doubt: Option<Doubt>,
 }
 
@@ -109,9 +109,10 @@ fn close_and_drive(whole: &Unassembled, drawn: &[f64], residuals: &[(usize, f64)
     let rows = whole.determined.whole().rows();
     let turns = |&(row, from): &(usize, f64)| if rows[row].unit == RowUnit::ANGLE { from / TAU } else { 0.0 };
     let beyond = |turns: f64| (-math::floor(-f64::max(turns.abs() - MOST_TURNS, 0.0))).copysign(turns);
-    close_and_lead(whole, drawn, residuals, |residual| beyond(turns(residual))).or_else(|| {
+    close_and_continue(whole, drawn, residuals, |residual| beyond(turns(residual))).or_else(|| {
         let nearest = |residual: &(usize, f64)| math::floor(turns(residual) + 0.5);
-        let shortest = if is_round(whole, residuals) { close_and_lead(whole, drawn, residuals, nearest) } else { None };
+        let shortest =
+            if is_round(whole, residuals) { close_and_continue(whole, drawn, residuals, nearest) } else { None };
         shortest.map(|closed| Closed { doubt: Some(Doubt::ShortestWay), ..closed })
     })
 }
@@ -124,7 +125,7 @@ fn is_round(whole: &Unassembled, residuals: &[(usize, f64)]) -> bool {
 
 /// Closes a mechanism as it is drawn [m, rad], and leads it to where so many whole turns are left of each residual: the last step of the
 /// assembly turns what follows without iteration. None where it does not close there, or no way leads on.
-fn close_and_lead(
+fn close_and_continue(
     whole: &Unassembled,
     drawn: &[f64],
     residuals: &[(usize, f64)],
@@ -133,7 +134,7 @@ fn close_and_lead(
     let t = whole.horizon.from;
     let lines = residuals.iter().map(|residual| (residual.0, [residual.1, TAU * turns(residual)])).collect();
     let way = along(whole, &Homotopy::Residuals { t, lines }).ok()?;
-    let options = ContinuationOptions::of(&way, t);
+    let options = ContinuationOptions::new(&way, t);
     let leader = Continuation::new(&way.determined, &way.program, Solving::With(None), &options);
     let closed = way.close(Some(drawn), Solving::With(None)).ok()?;
     let (doubt, moved) = (closed.doubt(), closed.moved_in_loops());
@@ -150,48 +151,49 @@ fn close_and_lead(
 ///
 /// # Errors
 /// The motion does not get there, or cannot begin there.
-pub fn follow_to(whole: &Unassembled, (started, own): (Started, f64)) -> Result<(Started, Vec<Warning>), Box<Stop>> {
+pub fn follow_to(whole: &Unassembled, (started, start): (Started, f64)) -> Result<(Started, Vec<Warning>), Box<Stop>> {
     let to = whole.horizon.from;
     let solver = started.shared_solver();
-    let (q, passed) = if to < own {
-        follow_back(whole, &started, own)?
+    let (q, passed) = if to < start {
+        follow_back(whole, &started, start)?
     } else {
         let layout = RowLayout::new(started.system());
-        let mut motion = started.into_motion(&Times::listed(own, vec![to]));
+        let mut motion = started.into_motion(&Times::listed(start, vec![to]));
         if whole.pass_bifurcations {
             motion.pass_bifurcations();
         }
         let q = match motion.next_row() {
-            Some(row) => row.map(|row| layout.position(row).to_vec()).map_err(|stop| stop.before_start(own))?,
-            None => return Err(StopCause::NoStep { driver: None }.at(own)),
+            Some(row) => row.map(|row| layout.position(row).to_vec()).map_err(|stop| stop.before_start(start))?,
+            None => return Err(StopCause::NoStep { driver: None }.at(start)),
         };
         let passed = motion.take_warnings().into_iter().filter(Warning::is_passage);
-        (q, passed.map(|warning| warning.before_start(own)).collect())
+        (q, passed.map(|warning| warning.before_start(start)).collect())
     };
     Ok((whole.assemble_at(&q, Solving::With(solver))?, passed))
 }
 
-/// Where a motion comes from [m, rad], at a time before its start: it is followed back, along a straight line of time.
-fn follow_back(whole: &Unassembled, started: &Started, own: f64) -> Result<(Vec<f64>, Vec<Warning>), Box<Stop>> {
+/// Returns the position [m, rad] at a time before the start of a motion, and the bifurcations that were passed: the motion is followed
+/// back, along a straight line of time.
+fn follow_back(whole: &Unassembled, started: &Started, start: f64) -> Result<(Vec<f64>, Vec<Warning>), Box<Stop>> {
     let to = whole.horizon.from;
-    let back = along(whole, &Homotopy::Time([own, to]))?;
-    let options = ContinuationOptions::of(&back, own);
+    let back = along(whole, &Homotopy::Time([start, to]))?;
+    let options = ContinuationOptions::new(&back, start);
     let leader = Continuation::new(&back.determined, &back.program, Solving::With(None), &options);
     let mut way = leader.lead(back.assemble_at(started.q(), Solving::With(None))?, &[1.0]);
-    let time_of = |fraction: f64| own + (to - own) * fraction;
+    let time_of = |fraction: f64| start + (to - start) * fraction;
     match (way.reached.pop(), way.stopped) {
         (Some(q), _) => {
             let passed = way.passed.into_iter().map(|warning| Warning {
                 t: time_of(warning.t),
-                cause: WarningCause::PassedBeforeStart { from: own, is_backward: true, warning: Box::new(warning) },
+                cause: WarningCause::PassedBeforeStart { from: start, is_backward: true, warning: Box::new(warning) },
             });
             Ok((q, passed.collect()))
         }
         (None, Some(stop)) => {
             let t = time_of(stop.t);
-            Err(StopCause::BeforeStart { from: own, is_backward: true, stop }.at(t))
+            Err(StopCause::BeforeStart { from: start, is_backward: true, stop }.at(t))
         }
-        (None, None) => Err(StopCause::NoStep { driver: None }.at(own)),
+        (None, None) => Err(StopCause::NoStep { driver: None }.at(start)),
     }
 }
 

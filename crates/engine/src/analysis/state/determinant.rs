@@ -20,8 +20,8 @@ impl Determinant {
         self.value.is_sign_positive()
     }
 
-    /// Its value, measured such that that of `other` is neither too large nor too small for it.
-    pub fn beside(self, other: Determinant) -> f64 {
+    /// Returns the value in such units that the value of `other` neither overflows nor underflows in them.
+    pub fn relative_to(self, other: Determinant) -> f64 {
         match i64::from(self.units) - i64::from(other.units) {
             0 => self.value,
             1 => self.value * UNIT,

@@ -28,9 +28,9 @@ impl Crossing {
             finer.is_some_and(|state| write_given_row(kinematics, &state, row))
         };
         if write_given_row(kinematics, &state, row)
-            || write_solved_row(kinematics, step, (&state, EXACT), row)
+            || write_solved_row(kinematics, step, &state, EXACT, row)
             || by_finer_curve(kinematics, step, row)
-            || write_solved_row(kinematics, step, (&state, SOLVABLE), row)
+            || write_solved_row(kinematics, step, &state, SOLVABLE, row)
         {
             return Some(Ok(()));
         }
@@ -58,7 +58,8 @@ impl Crossing {
 fn write_solved_row(
     kinematics: &mut Kinematics,
     step: &mut Step,
-    (state, nearest): (&State, f64),
+    state: &State,
+    nearest: f64,
     row: &mut [f64],
 ) -> bool {
     step.try_state(state);

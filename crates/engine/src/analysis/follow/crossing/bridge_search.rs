@@ -1,4 +1,4 @@
-//! A way over the singular position that the steps have come up to is looked for.
+//! Search for a bridge over the singular position that the steps have come up to.
 
 use super::bridge::Bridge;
 use super::end_of_reach::end_of_reach;
@@ -12,8 +12,8 @@ use mechc_ir::tolerances::singular::bridge::{
 };
 
 impl Crossing {
-    /// A way over the singular position that the steps have come up to, if the motion goes on there. One that begins beside it
-    /// is looked at from before its start.
+    /// Returns a bridge over the singular position that the steps have come up to, if the motion goes on there. A motion that begins next
+    /// to it is followed from before its start.
     pub(super) fn bridge_ahead(&mut self, kinematics: &mut Kinematics, step: &mut Step) -> Option<Bridge> {
         let bridge = self.bridge_from_clear(kinematics, step);
         if bridge.is_none() && self.fold.is_none() && self.go_before_start(kinematics, step) {
@@ -22,8 +22,7 @@ impl Crossing {
         bridge
     }
 
-    /// Looks for a clear state before the first time, if the motion is not clear of singular positions there; says whether there
-    /// is one.
+    /// Looks for a clear state before the first time, if the motion is not clear of singular positions there; returns whether one exists.
     fn go_before_start(&mut self, kinematics: &mut Kinematics, step: &mut Step) -> bool {
         kinematics.restore(&self.clear);
         let mut state = self.clear.clone();
@@ -58,7 +57,7 @@ impl Crossing {
         false
     }
 
-    /// A state beyond the singular position, to which the prediction from the last clear one leads.
+    /// Returns the bridge to a state beyond the singular position, to which the prediction from the last clear one leads.
     fn bridge_from_clear(&mut self, kinematics: &mut Kinematics, step: &mut Step) -> Option<Bridge> {
         kinematics.restore(step.state());
         // without a line of centres there is nothing beyond
@@ -68,7 +67,7 @@ impl Crossing {
         self.come_closer(kinematics, step);
         let (near, way) = (step.t(), step.t() - self.clear.t);
         for part in BEYOND {
-            let bridge = self.bridge_over(kinematics, step, near + part * way);
+            let bridge = self.bridge_until(kinematics, step, near + part * way);
             // what is beyond the end of its reach is not come to by going further
             if bridge.is_some() || self.fold.is_some() {
                 return bridge;
@@ -92,8 +91,8 @@ impl Crossing {
         }
     }
 
-    /// The way from the clear state to one at a time (s).
-    fn bridge_over(&mut self, kinematics: &mut Kinematics, step: &mut Step, t: f64) -> Option<Bridge> {
+    /// Returns the bridge from the clear state to one at a time (s), if its curve holds and does not come to the end of reach.
+    fn bridge_until(&mut self, kinematics: &mut Kinematics, step: &mut Step, t: f64) -> Option<Bridge> {
         let (h, clear) = (t - self.clear.t, &self.clear);
         let mut way: f64 = 0.0;
         let ahead = (0..clear.q.len()).map(|k| {

@@ -14,7 +14,7 @@ const CONDITIONS: usize = 12;
 /// Each coordinate by Newton's polynomial over times with three conditions each.
 #[derive(Clone, Debug)]
 pub struct RefinedBridge {
-    /// Where the bridge begins, and its length (s).
+    /// Start and length of the bridge (s).
     from: f64,
     length: f64,
     coefficients: Vec<[f64; CONDITIONS]>,
@@ -24,7 +24,7 @@ impl RefinedBridge {
     /// Times in parts of the bridge.
     const NODES: [f64; 4] = [-OUTWARD, 0.0, 1.0, 1.0 + OUTWARD];
 
-    /// Through four states, in their order.
+    /// Returns the curve through four states, in order of time.
     fn through(states: [&State; 4]) -> RefinedBridge {
         let (from, length) = (states[1].t, states[2].t - states[1].t);
         let coefficients = (0..states[0].q.len()).map(|k| {

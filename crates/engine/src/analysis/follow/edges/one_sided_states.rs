@@ -9,7 +9,7 @@ use mechc_ir::tolerances::jumps::{ACCELERATION_JUMP, POSITION_JUMP, REST, VELOCI
 use mechc_ir::tolerances::steps::edges::{AHEAD, FARTHEST_AHEAD, ITERATIONS, LAST_DIGITS, TAKES_PART, UNCERTAIN};
 use mechc_ir::{ConstraintSystem, CoordinateKind, DeclarationId};
 
-/// What jumps at an edge, the lowest derivative first.
+/// The lowest derivative that jumps at an edge.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Jump {
     Position,
@@ -17,10 +17,10 @@ pub(super) enum Jump {
     Acceleration,
 }
 
-/// How fast a motion changes, scaled.
+/// Rates of change of a motion, scaled.
 #[derive(Clone, Copy, Default)]
 struct Pace {
-    /// How fast velocities and accelerations changed over the last step (1/s², 1/s³).
+    /// Rates of change of velocity and acceleration over the last step (1/s², 1/s³).
     velocity_change: f64,
     acceleration_change: f64,
     /// The largest velocity and acceleration so far (1/s, 1/s²).
@@ -32,7 +32,7 @@ struct Pace {
 pub(super) struct OneSidedStates {
     before: State,
     row_before: Vec<f64>,
-    /// Of the later side.
+    /// Row of the later side.
     row: Vec<f64>,
     /// Results of the switches on the earlier side.
     switches: Vec<f64>,
@@ -95,7 +95,7 @@ impl OneSidedStates {
 
     /// Computes the state anew where it is, with the switches as they are now, and compares.
     pub fn take_later(&mut self, kinematics: &mut Kinematics, step: &mut Step) -> Result<Option<Jump>, Fault> {
-        if !step.solve_state_again(kinematics, ITERATIONS, POSITION_JUMP)? {
+        if !step.correct_state(kinematics, ITERATIONS, POSITION_JUMP)? {
             return Ok(Some(Jump::Position));
         }
         kinematics.write_row(step.state(), &mut self.row);
@@ -107,7 +107,7 @@ impl OneSidedStates {
         Ok(self.compare(kinematics, step.state(), change))
     }
 
-    /// How much velocities and accelerations change within the rounding of the edge's time, on either side, scaled.
+    /// Returns how much velocities and accelerations change within the rounding of the edge's time, on either side, scaled.
     fn change_of_a_moment(&self, kinematics: &mut Kinematics, step: &mut Step) -> Result<[f64; 2], Fault> {
         let moment = shortly_after(step.t()) - step.t();
         step.try_moment_later(kinematics, moment)?;
@@ -121,7 +121,7 @@ impl OneSidedStates {
         Ok([UNCERTAIN * velocity, UNCERTAIN * acceleration])
     }
 
-    /// What jumps by more than some velocity and acceleration, scaled, and more than rounding.
+    /// Returns what jumps by more than some velocity and acceleration, scaled, and more than rounding.
     fn compare(&self, kinematics: &Kinematics, now: &State, [velocity, acceleration]: [f64; 2]) -> Option<Jump> {
         let (before, system) = (&self.before, kinematics.system());
         let scaled = |k: usize, value: f64| value.abs() / kinematics.linear().column_scale(k);
@@ -142,8 +142,8 @@ impl OneSidedStates {
         }
     }
 
-    /// Says that something jumps: an error, or a warning once for each declaration.
-    pub fn say(
+    /// Reports a jump: as an error, or as a warning once for each declaration.
+    pub fn report(
         &self,
         kinematics: &Kinematics,
         step: &Step,
@@ -199,7 +199,7 @@ impl OneSidedStates {
 
 /// Sets every switch to what it is on the later side of a state; `after` is a time by which those of time have changed (s), and `place`
 /// room for a position.
-pub(super) fn settle(kinematics: &mut Kinematics, state: &State, (span, after): (f64, Option<f64>), place: &mut [f64]) {
+pub(super) fn settle(kinematics: &mut Kinematics, state: &State, span: f64, after: Option<f64>, place: &mut [f64]) {
     if let Some(after) = after {
         kinematics.settle_time(after);
     }
@@ -217,9 +217,9 @@ pub(super) fn settle(kinematics: &mut Kinematics, state: &State, (span, after): 
 pub(super) fn columns_that_jump(system: &ConstraintSystem, span: f64, [before, after]: [&[f64]; 2]) -> Vec<String> {
     let jumps = |a: f64, b: f64| (a - b).abs() > ACCELERATION_JUMP * a.abs().max(b.abs()).max(REST / (span * span));
     // what is varied jumps with what it is a derivative of
-    let own = columns(system).into_iter().filter(|column| column.kind != ColumnKind::Variation);
+    let given = columns(system).into_iter().filter(|column| column.kind != ColumnKind::Variation);
     let sides = before.iter().zip(after);
-    own.zip(sides).filter(|(_, (a, b))| jumps(**a, **b)).map(|(column, _)| column.name).collect()
+    given.zip(sides).filter(|(_, (a, b))| jumps(**a, **b)).map(|(column, _)| column.name).collect()
 }
 
 /// Returns whether the position stays, and only the tangents of a contact do not agree: the last row of its joint.

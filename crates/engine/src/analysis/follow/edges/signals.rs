@@ -7,11 +7,11 @@ use mechc_expr::math::Halving;
 use mechc_ir::program::{Enclosure, Signal};
 use mechc_ir::tolerances::steps::signals::{FINEST, MOST_PARTS, NEGLIGIBLE_MOTION, NUDGE};
 
-/// What time alone decides about the equations, and what is known of it.
+/// Terms of the equations that time alone decides, with bounds on what may go unnoticed.
 pub(super) struct Signals {
     all: Vec<Signal>,
     enclosure: Enclosure,
-    /// By how much each may leave the values at the ends of a part unseen.
+    /// Bound on how far each may leave its values at the ends of a part.
     bounds: Vec<f64>,
     /// Values at the ends of a part.
     left: Vec<f64>,

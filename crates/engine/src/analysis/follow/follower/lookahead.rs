@@ -9,8 +9,8 @@ use mechc_ir::tolerances::solving::rows::STEPS_AHEAD;
 use mechc_ir::tolerances::steps::march::FEWEST_STEPS_NEAR;
 
 impl Follower {
-    /// How far the motion is looked ahead from a time `t` (s): a singular position that a row is so near to that its derivatives
-    /// are in doubt may be twice as far off as the last clear state.
+    /// Returns the time (s) up to which the motion is looked ahead from a time `t`: a singular position so near to a row that its
+    /// derivatives are in doubt may be twice as far off as the last clear state.
     pub(super) fn time_ahead(&self, t: f64) -> f64 {
         let usual = self.span / FEWEST_STEPS_NEAR;
         let is_in_doubt = self.rows.trust() == Trust::Doubtful;
@@ -70,8 +70,8 @@ impl Follower {
         on_bridge.unwrap_or_else(|| Err(self.explain_refused(t, Some(why))))
     }
 
-    /// Why the row of a time `t` is not printed: what ends the motion, unless that comes behind the last row, for which nobody
-    /// asked, or its own nearness to a singular position.
+    /// Returns why the row of a time `t` is not printed: the stop that ends the motion, unless it comes behind the last row, or else the
+    /// nearness of the row to a singular position.
     pub(super) fn explain_refused(&mut self, t: f64, why: Option<Box<Stop>>) -> Box<Stop> {
         why.filter(|stop| stop.t <= self.last).unwrap_or_else(|| self.explain_uncertain(t))
     }

@@ -35,20 +35,20 @@ pub struct Follower {
     edges: Edges,
     crossing: Crossing,
     rows: Rows,
-    /// None where all equations are needed.
+    /// `None` where all equations are needed.
     choice: Option<RowSelection>,
-    /// None where there are no contacts and loads, or nobody asks for forces.
+    /// `None` where there are no contacts and loads, or no forces are requested.
     forces: Option<ForceMonitor>,
     misses: NearMisses,
     warnings: Warnings,
-    /// True if derivatives at the start are known.
+    /// True if derivatives at the start have been computed.
     begun: bool,
     /// The edge that the last step ended at, if its later side has not been taken yet.
     edge: Option<Edge>,
     /// The time that the steps are measured against, and the last time (s).
     span: f64,
     last: f64,
-    /// Up to when edges are looked for (s).
+    /// Time up to which edges are sought (s).
     edges_end: f64,
 }
 
@@ -61,7 +61,7 @@ impl Started {
 }
 
 impl Follower {
-    /// Of a mechanism in a state, with what solves for its rows.
+    /// Returns the motion of a mechanism in a state, with the solver for its rows.
     #[must_use]
     pub fn new((mut kinematics, state, solver): (Kinematics, State, Option<Arc<Solver>>), times: Times) -> Follower {
         let last = times.last();
@@ -69,14 +69,14 @@ impl Follower {
         let edges_end = times.end();
         let edges = Edges::new(&mut kinematics, &state, span, edges_end);
         let crossing = Crossing::new(&state, span, last);
-        let forces = ForceMonitor::of(&kinematics, &state);
+        let forces = ForceMonitor::new(&kinematics, &state);
         let misses = NearMisses::new(&state);
         let step = Step::new(&kinematics, state, times.span());
         let origin = || Checkpoint::new(&step, &edges, &crossing);
         let batch = solver.map(|solver| RowBatch::new(&kinematics, solver, origin(), span));
         let rows = Rows::new(&kinematics, batch, times);
         let warnings = Warnings::new(kinematics.system());
-        let choice = RowSelection::of(&kinematics);
+        let choice = RowSelection::new(&kinematics);
         let (begun, edge) = (false, None);
         Follower {
             kinematics,
@@ -101,22 +101,22 @@ impl Follower {
         self.crossing.pass_bifurcations();
     }
 
-    /// From now on it remembers at which times accelerations jump.
+    /// Records from now on the times at which accelerations jump.
     pub fn keep_edges(&mut self) {
         self.warnings.keep_jumps();
     }
 
-    /// These times (s), ascending, each once.
+    /// Returns the times at which accelerations jumped (s), ascending, each once.
     #[must_use]
     pub fn edges(&self) -> Vec<f64> {
         self.warnings.jumps()
     }
 
-    /// What there is to say beside the rows so far, each thing once.
+    /// Takes the warnings so far, each once.
     pub fn take_warnings(&mut self) -> Vec<Warning> {
-        self.rows.say_what_is_missing(&mut self.warnings);
+        self.rows.report_missing(&mut self.warnings);
         let Follower { kinematics, step, rows, misses, warnings, .. } = self;
-        if let Some(missed) = rows.last_time().and_then(|t| misses.tell(kinematics, step.state(), t)) {
+        if let Some(missed) = rows.last_time().and_then(|t| misses.take_warning(kinematics, step.state(), t)) {
             warnings.push(missed);
         }
         self.warnings.take()
@@ -139,7 +139,7 @@ impl Follower {
             Ok(place) => place,
             Err(why) => {
                 self.rows.stop();
-                // who cancelled does not wait for a reason
+                // cancelled: the caller discards the reason
                 return if self.kinematics.is_cancelled() { None } else { Some(Err(why)) };
             }
         };
@@ -186,7 +186,7 @@ impl Follower {
         }
     }
 
-    /// Derivatives at the start, if they are not known yet; says whether they were.
+    /// Computes the derivatives at the start, if that has not been done; returns whether it had been.
     fn begin(&mut self) -> Result<bool, Box<Stop>> {
         if std::mem::replace(&mut self.begun, true) {
             return Ok(true);
@@ -238,14 +238,14 @@ impl Follower {
         self.step.change_equations(&mut self.kinematics, self.span / FEWEST_STEPS_NEAR).is_ok()
     }
 
-    /// Why the state where the motion is has no row.
+    /// Returns why the state where the motion is has no row.
     fn explain_state(&mut self, fault: Fault) -> Box<Stop> {
         let state = self.step.state();
         singular::find_stop(&mut self.kinematics, state, fault, [0.0, state.t])
     }
 
     fn count_step(&mut self, t: f64) -> Result<(), Box<Stop>> {
-        // who cancelled does not read why
+        // cancelled: the caller discards the reason
         if self.rows.count_step() || self.kinematics.is_cancelled() {
             let state = self.step.state();
             return Err(singular::find_stop_of_haste(&mut self.kinematics, state, MOST_STEPS, t));
@@ -275,13 +275,13 @@ impl Follower {
         Ok(true)
     }
 
-    /// A step, as far as the error and the next edge allow, which is gone over.
+    /// Steps as far as the error and the next edge allow, and crosses that edge.
     fn step_towards(&mut self, t: f64) -> Result<(), Box<Stop>> {
         let edge = self.step_to_edge(t)?;
         edge.map_or(Ok(()), |edge| self.cross(edge))
     }
 
-    /// The same, up to the edge.
+    /// Steps as far as the error and the next edge allow; returns the edge.
     fn step_to_edge(&mut self, t: f64) -> Result<Option<Edge>, Box<Stop>> {
         let next = self.step.end_towards(t);
         let edge = self.edges.next(&mut self.kinematics, &mut self.step, next, next >= t)?;
@@ -338,7 +338,7 @@ impl Follower {
         misses.take(kinematics, step.state());
     }
 
-    /// What there is to do where a step of length `h` on the way to `target` was refused.
+    /// Handles the refusal of a step of length `h` on the way to `target`.
     fn handle_rejection(&mut self, h: f64, fault: Fault, target: f64) -> Result<(), Box<Stop>> {
         if fault == Fault::Choice && self.choose_equations() {
             return Ok(());
@@ -360,7 +360,7 @@ impl Follower {
         let Follower { kinematics, step, edges, crossing, warnings, .. } = self;
         match edges.end_at_domain_boundary(kinematics, step, h, warnings) {
             Some(why) => Err(why),
-            None => crossing.pass_or_explain(kinematics, step, (fault, h, target), warnings),
+            None => crossing.pass_or_explain(kinematics, step, fault, [h, target], warnings),
         }
     }
 
@@ -415,7 +415,7 @@ impl Follower {
         self.rows.refine(&mut self.kinematics, self.step.state(), t);
     }
 
-    /// Where the motion is, to go back to.
+    /// Returns the checkpoint of the present state.
     fn checkpoint(&self) -> Checkpoint {
         Checkpoint::new(&self.step, &self.edges, &self.crossing)
     }
@@ -442,7 +442,7 @@ impl Follower {
         self.kinematics.system()
     }
 
-    /// Where the motion is.
+    /// Returns the state where the motion is.
     #[must_use]
     pub fn here(&self) -> &State {
         self.step.state()

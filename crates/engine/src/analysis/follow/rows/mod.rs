@@ -15,19 +15,27 @@ use missing_values::MissingValues;
 pub use row_batch::{RowBatch, state_of_row};
 pub use single_row::SingleRow;
 
-/// Where a row is.
+/// Location of a row.
 #[derive(Clone, Copy)]
 pub enum Place {
-    /// On its own.
+    /// The row that was solved for on its own.
     Single,
-    /// Among those that were solved for at once.
+    /// A lane of the batch.
     Lane(usize),
+}
+
+/// Output times from the next one on.
+#[derive(Clone, Copy)]
+pub struct Upcoming<'t> {
+    pub times: &'t Times,
+    /// Number of the next one.
+    pub next: u64,
 }
 
 /// The output times, and the rows that are ready.
 pub struct Rows {
     times: Times,
-    /// The number of the time that comes next.
+    /// Number of the next output time.
     next: u64,
     /// True if the motion could not go on.
     has_stopped: bool,
@@ -37,9 +45,9 @@ pub struct Rows {
     careful_until: f64,
     /// True if a step may go over several output times.
     may_step_densely: bool,
-    /// What solves for the rows of such a step.
+    /// Solver for the rows of such a step.
     batch: Option<RowBatch>,
-    /// The row that was found last on its own, and what it is worth.
+    /// Row that was found last on its own, and how far it can be trusted.
     row: Vec<f64>,
     trust: Trust,
     /// True if it is near a position that may be a bifurcation to pass.
@@ -50,7 +58,7 @@ pub struct Rows {
 }
 
 impl Rows {
-    /// For some times; `batch` solves for several rows at once.
+    /// Returns the rows for some times; `batch` solves for several of them at once.
     pub fn new(kinematics: &Kinematics, batch: Option<RowBatch>, times: Times) -> Rows {
         Rows {
             times,
@@ -79,7 +87,7 @@ impl Rows {
         self.next.checked_sub(1).map(|number| self.times.at(number))
     }
 
-    /// The next output time (s), be it behind the last one.
+    /// Returns the next output time (s), even if that is behind the last one.
     pub fn upcoming(&self) -> f64 {
         self.times.at(self.next)
     }
@@ -89,12 +97,12 @@ impl Rows {
         self.times.at(self.times.first_after(t, 0).min(self.next))
     }
 
-    /// The motion could not go on.
+    /// Records that the motion could not go on.
     pub fn stop(&mut self) {
         self.has_stopped = true;
     }
 
-    /// The next row has been handed out.
+    /// Records that the next row has been handed out.
     pub fn count_row(&mut self) {
         self.next += 1;
         self.forget_steps();
@@ -128,7 +136,7 @@ impl Rows {
         self.careful_until = t;
     }
 
-    /// Where a dense step of length `h` from a time goes (s): to an output time, if it comes so far.
+    /// Returns the end (s) of a dense step of length `h` from a time: an output time, if the step comes so far.
     pub fn target(&self, from: f64, h: f64) -> f64 {
         let (upcoming, farthest) = (self.upcoming(), from + h);
         let behind = self.times.first_after(farthest, self.next);
@@ -137,26 +145,26 @@ impl Rows {
         if h >= CRUMB * (upcoming - from) { self.times.at(behind.saturating_sub(1).max(self.next)) } else { farthest }
     }
 
-    /// An edge, ahead of a time (s), that is meant to be at an output time is there.
+    /// Returns an edge ahead of a time (s), moved to an output time if it is within rounding of it.
     pub fn at_output(&self, edge: Edge, from: f64) -> Edge {
         let behind = self.times.first_after(edge.t, self.next);
         let before = if behind > self.next { self.times.at(behind - 1) } else { edge.t };
-        let is_meant = before > from && shortly_after(before) >= edge.t;
-        if is_meant { edge.at(before) } else { edge }
+        let is_at_output = before > from && shortly_after(before) >= edge.t;
+        if is_at_output { edge.at(before) } else { edge }
     }
 
-    /// The output times with the number of the next one, and what solves for several of their rows at once.
-    pub fn batch(&mut self) -> Option<(&mut RowBatch, (&Times, u64))> {
+    /// Returns the batch, and the output times from the next one on.
+    pub fn batch(&mut self) -> Option<(&mut RowBatch, Upcoming<'_>)> {
         let Rows { batch, times, next, .. } = self;
-        batch.as_mut().map(|batch| (batch, (&*times, *next)))
+        batch.as_mut().map(|batch| (batch, Upcoming { times, next: *next }))
     }
 
-    /// From now on rows are solved for otherwise.
+    /// Replaces the solver of several rows at once.
     pub fn change_solver(&mut self, batch: Option<RowBatch>) {
         self.batch = batch;
     }
 
-    /// The step that was gone over last holds no rows.
+    /// Discards the rows of the last dense step.
     pub fn close_batch(&mut self) {
         self.batch.iter_mut().for_each(RowBatch::close);
     }
@@ -173,7 +181,7 @@ impl Rows {
         &self.row
     }
 
-    /// The same, to be written.
+    /// Returns the row that was found on its own, to be written.
     pub fn single_mut(&mut self) -> &mut [f64] {
         &mut self.row
     }
@@ -209,12 +217,12 @@ impl Rows {
         kinematics.write_row(state, &mut self.row);
     }
 
-    /// What the row that was taken last is worth.
+    /// Returns how far the row that was taken last can be trusted.
     pub fn trust(&self) -> Trust {
         self.trust
     }
 
-    /// Returns whether it is near a position that may be a bifurcation to pass.
+    /// Returns whether that row is near a position that may be a bifurcation to pass.
     pub fn is_near(&self) -> bool {
         self.is_near
     }
@@ -224,12 +232,12 @@ impl Rows {
         self.plain = here;
     }
 
-    /// Where the last one was, if that is before a time (s).
+    /// Takes the checkpoint of the last such row, if it is before a time (s).
     pub fn take_plain(&mut self, t: f64) -> Option<Checkpoint> {
         self.plain.take().filter(|plain| plain.state().t < t)
     }
 
-    /// Cells of a row at a time (s) that are not finite hold no number: they are of measures, since the coordinates are.
+    /// Marks the cells of a row at a time (s) that are not finite as missing. They are cells of measures, since coordinates are finite.
     pub fn leave_out_measures(&mut self, kinematics: &Kinematics, place: Place, t: f64) {
         for column in 0..self.row.len() {
             let cell = &mut self.row_mut(place)[column];
@@ -240,8 +248,8 @@ impl Rows {
         }
     }
 
-    /// A warning for each measure that had no value, once.
-    pub fn say_what_is_missing(&mut self, warnings: &mut Warnings) {
-        self.missing.say(warnings);
+    /// Warns of each quantity that had no value, once.
+    pub fn report_missing(&mut self, warnings: &mut Warnings) {
+        self.missing.report(warnings);
     }
 }

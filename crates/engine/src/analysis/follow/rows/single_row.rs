@@ -21,17 +21,17 @@ impl SingleRow {
         holds
     }
 
-    /// How far what was solved for last is from where Newton began, scaled.
+    /// Returns the first correction of the last solution, scaled.
     pub fn first_correction(&self) -> f64 {
         self.lane.first_correction()
     }
 
-    /// The row that was solved for last, with what is not printed of it.
+    /// Returns the row of the last solution, with the columns that are not printed.
     pub fn row(&self) -> &[f64] {
         &self.row
     }
 
-    /// The same, to be written.
+    /// Returns that row, to be written.
     pub fn row_mut(&mut self) -> &mut [f64] {
         &mut self.row
     }

@@ -1,4 +1,4 @@
-//! One step: from a state that is known to one that is tried.
+//! A step from a state to a trial state.
 //!
 //! Each step predicts `q + h q̇ + h²/2 q̈`, corrects by Newton, and is accepted only if the way between is smooth: the
 //! first correction is small, so is one between the ends, and no block's determinant changes its sign or touches zero. Else it
@@ -24,21 +24,21 @@ pub struct Step {
     length: Length,
     /// Each coordinate between the ends, as a polynomial of the part of the step.
     curve: Vec<[f64; 6]>,
-    /// Returns the fraction of the step, from 0 to 1, that was checked last.
+    /// Number from 0 to 1 that the last probe was made of.
     probe: f64,
     /// Newton's last correction, and a position beside the state.
     delta: Vec<f64>,
     place: Vec<f64>,
 }
 
-/// How well a step went.
+/// Corrections of an accepted step.
 pub struct Accepted {
     pub first_correction: f64,
     pub between: f64,
     pub motion: f64,
 }
 
-/// What a step begins from.
+/// Start of a step, to which a motion can go back.
 #[derive(Clone)]
 pub struct Mark {
     pub state: State,
@@ -56,7 +56,7 @@ pub fn quintic_between(a: &State, b: &State, k: usize, h: f64) -> [f64; 6] {
     quintic(end(a, k), end(b, k), h)
 }
 
-/// Where the derivatives of a state lead in a time `h` (s).
+/// Writes the position to which the derivatives of a state lead in a time `h` (s).
 pub fn write_prediction(from: &State, h: f64, q: &mut [f64]) {
     for (k, q) in q.iter_mut().enumerate() {
         *q = predicted(end(from, k), h);
@@ -64,7 +64,7 @@ pub fn write_prediction(from: &State, h: f64, q: &mut [f64]) {
 }
 
 impl Step {
-    /// At the start of a motion over a span (s).
+    /// Returns the step at the start of a motion over a span (s).
     pub fn new(kinematics: &Kinematics, state: State, span: f64) -> Step {
         let n = state.q.len();
         Step {
@@ -88,12 +88,12 @@ impl Step {
         self.derive_state(kinematics)
     }
 
-    /// Where the motion is.
+    /// Returns the state of the motion.
     pub fn state(&self) -> &State {
         &self.state
     }
 
-    /// When the motion is there (s).
+    /// Returns the time of the state (s).
     pub fn t(&self) -> f64 {
         self.state.t
     }
@@ -113,7 +113,7 @@ impl Step {
         &self.delta
     }
 
-    /// When the next step towards a time ends, as far as the error is known (s).
+    /// Returns the time at which the next step towards a time ends, as far as the error allows (s).
     pub fn end_towards(&self, t: f64) -> f64 {
         self.length.end_towards(self.state.t, t)
     }
@@ -163,18 +163,17 @@ impl Step {
         self.branch.begin(kinematics);
     }
 
-    /// Takes the sign of what is watched where the state was set.
+    /// Takes the signs of the monitors where the state was set.
     pub fn record_monitor_signs(&mut self, kinematics: &Kinematics) {
         self.branch.record_monitor_signs(kinematics);
     }
 
-    /// Returns whether the position that was factored is on the branch of the state: every determinant, and what is watched, has
-    /// kept its sign.
+    /// Checks that the position that was factored is on the branch of the state: all determinants and monitors have kept their signs.
     pub fn same_branch(&mut self, kinematics: &Kinematics) -> Result<(), Fault> {
         self.branch.compare(kinematics)
     }
 
-    /// Returns whether what is watched has the sign of the state where a position was set.
+    /// Checks that the monitors have the signs of the state where a position was set.
     pub fn check_monitors(&mut self, kinematics: &Kinematics) -> Result<(), Fault> {
         self.branch.compare_sides(kinematics)
     }
@@ -226,24 +225,23 @@ impl Step {
     /// Tries a position at a time (s).
     pub fn try_position(&mut self, t: f64, q: impl Iterator<Item = f64>) {
         self.trial.t = t;
-        for (own, q) in self.trial.q.iter_mut().zip(q) {
-            *own = q;
+        for (coordinate, q) in self.trial.q.iter_mut().zip(q) {
+            *coordinate = q;
         }
     }
 
-    /// The place of a step that is looked at next, as a part of the step. It wanders from step to step, so that no period of a
-    /// driver can hide from it.
+    /// Returns the next fraction of the step to be checked. It wanders from step to step, so that no period of a driver can hide from it.
     pub fn next_probe(&mut self) -> f64 {
         self.probe = (self.probe + GOLDEN).fract();
         0.3 + 0.4 * self.probe
     }
 
-    /// Returns the fraction of the step, from 0 to 1, that was checked last.
+    /// Returns the number from 0 to 1 that the last probe was made of.
     pub fn probe(&self) -> f64 {
         self.probe
     }
 
-    /// Looks on from there.
+    /// Continues the sequence of probes from a value that [`Step::probe`] returned.
     pub fn set_probe(&mut self, probe: f64) {
         self.probe = probe;
     }
@@ -302,8 +300,8 @@ impl Step {
         }
     }
 
-    /// Takes what was solved for otherwise at the end of a step, position and derivatives, as the state that is tried; gives how far
-    /// that is from the prediction, scaled.
+    /// Takes what was solved for otherwise at the end of a step, position and derivatives, as the trial state; returns its distance from
+    /// the prediction, scaled.
     pub fn take_solved<'a>(
         &mut self,
         kinematics: &Kinematics,
@@ -314,8 +312,8 @@ impl Step {
             *place = *predicted;
         }
         let State { q, qd, qdd, qddd, .. } = trial;
-        for (own, solved) in [q, qd, qdd, qddd].into_iter().zip(derivatives) {
-            own.copy_from_slice(solved);
+        for (values, solved) in [q, qd, qdd, qddd].into_iter().zip(derivatives) {
+            values.copy_from_slice(solved);
         }
         for (place, q) in self.place.iter_mut().zip(&self.trial.q) {
             *place = q - *place;
@@ -335,7 +333,7 @@ impl Step {
         self.length.adapt(kinematics, h, accepted);
     }
 
-    /// Halves the length of a step that was refused; says whether there is none any more.
+    /// Halves the length of a step that was refused; returns whether it has become too short.
     pub fn halve(&mut self, h: f64) -> bool {
         self.length.halve(h, self.state.t)
     }

@@ -44,9 +44,9 @@ impl Step {
         Err(Fault::TooFar)
     }
 
-    /// Solves for the state anew where it is, with the branches that formulas have now, in so many corrections. False if its position
-    /// would have to move farther than a limit, scaled.
-    pub fn solve_state_again(
+    /// Solves for the state anew where it is, with the present branches of the formulas, in at most `corrections` corrections. Returns
+    /// false if its position would have to move farther than a limit, scaled.
+    pub fn correct_state(
         &mut self,
         kinematics: &mut Kinematics,
         corrections: usize,

@@ -36,7 +36,7 @@ impl Length {
         if self.h >= CRUMB * (t - from) { t } else { from + self.h }
     }
 
-    /// Behind a step of length `h` that was accepted.
+    /// Adapts the length after an accepted step of length `h`.
     pub fn adapt(&mut self, kinematics: &Kinematics, h: f64, accepted: &Accepted) {
         // a singular value changes by no more than the motion, or little more
         let longest = self.span / FEWEST_STEPS;
@@ -52,7 +52,7 @@ impl Length {
         }
     }
 
-    /// Behind a step of length `h` from a time that was refused; says whether there is no shorter one.
+    /// Halves the length after a step of length `h` from a time was refused; returns whether it has become too short.
     pub fn halve(&mut self, h: f64, from: f64) -> bool {
         self.h = 0.5 * h;
         let vanishes = from + self.h <= from;

@@ -32,7 +32,7 @@ impl Kinematics {
     }
 
     /// Returns the speed that a row prescribes, scaled (1/s); the derivatives where the position was set must have been computed.
-    pub fn asked_speed(&self, row: usize) -> f64 {
+    pub fn prescribed_speed(&self, row: usize) -> f64 {
         self.registers.get(self.program.outputs.nu()[row]).abs() / self.linear.row_norm(row)
     }
 
