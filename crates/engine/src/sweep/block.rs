@@ -35,7 +35,7 @@ impl Status {
     }
 }
 
-/// One variant that was computed alone.
+/// Outcome of a variant that was computed alone.
 #[derive(Clone, PartialEq, Debug)]
 pub struct VariantOutcome {
     /// Its outcome.

@@ -101,7 +101,7 @@ fn driving_checks(system: &ConstraintSystem) -> Vec<usize> {
     (0..checks.len()).filter(|&k| system.drives(checks[k].declaration, checks[k].phi)).collect()
 }
 
-/// Where the estimates lead if drivers let go, and what these ask for and that leaves open; none if nothing closes there.
+/// Returns the position to which the estimates lead if drivers let go, and the residuals of the drivers there; `None` if nothing closes.
 pub fn close_without_drivers(kinematics: &mut Kinematics, t: f64) -> Option<(Vec<f64>, Residuals)> {
     let mut q = kinematics.estimates();
     if q.len() > LARGEST_DENSE {
@@ -116,7 +116,7 @@ pub fn close_without_drivers(kinematics: &mut Kinematics, t: f64) -> Option<(Vec
     (kinematics.hold_nearly(&rows, OPEN_NEARBY) && kinematics.turned_lines().is_empty()).then_some((q, residuals))
 }
 
-/// At a switch the later side counts.
+/// Sets the start time; at a switch its later side counts.
 fn set_start(kinematics: &mut Kinematics, t: f64) {
     let span = kinematics.span();
     kinematics.settle_time(behind_start(t, span));
@@ -305,7 +305,7 @@ fn refuse_vanishing_tangents(kinematics: &mut Kinematics, q: &[f64], t: f64) -> 
     }
 }
 
-/// The equations must be independent where the motion starts.
+/// Checks that the equations are independent where the motion starts.
 fn refuse_singular(kinematics: &mut Kinematics, q: &[f64], t: f64) -> Result<(), Box<Stop>> {
     let determined = kinematics.determined();
     let system = determined.system();
@@ -330,12 +330,12 @@ fn refuse_singular(kinematics: &mut Kinematics, q: &[f64], t: f64) -> Result<(),
 fn independent_elsewhere(kinematics: &mut Kinematics, q: &[f64], free: &[f64], t: f64) -> Option<bool> {
     independent_later(kinematics, q, t).or_else(|| {
         kinematics.set_time(t);
-        independent_beside(kinematics, q, free)
+        independent_nearby(kinematics, q, free)
     })
 }
 
-/// Returns whether the equations are independent beside a position, where its free motion leads if a driver lets go; `None` if it
-/// leads nowhere.
+/// Returns whether the equations are independent near a position, where its free motion leads if a driver lets go; `None` if it leads
+/// nowhere.
 fn independent_without(kinematics: &mut Kinematics, q: &[f64], driver: usize, free: &[f64], t: f64) -> Option<bool> {
     if q.len() > LARGEST_DENSE {
         return None;
@@ -350,15 +350,15 @@ fn independent_without(kinematics: &mut Kinematics, q: &[f64], driver: usize, fr
     })
 }
 
-/// Returns whether the equations are independent beside a position, where its free motion leads; `None` if it leads nowhere.
-fn independent_beside(kinematics: &mut Kinematics, q: &[f64], free: &[f64]) -> Option<bool> {
+/// Returns whether the equations are independent near a position, where its free motion leads; `None` if it leads nowhere.
+fn independent_nearby(kinematics: &mut Kinematics, q: &[f64], free: &[f64]) -> Option<bool> {
     [BESIDE, -BESIDE].into_iter().find_map(|way| {
         let start = moved_along(kinematics, q, free, way);
         independent_at(kinematics, q, start)
     })
 }
 
-/// A position moved along a free motion, scaled.
+/// Returns a position moved along a free motion, scaled.
 fn moved_along(kinematics: &Kinematics, q: &[f64], free: &[f64], way: f64) -> Vec<f64> {
     (0..q.len()).map(|k| q[k] + way * free[k] * kinematics.linear().column_scale(k)).collect()
 }
@@ -393,7 +393,7 @@ fn independent_where(kinematics: &mut Kinematics, q: &[f64], near: &[f64], rows:
 /// Minimum that least squares reach.
 struct Rest {
     q: Vec<f64>,
-    /// The first block that stays open, by its number, where blocks were gone through.
+    /// Number of the first block that stays open, if blocks were minimized one by one.
     open: Option<usize>,
 }
 

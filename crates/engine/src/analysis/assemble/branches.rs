@@ -1,8 +1,8 @@
 //! Doubts about the assembled position where estimates are far off.
 //!
 //! Most loops can be assembled in more than one way, and assembly takes the one that it comes to. Where it had to move a
-//! body of a loop far, others are looked for; where one of them is not clearly farther from the estimates, the reader is
-//! told. What follows from drivers and joints without iteration is right however far off its estimate is.
+//! body of a loop far, others are sought; if one of them is not clearly farther from the estimates, a warning
+//! says so. What follows from drivers and joints without iteration is right however far off its estimate is.
 
 use super::search::{Noise, levenberg_marquardt};
 use crate::analysis::state::{Kinematics, State};
@@ -151,7 +151,8 @@ fn is_another_as_near(kinematics: &mut Kinematics, within: &Loop, from: &[f64], 
     })
 }
 
-/// Where to look from: on the other side of the estimates, with one body after the other turned round, and at random.
+/// Returns starts for the search of other branches: on the other side of the estimates, with one body after the other turned round, and at
+/// random.
 fn starts(kinematics: &Kinematics, within: &Loop, from: &[f64], to: &[f64]) -> Vec<Vec<f64>> {
     let system = kinematics.system();
     let mut mirrored = to.to_vec();

@@ -1,4 +1,4 @@
-//! What assembly searches with: the position that is nearest to satisfying some equations, and starts at random.
+//! Searches of assembly: the position that is nearest to satisfying some equations, and starts at random.
 
 use crate::analysis::state::{Evaluated, Kinematics, minimize};
 

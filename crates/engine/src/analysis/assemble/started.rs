@@ -67,7 +67,7 @@ impl Unassembled {
     /// As [`Unassembled::close`].
     pub fn close_with(&self, mut kinematics: Kinematics, solving: Solving) -> Result<Started, Box<Stop>> {
         let Assembled { state, moved, is_perturbed } = assembly::assemble(&mut kinematics, self.horizon.from, None)?;
-        let mut started = Started::of(kinematics, (state, moved), solving);
+        let mut started = Started::new(kinematics, state, moved, solving);
         started.doubt = if is_perturbed {
             Some(Doubt::Perturbed)
         } else {
@@ -97,7 +97,7 @@ impl Unassembled {
         solving: Solving,
     ) -> Result<Started, Box<Stop>> {
         let Assembled { state, moved, .. } = assembly::assemble(&mut kinematics, self.horizon.from, Some(q))?;
-        Ok(Started::of(kinematics, (state, moved), solving))
+        Ok(Started::new(kinematics, state, moved, solving))
     }
 
     /// Returns an evaluator of the equations before assembly, with the estimates of the file or with others [m, rad].
@@ -112,8 +112,8 @@ impl Unassembled {
         kinematics
     }
 
-    /// Returns the position in which the bodies come nearest to being assembled, from the file's estimates or from others, if it cannot be: all is closed but what is
-    /// told to be open. None where that is not known, or hopeless [m, rad].
+    /// Returns the position [m, rad] in which the bodies come nearest to being assembled, from the file's estimates or from others, if
+    /// assembly fails: all is closed but the open loop that is reported. `None` if no such position is found, or the gap is hopeless.
     #[must_use]
     pub fn nearest(&self, estimates: Option<&[f64]>) -> Option<Vec<f64>> {
         assembly::nearest(&mut self.kinematics(estimates), self.horizon.from)
@@ -121,7 +121,7 @@ impl Unassembled {
 }
 
 impl Started {
-    fn of(mut kinematics: Kinematics, (state, moved): (State, Moved), solving: Solving) -> Started {
+    fn new(mut kinematics: Kinematics, state: State, moved: Moved, solving: Solving) -> Started {
         // by the position at the start, which is what was factored last
         kinematics.choose_orders();
         let solver = match solving {
@@ -140,7 +140,7 @@ impl Started {
         diagnostics
     }
 
-    /// Returns whether the assembly moved bodies far, said of a time (s).
+    /// Returns diagnostics of bodies that the assembly moved far, at a time (s).
     #[must_use]
     pub fn far_estimates_at(&self, t: f64) -> Diagnostics {
         let (system, from) = (self.kinematics.system(), self.kinematics.estimates());

@@ -99,8 +99,8 @@ fn singular_position(kinematics: &Kinematics, state: &State, singular: &Singular
     }
 }
 
-/// When a motion that grows as before a fold comes to it: there q* − q is as √(t* − t), so that t* − t is q̇ / 2q̈. The state is
-/// as near as steps could come; where it is not, its own time is told.
+/// Returns the time at which a motion that grows as before a fold comes to it: there q* − q goes as √(t* − t), so that t* − t is q̇ / 2q̈.
+/// Returns the time of the state if that is not as near as steps could come.
 fn time_of_fold(span: f64, state: &State, right: &[f64]) -> f64 {
     let fastest = (0..right.len()).max_by(|&a, &b| right[a].abs().total_cmp(&right[b].abs()));
     let left = fastest.map_or(0.0, |k| 0.5 * state.qd[k] / state.qdd[k]);
@@ -209,7 +209,7 @@ fn rim_at_hand(kinematics: &mut Kinematics, state: &State) -> Option<Box<Stop>> 
     })
 }
 
-/// How soon a gauge touches zero (s), behind which its formula goes on with a corner; none where it goes through zero.
+/// Returns the time (s) until a gauge touches zero, behind which its formula goes on with a corner; `None` if it goes through zero.
 fn corner_ahead(kinematics: &mut Kinematics, rim: &BoundaryRegisters, state: &State) -> Option<f64> {
     let [gauge, slope] = gauge_at(kinematics, rim, state, 0.0);
     let left = -2.0 * gauge / slope;
@@ -277,7 +277,7 @@ fn joints_in(system: &ConstraintSystem, left: &[f64]) -> Vec<DeclarationId> {
     all.into_iter().filter(|&k| system.declarations()[k].kind != DeclarationKind::Driver).collect()
 }
 
-/// All declarations that the dependency is made of, those that weigh most first.
+/// Returns the declarations of the dependency, those that weigh most first.
 fn declarations_in(system: &ConstraintSystem, left: &[f64]) -> Vec<DeclarationId> {
     let largest = left.iter().fold(0.0, |m: f64, w| m.max(w.abs()));
     let mut rows: Vec<usize> = (0..left.len()).filter(|&row| left[row].abs() > TOLD * largest).collect();
@@ -299,12 +299,12 @@ fn columns_in(right: &[f64]) -> Vec<usize> {
     (0..right.len()).filter(|&column| right[column].abs() > TOLD * fastest).collect()
 }
 
-/// The row of the driver that asks for the fastest motion from the state on, be it up to a time `t` just ahead (s) by a jump.
+/// Returns the row of the driver that prescribes the fastest motion from the state on, or by a jump up to a time `t` just ahead (s).
 fn fastest_driver(kinematics: &mut Kinematics, state: &State, t: f64) -> Option<usize> {
     let determined = kinematics.determined();
     let system = determined.system();
     kinematics.restore(state);
-    // the speeds that are asked for are known though those of the mechanism may not be
+    // the prescribed speeds are finite even where those of the mechanism are not
     let _ = kinematics.derivatives(&mut state.clone());
     let speeds: Vec<f64> = (0..system.rows().len()).map(|row| kinematics.prescribed_speed(row)).collect();
     kinematics.set_time(t);

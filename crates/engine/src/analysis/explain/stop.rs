@@ -233,7 +233,8 @@ impl StopCause {
             StopCause::RestInDeadPoint { driver, joints } => errors::driver_rests(system, *driver, joints, t, false),
             StopCause::Uncertain { declarations } => errors::uncertain(system, declarations, t),
             StopCause::PositionJump { declarations, jump, is_corner } => {
-                errors::position_jump(system, declarations, *is_corner, jump.unwrap_or_default(), t)
+                let (column, by) = jump.unwrap_or_default();
+                errors::position_jump(system, declarations, *is_corner, column, by, t)
             }
             StopCause::VelocityJump { declarations, column, velocities } => {
                 errors::velocity_jump(system, declarations, *column, *velocities, t)

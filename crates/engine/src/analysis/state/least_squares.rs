@@ -148,8 +148,8 @@ fn damped_solution(jacobian: &[f64], residual: &[f64], damping: f64, n: usize) -
     }
     for k in (0..n).rev() {
         let row = &triangle[k * n..(k + 1) * n];
-        let known: f64 = (k + 1..ends[k]).map(|j| row[j] * x[j]).sum();
-        x[k] = (x[k] - known) / row[k];
+        let resolved: f64 = (k + 1..ends[k]).map(|j| row[j] * x[j]).sum();
+        x[k] = (x[k] - resolved) / row[k];
     }
     x
 }

@@ -1,6 +1,6 @@
-//! LU of a block in an order that is fixed once: which entries arise, and which operations make them, is known before any
-//! value is. The pivots are chosen for few entries and for size (H. M. Markowitz, 1957); whether they still are large
-//! enough is watched at every factorisation.
+//! LU of a block in an order that is fixed once: which entries arise, and which operations make them, is decided before any value is
+//! computed. The pivots are chosen for few entries and for size (H. M. Markowitz, 1957); every factorisation checks that they still are
+//! large enough.
 
 use crate::solver::{BlockEntry, Order};
 use mechc_ir::tolerances::solving::order::LEAST_PIVOT;
@@ -15,7 +15,7 @@ pub struct Plan {
     /// True if the permutation from rows to columns is odd.
     is_odd: bool,
     slots: usize,
-    /// Where each entry of the block goes, in the order they were given.
+    /// Slot of each entry of the block, in the order of `entries`.
     scatter: Vec<u32>,
     /// By position: slots of the multipliers.
     multipliers: Vec<u32>,

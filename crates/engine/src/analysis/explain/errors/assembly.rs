@@ -7,7 +7,7 @@ use mechc_ir::{ConstraintSystem, CoordinateKind, DeclarationId, DeclarationKind}
 use mechc_text::diag::{Code, Diagnostic};
 use serde_json::{Value, json};
 
-/// Where a gap has another order of magnitude than the mechanism.
+/// Help for a gap of another order of magnitude than the mechanism.
 const FAR_OFF: &str =
     "that is far more than the mechanism's size: look for a length whose unit is missing or another one";
 
@@ -81,7 +81,7 @@ fn at_least(value: f64) -> f64 {
     (value / digit).ceil() * digit
 }
 
-/// What a length is of, and between which declarations it is.
+/// Returns a length, its owner, and the declarations between which it lies.
 fn link_as_data(system: &ConstraintSystem, link: &FaultyLink) -> Value {
     let is = if link.too_short { "too short" } else { "too long" };
     match link.of {

@@ -125,12 +125,13 @@ pub fn condition(system: &ConstraintSystem, condition: &Condition, t: f64) -> Di
 
 /// A position that would have to change in no time.
 ///
-/// It is a corner if only the tangents of a contact do not agree.
+/// `is_corner` is true if only the tangents of a contact do not agree. `column` would have to jump by `by` [m, rad].
 pub fn position_jump(
     system: &ConstraintSystem,
     behind: &[DeclarationId],
     is_corner: bool,
-    (column, by): (usize, f64),
+    column: usize,
+    by: f64,
     t: f64,
 ) -> Diagnostic {
     if let Some(&joint) = behind.iter().find(|&&k| is_corner && has_tangent(system, k)) {

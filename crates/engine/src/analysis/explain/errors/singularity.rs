@@ -56,7 +56,7 @@ pub fn undercut(system: &ConstraintSystem, index: usize, t: f64) -> Diagnostic {
         .datum("t", t)
 }
 
-/// Why a contact is singular, and what to do about it.
+/// Explains why a contact is singular, and suggests a remedy.
 pub fn equal_curvatures(diagnostic: Diagnostic, system: &ConstraintSystem, joint: DeclarationId) -> Diagnostic {
     let name = &system.declarations()[joint].name;
     match system.declarations()[joint].kind {

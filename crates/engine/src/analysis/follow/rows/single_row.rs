@@ -3,7 +3,7 @@
 use crate::analysis::state::Kinematics;
 use crate::solver::{Batch, Lanes, Solver};
 
-/// One lane and its row.
+/// A lane and its row.
 pub struct SingleRow {
     lane: Lanes<1>,
     row: Vec<f64>,

@@ -70,11 +70,11 @@ pub struct Kinematics {
     cancel: Cancel,
     /// Rows whose slope may vanish though nothing about the mechanism does, as that of `sin(angle(b))`.
     bent: Vec<usize>,
-    /// Rows whose slopes are looked at beside a position, these among them.
+    /// Rows whose slopes are also evaluated near a position; includes those of `bent`.
     with_nearby_slopes: Vec<usize>,
-    beside: Vec<f64>,
-    /// By row: the largest term of it there; 0 of those that are not looked at there.
-    terms_beside: Vec<f64>,
+    nearby: Vec<f64>,
+    /// By row: its largest term near the position; 0 if it is not evaluated there.
+    nearby_terms: Vec<f64>,
     doubt: Spread,
     /// Start of assembly, if it differs from the file's estimates.
     other_estimates: Option<Vec<f64>>,
@@ -102,7 +102,7 @@ impl Kinematics {
         let n = system.coordinates().len();
         let other_estimates = None;
         let holds = layout::holds(system);
-        let (beside, terms_beside) = (vec![0.0; n], vec![0.0; n]);
+        let (nearby, nearby_terms) = (vec![0.0; n], vec![0.0; n]);
         let (doubt, variations) = (Spread::new(n), Varied::new(system, &holds));
         Kinematics {
             determined,
@@ -114,8 +114,8 @@ impl Kinematics {
             cancel,
             bent,
             with_nearby_slopes,
-            beside,
-            terms_beside,
+            nearby,
+            nearby_terms,
             doubt,
             other_estimates,
             variations,

@@ -68,7 +68,7 @@ impl Kinematics {
         rows.iter().all(|&row| self.residual(row as usize) <= limit)
     }
 
-    /// The row that violates its tolerance most, with its scaled residual; `None` if all hold.
+    /// Returns the row that violates its tolerance most, with its scaled residual; `None` if all hold.
     ///
     /// A row's tolerance is `--tolerance` times its norm, plus what rounding alone makes of its terms and of the
     /// coordinates that it depends on.
@@ -77,7 +77,7 @@ impl Kinematics {
         let mut worst: Option<(usize, f64)> = None;
         for row in (0..n).filter(|&row| !self.is_met(row)) {
             let residual = self.residual(row);
-            if worst.is_none_or(|(_, known)| residual > known) {
+            if worst.is_none_or(|(_, largest)| residual > largest) {
                 worst = Some((row, residual));
             }
         }

@@ -208,7 +208,7 @@ impl Kinematics {
         self.write_columns(state, row);
     }
 
-    /// Whose number there is none of where a cell of a result row is empty, which must be one of a measure, derivative or force.
+    /// Returns the quantity without a value if a cell of a result row is empty; it must be a cell of a measure, derivative or force.
     pub fn unknown_in(&self, column: usize) -> Unknown {
         match self.holds.get(column) {
             Some(&ColumnContent::Measure { index, .. }) => Unknown::Measure(index),
@@ -253,8 +253,8 @@ impl BothWays for Pivoting {
     }
 }
 
-/// What is wanted of a state beside its motion, whose derivatives are set: multipliers, variations, and how multipliers vary. All are left
-/// in their registers.
+/// Solves for what a state needs besides its motion, whose derivatives are set: multipliers, variations, and variations of multipliers. The
+/// results stay in their registers.
 fn solve_for_more(
     determined: &Determined,
     program: &Program,
@@ -273,8 +273,8 @@ fn solve_for_more(
     });
     let variations = determined.system().variations();
     for by_two in [false, true] {
-        let asked = (0..).zip(&outputs.varied_forces).filter(|(_, right)| !right.is_empty());
-        let mut of_kind = asked.filter(|(k, _)| variations[*k as usize].by.1.is_some() == by_two).peekable();
+        let required = (0..).zip(&outputs.varied_forces).filter(|(_, right)| !right.is_empty());
+        let mut of_kind = required.filter(|(k, _)| variations[*k as usize].by.1.is_some() == by_two).peekable();
         if of_kind.peek().is_none() {
             continue;
         }
@@ -287,8 +287,8 @@ fn solve_for_more(
     }
 }
 
-/// The variations of a state whose derivatives are set, by what solves `Φ_q x = b` for a right side: those by one variable, then those
-/// by two, each order from those before. They are left in their registers.
+/// Solves for the variations of a state whose derivatives are set, by a closure that solves `Φ_q x = b` for a right side: those by one
+/// variable, then those by two, each order from those before. The results stay in their registers.
 fn vary(
     determined: &Determined,
     program: &Program,

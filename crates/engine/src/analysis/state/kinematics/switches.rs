@@ -54,7 +54,7 @@ impl Kinematics {
         &self.program.outputs.rims
     }
 
-    /// Room for proofs about rims of time, and of the motion.
+    /// Returns workspaces for proofs about domain boundaries of time, and of the motion.
     pub fn enclosures_of_rims(&self) -> [Enclosure; 2] {
         [true, false].map(|on_time| Enclosure::of_rims(&self.program, &self.registers, on_time))
     }
@@ -102,13 +102,13 @@ impl Kinematics {
         }
     }
 
-    /// Room for proofs about what time alone decides, and about what the motion decides.
+    /// Returns workspaces for proofs about what time alone decides, and about what the motion decides.
     pub fn enclosures(&self) -> [Enclosure; 2] {
         let of = [Enclosure::of_time, Enclosure::of_motion];
         of.map(|enclosure| enclosure(&self.program, &self.registers))
     }
 
-    /// What time alone decides about the equations, unless it is a straight line.
+    /// Returns the signals: terms of the equations that time alone decides, but not those that are linear in it.
     pub fn signals(&self) -> Vec<Signal> {
         self.program.signals()
     }
@@ -129,8 +129,8 @@ impl Kinematics {
         enclosure.enclose(&self.program, &self.registers, times);
     }
 
-    /// How much of the mechanism's size each signal moves an equation by, for each unit of its own; `nudge` is the part of
-    /// itself by which it is changed to learn that.
+    /// Returns how much of the mechanism's size each signal moves an equation by, per unit of the signal; `nudge` is the relative change of
+    /// the signal by which this is measured.
     pub fn effects(&mut self, signals: &[Signal], q: &[f64], nudge: f64) -> Vec<f64> {
         // what is wrong with the position shows where it is solved for
         let _ = self.set_position(q);

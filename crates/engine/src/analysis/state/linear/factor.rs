@@ -72,7 +72,7 @@ impl BlockLu {
         if !self.equilibration.centroids(k).is_empty() {
             let (left, rest) = work.split_at_mut(self.rows.len());
             let (right, work) = rest.split_at_mut(self.rows.len());
-            let vectors = (&mut left[..part.size], &mut right[..part.size]);
+            let vectors = [&mut left[..part.size], &mut right[..part.size]];
             return factors.nearness(k, part, vectors, work) * part.length_of_chain();
         }
         // what is not a number must win

@@ -114,7 +114,7 @@ struct Pattern {
 }
 
 impl Pattern {
-    /// Of some blocks, which take note of their own entries; `place_of` gives for a column its block and its place there.
+    /// Returns the pattern of some blocks, and records in each the range of its entries; `place_of` gives the block and place of a column.
     fn new(
         system: &ConstraintSystem,
         parts: &mut [Part],
@@ -161,7 +161,7 @@ pub struct BlockLu {
     judged_implicit: Vec<u32>,
     /// Divisor of each scaled row: its norm, or the least norm if that is larger.
     row_norm: Vec<f64>,
-    /// By row; 0 where the norm itself is meant.
+    /// By row; 0 if only the norm counts.
     least_norm: Vec<f64>,
     /// Scaled values of the entries.
     values: Vec<f64>,
