@@ -1,4 +1,4 @@
-//! From the estimates of the file to a position that satisfies every equation at the first time.
+//! Assembly from the estimates of the file: finds a position that satisfies every equation at the first time.
 //!
 //! First Newton's method with damped steps; where that fails, Levenberg–Marquardt, which also works through singular
 //! positions, from the estimates and then from perturbed ones. What comes out is assembled, or nothing does.
@@ -60,8 +60,8 @@ pub fn assemble(kinematics: &mut Kinematics, t: f64, near: Option<&[f64]>) -> Re
 /// Rows of all equations, those that are left out among them, each with the value of `Φ` at some position.
 pub type Residuals = Vec<(usize, f64)>;
 
-/// Returns what the drivers prescribe and the estimates leave open at time `t`: by row, `Φ` there. None where there is nothing to be driven: the
-/// estimates agree with the drivers, or have no value, or every coordinate follows from others without iteration.
+/// Returns the residuals of the drivers at the estimates, at time `t`: by row, `Φ` there. `None` if nothing is to be driven: the estimates
+/// agree with the drivers, or have no value, or every coordinate follows from others without iteration.
 pub fn driver_residuals(kinematics: &mut Kinematics, t: f64) -> Option<Residuals> {
     let determined = kinematics.determined();
     if determined.system().has_signals() || determined.blocks().iter().all(|block| block.explicit) {
@@ -75,8 +75,8 @@ pub fn driver_residuals(kinematics: &mut Kinematics, t: f64) -> Option<Residuals
     kept.chain(left_out).any(|open| open > AGREES).then_some(residuals)
 }
 
-/// `Φ` of the rows of drivers, and of others that time moves, at a position, those that are left out among them; none where one has no value.
-/// What was set is factored.
+/// Returns `Φ` of the rows of drivers, and of others that time moves, at a position, including those that are left out; `None` if one has
+/// no value. The position is factored.
 fn residuals_of_drivers(kinematics: &mut Kinematics, t: f64, q: &[f64]) -> Option<Residuals> {
     set_start(kinematics, t);
     kinematics.set_position(q).ok()?;
@@ -89,13 +89,13 @@ fn residuals_of_drivers(kinematics: &mut Kinematics, t: f64, q: &[f64]) -> Optio
     Some(kept.chain(left_out).collect())
 }
 
-/// The rows that are solved and drive the mechanism.
+/// Returns the rows that are solved and drive the mechanism.
 fn driving_rows(system: &ConstraintSystem) -> Vec<usize> {
     let rows = system.rows();
     (0..rows.len()).filter(|&k| system.drives(rows[k].declaration, rows[k].phi)).collect()
 }
 
-/// The equations that are left out and drive the mechanism, by their number among the checks.
+/// Returns the equations that are left out and drive the mechanism, by their number among the checks.
 fn driving_checks(system: &ConstraintSystem) -> Vec<usize> {
     let checks = system.checks();
     (0..checks.len()).filter(|&k| system.drives(checks[k].declaration, checks[k].phi)).collect()
@@ -152,8 +152,8 @@ pub(super) fn moved(system: &ConstraintSystem, from: &[f64], to: &[f64]) -> Move
     moved
 }
 
-/// The estimates with those coordinates put right that follow from others without iteration: a driven crank, the
-/// places of the bodies on it. So they may be as far off as they like.
+/// Returns the estimates after correcting the coordinates that follow from others without iteration: a driven crank, the locations of the
+/// bodies on it. So their estimates may be far off.
 fn explicit_first(kinematics: &mut Kinematics, estimates: &[f64]) -> Vec<f64> {
     let mut q = estimates.to_vec();
     let mut delta = vec![0.0; q.len()];
@@ -185,11 +185,11 @@ fn assembled(kinematics: &mut Kinematics, start: &[f64]) -> Option<Vec<f64>> {
     if turned.is_empty() {
         return kinematics.broken_check().is_none().then_some(q);
     }
-    let mut again = q;
+    let mut flipped = q;
     for theta in turned {
-        again[theta] += if again[theta] > start[theta] { -PI } else { PI };
+        flipped[theta] += if flipped[theta] > start[theta] { -PI } else { PI };
     }
-    let q = newton(kinematics, &again)?;
+    let q = newton(kinematics, &flipped)?;
     (kinematics.turned_lines().is_empty() && kinematics.broken_check().is_none()).then_some(q)
 }
 
@@ -231,7 +231,7 @@ fn newton(kinematics: &mut Kinematics, start: &[f64]) -> Option<Vec<f64>> {
     None
 }
 
-/// The assembled position, and whether the estimates had to be perturbed to find it.
+/// Returns the assembled position, and whether the estimates had to be perturbed to find it.
 fn by_least_squares(kinematics: &mut Kinematics, estimates: &[f64], t: f64) -> Result<(Vec<f64>, bool), Box<Stop>> {
     let mut nearest = None;
     let mut noise = Noise::new();

@@ -18,10 +18,10 @@ use std::f64::consts::{PI, TAU};
 pub enum Doubt {
     /// The estimates led nowhere, and others near them were tried.
     Perturbed,
-    /// The equations do not close with the drivers where the estimates have them: they were closed without the drivers, which were led to
-    /// where they begin then.
+    /// The equations do not close with the drivers where the estimates have them. They were closed without the drivers, which then moved to
+    /// where they begin.
     DriversLeftOut,
-    /// No way leads through all turns between where the drivers are drawn and where they begin: they were led the shortest way.
+    /// No way leads through all turns between where the drivers are drawn and where they begin: the drivers took the shortest way.
     ShortestWay,
     /// A bifurcation was passed on the way from where the drivers are drawn to where they begin.
     Passed,
@@ -57,7 +57,7 @@ struct Loop {
     columns: Vec<u32>,
 }
 
-/// Returns whether the estimates `from` leave in doubt that the assembled state is the one meant.
+/// Returns the body whose estimate in `from` leaves in doubt that the assembled state is the intended one.
 pub fn doubt(kinematics: &mut Kinematics, from: &[f64], state: &State) -> Option<FarBody> {
     let determined = kinematics.determined();
     let system = determined.system();
@@ -85,7 +85,7 @@ pub fn moved_in_loops(determined: &Determined, from: &[f64], to: &[f64]) -> f64 
     loops.iter().flat_map(Loop::columns).filter(of_bodies).map(way).fold(0.0, f64::max)
 }
 
-/// The first body that turned over, or else the one that moved farthest, if that is far.
+/// Returns the first body that turned over, or else the one that moved farthest, if that is far.
 fn farthest(
     system: &ConstraintSystem,
     columns: impl Iterator<Item = usize>,
@@ -108,7 +108,7 @@ fn farthest(
     moved
 }
 
-/// The loops, in their order of solution. What follows from drivers and joints without iteration is in none.
+/// Returns the loops, in their order of solution. Coordinates that follow from drivers and joints without iteration belong to no loop.
 fn loops(determined: &Determined) -> Vec<Loop> {
     let system = determined.system();
     let mut loops: Vec<Loop> = Vec::new();

@@ -20,7 +20,7 @@ pub struct Started {
     kinematics: Kinematics,
     state: State,
     moved: Moved,
-    /// Why this may not be the position that the estimates mean.
+    /// Doubt that this is the position that the estimates mean.
     doubt: Option<Doubt>,
     /// Solver for rows; `None` if it would be too large, or no rows are requested.
     solver: Option<Arc<Solver>>,
@@ -78,7 +78,7 @@ impl Unassembled {
         Ok(started)
     }
 
-    /// Assembles at a position [m, rad] to which the mechanism was followed, which is the one meant.
+    /// Assembles at a position [m, rad] to which the mechanism was followed, which is the intended one.
     ///
     /// # Errors
     /// As [`Unassembled::close`].
@@ -156,19 +156,19 @@ impl Started {
         Started { doubt, ..self }
     }
 
-    /// Why this may not be the position that the estimates mean.
+    /// Returns the doubt that this is the position that the estimates mean, if there is one.
     #[must_use]
     pub fn doubt(&self) -> Option<Doubt> {
         self.doubt
     }
 
-    /// The equations.
+    /// Returns the equations.
     #[must_use]
     pub fn system(&self) -> &ConstraintSystem {
         self.kinematics.system()
     }
 
-    /// From now on rows are solved for with these vector instructions, which changes no bit.
+    /// Selects the vector instructions that solve for rows; results are equal bit for bit.
     pub fn use_vectors(&mut self, vectors: Vectors) {
         self.kinematics.use_vectors(vectors);
     }
@@ -193,13 +193,13 @@ impl Started {
         branches::moved_in_loops(&self.kinematics.determined(), &estimates, &self.state.q)
     }
 
-    /// The assembled coordinates [m, rad].
+    /// Returns the assembled coordinates [m, rad].
     #[must_use]
     pub fn q(&self) -> &[f64] {
         &self.state.q
     }
 
-    /// The velocities at the start [m/s, rad/s]; none where they have no values.
+    /// Returns the velocities at the start [m/s, rad/s]; `None` if they have no values.
     #[must_use]
     pub fn velocities(&mut self) -> Option<Vec<f64>> {
         let mut state = self.state.clone();
@@ -208,7 +208,7 @@ impl Started {
         Some(state.qd)
     }
 
-    /// The smallest singular value of any block of the scaled `Φ_q` at the start: 1 is best, 0 a singular position.
+    /// Returns the smallest singular value of any block of the scaled `Φ_q` at the start: 1 is best, 0 a singular position.
     #[must_use]
     pub fn conditioning(&mut self) -> f64 {
         self.kinematics.restore(&self.state);
@@ -250,7 +250,7 @@ impl Started {
         self.kinematics.solver_of_variants(is_wanted)
     }
 
-    /// Returns whether the equations are smooth wherever the motion is, and nothing is looked at beside them.
+    /// Returns whether the equations are smooth wherever the motion is, and nothing is monitored.
     #[must_use]
     pub fn is_plain(&self) -> bool {
         self.kinematics.is_plain()

@@ -77,12 +77,12 @@ impl<'s> Evaluator<'s> {
         }
     }
 
-    /// An entry of `Φ` where it was evaluated last.
+    /// Returns an entry of `Φ` where it was evaluated last.
     pub fn phi(&self, row: usize) -> f64 {
         self.registers.get(self.program.outputs.phi[row])
     }
 
-    /// The entries of a row of `Φ_q` where it was evaluated last: column and slope.
+    /// Returns the entries of a row of `Φ_q` where it was evaluated last: column and slope.
     pub fn slopes(&self, row: usize) -> impl Iterator<Item = (usize, f64)> {
         let pattern = self.system.phi_q();
         pattern
@@ -91,7 +91,7 @@ impl<'s> Evaluator<'s> {
             .map(|(position, &(column, _))| (column as usize, self.registers.get(self.program.outputs.phi_q[position])))
     }
 
-    /// The distance that a declaration prescribes between two points, if it does, and that between them (m).
+    /// Returns the distance that a declaration prescribes between two points, if it does, and that between them (m).
     pub fn distance(&self, declaration: DeclarationId) -> Option<[f64; 2]> {
         let system = self.system;
         let is_distance = match system.declarations()[declaration].kind {

@@ -85,7 +85,7 @@ impl Freedom {
         self.motions.len()
     }
 
-    /// The bodies that can move.
+    /// Returns the bodies that can move.
     pub fn moving(&self) -> &[BodyId] {
         &self.moving
     }

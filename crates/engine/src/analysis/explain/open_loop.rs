@@ -61,7 +61,7 @@ pub struct FaultyLink {
 /// Kind of a length.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum FaultyLinkKind {
-    /// The distance between two declarations' points on a body; none for the ground.
+    /// The distance between two declarations' points on a body; `None` for the ground.
     Body(Option<BodyId>, [DeclarationId; 2]),
     /// The distance that a declaration prescribes.
     Declaration(DeclarationId),

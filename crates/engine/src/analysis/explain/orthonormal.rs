@@ -51,7 +51,7 @@ impl Orthonormal {
         is_taken
     }
 
-    /// The vector that was taken in last.
+    /// Returns the vector that was taken in last.
     pub fn last(&self) -> Option<DVector<f64>> {
         self.vectors().column_iter().next_back().map(nalgebra::Matrix::into_owned)
     }

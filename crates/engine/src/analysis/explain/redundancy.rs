@@ -1,7 +1,7 @@
 //! Too many equations: which of them are redundant, and which conflict with the others.
 //!
 //! All equations of a part are assembled together, by least squares; there each one is taken in turn, joints first and
-//! drivers last, and depends on those before it or not. Whether one that does is redundant or conflicts with them is seen at
+//! drivers last, and depends on those before it or not. Whether one that does is redundant or conflicts with them is decided at
 //! nearby times too: two drivers may agree at the start and part at once.
 
 use super::errors;

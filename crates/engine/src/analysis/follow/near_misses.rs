@@ -109,8 +109,8 @@ impl NearMisses {
     }
 }
 
-/// The square of the time in which the motion turns away from a singular position that it is nearest to about the second of three states (s²),
-/// and when that is (s).
+/// Returns the square of the time in which the motion turns away from a singular position that it is nearest to at about the second of
+/// three states (s²), and the time of that minimum (s).
 fn least_between([a, b, c]: [Look; 3]) -> Option<[f64; 2]> {
     if !(b.sigma < a.sigma && b.sigma <= c.sigma && b.sigma < FAR) {
         return None;

@@ -27,7 +27,7 @@ impl SelectedRows {
         like.with_equations(Arc::clone(&self.determined), Arc::clone(&self.program))
     }
 
-    /// The row that these equations have in place of one of others; none where it is left out.
+    /// Returns the row that these equations have in place of one of others; `None` if it is left out.
     pub fn row_in_place_of(&self, row: usize, other: &Determined) -> Option<usize> {
         let row = *other.kept().get(row)?;
         self.determined.kept().binary_search(&row).ok()
@@ -73,18 +73,18 @@ impl RowSelection {
         Some(RowSelection { program, registers, slopes, kept, slope, weights, cached: Vec::new(), current: None })
     }
 
-    /// The equations that are solved, if they are others than those at the start.
+    /// Returns the selection, if it differs from the equations at the start.
     pub fn current(&self) -> Option<&Arc<SelectedRows>> {
         self.current.as_ref()
     }
 
-    /// Returns whether the equations that are solved are well chosen at a state, where these were factored.
+    /// Returns whether the selection is good at a state, where its equations were factored.
     pub fn is_good(&mut self, kinematics: &mut Kinematics, state: &State) -> bool {
         self.heaviest(kinematics, state).is_none_or(|(_, _, weight)| weight <= LARGEST_WEIGHT)
     }
 
-    /// The largest weight of a row that is solved in one that is left out, both by their place among all rows, scaled; none where nothing is left
-    /// out.
+    /// Returns the exchange with the largest weight: a row that is left out and a row that is solved, both by their index among all rows,
+    /// and the scaled weight of the latter in the former; `None` if no row is left out.
     fn heaviest(&mut self, kinematics: &mut Kinematics, state: &State) -> Option<(usize, usize, f64)> {
         let determined = kinematics.determined();
         let inputs = self.program.inputs;

@@ -1,7 +1,7 @@
 //! The start of a mechanism.
 //!
 //! The branch of a motion is decided once, by the drawing: the equations are closed with the drivers where the drawing has them, and
-//! then the drivers are led to where they begin, along that branch. To any other first time the motion is followed from there.
+//! then the drivers are moved to where they begin, along that branch. To any other first time the motion is followed from there.
 
 use super::continuation::{Continuation, ContinuationOptions, PathOutcome, WAY};
 use crate::analysis::assemble::{Doubt, Solving, Started, Unassembled, close_without_drivers, driver_residuals};
@@ -37,7 +37,7 @@ pub fn start(
 ///
 /// Where the drawing closes clearly better with the drivers where they begin, as of a crank that is not drawn, it means that. Where it closes
 /// neither way, or no way leads on, it is closed with its drivers left out, and driven from there; else it is closed from the estimates with
-/// the drivers where they begin. Both leave the branch in doubt, which [`Started::remarks`] tells.
+/// the drivers where they begin. Both leave the branch in doubt, which [`Started::remarks`] reports.
 ///
 /// # Errors
 /// It cannot be assembled, starts in a singular position, or a formula has no value there.
@@ -102,9 +102,9 @@ struct Closed {
     doubt: Option<Doubt>,
 }
 
-/// Closes a mechanism with these residuals of rows of `Φ` as it is drawn [m, rad], and leads it to where they vanish; none where it does not
-/// close there, or no way leads on. Where one of more than half a turn ends at a dead point, the shortest way is taken, which leaves in doubt
-/// what is turned with it.
+/// Closes a mechanism with these residuals of rows of `Φ` as it is drawn [m, rad], and continues it to where they vanish; `None` if it does
+/// not close there, or no way leads on. If a way of more than half a turn ends at a dead point, the shortest way is taken, which leaves in
+/// doubt what is turned with it.
 fn close_and_drive(whole: &Unassembled, drawn: &[f64], residuals: &[(usize, f64)]) -> Option<Closed> {
     let rows = whole.determined.whole().rows();
     let turns = |&(row, from): &(usize, f64)| if rows[row].unit == RowUnit::ANGLE { from / TAU } else { 0.0 };
@@ -123,8 +123,8 @@ fn is_round(whole: &Unassembled, residuals: &[(usize, f64)]) -> bool {
     residuals.iter().any(|&(row, from)| rows[row].unit == RowUnit::ANGLE && from.abs() > PI)
 }
 
-/// Closes a mechanism as it is drawn [m, rad], and leads it to where so many whole turns are left of each residual: the last step of the
-/// assembly turns what follows without iteration. None where it does not close there, or no way leads on.
+/// Closes a mechanism as it is drawn [m, rad], and continues it to where so many whole turns are left of each residual: the last step of
+/// the assembly turns what follows without iteration. `None` if it does not close there, or no way leads on.
 fn close_and_continue(
     whole: &Unassembled,
     drawn: &[f64],
@@ -197,7 +197,7 @@ fn follow_back(whole: &Unassembled, started: &Started, start: f64) -> Result<(Ve
     }
 }
 
-/// A mechanism whose equations go along a homotopy, from 0 to 1 in place of time.
+/// Returns a mechanism whose equations go along a homotopy, from 0 to 1 in place of time.
 ///
 /// # Errors
 /// These equations do not determine it.

@@ -1,6 +1,6 @@
 //! Determinants of blocks, of any size without underflow: their signs tell the branches of a motion apart.
 
-/// 2^-256: a determinant below it is told in units of it, since that of a large block would underflow.
+/// 2^-256: a determinant below it is stored in units of it, since that of a large block would underflow.
 const UNIT: f64 = 1.0 / UNITS;
 /// 2^256.
 const UNITS: f64 = (1_u128 << 127) as f64 * (1_u128 << 127) as f64 * 4.0;

@@ -1,11 +1,11 @@
 //! Equilibration: a scale for each equation and each coordinate, block by block, which measure the nearness to a singular position.
 //!
-//! It must say the same whatever the unit, the place of the origin, what is drawn beside the equations, and the size of one
-//! body against the others. So the entries of a block are taken for as large as they come along a motion, not for what they
-//! happen to be here: the slope of a joint's equation in a turn is that of its lever, whichever way the lever points; a formula's
-//! slope is also looked at beside the position. The matrix of these magnitudes is equilibrated: every row and every column comes
+//! The result must not depend on the unit, on the location of the origin, on drawn features that no equation uses, or on the size of one
+//! body relative to the others. So the entries of a block are taken for as large as they come along a motion, not for what they
+//! happen to be here: the slope of a joint's equation in a turn is that of its lever, in whatever direction the lever points; a formula's
+//! slope is also evaluated near the position. The matrix of these magnitudes is equilibrated: every row and every column comes
 //! to unit norm (R. Sinkhorn, P. Knopp, 1967). Divided by the same scales, `Φ_q` has entries of about 1 where it is good, and
-//! one that vanishes only here is seen to.
+//! one that vanishes only here is noticed.
 //!
 //! Where a body's frame lies far from its features, its turn is about their centroid, and its motion is that of the centroid:
 //! else turning would be almost the same as moving.
@@ -221,7 +221,7 @@ impl Equilibration {
     }
 
     /// Measures the slopes where the position was set: `slope` gives each by its position in the pattern, and `rounding` gives the rounding
-    /// of a row. A slope that changes its row by no more than that, over the size of its coordinate, counts as zero.
+    /// of a row. A slope counts as zero if its product with the size of its coordinate does not exceed that.
     pub fn measure(&mut self, slope: impl Fn(usize) -> f64, rounding: impl Fn(usize) -> f64) {
         for k in 0..self.parts.len() {
             if self.parts[k].changes || !self.is_measured {
@@ -320,7 +320,7 @@ impl Mean {
         }
     }
 
-    /// 1 where no entry says more.
+    /// Returns the mean, or 1 if it is zero or not finite.
     fn value_or_one(self, [low, high]: [f64; 2]) -> f64 {
         let value = match self {
             Mean::OfExtremes => low.sqrt() * high.sqrt(),
@@ -381,7 +381,7 @@ impl Features {
         Features { places: system.points().map(|point| point.at.map(|id| values[id.index()])) }
     }
 
-    /// The features of a body that a row speaks of.
+    /// Returns the features of a body that a row speaks of.
     fn of_row<'f>(
         &'f self,
         system: &'f ConstraintSystem,

@@ -1,6 +1,6 @@
 //! Error bounds of a row: whether its numbers hold digits, and not only rounding.
 //!
-//! It is judged from the state of the row alone, whichever way led there, so that the verdict does not depend on the other output
+//! It is judged from the state of the row alone, however it was reached, so that the verdict does not depend on the other output
 //! times.
 
 use super::kinematics::{Kinematics, State};

@@ -170,7 +170,7 @@ impl Times {
 pub struct Horizon {
     /// The first time (s).
     pub from: f64,
-    /// To the last one (s): what is near in time is near beside this.
+    /// Time from there to the last one (s); it is the scale for what is near in time.
     pub span: f64,
 }
 
@@ -196,7 +196,7 @@ impl Horizon {
     }
 }
 
-/// Returns a time on the later side of whatever is meant to happen at `t` (s).
+/// Returns a time on the later side of whatever happens within rounding of `t` (s).
 pub fn shortly_after(t: f64) -> f64 {
     neighbours::shortly_after(t, SLACK)
 }

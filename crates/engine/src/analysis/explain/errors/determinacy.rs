@@ -45,7 +45,7 @@ fn by_declaration<'d>(system: &ConstraintSystem, dependents: &'d [Dependent]) ->
     dependents.chunk_by(|a, b| system.rows()[a.row].declaration == system.rows()[b.row].declaration).collect()
 }
 
-/// The declaration of a group of rows of one declaration.
+/// Returns the declaration of a group of rows of one declaration.
 fn declaration_of(system: &ConstraintSystem, group: &[Dependent]) -> DeclarationId {
     system.rows()[group[0].row].declaration
 }
@@ -61,7 +61,7 @@ fn is_stuck(system: &ConstraintSystem, group: &[Dependent]) -> bool {
         && !depends_on(system, group).iter().any(|&k| is_driver(system, k))
 }
 
-/// The declarations that a group of rows of one declaration depends on, in order.
+/// Returns the declarations that a group of rows of one declaration depends on, in order.
 fn depends_on(system: &ConstraintSystem, group: &[Dependent]) -> Vec<DeclarationId> {
     let declaration = declaration_of(system, group);
     let rows = group.iter().flat_map(|one| &one.on).map(|&row| system.rows()[row].declaration);

@@ -112,7 +112,7 @@ impl Bridge {
         }
     }
 
-    /// A curve between the states that are so near to the singular position.
+    /// Returns a curve between the states whose nearness to the singular position is `nearest`, if one is exact.
     fn narrow_curve(&self, kinematics: &mut Kinematics, step: &mut Step, nearest: f64) -> Option<RefinedBridge> {
         let mut is_near = |t: f64| {
             kinematics.restore(&self.state_at(t));

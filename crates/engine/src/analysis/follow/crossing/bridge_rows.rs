@@ -38,7 +38,7 @@ impl Crossing {
         self.passes.then(|| Err(StopCause::Uncertain { declarations: Vec::new() }.at(t)))
     }
 
-    /// The state at a time by the curve over the last singular position.
+    /// Returns the state at a time by the curve over the last singular position.
     pub fn state_at(&self, t: f64) -> Option<State> {
         self.bridge.as_ref().map(|bridge| bridge.state_at(t))
     }

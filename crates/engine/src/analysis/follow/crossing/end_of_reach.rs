@@ -128,7 +128,7 @@ impl Fold<'_> {
     }
 }
 
-/// The extremum near a place by parabolas, the first one over `reach` to both sides; none where it is further off than
+/// Returns the extremum near a location by parabolas, the first one over `reach` to both sides; `None` where it is further off than
 /// `farthest`, or where the function has none.
 fn extremum(
     parabolas: usize,

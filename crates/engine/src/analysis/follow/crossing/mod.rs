@@ -43,7 +43,7 @@ pub struct Crossing {
     last: f64,
 }
 
-/// Bridge that is set suspended.
+/// Bridge that is set aside.
 pub struct SuspendedBridge {
     bridge: Option<Bridge>,
     passes: bool,
@@ -73,7 +73,7 @@ impl Crossing {
         self.passes
     }
 
-    /// The last state that was clear of singular positions.
+    /// Returns the last state that was clear of singular positions.
     pub fn clear(&self) -> &State {
         &self.clear
     }
@@ -141,7 +141,7 @@ impl Crossing {
         suspended
     }
 
-    /// Restores the bridge that [`Crossing::forget`] set suspended.
+    /// Restores the bridge that [`Crossing::forget`] set aside.
     pub fn remember(&mut self, suspended: SuspendedBridge) {
         (self.bridge, self.passes) = (suspended.bridge, suspended.passes);
     }

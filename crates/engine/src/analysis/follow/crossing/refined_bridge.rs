@@ -37,7 +37,7 @@ impl RefinedBridge {
         RefinedBridge { from, length, coefficients: coefficients.collect() }
     }
 
-    /// The state at a time (s).
+    /// Returns the state at a time (s).
     pub fn state_at(&self, t: f64) -> State {
         let x = (t - self.from) / self.length;
         let mut state = State::new(t, vec![0.0; self.coefficients.len()]);
@@ -80,7 +80,7 @@ fn divided_differences(at: impl Fn(usize) -> [f64; 3]) -> [f64; CONDITIONS] {
 }
 
 impl RefinedBridge {
-    /// A finer curve than that between two states, if there is one that is exact.
+    /// Returns a finer curve than the quintic between two states, if one is exact.
     pub fn between(kinematics: &mut Kinematics, step: &mut Step, [from, to]: [&State; 2]) -> Option<RefinedBridge> {
         let way = OUTWARD * (to.t - from.t);
         let before = walk(kinematics, step, from, -way)?;
@@ -106,7 +106,7 @@ impl RefinedBridge {
     }
 }
 
-/// The state that a motion without edges leads to in a time from another one, either way.
+/// Returns the state to which a motion without edges leads from another one in a time, forward or backward.
 fn walk(kinematics: &mut Kinematics, step: &mut Step, from: &State, way: f64) -> Option<State> {
     let mut state = from.clone();
     let h = way / STEPS as f64;

@@ -1,7 +1,7 @@
 //! Domain boundaries: the times where a formula comes to the end of what one of its functions takes, as `sqrt((t - 1 s)^2)` does.
 //!
-//! No switch tells of such an edge, and at its very time the formula mostly has no derivative. What is known is a quantity,
-//! the event function, that is zero there, and its slope along the motion. A step is proven by intervals to hold none: the event function
+//! No switch marks such an edge, and at its very time the formula mostly has no derivative. It is found by a quantity,
+//! the event function, that is zero there, and by its slope along the motion. A step is proven by intervals to hold none: the event function
 //! keeps away from zero, or it goes one way only and has the same sign at both ends. Else its zero is located to
 //! neighbouring doubles, the step ends before it, and both sides are judged by states ever nearer to it
 //! (`crates/engine/src/analysis/follow/edges/one_sided_limits.rs`). What agrees on both sides is no edge, and the motion goes on as if nothing had been.
@@ -116,7 +116,7 @@ impl DomainBoundaries {
         self.end.take()
     }
 
-    /// Looks for domain boundaries that a step of length `h` goes over, on the curve through both its ends, which must have been drawn.
+    /// Looks for domain boundaries within a step of length `h`, on the curve through both its ends, which must have been drawn.
     pub fn look(&mut self, kinematics: &mut Kinematics, step: &mut Step, h: f64) -> Result<(), Fault> {
         let Some(met) = self.first_on_curve(kinematics, step, h) else {
             return Ok(());
@@ -243,8 +243,8 @@ impl DomainBoundaries {
         matches!((at(t - far), at(t + far)), (Some(a), Some(b)) if a != 0.0 && b != 0.0)
     }
 
-    /// Solves for the state at a time next to a domain boundary, on one side of it, with the branches that formulas have there; gives the rounding
-    /// of what the domain boundary's formula computes there, as a part of it. None if there is no such state.
+    /// Solves for the state at a time next to a domain boundary, on one side of it, with the branches that formulas have there. Returns the
+    /// relative rounding of the value of the event function there, or `None` if there is no such state.
     fn solve_near(
         &mut self,
         kinematics: &mut Kinematics,
@@ -270,7 +270,7 @@ impl DomainBoundaries {
         (rounding < KNOWN).then_some(rounding)
     }
 
-    /// The event function and its slope at a time next to the state, solved for.
+    /// Returns the event function and its slope at a time next to the state, solved for.
     fn solved_gauge(&self, kinematics: &mut Kinematics, step: &mut Step, boundary: usize, t: f64) -> Option<[f64; 2]> {
         step.predict(kinematics, t - step.t(), t).ok()?;
         step.correct(kinematics).ok()?;
@@ -279,7 +279,7 @@ impl DomainBoundaries {
         found.iter().all(|value| !value.is_nan()).then_some(found)
     }
 
-    /// The zero of an event function of the motion near a time, by states that are solved for.
+    /// Returns the zero of an event function of the motion near a time, by states that are solved for.
     fn locate(&mut self, kinematics: &mut Kinematics, step: &mut Step, boundary: usize, t: f64) -> f64 {
         let far = FARTHEST * self.span;
         let (a, b) = ((t - far).max(self.event_functions.passed(boundary)), t + far);

@@ -41,9 +41,9 @@ pub(super) struct EventFunctions {
 impl EventFunctions {
     /// Returns the event functions of a motion that begins at a time and is measured against a span (s).
     pub fn new(kinematics: &Kinematics, t: f64, span: f64) -> EventFunctions {
-        let all = kinematics.rims().to_vec();
+        let all = kinematics.boundaries().to_vec();
         let of = |on_time: bool| (0..all.len()).filter(|&k| all[k].on_time == on_time).collect();
-        let [in_time, along] = kinematics.enclosures_of_rims();
+        let [in_time, along] = kinematics.enclosures_of_boundaries();
         let n = kinematics.system().coordinates().len();
         EventFunctions {
             of_time: of(true),
@@ -89,7 +89,7 @@ impl EventFunctions {
         }
     }
 
-    /// The first zero of an event function, in time or on a curve.
+    /// Returns the first zero of an event function, in time or on a curve.
     pub fn first_zero(
         &mut self,
         kinematics: &mut Kinematics,
@@ -122,8 +122,8 @@ impl EventFunctions {
         None
     }
 
-    /// The domain boundary, by its place from `first` on among those of a way, whose event function is not proven to keep its sign in a part that has
-    /// been enclosed.
+    /// Returns the index, from `first` on, among the domain boundaries of a path, of one whose event function is not proven to keep its
+    /// sign in a part that has been enclosed.
     fn may_be_zero(
         &mut self,
         kinematics: &mut Kinematics,
@@ -179,7 +179,7 @@ impl EventFunctions {
         }
     }
 
-    /// An event function and its slope at a time, or at a place of a curve.
+    /// Returns an event function and its slope at a time, or at a place of a curve.
     pub fn at(
         &mut self,
         kinematics: &mut Kinematics,

@@ -1,4 +1,4 @@
-//! Edges: the times where a formula goes over to another of its branches.
+//! Edges: the times where a formula changes to another of its branches.
 //!
 //! Within a step every switch is frozen, so that the equations are smooth there. An edge of time is looked for before a
 //! step, one of the motion after it; both are located to neighbouring doubles, and the step ends there. Then both sides
@@ -29,7 +29,7 @@ use signals::Signals;
 pub struct Edge {
     /// Time at which both sides are evaluated (s).
     pub t: f64,
-    /// A time (s) at which every switch of time is on the later side; none for an edge of the motion.
+    /// Time (s) at which every switch of time is on the later side; `None` for an edge of the motion.
     after: Option<f64>,
     /// True if it is the place from which a domain boundary is judged.
     is_domain_boundary: bool,
@@ -93,7 +93,7 @@ impl Edges {
         }
     }
 
-    /// The edge of the motion that a longer step has met.
+    /// Returns the edge of the motion that a longer step has met.
     pub fn met(&self) -> Option<Edge> {
         self.met
     }
@@ -108,7 +108,7 @@ impl Edges {
         self.met.is_some_and(|met| met.t <= t)
     }
 
-    /// The row of the later side of the edge that was crossed last.
+    /// Returns the row of the later side of the edge that was crossed last.
     pub fn later_row(&self) -> &[f64] {
         self.sides.later_row()
     }

@@ -1,4 +1,4 @@
-//! One-sided limits of position, velocity and acceleration at a time at which a formula may have none.
+//! Limits from both sides of position, velocity and acceleration at a time at which a formula may have none.
 //!
 //! States are taken at equal distances before and after it, ever nearer. What a smooth motion makes of the distance is
 //! taken away from what they differ by, so that the rest vanishes with a higher power of it. A rest that stays at all
@@ -98,14 +98,14 @@ impl OneSidedLimits {
 
     pub fn begin(&mut self, system: &ConstraintSystem, span: f64) {
         for (is_of_body, coordinate) in self.bodies.iter_mut().zip(system.coordinates()) {
-            // a contact may run along its curve as it likes: what counts is how bodies move
+            // only bodies count: a contact may move along its curve at any speed
             *is_of_body = coordinate.kind != CoordinateKind::Argument;
         }
         (self.pairs, self.gaps) = ([None; MOST], [None; MOST]);
         (self.count, self.found, self.span) = (0, [0; 2], span);
     }
 
-    /// The nearest states before and after the time.
+    /// Returns the nearest states before and after the time.
     pub fn sides(&self) -> [&State; 2] {
         [&self.before, &self.after]
     }

@@ -1,4 +1,4 @@
-//! Both sides of an edge, at the same time: what jumps there.
+//! One-sided states of an edge, both at its time, and what jumps between them.
 
 use crate::analysis::explain::{Stop, StopCause};
 use crate::analysis::follow::step::{Step, write_prediction};
@@ -48,17 +48,17 @@ impl OneSidedStates {
         OneSidedStates { before: state.clone(), row_before: row.clone(), row, switches, pace: Pace::default(), span }
     }
 
-    /// The earlier side.
+    /// Returns the earlier side.
     pub fn before(&self) -> &State {
         &self.before
     }
 
-    /// The row of the later side.
+    /// Returns the row of the later side.
     pub fn later_row(&self) -> &[f64] {
         &self.row
     }
 
-    /// Results of the switches on the earlier side.
+    /// Returns the results of the switches on the earlier side.
     pub fn switches(&self) -> &[f64] {
         &self.switches
     }
@@ -129,13 +129,13 @@ impl OneSidedStates {
             |a: &[f64], b: &[f64]| (0..a.len()).map(|k| f64::max(scaled(k, a[k]), scaled(k, b[k]))).fold(0.0, f64::max);
         let fastest = largest(&before.qd, &now.qd).max(REST / self.span);
         let hardest = largest(&before.qdd, &now.qdd).max(REST * fastest / self.span);
-        // beside what has been met before, the last digits of a formula are nothing
+        // compared with earlier velocities, the last digits of a formula are rounding
         let velocity = velocity.max(VELOCITY_JUMP * fastest).max(LAST_DIGITS * self.pace.fastest);
         let acceleration = acceleration.max(ACCELERATION_JUMP * hardest).max(LAST_DIGITS * self.pace.hardest);
         let jumps = |k: &usize| scaled(*k, now.qd[*k] - before.qd[*k]) > velocity;
         let bends = |k: &usize| scaled(*k, now.qdd[*k] - before.qdd[*k]) > acceleration;
         let mut all = 0..now.qd.len();
-        // a contact may run along its curve as it likes: what counts is how bodies move
+        // only bodies count: a contact may move along its curve at any speed
         match all.clone().filter(jumps).find(|&k| system.coordinates()[k].kind != CoordinateKind::Argument) {
             Some(column) => Some(Jump::Velocity { column }),
             None => all.any(|k| jumps(&k) || bends(&k)).then_some(Jump::Acceleration),
@@ -174,7 +174,7 @@ impl OneSidedStates {
         }
     }
 
-    /// The declarations whose own equations the earlier side does not satisfy, with the branches of the later one.
+    /// Returns the declarations whose own equations the earlier side does not satisfy, with the branches of the later one.
     fn declarations_behind(&self, kinematics: &Kinematics, jump: Jump) -> Vec<DeclarationId> {
         let system = kinematics.system();
         let open = |row: usize| {
@@ -213,7 +213,7 @@ pub(super) fn settle(kinematics: &mut Kinematics, state: &State, span: f64, afte
     kinematics.set_time(state.t);
 }
 
-/// Names of the result's columns that differ on the two sides of an edge, by the rows of both.
+/// Returns the names of the result's columns that differ on the two sides of an edge, by the rows of both.
 pub(super) fn columns_that_jump(system: &ConstraintSystem, span: f64, [before, after]: [&[f64]; 2]) -> Vec<String> {
     let jumps = |a: f64, b: f64| (a - b).abs() > ACCELERATION_JUMP * a.abs().max(b.abs()).max(REST / (span * span));
     // what is varied jumps with what it is a derivative of

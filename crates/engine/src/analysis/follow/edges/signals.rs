@@ -1,5 +1,5 @@
-//! Between the ends of a step a driver may ask for more than the ends show: a pulse that is shorter than the step. Its right
-//! side is enclosed over the step by intervals; where that reaches beyond the values at the ends the step is looked into.
+//! Signals: between the ends of a step a driver may move more than the ends show, as by a pulse that is shorter than the step. Its right
+//! side is enclosed over the step by intervals; where that reaches beyond the values at the ends the step is examined within.
 
 use crate::analysis::follow::step::Step;
 use crate::analysis::state::{Fault, Kinematics, State};
@@ -19,7 +19,7 @@ pub(super) struct Signals {
 }
 
 impl Signals {
-    /// With what the signals do to the equations of a state.
+    /// Returns the signals, with bounds from their effect on the equations of a state.
     pub fn new(kinematics: &mut Kinematics, state: &State) -> Signals {
         let all = kinematics.signals();
         kinematics.restore(state);

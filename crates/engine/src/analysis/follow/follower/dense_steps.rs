@@ -85,7 +85,7 @@ impl Follower {
         Ok(Some(Accepted { first_correction, between, motion }))
     }
 
-    /// The row of the next output time `t`, if that lies within the step that was accepted last.
+    /// Returns the row of the next output time `t`, if that lies within the step that was accepted last.
     pub(super) fn row_in_dense_step(&mut self, t: f64) -> Option<Place> {
         let (batch, upcoming) = self.rows.batch().filter(|(batch, upcoming)| batch.holds_time(upcoming.next))?;
         if let Some(lane) = batch.lane_of(&self.kinematics, &self.step, upcoming) {

@@ -14,8 +14,8 @@ use mechc_ir::tolerances::solving::rows::STEPS_AHEAD;
 const NOTHING: [f64; 2] = [f64::INFINITY, f64::NEG_INFINITY];
 
 impl Follower {
-    /// A row of a time `t` whose derivatives are in doubt. If it lies on the way up to a bifurcation that way shows whether they
-    /// are right, and what they are if not. The motion is left as it was, so that the rows behind it are the same.
+    /// Settles a row of a time `t` whose derivatives are in doubt. If it lies on the way up to a bifurcation, the bridge over that shows
+    /// whether they are right, and corrects them if not. The motion is left as it was, so that the rows behind it are the same.
     pub(super) fn row_in_doubt(&mut self, t: f64) -> Result<(), Box<Stop>> {
         let (row, here, probe) = (self.rows.single().to_vec(), self.checkpoint(), self.step.probe());
         let (reported, aside) = (self.warnings.reported(), self.crossing.suspend());

@@ -1,4 +1,4 @@
-//! Rows that are held against what comes behind them.
+//! Rows that are compared with what comes behind them.
 
 use super::Follower;
 use crate::analysis::explain::{Stop, singular};
@@ -17,8 +17,8 @@ impl Follower {
         t + if is_in_doubt { usual.max(2.0 * (t - self.crossing.clear().t)) } else { usual }
     }
 
-    /// A row whose derivatives would be more rounding than digits: mostly a lock-up comes right behind it, or a bifurcation,
-    /// and then the row may lie on the way over it. Says whether it does not.
+    /// Checks a row whose derivatives would be more rounding than digits: mostly a lock-up comes right behind it, or a bifurcation, and
+    /// then the row may lie on the bridge over it. Returns true if no bridge was found and the row is certain as it was solved.
     pub(super) fn look_ahead(&mut self, t: f64) -> Result<bool, Box<Stop>> {
         let (trust, row, here) = (self.rows.trust(), self.rows.single().to_vec(), self.checkpoint());
         let is_certain = self.is_certain(here.state());
@@ -63,7 +63,7 @@ impl Follower {
         Err(self.explain_uncertain(t))
     }
 
-    /// The row of a time `t`, which is not certain as it was found, where the motion behind it cannot go on.
+    /// Settles the row of a time `t` that is not certain as it was found, where the motion behind it cannot go on: it may lie on a bridge.
     fn row_before(&mut self, t: f64, here: &Checkpoint, why: Box<Stop>) -> Result<(), Box<Stop>> {
         let on_bridge = self.row_on_bridge(t);
         self.go_back(here);
@@ -91,8 +91,8 @@ impl Follower {
         false
     }
 
-    /// Finds the row of a time on a bridge by steps from the row before, as if the bridge were not there; says whether that
-    /// is certain.
+    /// Finds the row of a time on a bridge by steps from the row before, as if the bridge were not there; returns whether that row is
+    /// certain.
     pub(super) fn plain_row(&mut self, t: f64) -> bool {
         let Some(plain) = self.rows.take_plain(t) else {
             return false;
@@ -110,7 +110,7 @@ impl Follower {
         is_found
     }
 
-    /// Steps to the time of the next row by way of all output times before; says whether it comes there.
+    /// Steps to the time of the next row by way of all output times before; returns whether it gets there.
     fn steps_to(&mut self, t: f64) -> bool {
         while self.step.t() < t {
             let upcoming = self.rows.upcoming_after(self.step.t());

@@ -53,7 +53,7 @@ pub struct Follower {
 }
 
 impl Started {
-    /// The motion from the start on, a row for each of some times, which do not come before the start.
+    /// Returns the motion from the start on, with a row for each of some times, which do not come before the start.
     #[must_use]
     pub fn into_motion(self, times: &Times) -> Follower {
         Follower::new(self.into_parts(), times.clone())
@@ -122,8 +122,8 @@ impl Follower {
         self.warnings.take()
     }
 
-    /// The row of the next output time, in the order of `Started::columns`; none behind the last one, and where the motion
-    /// could not go on.
+    /// Returns the row of the next output time, in the order of `Started::columns`; `None` behind the last one, and where the motion could
+    /// not go on.
     ///
     /// # Errors
     /// Why and where the motion cannot go on.
@@ -175,7 +175,7 @@ impl Follower {
                 return Ok(Place::Single);
             }
             if !self.may_step_densely() {
-                // beside a bifurcation that is passed every digit counts
+                // near a bifurcation that is passed every digit counts
                 if self.go_to(t)? && !self.rows.is_near() {
                     self.refine(t);
                 }
@@ -214,7 +214,7 @@ impl Follower {
         self.edges.settle(&mut self.kinematics, self.step.state(), Some(after));
     }
 
-    /// Chooses anew which equations are solved where the motion is, if all are not needed; says whether they are others.
+    /// Selects anew the equations that are solved where the motion is, if not all are needed; returns whether they changed.
     fn choose_equations(&mut self) -> bool {
         let Follower { kinematics, step, edges, rows, choice, forces, .. } = self;
         let Some(choice) = choice else {
@@ -253,7 +253,7 @@ impl Follower {
         Ok(())
     }
 
-    /// Steps to an output time on its own; says whether its row was solved for there, and not taken from the way over a singular
+    /// Steps to an output time on its own; returns whether its row was solved for there, and not taken from the bridge over a singular
     /// position.
     fn go_to(&mut self, t: f64) -> Result<bool, Box<Stop>> {
         while self.step.t() < t {
@@ -299,7 +299,7 @@ impl Follower {
         }
     }
 
-    /// A step of length `h` to time `t`, whose row is written if it is wanted.
+    /// Tries a step of length `h` to time `t`, and writes its row if that is wanted.
     fn try_step(&mut self, h: f64, t: f64, wanted: bool) -> Result<Accepted, Fault> {
         let Follower { kinematics, step, edges, crossing, rows, choice, .. } = self;
         let to_edge_of_motion = edges.is_met_by(t);
@@ -381,7 +381,7 @@ impl Follower {
         Ok(())
     }
 
-    /// The row of the state that has been reached already: the start.
+    /// Writes the row of the state that has been reached already: the start.
     fn row_at_rest(&mut self) -> Result<(), Box<Stop>> {
         self.kinematics.restore(self.step.state());
         let mut trust = self.trust_at_rest();

@@ -267,7 +267,7 @@ impl ForceMonitor {
         is_solved
     }
 
-    /// The largest of the multipliers.
+    /// Returns the largest absolute multiplier.
     fn largest(&self, system: &ConstraintSystem) -> f64 {
         (0..system.rows().len()).map(|row| self.kinematics.multiplier(row).abs()).fold(0.0, f64::max)
     }
@@ -299,7 +299,7 @@ impl ForceMonitor {
     }
 }
 
-/// The time derivative of a polynomial of the part of a step of length `h` (s), likewise.
+/// Returns the time derivative of a polynomial of the fraction of a step of length `h` (s), as such a polynomial.
 fn slope(&[_, a, b, c, d, e]: &[f64; 6], h: f64) -> [f64; 6] {
     [a / h, 2.0 * b / h, 3.0 * c / h, 4.0 * d / h, 5.0 * e / h, 0.0]
 }

@@ -77,12 +77,12 @@ impl Rows {
         }
     }
 
-    /// The next output time (s); none behind the last one, and where the motion could not go on.
+    /// Returns the next output time (s); `None` behind the last one, and where the motion could not go on.
     pub fn next_time(&self) -> Option<f64> {
         (!self.has_stopped && self.next < self.times.len()).then(|| self.upcoming())
     }
 
-    /// The time of the row that was handed out last (s).
+    /// Returns the time of the row that was handed out last (s).
     pub fn last_time(&self) -> Option<f64> {
         self.next.checked_sub(1).map(|number| self.times.at(number))
     }
@@ -92,7 +92,7 @@ impl Rows {
         self.times.at(self.next)
     }
 
-    /// The first output time behind a time, or the next one, if that is earlier (s).
+    /// Returns the first output time behind a time, or the next one, if that is earlier (s).
     pub fn upcoming_after(&self, t: f64) -> f64 {
         self.times.at(self.times.first_after(t, 0).min(self.next))
     }
@@ -108,7 +108,7 @@ impl Rows {
         self.forget_steps();
     }
 
-    /// The next row, if it has been solved for and there is nothing to be said of it; it has been handed out then.
+    /// Returns the next row if it has been solved for and needs no warning; it counts as handed out then.
     pub fn hand_out_ready(&mut self) -> Option<Place> {
         let lane = self.batch.as_ref()?.ready_lane(self.next)?;
         self.count_row();
@@ -120,7 +120,7 @@ impl Rows {
         self.steps = 0;
     }
 
-    /// Counts a step; says whether there are too many.
+    /// Counts a step; returns whether there are too many.
     pub fn count_step(&mut self) -> bool {
         self.steps += 1;
         self.steps > MOST_STEPS
@@ -131,7 +131,7 @@ impl Rows {
         self.batch.is_some() && self.may_step_densely && t >= self.careful_until
     }
 
-    /// Up to a time (s) steps go to each output time on their own.
+    /// Makes steps go to each output time on their own up to a time (s).
     pub fn single_step_until(&mut self, t: f64) {
         self.careful_until = t;
     }
@@ -176,7 +176,7 @@ impl Rows {
         }
     }
 
-    /// The row that was found on its own.
+    /// Returns the row that was found on its own.
     pub fn single(&self) -> &[f64] {
         &self.row
     }
@@ -195,7 +195,7 @@ impl Rows {
         }
     }
 
-    /// The row at a place.
+    /// Returns the row at a place.
     pub fn row(&self, place: Place) -> &[f64] {
         match (place, &self.batch) {
             (Place::Lane(lane), Some(batch)) => batch.row(lane),
@@ -210,7 +210,7 @@ impl Rows {
         }
     }
 
-    /// Takes the row of a state that was just computed; `is_near` says whether it is near a bifurcation to pass.
+    /// Takes the row of a state that was just computed; `is_near` decides whether it is near a bifurcation to pass.
     pub fn take(&mut self, kinematics: &mut Kinematics, state: &State, is_near: impl FnOnce(&mut Kinematics) -> bool) {
         self.trust = Trust::of(kinematics, state);
         self.is_near = is_near(kinematics);

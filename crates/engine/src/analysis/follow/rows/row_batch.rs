@@ -71,7 +71,7 @@ fn threads(_: &Solver) -> usize {
     1
 }
 
-/// The state at a time that a solver's row holds, like another state.
+/// Returns the state at a time from a solver's row; it takes what the row does not hold from another state.
 pub fn state_of_row(layout: &RowLayout, row: &[f64], like: &State, t: f64) -> State {
     let n = like.q.len();
     let part = |order: usize| row[layout.coordinates[order] as usize..][..n].to_vec();
@@ -110,7 +110,7 @@ impl RowBatch {
         }
     }
 
-    /// The row of a lane.
+    /// Returns the row of a lane.
     pub fn row(&self, lane: usize) -> &[f64] {
         let layout = self.solver.layout();
         &self.values[self.begin + lane * layout.stride..][..layout.printed]
@@ -167,8 +167,8 @@ impl RowBatch {
         Some(step.take_solved(kinematics, orders.map(part)))
     }
 
-    /// Solves at a time from where the last step leads beyond its end, if it led smoothly to where the motion is: so near to the solution
-    /// that it saves an iteration. Says whether it holds.
+    /// Solves at a time from the extrapolated curve of the last step, if that led smoothly to where the motion is: the start is so near to
+    /// the solution that it saves an iteration. Returns whether the solution holds.
     fn solve_beyond(&mut self, kinematics: &Kinematics, step: &mut Step, t: f64) -> bool {
         if !self.is_smooth || !self.leads_to(step.t()) {
             return false;
@@ -192,14 +192,14 @@ impl RowBatch {
         length > 0.0 && (from + length - t).abs() <= SAME_TIME * length
     }
 
-    /// Solves at one time, of a step from a time and of a length; says whether it holds.
+    /// Solves at one time of a step from a time and of a length; returns whether the solution holds.
     fn solve_within(&mut self, kinematics: &Kinematics, curve: &[[f64; 6]], [from, length, t]: [f64; 3]) -> bool {
         let way = Batch { times: [t], from, length, curve, bends: &[], bounds: &self.bounds };
         self.alone.solve(kinematics, &self.solver, &way)
     }
 
-    /// The state in the middle of the step that was accepted last, if that was a dense step to where the motion is and can be solved for
-    /// there.
+    /// Returns the state in the middle of the step that was accepted last, if that was a dense step to where the motion is and can be
+    /// solved for there.
     pub fn middle(&mut self, kinematics: &Kinematics, step: &Step) -> Option<State> {
         let [from, length] = self.way();
         let t = 0.5 * from + 0.5 * step.t();
@@ -360,7 +360,7 @@ impl RowBatch {
         }
     }
 
-    /// Solves from the position of a row; says whether it holds.
+    /// Solves from the position of a row; returns whether the solution holds.
     fn solve_at_rest(&mut self, kinematics: &Kinematics, t: f64, row: &[f64]) -> bool {
         kinematics.write_bounds(&mut self.bounds);
         for (rest, q) in self.rest.iter_mut().zip(self.solver.layout().position(row)) {

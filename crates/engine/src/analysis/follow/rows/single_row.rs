@@ -14,7 +14,7 @@ impl SingleRow {
         SingleRow { lane: Lanes::new(solver, kinematics.vectors()), row: vec![0.0; solver.layout().stride] }
     }
 
-    /// Solves at one time; says whether it holds.
+    /// Solves at one time; returns whether the solution holds.
     pub fn solve(&mut self, kinematics: &Kinematics, solver: &Solver, at: &Batch<'_, 1>) -> bool {
         let (program, registers) = kinematics.program();
         let [holds] = self.lane.run(solver, program, registers, at, &mut self.row);

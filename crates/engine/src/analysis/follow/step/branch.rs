@@ -26,12 +26,12 @@ impl Signs {
         self.left_out.clone_from(&other.left_out);
     }
 
-    /// The determinant of each block.
+    /// Returns the determinant of each block.
     pub fn determinants(&self) -> &[Determinant] {
         &self.determinants
     }
 
-    /// The first block whose determinant has another sign where a position was factored.
+    /// Returns the first block whose determinant has another sign where a position was factored.
     pub fn block_that_turned(&self, kinematics: &Kinematics) -> Option<usize> {
         (0..self.determinants.len()).find(|&block| self.has_turned(kinematics, block))
     }
@@ -83,7 +83,7 @@ impl Branch {
         }
     }
 
-    /// Takes the determinants where the state was factored, there being none before to compare with.
+    /// Takes the determinants where the state was factored; there are none before to compare with.
     pub fn begin(&mut self, kinematics: &Kinematics) {
         kinematics.linear().determinants(&mut self.now.determinants);
         self.approach = Approach::UNKNOWN;
@@ -134,13 +134,13 @@ impl Branch {
         self.now.determinants.iter().zip(&self.before).any(meets_zero)
     }
 
-    /// The determinants of a block at the ends of the step, both positive where it is singular at neither.
+    /// Returns the determinants of a block at the ends of the step, both positive where it is singular at neither.
     pub fn at_ends(&self, block: usize) -> (f64, f64) {
         let (a, b) = (self.now.determinants[block], self.trial.determinants[block]);
         (a.relative_to(a).abs(), b.relative_to(a).abs())
     }
 
-    /// The determinant of a block where a position within the step was factored, negative beyond a singular position.
+    /// Returns the determinant of a block where a position within the step was factored, negative beyond a singular position.
     pub fn within(&self, kinematics: &Kinematics, block: usize) -> f64 {
         let (end, within) = (self.now.determinants[block], kinematics.linear().determinant(block));
         let value = within.relative_to(end);

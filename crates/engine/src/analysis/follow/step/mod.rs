@@ -26,7 +26,7 @@ pub struct Step {
     curve: Vec<[f64; 6]>,
     /// Number from 0 to 1 that the last probe was made of.
     probe: f64,
-    /// Newton's last correction, and a position beside the state.
+    /// Newton's last correction, and a position near the state.
     delta: Vec<f64>,
     place: Vec<f64>,
 }
@@ -46,12 +46,12 @@ pub struct Mark {
     h: f64,
 }
 
-/// A state's value, first and second derivative of a coordinate.
+/// Returns a coordinate of a state with its first and second derivatives.
 fn end(state: &State, k: usize) -> [f64; 3] {
     [state.q[k], state.qd[k], state.qdd[k]]
 }
 
-/// The quintic of a coordinate with value, slope and curvature of two states, `h` (s) apart.
+/// Returns the quintic of a coordinate with value, slope and curvature of two states, `h` (s) apart.
 pub fn quintic_between(a: &State, b: &State, k: usize, h: f64) -> [f64; 6] {
     quintic(end(a, k), end(b, k), h)
 }
@@ -98,7 +98,7 @@ impl Step {
         self.state.t
     }
 
-    /// The state that is tried.
+    /// Returns the trial state.
     pub fn trial(&self) -> &State {
         &self.trial
     }
@@ -118,7 +118,7 @@ impl Step {
         self.length.end_towards(self.state.t, t)
     }
 
-    /// The length that the error allows (s).
+    /// Returns the length that the error allows (s).
     pub fn h(&self) -> f64 {
         self.length.h()
     }
@@ -158,7 +158,7 @@ impl Step {
         self.branch.take_signs(&to.signs);
     }
 
-    /// Takes the determinants where the state was factored, there being none before to compare with.
+    /// Takes the determinants where the state was factored; there are none before to compare with.
     pub fn begin_branch(&mut self, kinematics: &Kinematics) {
         self.branch.begin(kinematics);
     }
@@ -178,22 +178,22 @@ impl Step {
         self.branch.compare_sides(kinematics)
     }
 
-    /// The signs of the state's branch.
+    /// Returns the signs of the state's branch.
     pub fn signs(&self) -> &Signs {
         self.branch.signs()
     }
 
-    /// Derivatives of the state where it was factored.
+    /// Computes the derivatives of the state where it was factored.
     pub fn derive_state(&mut self, kinematics: &mut Kinematics) -> Result<(), Fault> {
         kinematics.derivatives(&mut self.state)
     }
 
-    /// Derivatives of the state that is tried, where it was factored.
+    /// Computes the derivatives of the trial state where it was factored.
     pub fn derive_trial(&mut self, kinematics: &mut Kinematics) -> Result<(), Fault> {
         kinematics.derivatives(&mut self.trial)
     }
 
-    /// Taylor's predictor, which costs nothing: both derivatives are known. Gives the largest motion, scaled.
+    /// Predicts the trial position by Taylor's polynomial with both derivatives of the state; returns the largest motion, scaled.
     pub fn predict(&mut self, kinematics: &Kinematics, h: f64, t: f64) -> Result<f64, Fault> {
         self.trial.t = t;
         for k in 0..self.trial.q.len() {
@@ -246,35 +246,37 @@ impl Step {
         self.probe = probe;
     }
 
-    /// The quintic with value, slope and curvature of both ends, by its coefficients.
+    /// Sets the curve to the quintics with value, slope and curvature of both ends.
     pub fn draw_curve(&mut self, h: f64) {
         for (k, curve) in self.curve.iter_mut().enumerate() {
             *curve = quintic_between(&self.state, &self.trial, k, h);
         }
     }
 
-    /// The way from another state to where the motion is, `h` (s) later, of some coordinates.
+    /// Sets the curve of some coordinates to the way from another state to where the motion is, `h` (s) later.
     pub fn draw_way_since(&mut self, before: &State, h: f64, columns: impl Iterator<Item = usize>) {
         for k in columns {
             self.curve[k] = quintic_between(before, &self.state, k, h);
         }
     }
 
-    /// The way that the state leads to, of some coordinates.
+    /// Sets the curve of some coordinates to the parabola of the state's derivatives, over a time `h` (s).
     pub fn extrapolate_curve(&mut self, h: f64, columns: impl Iterator<Item = usize>) {
         for k in columns {
             self.curve[k] = parabola(end(&self.state, k), h);
         }
     }
 
-    /// Newton's correction between the ends, on the quintic that both ends give, with the factors of the end.
+    /// Computes Newton's correction between the ends of a step, on the quintic through both, with the factors of the end; returns its size,
+    /// scaled.
     pub fn correction_between(&mut self, kinematics: &mut Kinematics, h: f64) -> Result<f64, Fault> {
         let x = self.next_probe();
         self.draw_curve(h);
         self.correction_at(kinematics, h, x)
     }
 
-    /// Newton's correction at a place of the curve, given as a part of the step, with the factors of its end.
+    /// Computes Newton's correction at a place of the curve, given as a part of the step, with the factors of its end; returns its size,
+    /// scaled.
     pub fn correction_at(&mut self, kinematics: &mut Kinematics, h: f64, x: f64) -> Result<f64, Fault> {
         self.set_on_curve(kinematics, h, x)?;
         kinematics.correction(&mut self.delta);
@@ -339,7 +341,7 @@ impl Step {
     }
 }
 
-/// No step ends too near to a singular position.
+/// Rejects a position too near to a singular one for a step to end there.
 pub fn reject_near_singular(kinematics: &mut Kinematics) -> Result<(), Fault> {
     if kinematics.nearness(NEAREST) < NEAREST { Err(Fault::Singular) } else { Ok(()) }
 }

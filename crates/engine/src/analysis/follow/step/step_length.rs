@@ -17,7 +17,7 @@ pub struct Length {
 }
 
 impl Length {
-    /// For a motion over a span (s).
+    /// Returns the length control of a motion over a span (s).
     pub fn new(span: f64) -> Length {
         let measure = if span > 0.0 { span } else { DEFAULT_SPAN };
         Length { h: span / FEWEST_STEPS_NEAR, smallest: SMALLEST_STEP * span, span: measure }

@@ -29,7 +29,7 @@ impl Step {
         Ok(())
     }
 
-    /// Golden section for the least determinant of a block, on the curve.
+    /// Searches the least determinant of a block on the curve by golden section.
     fn search(&mut self, kinematics: &mut Kinematics, block: usize, h: f64) -> Result<(), Fault> {
         let (at_low, at_high) = self.branch.at_ends(block);
         let deep = DEEP * f64::min(at_low, at_high);

@@ -17,18 +17,18 @@ impl Kinematics {
         (open(&state.qd, outputs.nu()[row]), open(&state.qdd, outputs.gamma()[row]))
     }
 
-    /// The equation that was left out and does not hold where the position was set.
+    /// Returns the number of the first equation that was left out and does not hold where the position was set.
     pub fn broken_check(&self) -> Option<usize> {
         let mut open = self.system().checks().iter().enumerate().map(|(k, check)| self.check(k).abs() / check.scale);
         open.position(|open| open.is_nan() || open > LARGEST_OPENING)
     }
 
-    /// `Φ` of an equation that was left out, by its number among the checks, where the position was set.
+    /// Returns `Φ` of an equation that was left out, by its number among the checks, where the position was set.
     pub fn check(&self, index: usize) -> f64 {
         self.registers.get(self.program.outputs.checks[index])
     }
 
-    /// A quantity that is watched, against its scale, where the position was set.
+    /// Returns a monitored quantity relative to its scale, where the position was set.
     pub fn watched(&self, index: usize) -> f64 {
         self.registers.get(self.program.outputs.watches[index]) / self.system().monitors()[index].scale
     }
@@ -40,7 +40,7 @@ impl Kinematics {
         }
     }
 
-    /// The coordinates `θ` of lines of centres that point away from the other centre, where the position was set.
+    /// Returns the coordinates `θ` of lines of centres that point away from the other centre, where the position was set.
     pub fn turned_lines(&self) -> Vec<usize> {
         let system = self.system();
         let is_turned = |k: &usize| system.monitors()[*k].kind == MonitorKind::LineOfCenters && self.watched(*k) < 0.0;
@@ -100,7 +100,7 @@ impl Kinematics {
         (0..self.system().rows().len()).map(|row| self.residual(row)).fold(0.0, f64::max)
     }
 
-    /// 8 eps times the largest term of a row, the steps of its coordinates included.
+    /// Returns 8 eps times the largest term of a row, including the steps of its coordinates.
     fn rounding(&self, row: usize) -> f64 {
         ROUNDING * self.largest_part(row)
     }
@@ -109,7 +109,7 @@ impl Kinematics {
         self.steps(row).fold(self.largest_term_of(row), f64::max)
     }
 
-    /// The largest term of a row where the position was set.
+    /// Returns the largest term of a row where the position was set.
     pub(super) fn largest_term_of(&self, row: usize) -> f64 {
         largest_term(&self.program, &self.registers, row)
     }
@@ -123,7 +123,7 @@ impl Kinematics {
         })
     }
 
-    /// The formula that must be positive and is not, where time or a position was set.
+    /// Returns the formula that must be positive and is not, where time or a position was set.
     pub fn broken_condition(&self) -> Option<usize> {
         // a formula that is not a number is no better
         self.program.outputs.conditions.iter().position(|&register| {
@@ -139,14 +139,14 @@ impl Kinematics {
         }
     }
 
-    /// A row of `Φ_q x`.
+    /// Returns a row of `Φ_q x`.
     pub(super) fn left(&self, row: usize, x: &[f64]) -> f64 {
         let pattern = self.system().phi_q();
         pattern.range(row).zip(pattern.row(row)).map(|(at, &(column, _))| self.phi_q(at) * x[column as usize]).sum()
     }
 }
 
-/// The largest term of a row of a program that has been run.
+/// Returns the largest term of a row of a program that has been run.
 pub(super) fn largest_term(program: &Program, registers: &Registers, row: usize) -> f64 {
     program.outputs.terms[row].iter().map(|&register| registers.get(register).abs()).fold(0.0, f64::max)
 }

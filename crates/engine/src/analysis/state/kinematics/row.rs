@@ -104,7 +104,7 @@ impl Kinematics {
         [0, 1, 2].map(|order| self.registers.get(self.program.inputs.varied(number, order) + coordinate as u32))
     }
 
-    /// The multiplier of a row, where forces have been computed.
+    /// Returns the multiplier of a row, where forces have been computed.
     pub fn multiplier(&self, row: usize) -> f64 {
         self.registers.get(self.program.inputs.multipliers + row as Register)
     }
@@ -132,7 +132,7 @@ impl Kinematics {
         self.system().forces().is_some() || !self.system().variations().is_empty()
     }
 
-    /// There are no forces and variations at this position.
+    /// Marks forces and variations as missing at this position.
     fn leave_variations_out(&mut self) {
         let inputs = self.program.inputs;
         let (variations, has_forces) = (self.system().variations().len() as u32, self.system().forces().is_some());
@@ -140,7 +140,7 @@ impl Kinematics {
         for register in inputs.varied..last {
             self.registers.set(register, f64::NAN);
         }
-        // what measures share with the right sides is computed there
+        // measures share subexpressions with the right sides
         self.program.run(Stage::Forces, &mut self.registers);
         self.program.run(Stage::Variation, &mut self.registers);
     }
@@ -178,7 +178,7 @@ impl Kinematics {
         }
     }
 
-    /// Solves for a row with partial pivoting, from the position that it holds (m, rad); says whether it holds.
+    /// Solves for a row with partial pivoting, from the position that it holds (m, rad); returns whether the solution holds.
     pub fn pivoted_row(&mut self, pivoting: &mut Pivoting, state: &mut State, row: &mut [f64]) -> bool {
         self.set_time(state.t);
         if !pivoting.position(self, &mut state.q) || self.violated().is_some() {
@@ -219,7 +219,7 @@ impl Kinematics {
         }
     }
 
-    /// Length of a result row.
+    /// Returns the length of a result row.
     pub fn row_length(&self) -> usize {
         self.holds.len()
     }

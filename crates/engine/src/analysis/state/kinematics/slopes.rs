@@ -73,7 +73,7 @@ impl Kinematics {
         self.program.run(Stage::Position, &mut self.registers);
     }
 
-    /// The norm of a row of the scaled Φ_q where the position was set.
+    /// Returns the norm of a row of the scaled Φ_q where the position was set.
     fn slope(&self, row: usize) -> f64 {
         let pattern = self.system().phi_q();
         let scaled = pattern

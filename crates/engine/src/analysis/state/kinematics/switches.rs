@@ -1,4 +1,4 @@
-//! Switches, domain boundaries and signals, which time and motion decide beside the equations.
+//! Switches, domain boundaries and signals, which time and motion decide.
 
 use super::Kinematics;
 use mechc_ir::program::{BoundaryRegisters, Enclosure, FrozenSwitches, Op, Register, Signal, Stage, Switch};
@@ -29,7 +29,7 @@ impl Kinematics {
         self.program.switches()
     }
 
-    /// The result that a switch has now.
+    /// Returns the result that a switch has now.
     pub fn switch(&self, switch: &Switch) -> f64 {
         self.registers.get(switch.to)
     }
@@ -50,24 +50,24 @@ impl Kinematics {
     }
 
     /// Returns the domain boundaries, at which the domains of functions end.
-    pub fn rims(&self) -> &[BoundaryRegisters] {
+    pub fn boundaries(&self) -> &[BoundaryRegisters] {
         &self.program.outputs.rims
     }
 
     /// Returns workspaces for proofs about domain boundaries of time, and of the motion.
-    pub fn enclosures_of_rims(&self) -> [Enclosure; 2] {
+    pub fn enclosures_of_boundaries(&self) -> [Enclosure; 2] {
         [true, false].map(|on_time| Enclosure::of_rims(&self.program, &self.registers, on_time))
     }
 
-    /// A rim's gauge and its slope where time, position and velocity were set.
-    pub fn gauge(&mut self, rim: &BoundaryRegisters) -> [f64; 2] {
+    /// Returns the event function of a domain boundary and its slope where time, position and velocity were set.
+    pub fn gauge(&mut self, boundary: &BoundaryRegisters) -> [f64; 2] {
         self.program.run(Stage::Rims, &mut self.registers);
-        [rim.gauge, rim.slope].map(|register| self.registers.get(register))
+        [boundary.gauge, boundary.slope].map(|register| self.registers.get(register))
     }
 
-    /// The largest term of a gauge, which must just have been asked for.
-    pub fn largest_term(&self, rim: &BoundaryRegisters) -> f64 {
-        rim.terms.iter().map(|&register| self.registers.get(register).abs()).fold(0.0, f64::max)
+    /// Returns the largest term of an event function, which must just have been evaluated.
+    pub fn largest_term(&self, boundary: &BoundaryRegisters) -> f64 {
+        boundary.terms.iter().map(|&register| self.registers.get(register).abs()).fold(0.0, f64::max)
     }
 
     /// Sets the velocity alone.
@@ -85,7 +85,7 @@ impl Kinematics {
     /// Returns whether a switch would have another result now if it were not frozen.
     pub fn would_switch(&self, switch: &Switch) -> bool {
         let (live, now) = (self.program.live(switch, &self.registers), self.registers.get(switch.to));
-        // what is not a number is told elsewhere
+        // a value that is not a number is reported elsewhere
         !live.is_nan() && (live + 0.0).to_bits() != (now + 0.0).to_bits()
     }
 

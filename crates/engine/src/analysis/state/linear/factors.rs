@@ -94,7 +94,7 @@ impl Factors<'_> {
         }
     }
 
-    /// The entry of a block of one equation, which stands for one that vanishes too.
+    /// Returns the entry of a block of one equation, with the least allowed magnitude if it vanishes.
     pub fn single(&self, part: &Part) -> f64 {
         let value = self.values[self.inside[part.inside.start] as usize];
         if value.abs() < LEAST_PIVOT { LEAST_PIVOT.copysign(value) } else { value }

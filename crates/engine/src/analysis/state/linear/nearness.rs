@@ -51,8 +51,8 @@ impl BlockLu {
         is_any_near
     }
 
-    /// The smallest singular value of all blocks, with its vectors over the whole of the scaled `Φ_q`: the rows on which
-    /// that block's rows depend, and the coordinates that move with its own. Allocates.
+    /// Returns the smallest singular value of all blocks, with its vectors over the whole of the scaled `Φ_q`: the rows on which that
+    /// block's rows depend, and the coordinates that move with its own. Allocates.
     pub fn worst(&mut self) -> Singular {
         let n = self.rows.len();
         let mut worst: Option<(usize, Singular)> = None;

@@ -90,7 +90,7 @@ impl BlockLu {
         }
     }
 
-    /// Solves the transposed scaled system: the right side by coordinates, of which it is told the scale, and `w` by rows.
+    /// Solves the transposed scaled system, `w` by rows; `right` returns the right side of a coordinate for its index and scale.
     pub(super) fn solve_transposed(&mut self, right: impl Fn(usize, f64) -> f64, w: &mut [f64]) {
         let n = self.rows.len();
         let (rest, work) = self.work.split_at_mut(n);
