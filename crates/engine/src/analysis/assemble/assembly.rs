@@ -1,7 +1,7 @@
 //! Assembly from the estimates of the file: finds a position that satisfies every equation at the first time.
 //!
 //! First Newton's method with damped steps; where that fails, Levenberg–Marquardt, which also works through singular
-//! positions, from the estimates and then from perturbed ones. What comes out is assembled, or nothing does.
+//! positions, from the estimates and then from perturbed ones. The result is assembled, or an error.
 
 use super::search::{Noise, levenberg_marquardt};
 use crate::analysis::explain::{Stop, StopCause, open_loop, singular};
@@ -257,7 +257,7 @@ fn by_least_squares(kinematics: &mut Kinematics, estimates: &[f64], t: f64) -> R
             return Ok((q, size > 0.0));
         }
         if let Some(open) = open {
-            // what closes without it stays where it is
+            // blocks that close without the open one keep their positions
             start.copy_from_slice(&q);
             let determined = kinematics.determined();
             let needed = determined.needed_by(open).into_iter().flat_map(|block| &determined.blocks()[block].columns);

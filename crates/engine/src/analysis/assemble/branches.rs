@@ -1,8 +1,8 @@
 //! Doubts about the assembled position where estimates are far off.
 //!
-//! Most loops can be assembled in more than one way, and assembly takes the one that it comes to. Where it had to move a
-//! body of a loop far, others are sought; if one of them is not clearly farther from the estimates, a warning
-//! says so. What follows from drivers and joints without iteration is right however far off its estimate is.
+//! Most loops can be assembled in more than one way, and assembly takes the one that it comes to. If it had to move a
+//! body of a loop far, other ways are sought; if one of them is not clearly farther from the estimates, a warning
+//! says so. Coordinates that follow from drivers and joints without iteration are right however far off their estimates are.
 
 use super::search::{Noise, levenberg_marquardt};
 use crate::analysis::state::{Kinematics, State};

@@ -6,7 +6,7 @@ use crate::analysis::state::{Evaluated, Kinematics, minimize};
 pub fn levenberg_marquardt(kinematics: &mut Kinematics, q: &mut [f64], rows: &[u32], columns: &[u32]) {
     let determined = kinematics.determined();
     let system = determined.system();
-    // where the equations have no value there, the position stays as it is
+    // if the equations have no value there, the position stays as it is
     let _ = minimize(system, columns, q, None, |q, weights| {
         kinematics.set_position(q).ok()?;
         let (phi, phi_q) = (|row| kinematics.phi(row), |position| kinematics.phi_q(position));

@@ -173,7 +173,7 @@ fn surplus_within(evaluator: &mut Evaluator<'_>, part: &Subsystem, times: [f64; 
 fn surplus(evaluator: &mut Evaluator<'_>, mut part: Subsystem, times: [f64; 2]) -> Vec<Dependent> {
     let system = evaluator.system;
     let declaration_of = |row: usize| system.rows()[row].declaration;
-    // of joints that hold the same, one that formulas speak of stays
+    // if joints hold the same, one that formulas reference stays
     let rank = |row: &u32| {
         let declaration = system.declaration_of(*row as usize);
         let kind = match declaration.kind {

@@ -1,4 +1,4 @@
-//! A free motion as a reader sees it.
+//! Free motions in words.
 
 use super::errors;
 use mechc_ir::tolerances::singular::reasons::SEEN;

@@ -1,8 +1,8 @@
 //! Open loops of a mechanism that cannot be assembled: which closed loop stays open, by how much, and which lengths are too short or too
 //! long for it.
 //!
-//! Where the equations come nearest to zero their residuals are in balance, as the forces of springs in the joints would
-//! be. So they pull at the links: one that is drawn apart is too short, one that is pressed together is too long.
+//! Where the residuals are least they are in balance, like the forces of springs in the joints. So they pull at the links: a link that is
+//! drawn apart is too short, one that is pressed together is too long.
 
 use super::errors;
 use super::evaluator::Evaluator;
@@ -75,7 +75,7 @@ pub fn found(determined: &Determined, q: &[f64], t: f64) -> Option<OpenLoop> {
 /// Returns the coordinates [m, rad] where all equations hold but those of the reported open loop.
 pub fn opened(determined: &Determined, q: &[f64], t: f64) -> Option<Vec<f64>> {
     let LocatedOpenLoop { open, mut evaluator, blocks } = locate(determined, q, t)?;
-    // what hangs on the loop is shown where it would be then
+    // bodies that depend on the loop are shown at their positions then
     for block in determined.blocks()[blocks..].iter().filter(|block| block.rows.len() <= LARGEST) {
         evaluator.assemble(&block.rows, &block.columns, None, t);
     }
@@ -175,7 +175,7 @@ fn widest_gap(evaluator: &Evaluator<'_>, rows: impl Iterator<Item = usize>) -> O
     let gaps: Vec<(CoordinateKind, f64)> =
         rows.map(|row| (errors::gap_kind(system, row), evaluator.gap(row))).filter(|(_, by)| by.is_finite()).collect();
     if gaps.is_empty() {
-        // no motion that could be seen closes it
+        // no motion closes the gap
         return Some((CoordinateKind::Length, f64::INFINITY));
     }
     let of_kind = |kind: CoordinateKind| {
@@ -183,7 +183,7 @@ fn widest_gap(evaluator: &Evaluator<'_>, rows: impl Iterator<Item = usize>) -> O
         squares.sum::<f64>().sqrt()
     };
     let (length, angle) = (of_kind(CoordinateKind::Length), of_kind(CoordinateKind::Angle));
-    // from elsewhere it closes: the estimates are too far off, and no length is wrong
+    // the loop closes from here: the estimates are too far off, and no length is wrong
     if length <= CLOSED * system.length() && angle <= CLOSED {
         return None;
     }
@@ -214,7 +214,7 @@ fn weakest(
             part.rows.iter().zip(&linear.residual).filter(|(row, _)| system.rows()[**row as usize].declaration == k);
         rows.map(|(_, open)| open * open).sum::<f64>()
     };
-    // of pins that are equally open the last one closes the loop
+    // if pins are equally open, the last one closes the loop
     let is_no_driver = |k: DeclarationId| system.declarations()[k].kind != DeclarationKind::Driver;
     let largest = declarations.iter().map(|&k| open(k)).fold(0.0, f64::max);
     declarations.iter().copied().filter(|&k| open(k) > WIDE * largest).max_by_key(|&k| (rank(k), is_no_driver(k), k))

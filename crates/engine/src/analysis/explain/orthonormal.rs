@@ -1,7 +1,7 @@
 //! Orthonormal vectors, which show which equations depend on others and which motions are free.
 //!
-//! Vectors and matrices are those of nalgebra, of which only what goes column by column is used: it has one order of operations on every
-//! processor, and nothing of it is on the way to a printed number.
+//! Vectors and matrices are those of nalgebra, of which only column-wise operations are used: these have one order of operations on every
+//! processor, and no printed number depends on them.
 
 use nalgebra::{DMatrix, DMatrixView, DVector};
 
@@ -178,7 +178,7 @@ mod tests {
         let (rest, shares) = all.split(DVector::from_column_slice(&[1.0, 1.0, 1.0]));
         assert!(rest.dot(&first).abs() < 1e-15 && (shares[0] - 1.4).abs() < 1e-15);
         assert!(all.take(&rest, 1e-6) && all.count == 2 && !all.is_whole());
-        // what lies between those that are there adds nothing
+        // a vector in the span of the others adds nothing
         let (rest, _) = all.split(&first + all.last().expect("a vector"));
         assert!(!all.take(&rest, 1e-6));
     }

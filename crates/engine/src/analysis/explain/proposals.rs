@@ -104,7 +104,7 @@ impl Proposals<'_, '_> {
     /// Points of moving bodies that lie on points of others, and that no joint holds together.
     pub fn joints(&self) -> Vec<String> {
         let system = self.evaluator.system;
-        // a joint takes two; it may hold what is held already, and leave one
+        // a joint takes two degrees of freedom; it may be redundant in one of them
         let is_enough = self.motions.len() >= 2 || system.ndof() < self.motions.len().cast_signed();
         if !is_enough || system.points().len() > MOST_POINTS {
             return Vec::new();
@@ -115,7 +115,7 @@ impl Proposals<'_, '_> {
         let text = |&(_, p, q): &(f64, PointId, PointId)| {
             Some(format!("`joint NAME: revolute({}, {})`", system.point_name(p)?, system.point_name(q)?))
         };
-        // of points that are pinned together one will do
+        // points that are pinned together need only one suggestion
         let mut suggested: Vec<[PointId; 2]> = Vec::new();
         pairs.retain(|&(_, p, q)| {
             let mut both = [pinned[p], pinned[q]];

@@ -1,8 +1,8 @@
 //! Too many equations: which of them are redundant, and which conflict with the others.
 //!
-//! All equations of a part are assembled together, by least squares; there each one is taken in turn, joints first and
-//! drivers last, and depends on those before it or not. Whether one that does is redundant or conflicts with them is decided at
-//! nearby times too: two drivers may agree at the start and part at once.
+//! All equations of a part are assembled together by least squares. There each one is taken in turn, joints first and drivers last, and
+//! depends on those before it or not. Whether a dependent one is redundant or conflicts with them is decided at nearby times too: two
+//! drivers may agree at the start and part at once.
 
 use super::errors;
 use super::evaluator::Evaluator;
@@ -70,7 +70,7 @@ fn judged(
     for t in times_nearby(t, span) {
         let before = evaluator.q.clone();
         let met = evaluator.assemble(&kept, &part.columns, None, t)?;
-        // a singular position is known to half the digits
+        // a singular position has only half the digits
         let is_singular = || basis_of(&met.jacobian, part.columns.len()).kept.len() < kept.len();
         let holds = |limit: f64| met.residual.iter().all(|open| open.abs() <= limit);
         let rows: Vec<u32> = dependents.iter().map(|dependent| dependent.row as u32).collect();
@@ -79,7 +79,7 @@ fn judged(
             continue;
         }
         let limit = if is_singular() { OPEN.sqrt() } else { OPEN };
-        // those that are kept may lead to another branch than all together
+        // the kept equations may lead to another branch than all together
         if kept.len() >= part.columns.len() && all_hold(evaluator, part, &before, t)? {
             continue;
         }
@@ -158,7 +158,7 @@ fn basis_of_start(evaluator: &mut Evaluator<'_>, part: &Subsystem, [t, span]: [f
     let mut best: Option<(Basis, Vec<f64>)> = None;
     for (k, t) in times_nearby(t, span).enumerate() {
         if k > 0 {
-            // in line as drawn, least squares would stay so
+            // least squares would stay in line as drawn
             evaluator.nudge(&part.columns);
         }
         evaluator.assemble(&part.rows, &part.columns, None, t)?;

@@ -232,7 +232,7 @@ impl Place<'_, '_> {
             Symbol::Param(k) => system.params()[k as usize].value,
             Symbol::Time => self.t,
             Symbol::Coordinate { index, order: 0 } => self.evaluator.q[index as usize],
-            // how fast it goes does not decide
+            // the speed does not matter: any value will do
             Symbol::Coordinate { index, .. } | Symbol::Varied { index, .. } => aslant(index as usize),
             Symbol::Multiplier(index) => f64::from(u8::from(row == Some(index))),
             Symbol::Shift(_) | Symbol::VariedMultiplier { .. } => 0.0,

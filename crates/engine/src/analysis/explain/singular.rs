@@ -73,7 +73,7 @@ pub fn without_value(system: &ConstraintSystem, fault: Fault) -> StopCause {
 fn contact_that_ends(kinematics: &Kinematics, fault: Fault, sigma: f64) -> Option<usize> {
     let watches = kinematics.system().monitors();
     match fault {
-        // a curvature that comes to zero makes the position singular, one that jumps over it does not
+        // a curvature that reaches zero makes the position singular, one that jumps past zero does not
         Fault::Monitor { index } if watches[index].kind != MonitorKind::Curvature || sigma > NEAR => Some(index),
         _ => centers_that_meet(kinematics).or_else(|| vanishing(kinematics, MonitorKind::Tangents)),
     }
@@ -83,7 +83,7 @@ fn contact_that_ends(kinematics: &Kinematics, fault: Fault, sigma: f64) -> Optio
 fn singular_position(kinematics: &Kinematics, state: &State, singular: &Singular, fold: Option<f64>) -> Box<Stop> {
     let system = kinematics.system();
     let (left, right) = (&singular.left, &singular.right);
-    // near a bifurcation that is missed by little the driver's share is small
+    // the driver's share is small near a bifurcation that is narrowly missed
     let (driver, t) = match fold.zip(heaviest_driver(system, left)) {
         Some((t, row)) => (Some(row), t),
         None => (driver_in(system, left), time_of_fold(kinematics.span(), state, right)),
@@ -195,7 +195,7 @@ fn boundary_reached(kinematics: &mut Kinematics, state: &State) -> Option<Box<St
         let [gauge, slope] = gauge_at(kinematics, boundary, state, 0.0);
         f64::min(gauge.abs() / kinematics.largest_term(boundary), VANISHED / NEAR_FOLD * (gauge / slope).abs() / span)
     };
-    // where time alone leads to one its driver is the fastest
+    // a boundary of time alone is explained by its driver, the fastest one
     let of_motion = boundaries.iter().enumerate().filter(|(_, boundary)| !boundary.on_time);
     let nearest = of_motion.map(|(index, boundary)| (index, left(boundary))).min_by(|a, b| a.1.total_cmp(&b.1));
     let index = nearest.filter(|(_, left)| *left < VANISHED).map(|(index, _)| index)?;

@@ -1,6 +1,6 @@
-//! Change points that the motion just misses. Where a length is off two branches that would cross become two that turn away from each other:
-//! with `s` the way of the driver they are `x² = s² + ε`, and the least singular value goes with `√(s² + ε)`. The motion goes on along one of
-//! them. For a four-bar `ε` is about three times the part of a link that it is off by.
+//! Near misses of change points. If a length is slightly off, two branches that would cross become two that turn away from each other: with
+//! `s` the way of the driver they are `x² = s² + ε`, and the least singular value goes with `√(s² + ε)`. The motion goes on along one of
+//! them. For a four-bar `ε` is about three times the relative error of the link.
 
 use crate::analysis::explain::{Warning, singular};
 use crate::analysis::state::{Kinematics, State};
@@ -70,7 +70,7 @@ impl NearMisses {
 
     /// Looks at a state that was just come to, where it was factored, with what it was factored with left as it is.
     pub fn take(&mut self, kinematics: &mut Kinematics, state: &State) {
-        // where equations were left out, those that are solved near singular positions at which all together do not
+        // if equations were left out, the others come near to singular positions that all together do not have
         if !self.is_watching || self.is_reported || !kinematics.system().checks().is_empty() {
             return;
         }

@@ -1,4 +1,4 @@
-//! The start of a mechanism.
+//! Start of a mechanism: closes it as it is drawn, and follows it to its first time.
 //!
 //! The branch of a motion is decided once, by the drawing: the equations are closed with the drivers where the drawing has them, and
 //! then the drivers are moved to where they begin, along that branch. To any other first time the motion is followed from there.

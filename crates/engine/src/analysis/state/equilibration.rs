@@ -1,8 +1,8 @@
 //! Equilibration: a scale for each equation and each coordinate, block by block, which measure the nearness to a singular position.
 //!
 //! The result must not depend on the unit, on the location of the origin, on drawn features that no equation uses, or on the size of one
-//! body relative to the others. So the entries of a block are taken for as large as they come along a motion, not for what they
-//! happen to be here: the slope of a joint's equation in a turn is that of its lever, in whatever direction the lever points; a formula's
+//! body relative to the others. So an entry of a block counts with its typical magnitude along a motion, not with its value
+//! at one position: the slope of a joint's equation in a turn is that of its lever, in whatever direction the lever points; a formula's
 //! slope is also evaluated near the position. The matrix of these magnitudes is equilibrated: every row and every column comes
 //! to unit norm (R. Sinkhorn, P. Knopp, 1967). Divided by the same scales, `Φ_q` has entries of about 1 where it is good, and
 //! one that vanishes only here is noticed.
@@ -247,9 +247,9 @@ impl Equilibration {
             EntryKind::Turn { lever, about } => {
                 let [right, up] = self.centroids[about as usize].from_origin;
                 let (turn, terms) = (here + up * x - right * y, here.abs() + (up * x).abs() + (right * y).abs());
-                // what rounding leaves of an equation that holds at the centroid is no slope
-                let own = if turn.abs() > ROUNDING * terms { turn.abs() } else { 0.0 };
-                return f64::max(own, lever * math::hypot(x, y));
+                // rounding of an equation that holds at the centroid is no slope
+                let moment = if turn.abs() > ROUNDING * terms { turn.abs() } else { 0.0 };
+                return f64::max(moment, lever * math::hypot(x, y));
             }
             EntryKind::Other => here.abs(),
         };
@@ -394,7 +394,7 @@ impl Features {
 
     /// Returns the largest distance from a centroid at which a row acts on a body (m).
     fn lever(&self, system: &ConstraintSystem, row: usize, body: BodyId, [x, y]: [f64; 2]) -> f64 {
-        // where all features are one point, rounding may put their centroid next to it
+        // if all features are one point, rounding may put their centroid next to it
         let distance = |at: &[f64; 2]| math::hypot(at[0] - x, at[1] - y);
         let is_lever = |at: &[f64; 2]| distance(at).is_finite() && distance(at) > ROUNDING * math::hypot(x, y);
         let levers = self.of_row(system, row, body).filter(is_lever).map(|at| distance(&at));
@@ -449,6 +449,6 @@ fn far_centroid(places: &[(BodyId, [f64; 2])], body: BodyId) -> Option<[f64; 2]>
     let mean = |part: usize| features.iter().map(|at| at[part]).sum::<f64>() / count;
     let [x, y] = [mean(0), mean(1)];
     let reach = features.iter().map(|at| math::hypot(at[0] - x, at[1] - y)).fold(0.0, f64::max);
-    // with but one feature, which it turns about, no lever tells turning and moving apart either
+    // with a single feature, about which the body turns, no lever distinguishes turning from moving either
     (math::hypot(x, y) > FAR_FRAME * reach).then_some([x, y])
 }

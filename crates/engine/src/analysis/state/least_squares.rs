@@ -1,5 +1,5 @@
-//! Equations brought as near to zero as they come, where they may be more or fewer than their unknowns, or contradict
-//! each other (K. Levenberg, 1944; D. Marquardt, 1963). Dense: for parts of a mechanism, and never in the time loop.
+//! Least squares: brings equations as near to zero as possible; they may be more or fewer than their unknowns, or contradict each other (K.
+//! Levenberg, 1944; D. Marquardt, 1963). Dense: for parts of a mechanism, and never in the time loop.
 
 use mechc_expr::math;
 use mechc_ir::ConstraintSystem;

@@ -98,7 +98,7 @@ impl Plan {
         let mut updates = self.updates.iter();
         for (k, &at) in self.pivots.iter().enumerate() {
             let pivot = v[at as usize];
-            // what is not a number must win
+            // NaN must win
             smallest = if pivot.abs() >= smallest { smallest } else { pivot.abs() };
             if pivot.abs() < LEAST_PIVOT {
                 v[at as usize] = LEAST_PIVOT.copysign(pivot);

@@ -1,4 +1,4 @@
-//! A start that cannot be assembled.
+//! Diagnostics of a start that cannot be assembled.
 
 use super::{at, cut_list, degrees, length, named, three_digits, with_places};
 use crate::analysis::explain::open_loop::{FaultyLink, FaultyLinkKind, OpenLoop};

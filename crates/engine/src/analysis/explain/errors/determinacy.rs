@@ -1,4 +1,4 @@
-//! Too many equations, too few, or both.
+//! Diagnostics of too many equations, too few, or both.
 
 use super::{LISTED, at, degrees, gap_kind, length, with_places};
 use crate::analysis::explain::freedom::Freedom;

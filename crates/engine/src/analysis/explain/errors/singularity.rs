@@ -1,4 +1,4 @@
-//! Singular positions, at the start and on the way, and contacts that end.
+//! Diagnostics of singular positions, at the start and on the way, and of contacts that end.
 
 use super::{at, named, names, owners, with_places};
 use mechc_ir::{ConstraintSystem, DeclarationId, DeclarationKind, JointKind, MonitorKind};

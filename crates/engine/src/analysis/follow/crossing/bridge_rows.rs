@@ -34,7 +34,7 @@ impl Crossing {
         {
             return Some(Ok(()));
         }
-        // it may be certain as it is found without the bridge
+        // the row may be certain without the bridge
         self.passes.then(|| Err(StopCause::Uncertain { declarations: Vec::new() }.at(t)))
     }
 

@@ -26,7 +26,7 @@ impl Crossing {
     fn go_before_start(&mut self, kinematics: &mut Kinematics, step: &mut Step) -> bool {
         kinematics.restore(&self.clear);
         let mut state = self.clear.clone();
-        // of the start only the position has been kept
+        // the start was kept without its derivatives
         let is_start = state.qd.iter().all(|speed| *speed == 0.0);
         if !is_start || kinematics.derivatives(&mut state).is_err() {
             return false;
@@ -36,7 +36,7 @@ impl Crossing {
             return true;
         }
         for _ in 0..STEPS_BACK {
-            // the other branch is no farther than twice that
+            // the other branch is at most twice that far
             let way = kinematics.nearness(STEP_BACK).min(STEP_BACK);
             let linear = kinematics.linear();
             let (speed, bend) = (linear.largest(&state.qd), linear.largest(&state.qdd));
@@ -60,7 +60,7 @@ impl Crossing {
     /// Returns the bridge to a state beyond the singular position, to which the prediction from the last clear one leads.
     fn bridge_from_clear(&mut self, kinematics: &mut Kinematics, step: &mut Step) -> Option<Bridge> {
         kinematics.restore(step.state());
-        // without a line of centres there is nothing beyond
+        // the motion ends where a line of centres vanishes
         if step.t() <= self.clear.t || singular::centers_that_meet(kinematics).is_some() {
             return None;
         }
@@ -68,7 +68,7 @@ impl Crossing {
         let (near, way) = (step.t(), step.t() - self.clear.t);
         for part in BEYOND {
             let bridge = self.bridge_until(kinematics, step, near + part * way);
-            // what is beyond the end of its reach is not come to by going further
+            // a longer bridge does not lead beyond the end of reach
             if bridge.is_some() || self.fold.is_some() {
                 return bridge;
             }
@@ -97,7 +97,7 @@ impl Crossing {
         let mut way: f64 = 0.0;
         let ahead = (0..clear.q.len()).map(|k| {
             let (first, second) = (h * clear.qd[k], 0.5 * h * h * clear.qdd[k]);
-            // a motion that turns back has a way too
+            // counts the way of a motion that turns back, too
             way = way.max((first.abs() + second.abs()) / kinematics.linear().column_scale(k));
             clear.q[k] + first + second
         });

@@ -1,10 +1,10 @@
 //! End of reach: whether there is a position for every time on the path over a singular one, or the driver requires a little more there
 //! than the mechanism reaches.
 //!
-//! Let all equations be met but for `λ w`, with `w` the dependency of the rows at the singular position. Then λ is a smooth
-//! function of the way along the free motion and of time, with an extremum on that way, the fold: λ there is how much the
-//! mechanism reaches beyond what is asked for, and its sign against the curvature says whether there is a position. Since it is
-//! an extremum, it is known to twice the digits of the curve that it is looked for on.
+//! Let all equations be met but for `λ w`, with `w` the dependency of the rows at the singular position. Then λ is a smooth function of the
+//! way along the free motion and of time, with an extremum on that way, the fold. There λ is how much the mechanism reaches beyond what the
+//! driver requires, and its sign against the curvature decides whether a position exists. As an extremum it has twice the digits of the
+//! curve on which it is sought.
 
 use super::bridge::Bridge;
 use crate::analysis::state::Kinematics;
@@ -58,7 +58,7 @@ pub fn end_of_reach(kinematics: &mut Kinematics, bridge: &Bridge) -> Option<f64>
     if lack(kinematics, &fold, worst)? <= MARGIN * limit {
         return None;
     }
-    // where the curve leads away from the fold there is a position
+    // a position exists where the curve leads away from the fold
     let lacks = |t: f64| lack(kinematics, &fold, t).is_some_and(|lack| lack > 0.0);
     Some(boundary(bridge.from.t, worst, lacks))
 }
@@ -68,7 +68,7 @@ fn time_of_worst_lack(kinematics: &mut Kinematics, fold: &Fold<'_>) -> f64 {
     let Bridge { from, to, at, .. } = fold.bridge;
     let side = f64::min(at - from.t, to.t - at);
     let extremum = extremum(PARABOLAS_IN_TIME, *at, [0.25 * side, side], |t| lack(kinematics, fold, t));
-    // one that is least there is largest at the ends, where positions are known
+    // a lack that is least there is largest at the ends, where positions exist
     extremum.filter(|extremum| extremum.bend < 0.0).map_or(*at, |extremum| extremum.place)
 }
 
@@ -104,7 +104,7 @@ fn open_across(kinematics: &mut Kinematics, fold: &Fold<'_>, from: &[f64], t: f6
         if size <= SETTLED {
             return Some(open);
         }
-        // rounding goes on for ever, but is small
+        // corrections by rounding do not vanish, but are small
         if size.is_nan() || size > CONTRACTS * last {
             return (size <= ROUNDING * SETTLED).then_some(open);
         }
@@ -144,7 +144,7 @@ fn extremum(
         }
         let step = -0.25 * reach * (after - before) / bend;
         place += step;
-        // where the function is flat it is not a number
+        // NaN if the function is flat
         if place.is_nan() || (place - near).abs() > farthest {
             return None;
         }

@@ -1,8 +1,8 @@
-//! Over a singular position: from the last state that is well clear of it to one as far beyond, never solving at it.
+//! Crossing of a singular position: from the last state that is well clear of it to one as far beyond, never solving at it.
 //!
-//! Beyond a lock-up there is no such state. Beyond a bifurcation the prediction from before leads to the branch that goes on
-//! smoothly, since the other ones are far from it there. Between the two states the motion is the quintic through both,
-//! which also tells when the singular position is reached.
+//! Beyond a lock-up there is no such state. Beyond a bifurcation the prediction from before leads to the branch that goes on smoothly,
+//! since the other ones are far from it there. Between the two states the motion is the quintic through both, from which the time of the
+//! singular position follows.
 
 mod bridge;
 mod bridge_rows;
@@ -174,12 +174,12 @@ impl Crossing {
         }
         if !self.passes {
             let stop = singular::stop_at_bifurcation(kinematics, &bridge.state_at(bridge.at));
-            // rows before the singular position may lie on it
+            // rows before the singular position may lie on the bridge
             self.bridge = Some(bridge);
             return Err(stop);
         }
         for at in [Some(bridge.at), bridge.again].into_iter().flatten() {
-            // what comes behind the last row is not passed
+            // a bifurcation behind the last row is not reported
             if at <= self.last + CERTAIN * bridge.length() {
                 warnings.push(singular::warn_of_passage(kinematics, &bridge.state_at(at)));
             }

@@ -66,7 +66,7 @@ impl Edges {
             for (k, (place, q)) in self.place.iter_mut().zip(&step.state().q).enumerate() {
                 *place = q + nudge * linear.column_scale(k) * aslant(k);
             }
-            // what is wrong with a position shows where it is solved for
+            // a fault of the position shows when it is solved for
             let _ = kinematics.set_position(&self.place);
             kinematics.edge(&switch).0
         };

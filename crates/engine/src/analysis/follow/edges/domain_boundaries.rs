@@ -2,9 +2,9 @@
 //!
 //! No switch marks such an edge, and at its very time the formula mostly has no derivative. It is found by a quantity,
 //! the event function, that is zero there, and by its slope along the motion. A step is proven by intervals to hold none: the event function
-//! keeps away from zero, or it goes one way only and has the same sign at both ends. Else its zero is located to
+//! keeps away from zero, or it is monotonic and has the same sign at both ends. Else its zero is located to
 //! neighbouring doubles, the step ends before it, and both sides are judged by states ever nearer to it
-//! (`crates/engine/src/analysis/follow/edges/one_sided_limits.rs`). What agrees on both sides is no edge, and the motion goes on as if nothing had been.
+//! (`crates/engine/src/analysis/follow/edges/one_sided_limits.rs`). If both sides agree there is no edge, and the motion goes on.
 
 use super::event_functions::{EventFunctions, SearchPath, Zero};
 use super::one_sided_limits::{Gap, Nearer, OneSidedLimits, Verdict};
@@ -104,7 +104,7 @@ impl DomainBoundaries {
         warnings: &mut Warnings,
     ) -> Option<Box<Stop>> {
         if self.end.is_none() {
-            // the way that the state leads to, as far as a domain boundary may be that keeps steps from coming nearer
+            // the extrapolated path, as far as a domain boundary may be that keeps steps from coming nearer
             let h = h.max(FARTHEST * self.span);
             if self.event_functions.has_any(SearchPath::Curve(h)) {
                 step.extrapolate_curve(h, 0..step.state().q.len());
@@ -125,7 +125,7 @@ impl DomainBoundaries {
         if shortly_after(t) >= self.last {
             return Ok(());
         }
-        // over a domain boundary the curve is not exact: a short step knows better where it is
+        // the curve is not exact over a domain boundary: a short step locates it better
         if h > 4.0 * FARTHEST * self.span {
             return Err(Fault::TooFar);
         }
@@ -291,7 +291,7 @@ impl DomainBoundaries {
         if !crosses && !touches {
             return t;
         }
-        // where rounding leaves the formula no value, the curve through both sides still gives its argument
+        // the curve through both sides gives the argument even where rounding leaves the formula no value
         let (from, h) = (step.t(), b - step.t());
         step.draw_curve(h);
         let [_, zero] = bisect([a, b], MOST_HALVINGS, |t| {

@@ -195,7 +195,7 @@ impl EventFunctions {
                     let [_, a, b, c, d, e] = *curve;
                     *velocity = along(&[a, 2.0 * b, 3.0 * c, 4.0 * d, 5.0 * e, 0.0], x) / h;
                 }
-                // a formula without a value has no value of its event function
+                // a formula without a value has no event function either
                 let _ = step.set_on_curve(kinematics, h, x);
                 kinematics.set_velocity(&self.velocity);
             }
@@ -215,7 +215,7 @@ impl EventFunctions {
         let [a, b] = self.not_passed(step, way, boundary, part)?;
         let [at_a, slope_a] = self.at(kinematics, step, way, boundary, a);
         let (mut end, [mut at_b, mut slope_b]) = (b, self.at(kinematics, step, way, boundary, b));
-        // rounding says nothing of a sign
+        // the sign of a rounding error means nothing
         for wider in 0..MOST_WIDER {
             if !self.is_rounding(kinematics, boundary, at_b) {
                 break;

@@ -1,6 +1,6 @@
 //! Edges: the times where a formula changes to another of its branches.
 //!
-//! Within a step every switch is frozen, so that the equations are smooth there. An edge of time is looked for before a
+//! Within a step every switch is frozen, so that the equations are smooth there. An edge of time is sought before a
 //! step, one of the motion after it; both are located to neighbouring doubles, and the step ends there. Then both sides
 //! are evaluated at that same time, and compared: a position or velocity that jumps has no acceleration, an acceleration
 //! that jumps has two.

@@ -1,8 +1,8 @@
 //! Limits from both sides of position, velocity and acceleration at a time at which a formula may have none.
 //!
-//! States are taken at equal distances before and after it, ever nearer. What a smooth motion makes of the distance is
-//! taken away from what they differ by, so that the rest vanishes with a higher power of it. A rest that stays at all
-//! distances is a jump; what grows without bound as the distance vanishes is not finite there.
+//! States are taken at equal distances before and after it, ever nearer. The differences that a smooth motion has over such a distance are
+//! subtracted, so that the rest vanishes with a higher power of the distance. A rest that stays at all distances is a jump; one that grows
+//! without bound as the distance vanishes is not finite there.
 
 use crate::analysis::state::State;
 use mechc_ir::tolerances::jumps::{ACCELERATION_JUMP, POSITION_JUMP, REST, VELOCITY_JUMP};

@@ -102,7 +102,7 @@ impl OneSidedStates {
         if self.compare(kinematics, step.state(), [0.0; 2]).is_none() {
             return Ok(None);
         }
-        // what differs may be the rounding of the edge's time alone
+        // the difference may be the rounding of the edge's time alone
         let change = self.change_of_a_moment(kinematics, step)?;
         Ok(self.compare(kinematics, step.state(), change))
     }
@@ -182,7 +182,7 @@ impl OneSidedStates {
             match jump {
                 Jump::Position => kinematics.residual(row),
                 Jump::Velocity { .. } => velocity,
-                // a contact that runs on at another speed leaves its velocity open
+                // a contact that moves on at another speed violates its velocity equation
                 Jump::Acceleration => acceleration.max(velocity / self.span),
             }
         };
@@ -207,7 +207,7 @@ pub(super) fn settle(kinematics: &mut Kinematics, state: &State, span: f64, afte
     let (speed, acceleration) = (linear.largest(&state.qd), linear.largest(&state.qdd));
     let ahead = (AHEAD * span).min(FARTHEST_AHEAD / speed).min((FARTHEST_AHEAD / acceleration).sqrt());
     write_prediction(state, ahead, place);
-    // a guard may speak of the motion and of time
+    // a guard may depend on the motion and on time
     kinematics.set_time(state.t + ahead);
     kinematics.settle_motion(place);
     kinematics.set_time(state.t);
@@ -216,7 +216,7 @@ pub(super) fn settle(kinematics: &mut Kinematics, state: &State, span: f64, afte
 /// Returns the names of the result's columns that differ on the two sides of an edge, by the rows of both.
 pub(super) fn columns_that_jump(system: &ConstraintSystem, span: f64, [before, after]: [&[f64]; 2]) -> Vec<String> {
     let jumps = |a: f64, b: f64| (a - b).abs() > ACCELERATION_JUMP * a.abs().max(b.abs()).max(REST / (span * span));
-    // what is varied jumps with what it is a derivative of
+    // a variation jumps with the quantity of which it is a derivative
     let given = columns(system).into_iter().filter(|column| column.kind != ColumnKind::Variation);
     let sides = before.iter().zip(after);
     given.zip(sides).filter(|(_, (a, b))| jumps(**a, **b)).map(|(column, _)| column.name).collect()

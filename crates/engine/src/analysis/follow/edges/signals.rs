@@ -23,7 +23,7 @@ impl Signals {
     pub fn new(kinematics: &mut Kinematics, state: &State) -> Signals {
         let all = kinematics.signals();
         kinematics.restore(state);
-        // what follows without iteration has no branches: there only a formula may end
+        // explicit equations have no branches: only a formula may end there
         let unseen = if kinematics.linear().is_explicit() { f64::MAX } else { NEGLIGIBLE_MOTION };
         let bounds: Vec<f64> =
             kinematics.effects(&all, &state.q, NUDGE).iter().map(|effect| (unseen / effect).min(f64::MAX)).collect();

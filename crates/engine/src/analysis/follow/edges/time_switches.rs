@@ -1,4 +1,4 @@
-//! Edges of time, which are looked for before a step.
+//! Edges of time, which are sought before a step.
 
 use super::chattering::may_change;
 use super::{Edge, Edges};
@@ -55,7 +55,7 @@ impl Edges {
                     is_domain_boundary: false,
                 }));
             }
-            // what differs at a single time is no edge, `t == 1 s`; or rounding goes back and forth around one
+            // a change at a single time is no edge, as of `t == 1 s`; or rounding goes back and forth around one
             if after >= b {
                 return Ok(None);
             }

@@ -22,12 +22,12 @@ impl Follower {
     pub(super) fn look_ahead(&mut self, t: f64) -> Result<bool, Box<Stop>> {
         let (trust, row, here) = (self.rows.trust(), self.rows.single().to_vec(), self.checkpoint());
         let is_certain = self.is_certain(here.state());
-        // a run that passes nothing prints it too, if nothing has been passed before
+        // a run that passes no bifurcation prints it too, if none has been passed before
         let is_plain = is_certain && !self.crossing.has_passed(t);
         let (mut ahead, farthest) = (t + self.span / FEWEST_STEPS_NEAR, self.time_ahead(t));
         for _ in 0..STEPS_AHEAD {
             if let Err(why) = self.step_towards(ahead) {
-                // what comes behind the row does not concern it
+                // a stop behind the row does not concern it
                 if is_certain {
                     break;
                 }
@@ -54,7 +54,7 @@ impl Follower {
                 ahead = farthest;
             }
         }
-        // the next row lies before what was looked at
+        // the next row lies before the states ahead
         self.go_back(&here);
         if is_certain {
             self.rows.single_mut().copy_from_slice(&row);

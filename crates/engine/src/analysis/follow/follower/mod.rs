@@ -1,9 +1,8 @@
-//! From one output time to the next: what is done in which order. What each part knows is its owner's: the step, the edges, the
-//! crossing of singular positions, the rows.
+//! Follower: goes from one output time to the next, and decides what is done in which order. The data belong to the parts: the step, the
+//! edges, the crossing of singular positions, the rows.
 //!
-//! Where the motion is calm a step goes over as many output times as it may, and when it is accepted their rows are solved
-//! for on its curve, several at once. Near a singular position, and where such a row does not hold, steps go to each
-//! time on its own.
+//! Where the motion is calm a step covers as many output times as it may, and when it is accepted their rows are solved for on its curve,
+//! several at once. Near a singular position, and where such a row does not hold, steps go to each time on its own.
 
 mod dense_steps;
 mod ill_conditioned_rows;
@@ -195,7 +194,7 @@ impl Follower {
         let Follower { kinematics, step, .. } = self;
         kinematics.restore(step.state());
         if !kinematics.switches().is_empty() {
-            // which way it goes on decides on which side of an edge it begins
+            // the direction of motion decides on which side of an edge it begins
             let _ = step.derive_state(kinematics);
             self.settle();
             self.kinematics.restore(self.step.state());
@@ -259,7 +258,7 @@ impl Follower {
         while self.step.t() < t {
             self.count_step(t)?;
             if let Err(why) = self.step_towards(t) {
-                // so near to a bifurcation no step leads, but the way over it may
+                // no step may lead so near to a bifurcation, but the bridge over it may
                 return self.row_on_bridge(t).unwrap_or(Err(why)).map(|()| false);
             }
         }

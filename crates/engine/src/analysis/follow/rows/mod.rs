@@ -66,7 +66,7 @@ impl Rows {
             has_stopped: false,
             steps: 0,
             careful_until: f64::NEG_INFINITY,
-            // what was left out of the equations is looked at wherever a row is printed
+            // equations that were left out are checked at every row
             may_step_densely: kinematics.system().checks().is_empty(),
             batch,
             row: vec![0.0; kinematics.row_length()],
@@ -140,7 +140,7 @@ impl Rows {
     pub fn target(&self, from: f64, h: f64) -> f64 {
         let (upcoming, farthest) = (self.upcoming(), from + h);
         let behind = self.times.first_after(farthest, self.next);
-        // what does not change the time is no step
+        // a step must change the time
         let farthest = if farthest > from { farthest } else { upcoming };
         if h >= CRUMB * (upcoming - from) { self.times.at(behind.saturating_sub(1).max(self.next)) } else { farthest }
     }
@@ -189,7 +189,7 @@ impl Rows {
     /// Returns whether all numbers of a row are finite.
     pub fn is_whole(&self, place: Place) -> bool {
         match (place, &self.batch) {
-            // what solved for it has seen all of it
+            // the solver has checked all columns
             (Place::Lane(lane), Some(batch)) if batch.is_whole(lane) => true,
             _ => self.row(place).iter().all(|value| value.is_finite()),
         }

@@ -60,7 +60,7 @@ pub struct RowBatch {
 #[cfg(feature = "threads")]
 fn threads(solver: &Solver) -> usize {
     if solver.instructions().len() < WORTH_A_THREAD {
-        // asking for the processors takes as long as a hundred steps of a four-bar
+        // querying the processors takes as long as a hundred steps of a four-bar
         return 1;
     }
     std::thread::available_parallelism().map_or(1, |n| n.get().min(MOST_THREADS))
@@ -157,7 +157,7 @@ impl RowBatch {
             self.has_bounds = true;
         }
         if !self.solve_beyond(kinematics, step, t) && !self.solve_on_parabola(kinematics, step, h, t) {
-            // one that is far off wants a shorter step, and not more care
+            // a solution that is far off needs a shorter step
             let size = self.alone.first_correction();
             return Some(size).filter(|size| *size > LARGEST_CORRECTION && !self.is_short(h));
         }
@@ -223,7 +223,7 @@ impl RowBatch {
             return self.alone.first_correction();
         }
         self.solve_batch(kinematics, step, upcoming);
-        // whichever threads there are, the first lanes are the same
+        // the first lanes do not depend on the number of threads
         self.lanes[0].first_correction()
     }
 
@@ -307,7 +307,7 @@ impl RowBatch {
         let (first, last) = (next, self.last.min(next + (LANES * lanes.len()) as u64));
         (self.first, self.end) = (first, last);
         let batch = |part: usize| Batch {
-            // the lanes that are left over do the last time again
+            // surplus lanes solve at the last time
             times: std::array::from_fn(|lane| times.at((first + (part * LANES + lane) as u64).min(last - 1))),
             from: self.origin.mark.state.t,
             length: self.length,
@@ -332,7 +332,7 @@ impl RowBatch {
                 }
             };
             std::thread::scope(|scope| {
-                // where the system gives fewer threads, these do all
+                // if the system gives fewer threads, they do all the work
                 let _others: Vec<_> = (1..parts).map(|_| Builder::new().spawn_scoped(scope, work)).collect();
                 work();
             });
@@ -349,10 +349,10 @@ impl RowBatch {
         let n = here.q.len();
         let part = |order: usize| layout.coordinates[order] as usize..layout.coordinates[order] as usize + n;
         let [found, solved] = [&*row, refined].map(|row| [0, 1, 2].map(|order| &row[part(order)]));
-        // where both do not agree the position is too near to a singular one for the grid
+        // if both disagree, the position is too near to a singular one for the grid
         if is_solved && are_alike(kinematics, found, solved, REFINED) {
             for (column, (cell, refined)) in row.iter_mut().zip(refined).enumerate() {
-                // what could not be trusted before cannot be now
+                // a cell that could not be trusted before cannot be now
                 if cell.is_finite() || !kinematics.may_be_missing(column) {
                     *cell = *refined;
                 }

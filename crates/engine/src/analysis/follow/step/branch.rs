@@ -1,4 +1,4 @@
-//! The branch that a motion is on: the signs of determinants, and of what is watched.
+//! The branch of a motion: the signs of determinants and of monitors.
 
 use crate::analysis::state::{Determinant, Fault, Kinematics};
 

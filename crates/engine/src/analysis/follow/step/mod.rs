@@ -154,7 +154,7 @@ impl Step {
     pub fn restore_branch(&mut self, kinematics: &mut Kinematics, to: &Mark) {
         kinematics.restore(&self.state);
         self.begin_branch(kinematics);
-        // as they were accepted, should the position be so near to a singular one that they are rounding
+        // the signs as accepted: so near to a singular position new ones may be rounding
         self.branch.take_signs(&to.signs);
     }
 
@@ -200,7 +200,7 @@ impl Step {
             self.delta[k] = h * (self.state.qd[k] + 0.5 * h * self.state.qdd[k]);
             self.trial.q[k] = self.state.q[k] + self.delta[k];
         }
-        // what follows without iteration has no branches, and may go as far as the predictor is right
+        // explicit coordinates have no branches, and may move as far as the predictor is right
         let motion = kinematics.linear().largest_judged_implicit(&self.delta);
         if motion <= LARGEST_MOTION { Ok(motion) } else { Err(Fault::TooFar) }
     }

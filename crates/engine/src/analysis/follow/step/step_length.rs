@@ -45,7 +45,7 @@ impl Length {
         let calm = accepted.first_correction < LARGEST_CORRECTION / CALM_CORRECTION
             && accepted.between < LARGEST_BETWEEN / CALM_BETWEEN;
         if calm {
-            // a step cut short by an output time says little of a longer one
+            // a step cut short by an output time does not predict a longer one
             self.h = self.h.max(2.0 * h).min(longest);
         } else {
             self.h = self.h.min(h).min(longest);

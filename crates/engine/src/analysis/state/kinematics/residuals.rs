@@ -125,7 +125,7 @@ impl Kinematics {
 
     /// Returns the formula that must be positive and is not, where time or a position was set.
     pub fn broken_condition(&self) -> Option<usize> {
-        // a formula that is not a number is no better
+        // NaN violates the condition too
         self.program.outputs.conditions.iter().position(|&register| {
             let value = self.registers.get(register);
             value.is_nan() || value <= 0.0

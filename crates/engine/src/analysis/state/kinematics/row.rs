@@ -160,7 +160,7 @@ impl Kinematics {
         let mut cells = row.iter_mut();
         let mut put = |value: f64| {
             if let Some(cell) = cells.next() {
-                // −0 would surprise a reader
+                // print 0 rather than −0
                 *cell = value + 0.0;
             }
         };
@@ -278,7 +278,7 @@ fn solve_for_more(
         if of_kind.peek().is_none() {
             continue;
         }
-        // those by two follow from those by one
+        // variations by two variables follow from those by one
         program.run(Stage::Variation, registers);
         for (variation, right) in of_kind {
             factored.solve_for_multipliers(|column| registers.get(right[column]), &mut varied.solution);

@@ -37,7 +37,7 @@ impl Kinematics {
     fn evaluate_nearby(&mut self, q: &[f64]) {
         let determined = self.determined();
         let pattern = determined.system().phi_q();
-        // where a formula has no value it has no slope
+        // a formula without a value has no slope
         let lesser = |least: f64, found: f64| if found.is_finite() { f64::min(least, found) } else { least };
         let or_none = |least: f64| if least.is_finite() { least } else { 0.0 };
         for way in [BESIDE, -BESIDE] {

@@ -19,7 +19,7 @@ impl Kinematics {
     /// Sets the switches of the motion to what they are at a position, and keeps them so.
     pub fn settle_motion(&mut self, q: &[f64]) {
         self.freeze(true, false);
-        // what is wrong with the position itself shows where it is solved for
+        // a fault of the position shows when it is solved for
         let _ = self.set_position(q);
         self.freeze(true, true);
     }
@@ -132,7 +132,7 @@ impl Kinematics {
     /// Returns how much of the mechanism's size each signal moves an equation by, per unit of the signal; `nudge` is the relative change of
     /// the signal by which this is measured.
     pub fn effects(&mut self, signals: &[Signal], q: &[f64], nudge: f64) -> Vec<f64> {
-        // what is wrong with the position shows where it is solved for
+        // a fault of the position shows when it is solved for
         let _ = self.set_position(q);
         let before: Vec<Vec<f64>> = signals
             .iter()

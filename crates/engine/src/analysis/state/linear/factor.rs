@@ -75,7 +75,7 @@ impl BlockLu {
             let vectors = [&mut left[..part.size], &mut right[..part.size]];
             return factors.nearness(k, part, vectors, work) * part.length_of_chain();
         }
-        // what is not a number must win
+        // NaN must win
         let smaller = |least: f64, pivot: f64| if pivot.abs() >= least { least } else { pivot.abs() };
         let judged = |row: usize, column: usize, pivot: f64| {
             pivot * factors.row_scale(part, row) * factors.column_scale(part, column)

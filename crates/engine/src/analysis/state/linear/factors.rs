@@ -1,4 +1,4 @@
-//! The factors of all blocks, as the solution and the judgement of nearness use them.
+//! The factors of all blocks, for solving and for judging nearness to a singular position.
 
 use super::{Form, Part};
 use crate::analysis::state::dense::{solve_dense, solve_dense_transposed};

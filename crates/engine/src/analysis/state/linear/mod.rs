@@ -1,7 +1,7 @@
 //! The linear systems of one state: `Φ_q x = b`, block by block.
 //!
-//! Everything is scaled: lengths by the size of their body, rows to unit norm; what nearness to a singular position is judged
-//! by are scales of their own (`equilibration`). Within a block the order of elimination is
+//! Everything is scaled: lengths by the size of their body, rows to unit norm; nearness to a singular position is judged
+//! by other scales (`equilibration`). Within a block the order of elimination is
 //! fixed (`sparse`); where that loses digits a small block is factored densely with partial pivoting, and a large one gets
 //! another order. Between blocks the solution is substituted forward, so that cost grows with the number of blocks.
 
