@@ -242,8 +242,8 @@ fn by_least_squares(kinematics: &mut Kinematics, estimates: &[f64], t: f64) -> R
             break;
         }
         for (k, start) in start.iter_mut().enumerate() {
-            let aside = size * kinematics.linear().column_scale(k) * noise.next();
-            *start = if is_moved[k] { estimates[k] + aside } else { *start };
+            let offset = size * kinematics.linear().column_scale(k) * noise.next();
+            *start = if is_moved[k] { estimates[k] + offset } else { *start };
         }
         let Rest { q, open } = least_squares(kinematics, start.clone());
         if let Some(polished) = assembled(kinematics, &q) {
@@ -297,7 +297,7 @@ fn refuse_vanishing_tangents(kinematics: &mut Kinematics, q: &[f64], t: f64) -> 
         return Ok(());
     }
     let vanishes = |k: &usize| {
-        system.monitors()[*k].kind == MonitorKind::Tangents && kinematics.watched(*k).abs() < VANISHING_TANGENT
+        system.monitors()[*k].kind == MonitorKind::Tangents && kinematics.monitored(*k).abs() < VANISHING_TANGENT
     };
     match (0..system.monitors().len()).find(vanishes) {
         Some(watch) => Err(StopCause::NoContact { watch }.at(t)),
@@ -334,8 +334,7 @@ fn independent_elsewhere(kinematics: &mut Kinematics, q: &[f64], free: &[f64], t
     })
 }
 
-/// Returns whether the equations are independent near a position, where its free motion leads if a driver lets go; `None` if it leads
-/// nowhere.
+/// Returns whether the equations are independent near a position, where its free motion leads if a driver lets go; `None` if it leads nowhere.
 fn independent_without(kinematics: &mut Kinematics, q: &[f64], driver: usize, free: &[f64], t: f64) -> Option<bool> {
     if q.len() > LARGEST_DENSE {
         return None;

@@ -151,8 +151,7 @@ fn is_another_as_near(kinematics: &mut Kinematics, within: &Loop, from: &[f64], 
     })
 }
 
-/// Returns starts for the search of other branches: on the other side of the estimates, with one body after the other turned round, and at
-/// random.
+/// Returns starts for the search of other branches: on the other side of the estimates, with one body after the other turned round, and at random.
 fn starts(kinematics: &Kinematics, within: &Loop, from: &[f64], to: &[f64]) -> Vec<Vec<f64>> {
     let system = kinematics.system();
     let mut mirrored = to.to_vec();

@@ -89,8 +89,8 @@ fn assembled_poses(system: &ConstraintSystem, from: &[f64], to: &[f64]) -> Optio
 
 /// Returns a warning if the distance between the centres of gears, or of a pinion and its rack, differs from what the radii require.
 pub fn misfit(system: &ConstraintSystem, fit: &Fit, q: &[f64], t: f64) -> Option<Diagnostic> {
-    let [distance, wanted, radius] = [fit.distance, fit.wanted, fit.radius].map(|id| system.value_at(id, q));
-    let off = distance - wanted;
+    let [distance, required, radius] = [fit.distance, fit.wanted, fit.radius].map(|id| system.value_at(id, q));
+    let off = distance - required;
     if off.abs() <= LARGEST_MISFIT * radius {
         return None;
     }
@@ -110,21 +110,21 @@ pub fn misfit(system: &ConstraintSystem, fit: &Fit, q: &[f64], t: f64) -> Option
         _ => ("centre and axis", "the radius", None),
     };
     // the sum of the radii, of gears that take the difference, and the other way round
-    let fits_another = (distance - (2.0 * radius - wanted)).abs() <= LARGEST_MISFIT * radius;
+    let fits_another = (distance - (2.0 * radius - required)).abs() <= LARGEST_MISFIT * radius;
     let message = format!(
         "the {what} of `{}` are {} apart at {}, and {why} is {}",
         joint.name,
-        digits_that_differ(distance, wanted),
+        digits_that_differ(distance, required),
         at(t),
-        digits_that_differ(wanted, distance)
+        digits_that_differ(required, distance)
     );
     let label =
-        format!("{} too {}", in_one_unit(off.abs(), 2, distance.max(wanted)), if off < 0.0 { "near" } else { "far" });
+        format!("{} too {}", in_one_unit(off.abs(), 2, distance.max(required)), if off < 0.0 { "near" } else { "far" });
     let help = match other.filter(|_| fits_another) {
         Some(other) => format!("was `{other}` meant? its centres would be right"),
         None => format!(
             "set them {} apart by the joints of their bodies, or change a radius: a mesh does not hold its distance",
-            digits_that_differ(wanted, distance)
+            digits_that_differ(required, distance)
         ),
     };
     Some(Diagnostic::new(Code::W0501, message).at(joint.span, label).help(help))

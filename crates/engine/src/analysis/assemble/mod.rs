@@ -1,5 +1,4 @@
-//! Assembly: the position at the first time, found from estimates and proven not to be singular, with doubts where it may not be the
-//! intended one.
+//! Assembly: the position at the first time, found from estimates and proven not to be singular, with doubts where it may not be the intended one.
 
 mod assembly;
 mod branches;

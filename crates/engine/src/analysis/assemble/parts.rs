@@ -154,10 +154,10 @@ impl<'d> Placing<'d> {
     fn solve_what_is_needed(&mut self) -> bool {
         let mut required: Vec<u32> = self.open.iter().flat_map(|&part| self.needs[part].iter().copied()).collect();
         let mut numbers: Vec<usize> = Vec::new();
-        let mut is_wanted = vec![false; self.determined.blocks().len()];
+        let mut is_needed = vec![false; self.determined.blocks().len()];
         while let Some(column) = required.pop() {
             let number = self.block_of[column as usize];
-            if self.is_settled[column as usize] || std::mem::replace(&mut is_wanted[number], true) {
+            if self.is_settled[column as usize] || std::mem::replace(&mut is_needed[number], true) {
                 continue;
             }
             numbers.push(number);

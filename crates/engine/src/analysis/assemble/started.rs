@@ -1,4 +1,4 @@
-//! A mechanism that is assembled at its first time: what can be followed from there on.
+//! A mechanism that is assembled at its first time, from which its motion can be followed.
 
 use super::assembly::{self, Assembled, Moved};
 use super::branches::{self, Doubt};
@@ -245,9 +245,9 @@ impl Started {
 
     /// Returns a solver for some columns of several variants at once; `None` if it would be too large.
     #[must_use]
-    pub fn solver_of_variants(&mut self, is_wanted: &dyn Fn(u32) -> bool) -> Option<Solver> {
+    pub fn solver_of_variants(&mut self, is_requested: &dyn Fn(u32) -> bool) -> Option<Solver> {
         self.kinematics.restore(&self.state);
-        self.kinematics.solver_of_variants(is_wanted)
+        self.kinematics.solver_of_variants(is_requested)
     }
 
     /// Returns whether the equations are smooth wherever the motion is, and nothing is monitored.

@@ -182,8 +182,7 @@ fn motions_left(system: &ConstraintSystem, part: &Subsystem, mut taken: Orthonor
     apart(motions).iter().map(|motion| spread(motion.as_slice(), part, system.coordinates().len())).collect()
 }
 
-/// Returns a free motion of unit norm besides those taken, and takes it: the motion of the angle, or else of the coordinate, that is
-/// freest.
+/// Returns a free motion of unit norm besides those taken, and takes it: the motion of the angle, or else of the coordinate, that is freest.
 fn next_motion(system: &ConstraintSystem, part: &Subsystem, taken: &mut Orthonormal) -> Option<DVector<f64>> {
     let n = part.columns.len();
     if taken.is_whole() {

@@ -1,5 +1,4 @@
-//! Open loops of a mechanism that cannot be assembled: which closed loop stays open, by how much, and which lengths are too short or too
-//! long for it.
+//! Open loops of a mechanism that cannot be assembled: which closed loop stays open, by how much, and which lengths are too short or too long for it.
 //!
 //! Where the residuals are least they are in balance, like the forces of springs in the joints. So they pull at the links: a link that is
 //! drawn apart is too short, one that is pressed together is too long.

@@ -96,8 +96,7 @@ impl Basis {
         basis
     }
 
-    /// Keeps a dependent vector, by its index in `dependent`, in place of a kept one on which it depends. Weights up to `weighs` are
-    /// dropped.
+    /// Keeps a dependent vector, by its index in `dependent`, in place of a kept one on which it depends. Weights up to `weighs` are dropped.
     pub fn exchange(&mut self, index: usize, kept: usize, weighs: f64) {
         let (vector, on) = self.dependent[index].clone();
         let Some(&(_, pivot)) = on.iter().find(|(k, _)| *k == kept) else {

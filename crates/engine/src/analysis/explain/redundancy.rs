@@ -177,8 +177,7 @@ fn basis_of_start(evaluator: &mut Evaluator<'_>, part: &Subsystem, [t, span]: [f
     Some(basis)
 }
 
-/// Exchanges rows of a basis until no dependent row has a large weight of a kept one, without which less would be nearly dependent. Drivers
-/// stay.
+/// Exchanges rows of a basis until no dependent row has a large weight of a kept one, without which less would be nearly dependent. Drivers stay.
 fn well_chosen(mut basis: Basis, is_driver: impl Fn(usize) -> bool) -> Basis {
     for _ in 0..MOST_EXCHANGES {
         let weights =

@@ -71,10 +71,10 @@ pub fn without_value(system: &ConstraintSystem, fault: Fault) -> StopCause {
 
 /// Returns the monitor of a contact that ends where the position was set.
 fn contact_that_ends(kinematics: &Kinematics, fault: Fault, sigma: f64) -> Option<usize> {
-    let watches = kinematics.system().monitors();
+    let monitors = kinematics.system().monitors();
     match fault {
         // a curvature that reaches zero makes the position singular, one that jumps past zero does not
-        Fault::Monitor { index } if watches[index].kind != MonitorKind::Curvature || sigma > NEAR => Some(index),
+        Fault::Monitor { index } if monitors[index].kind != MonitorKind::Curvature || sigma > NEAR => Some(index),
         _ => centers_that_meet(kinematics).or_else(|| vanishing(kinematics, MonitorKind::Tangents)),
     }
 }
@@ -107,16 +107,16 @@ fn time_of_fold(span: f64, state: &State, right: &[f64]) -> f64 {
     if left > 0.0 && left < NEAR_FOLD * span { state.t + left } else { state.t }
 }
 
-/// Returns the stop at a contact that ends at a time (s), by the watch over it, at the position that was set or just behind it.
+/// Returns the stop at a contact that ends at a time (s), by its monitor, at the position that was set or just behind it.
 pub fn end_of_contact(kinematics: &Kinematics, index: usize, t: f64) -> Box<Stop> {
     let system = kinematics.system();
-    let watches = system.monitors();
-    let Monitor { kind, declaration, .. } = watches[index];
+    let monitors = system.monitors();
+    let Monitor { kind, declaration, .. } = monitors[index];
     let is_flat = system.declarations()[declaration].kind == DeclarationKind::Joint(JointKind::FlatFollower);
-    let of_contact = |k: &usize| watches[*k].kind == MonitorKind::Curvature && watches[*k].declaration == declaration;
-    let curvature = (0..watches.len()).find(of_contact).map_or(0.0, |k| kinematics.watched(k).abs());
+    let of_contact = |k: &usize| monitors[*k].kind == MonitorKind::Curvature && monitors[*k].declaration == declaration;
+    let curvature = (0..monitors.len()).find(of_contact).map_or(0.0, |k| kinematics.monitored(k).abs());
     // with `T` the tangent and `B` its derivative the radius is T²/B across; where the argument alone rests it is no less than usual
-    let tangent = kinematics.watched(index);
+    let tangent = kinematics.monitored(index);
     if kind == MonitorKind::Tangents && is_flat && tangent * tangent < CUSP * curvature {
         StopCause::Undercut { watch: index }.at(t)
     } else {
@@ -167,8 +167,8 @@ pub fn centers_that_meet(kinematics: &Kinematics) -> Option<usize> {
 
 /// Returns the monitor of a kind whose quantity vanishes, or nearly so, where the position was set.
 fn vanishing(kinematics: &Kinematics, kind: MonitorKind) -> Option<usize> {
-    let watches = kinematics.system().monitors();
-    (0..watches.len()).find(|&k| watches[k].kind == kind && kinematics.watched(k).abs() < FLAT)
+    let monitors = kinematics.system().monitors();
+    (0..monitors.len()).find(|&k| monitors[k].kind == kind && kinematics.monitored(k).abs() < FLAT)
 }
 
 /// Returns the joint at whose contact the relative curvature vanishes, or nearly so, where the position was set.
@@ -209,8 +209,7 @@ fn boundary_reached(kinematics: &mut Kinematics, state: &State) -> Option<Box<St
     })
 }
 
-/// Returns the time (s) until an event function touches zero, behind which its formula goes on with a corner; `None` if it goes through
-/// zero.
+/// Returns the time (s) until an event function touches zero, behind which its formula goes on with a corner; `None` if it goes through zero.
 fn corner_ahead(kinematics: &mut Kinematics, boundary: &BoundaryRegisters, state: &State) -> Option<f64> {
     let [gauge, slope] = gauge_at(kinematics, boundary, state, 0.0);
     let left = -2.0 * gauge / slope;

@@ -22,7 +22,7 @@ pub struct Stop {
 
 /// The reason of a [`Stop`].
 ///
-/// Rows, conditions, watches, checks, columns and loads are indices into the constraint system.
+/// Rows, conditions, monitors, checks, columns and loads are indices into the constraint system.
 #[derive(Clone, Debug)]
 pub enum StopCause {
     /// A formula of these declarations, or a derivative of it, is not finite.
@@ -44,12 +44,12 @@ pub enum StopCause {
     },
     /// A contact ends.
     NoContact {
-        /// Index of the watch over the contact.
+        /// Index of the monitor of the contact.
         watch: usize,
     },
     /// A flat follower touches a cusp.
     Undercut {
-        /// Index of the watch over the contact.
+        /// Index of the monitor of the contact.
         watch: usize,
     },
     /// A redundant equation that was left out does not hold any more.

@@ -1,5 +1,4 @@
-//! Continuation: follows a mechanism whose inputs go along straight lines from where its own inputs have it to where others do, along the
-//! branch.
+//! Continuation: follows a mechanism whose inputs go along straight lines from where its own inputs have it to where others do, along the branch.
 
 use crate::analysis::assemble::{Solving, Started, Unassembled};
 use crate::analysis::explain::{Stop, StopCause, Warning};

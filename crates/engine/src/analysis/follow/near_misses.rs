@@ -18,7 +18,7 @@ pub struct NearMisses {
     scratch: State,
     /// The largest singular value since the last least one.
     highest: f64,
-    /// True if rows are handed out, which the warning accompanies; a motion that is followed for its results alone is not watched.
+    /// True if rows are handed out, which the warning accompanies; a motion that is followed for its results alone is not monitored.
     is_watching: bool,
     is_reported: bool,
     found: Option<Miss>,
@@ -120,8 +120,8 @@ fn least_between([a, b, c]: [Look; 3]) -> Option<[f64; 2]> {
     let [left, right] = [a, c].map(|look| (square(look) - square(b)) / (look.t - b.t));
     let bend = (right - left) / (c.t - a.t);
     let slope = left - bend * (a.t - b.t);
-    let (aside, down) = (-0.5 * slope / bend, 0.25 * slope * slope / bend);
-    Some([(square(b) - down).max(0.0) / bend, b.t + aside])
+    let (offset, down) = (-0.5 * slope / bend, 0.25 * slope * slope / bend);
+    Some([(square(b) - down).max(0.0) / bend, b.t + offset])
 }
 
 /// Returns the largest speed that the equations prescribe in a state, scaled (1/s).

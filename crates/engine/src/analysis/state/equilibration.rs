@@ -1,11 +1,10 @@
 //! Equilibration: a scale for each equation and each coordinate, block by block, which measure the nearness to a singular position.
 //!
-//! The result must not depend on the unit, on the location of the origin, on drawn features that no equation uses, or on the size of one
-//! body relative to the others. So an entry of a block counts with its typical magnitude along a motion, not with its value
-//! at one position: the slope of a joint's equation in a turn is that of its lever, in whatever direction the lever points; a formula's
-//! slope is also evaluated near the position. The matrix of these magnitudes is equilibrated: every row and every column comes
-//! to unit norm (R. Sinkhorn, P. Knopp, 1967). Divided by the same scales, `Φ_q` has entries of about 1 where it is good, and
-//! one that vanishes only here is noticed.
+//! The result must not depend on the unit, on the location of the origin, on drawn features that no equation uses, or on the size of one body
+//! relative to the others. So an entry of a block counts with its typical magnitude along a motion, not with its value at one position: the slope of
+//! a joint's equation in a turn is that of its lever, in whatever direction the lever points; a formula's slope is also evaluated near the position.
+//! The matrix of these magnitudes is equilibrated: every row and every column comes to unit norm (R. Sinkhorn, P. Knopp, 1967). Divided by the same
+//! scales, `Φ_q` has entries of about 1 where it is good, and one that vanishes only here is noticed.
 //!
 //! Where a body's frame lies far from its features, its turn is about their centroid, and its motion is that of the centroid:
 //! else turning would be almost the same as moving.
@@ -352,8 +351,7 @@ fn changes(system: &ConstraintSystem, row: usize) -> bool {
     }
 }
 
-/// Returns whether a row's slopes need to be evaluated near a position too: it is written by hand, or moves along a curve or line of
-/// centres.
+/// Returns whether a row's slopes need to be evaluated near a position too: it is written by hand, or moves along a curve or line of centres.
 pub fn needs_nearby_slope(system: &ConstraintSystem, row: usize) -> bool {
     let slopes = system.phi_q().row(row);
     let has_argument = slopes.iter().any(|&(column, _)| system.body_of(column as usize).is_none());

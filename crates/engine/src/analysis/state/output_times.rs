@@ -225,9 +225,9 @@ mod tests {
     #[test]
     fn the_first_time_after_another_is_found() {
         let grid = Times::grid(0.0, 1.0, 0.1).unwrap();
-        for (t, wanted) in [(-1.0, 0), (0.0, 1), (0.05, 1), (0.1, 2), (0.99, 10), (1.0, 11), (9.0, 11)] {
-            for from in 0..=wanted {
-                assert_eq!(grid.first_after(t, from), wanted, "t = {t}, from {from}");
+        for (t, expected) in [(-1.0, 0), (0.0, 1), (0.05, 1), (0.1, 2), (0.99, 10), (1.0, 11), (9.0, 11)] {
+            for from in 0..=expected {
+                assert_eq!(grid.first_after(t, from), expected, "t = {t}, from {from}");
             }
         }
     }

@@ -1,6 +1,5 @@
-//! LU of a block in an order that is fixed once: which entries arise, and which operations make them, is decided before any value is
-//! computed. The pivots are chosen for few entries and for size (H. M. Markowitz, 1957); every factorisation checks that they still are
-//! large enough.
+//! LU of a block in an order that is fixed once: which entries arise, and which operations make them, is decided before any value is computed. The
+//! pivots are chosen for few entries and for size (H. M. Markowitz, 1957); every factorisation checks that they still are large enough.
 
 use crate::solver::{BlockEntry, Order};
 use mechc_ir::tolerances::solving::order::LEAST_PIVOT;

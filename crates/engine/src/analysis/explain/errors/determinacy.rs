@@ -156,8 +156,7 @@ fn mend(system: &ConstraintSystem, group: &[Dependent]) -> String {
     }
 }
 
-/// Suggests a slot for a link of two pins, one of which is a redundant joint: the link's length is redundant, so the pin may slide along
-/// it.
+/// Suggests a slot for a link of two pins, one of which is a redundant joint: the link's length is redundant, so the pin may slide along it.
 fn sliding_pin(system: &ConstraintSystem, index: DeclarationId) -> Option<String> {
     let joint = &system.declarations()[index];
     let &[p, q] = joint.points.as_slice() else {

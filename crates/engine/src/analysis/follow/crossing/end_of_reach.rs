@@ -1,10 +1,9 @@
 //! End of reach: whether there is a position for every time on the path over a singular one, or the driver requires a little more there
 //! than the mechanism reaches.
 //!
-//! Let all equations be met but for `λ w`, with `w` the dependency of the rows at the singular position. Then λ is a smooth function of the
-//! way along the free motion and of time, with an extremum on that way, the fold. There λ is how much the mechanism reaches beyond what the
-//! driver requires, and its sign against the curvature decides whether a position exists. As an extremum it has twice the digits of the
-//! curve on which it is sought.
+//! Let all equations be met but for `λ w`, with `w` the dependency of the rows at the singular position. Then λ is a smooth function of the way along
+//! the free motion and of time, with an extremum on that way, the fold. There λ is how much the mechanism reaches beyond what the driver requires,
+//! and its sign against the curvature decides whether a position exists. As an extremum it has twice the digits of the curve on which it is sought.
 
 use super::bridge::Bridge;
 use crate::analysis::state::Kinematics;

@@ -1,8 +1,6 @@
-//! Refined curve over a long bridge, more exact than the quintic through its ends: it goes through two more states, one before and one
-//! behind.
+//! Refined curve over a long bridge, more exact than the quintic through its ends: it goes through two more states, one before and one behind.
 //!
-//! Its error shows between the outer states and the ends of the bridge, where the motion can be solved for: it is as large there as on the
-//! bridge.
+//! Its error shows between the outer states and the ends of the bridge, where the motion can be solved for: it is as large there as on the bridge.
 
 use crate::analysis::follow::step::Step;
 use crate::analysis::state::{Kinematics, State};

@@ -7,7 +7,7 @@
 //! (`crates/engine/src/analysis/follow/edges/one_sided_limits.rs`). If both sides agree there is no edge, and the motion goes on.
 
 use super::event_functions::{EventFunctions, SearchPath, Zero};
-use super::one_sided_limits::{Gap, Nearer, OneSidedLimits, Verdict};
+use super::one_sided_limits::{Gap, OneSidedLimits, Verdict};
 use super::one_sided_states::columns_that_jump;
 use crate::analysis::explain::{Stop, StopCause, errors};
 use crate::analysis::follow::step::{Step, write_prediction};
@@ -189,7 +189,7 @@ impl DomainBoundaries {
     fn look_at_sides(&mut self, kinematics: &mut Kinematics, step: &mut Step, boundary: usize, t: f64) -> Verdict {
         self.limits.begin(kinematics.system(), self.span);
         let mut distance = FARTHEST * self.span;
-        while let Nearer::Wanted = self.limits.wants(distance, t) {
+        while self.limits.needs_nearer(distance, t) {
             let before = self.solve_near(kinematics, step, boundary, t - distance, false);
             if before.is_some() {
                 self.limits.take_before(step.trial());

@@ -1,9 +1,8 @@
 //! Edges: the times where a formula changes to another of its branches.
 //!
-//! Within a step every switch is frozen, so that the equations are smooth there. An edge of time is sought before a
-//! step, one of the motion after it; both are located to neighbouring doubles, and the step ends there. Then both sides
-//! are evaluated at that same time, and compared: a position or velocity that jumps has no acceleration, an acceleration
-//! that jumps has two.
+//! Within a step every switch is frozen, so that the equations are smooth there. An edge of time is sought before a step, one of the motion after it;
+//! both are located to neighbouring doubles, and the step ends there. Then both sides are evaluated at that same time, and compared: a position or
+//! velocity that jumps has no acceleration, an acceleration that jumps has two.
 
 mod chattering;
 mod domain_boundaries;
@@ -125,8 +124,7 @@ impl Edges {
         }
     }
 
-    /// Returns the first edge that a step to `next` meets before the last time. An edge within rounding of the output time `next` is put
-    /// there.
+    /// Returns the first edge that a step to `next` meets before the last time. An edge within rounding of the output time `next` is put there.
     ///
     /// # Errors
     /// A formula of time ends on the way.

@@ -29,12 +29,6 @@ pub(super) enum Verdict {
     NotFinite,
 }
 
-/// Answer of [`OneSidedLimits::wants`].
-pub(super) enum Nearer {
-    Wanted,
-    Enough,
-}
-
 /// Differences between the states of a pair.
 #[derive(Clone, Copy)]
 struct Pair {
@@ -120,9 +114,9 @@ impl OneSidedLimits {
         self.after.copy_from(state);
     }
 
-    /// Returns whether states at a distance (s) from a time are wanted.
-    pub fn wants(&self, distance: f64, t: f64) -> Nearer {
-        if self.count < MOST && distance > NEAREST * f64::EPSILON * t.abs() { Nearer::Wanted } else { Nearer::Enough }
+    /// Returns whether states at a distance (s) from a time are still needed.
+    pub fn needs_nearer(&self, distance: f64, t: f64) -> bool {
+        self.count < MOST && distance > NEAREST * f64::EPSILON * t.abs()
     }
 
     /// Takes the states `before` and `after`, where there are any, with the rounding of the formula in each.

@@ -1,4 +1,4 @@
-//! One-sided states of an edge, both at its time, and what jumps between them.
+//! States on both sides of an edge, at its time, and what jumps between them.
 
 use crate::analysis::explain::{Stop, StopCause};
 use crate::analysis::follow::step::{Step, write_prediction};

@@ -18,14 +18,14 @@ impl Follower {
     /// whether they are right, and corrects them if not. The motion is left as it was, so that the rows behind it are the same.
     pub(super) fn row_in_doubt(&mut self, t: f64) -> Result<(), Box<Stop>> {
         let (row, here, probe) = (self.rows.single().to_vec(), self.checkpoint(), self.step.probe());
-        let (reported, aside) = (self.warnings.reported(), self.crossing.suspend());
+        let (reported, suspended) = (self.warnings.reported(), self.crossing.suspend());
         let mut on_bridge = self.row_on_bridge(t);
         let mut why = None;
         if on_bridge.is_none() && !self.crossing.is_clear_ahead(t) {
             why = self.step_ahead(t);
             on_bridge = self.row_on_bridge(t);
         }
-        self.crossing.resume(aside);
+        self.crossing.resume(suspended);
         let better = on_bridge.is_some().then(|| self.rows.single().to_vec());
         self.go_back(&here);
         self.step.set_probe(probe);
@@ -68,9 +68,8 @@ impl Follower {
         trust.is_certain() || (trust == Trust::Doubtful && self.is_reproducible(state))
     }
 
-    /// Returns whether velocities and accelerations of a state stay the same when its position is solved for from several places nearby:
-    /// then rounding does not add up as it might. These places lie about a point of a grid, so they do not depend on how the state was
-    /// reached.
+    /// Returns whether velocities and accelerations of a state stay the same when its position is solved for from several places nearby: then
+    /// rounding does not add up as it might. These places lie about a point of a grid, so they do not depend on how the state was reached.
     pub(super) fn is_reproducible(&mut self, state: &State) -> bool {
         let n = state.q.len();
         let mut ranges = [vec![NOTHING; n], vec![NOTHING; n]];
@@ -103,8 +102,7 @@ impl Follower {
         self.step.solve(&mut self.kinematics).is_ok()
     }
 
-    /// Accepts the row of a time on a bridge, or else solves for it directly, however near to the singular position, if the solution can be
-    /// trusted.
+    /// Accepts the row of a time on a bridge, or else solves for it directly, however near to the singular position, if the solution can be trusted.
     pub(super) fn or_solve_directly(&mut self, t: f64, row: Result<(), Box<Stop>>) -> Result<(), Box<Stop>> {
         row.or_else(|why| if self.trusted_row(t) || self.narrow_row(t) { Ok(()) } else { Err(why) })
     }

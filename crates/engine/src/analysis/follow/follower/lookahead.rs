@@ -91,17 +91,16 @@ impl Follower {
         false
     }
 
-    /// Finds the row of a time on a bridge by steps from the row before, as if the bridge were not there; returns whether that row is
-    /// certain.
+    /// Finds the row of a time on a bridge by steps from the row before, as if the bridge were not there; returns whether that row is certain.
     pub(super) fn plain_row(&mut self, t: f64) -> bool {
         let Some(plain) = self.rows.take_plain(t) else {
             return false;
         };
-        let (beyond, aside) = (self.checkpoint(), self.crossing.forget());
+        let (beyond, suspended) = (self.checkpoint(), self.crossing.forget());
         self.go_back(&plain);
         let is_found = self.steps_to(t) && self.is_certain(&self.step.state().clone());
         let here = self.checkpoint();
-        self.crossing.remember(aside);
+        self.crossing.remember(suspended);
         self.go_back(&beyond);
         if is_found {
             let row = self.rows.single().to_vec();

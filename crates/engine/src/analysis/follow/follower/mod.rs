@@ -121,8 +121,7 @@ impl Follower {
         self.warnings.take()
     }
 
-    /// Returns the row of the next output time, in the order of `Started::columns`; `None` behind the last one, and where the motion could
-    /// not go on.
+    /// Returns the row of the next output time, in the order of `Started::columns`; `None` behind the last one, and where the motion could not go on.
     ///
     /// # Errors
     /// Why and where the motion cannot go on.
@@ -252,8 +251,7 @@ impl Follower {
         Ok(())
     }
 
-    /// Steps to an output time on its own; returns whether its row was solved for there, and not taken from the bridge over a singular
-    /// position.
+    /// Steps to an output time on its own; returns whether its row was solved for there, and not taken from the bridge over a singular position.
     fn go_to(&mut self, t: f64) -> Result<bool, Box<Stop>> {
         while self.step.t() < t {
             self.count_step(t)?;
@@ -298,8 +296,8 @@ impl Follower {
         }
     }
 
-    /// Tries a step of length `h` to time `t`, and writes its row if that is wanted.
-    fn try_step(&mut self, h: f64, t: f64, wanted: bool) -> Result<Accepted, Fault> {
+    /// Tries a step of length `h` to time `t`, and writes its row if `writes_row`.
+    fn try_step(&mut self, h: f64, t: f64, writes_row: bool) -> Result<Accepted, Fault> {
         let Follower { kinematics, step, edges, crossing, rows, choice, .. } = self;
         let to_edge_of_motion = edges.is_met_by(t);
         let motion = step.predict(kinematics, h, t)?;
@@ -313,7 +311,7 @@ impl Follower {
             return Err(Fault::Choice);
         }
         step.derive_trial(kinematics)?;
-        if wanted {
+        if writes_row {
             rows.take(kinematics, step.trial(), |kinematics| crossing.passes() && !is_clear(kinematics));
         }
         let between = step.correction_between(kinematics, h)?;

@@ -10,7 +10,7 @@ use mechc_ir::program::{Program, Ranges, Register, Registers, Stage};
 use mechc_ir::tolerances::contacts::{CORRECTIONS, FINEST_BETWEEN, MOST_BETWEEN, PULLS, STRIKES, WIDEST_BETWEEN};
 use mechc_ir::{ConstraintSystem, LoadForce};
 
-/// A load, as it is watched.
+/// Monitor of a load.
 struct LoadMonitor {
     force: Register,
     /// Excess of the distance that the load works on over a length without a direction.
@@ -137,9 +137,8 @@ impl ForceMonitor {
         }
     }
 
-    /// Checks a row of a motion: warns once of each contact that pulls in it, by more than rounding of the row's largest force, or has
-    /// pulled on the way to it. If the sign of a contact's force is not declared, the first row decides which sign is a pull. A load
-    /// without a value is an error.
+    /// Checks a row of a motion: warns once of each contact that pulls in it, by more than rounding of the row's largest force, or has pulled on the
+    /// way to it. If the sign of a contact's force is not declared, the first row decides which sign is a pull. A load without a value is an error.
     pub fn look(&mut self, of: &Kinematics, row: &[f64], warnings: &mut Warnings) -> Result<(), Box<Stop>> {
         self.has_begun = true;
         let is_whole = row.iter().all(|value| value.is_finite());

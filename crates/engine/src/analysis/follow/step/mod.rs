@@ -267,16 +267,14 @@ impl Step {
         }
     }
 
-    /// Computes Newton's correction between the ends of a step, on the quintic through both, with the factors of the end; returns its size,
-    /// scaled.
+    /// Computes Newton's correction between the ends of a step, on the quintic through both, with the factors of the end; returns its size, scaled.
     pub fn correction_between(&mut self, kinematics: &mut Kinematics, h: f64) -> Result<f64, Fault> {
         let x = self.next_probe();
         self.draw_curve(h);
         self.correction_at(kinematics, h, x)
     }
 
-    /// Computes Newton's correction at a place of the curve, given as a part of the step, with the factors of its end; returns its size,
-    /// scaled.
+    /// Computes Newton's correction at a place of the curve, given as a part of the step, with the factors of its end; returns its size, scaled.
     pub fn correction_at(&mut self, kinematics: &mut Kinematics, h: f64, x: f64) -> Result<f64, Fault> {
         self.set_on_curve(kinematics, h, x)?;
         kinematics.correction(&mut self.delta);

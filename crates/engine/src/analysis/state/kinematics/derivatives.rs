@@ -127,8 +127,7 @@ impl Kinematics {
     }
 }
 
-/// Computes velocity, acceleration and, where needed, jerk of a state whose position was set, by a closure that solves `Φ_q x = b` for a
-/// right side.
+/// Computes velocity, acceleration and, where needed, jerk of a state whose position was set, by a closure that solves `Φ_q x = b` for a right side.
 pub(super) fn rates(
     program: &Program,
     registers: &mut Registers,

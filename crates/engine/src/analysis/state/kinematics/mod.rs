@@ -223,8 +223,8 @@ impl Kinematics {
     }
 
     /// Returns a solver as [`Kinematics::solver`] does, for some columns of several variants at once.
-    pub fn solver_of_variants(&self, is_wanted: &dyn Fn(u32) -> bool) -> Option<Solver> {
-        Solver::for_variants(&self.determined, &self.program, self, is_wanted)
+    pub fn solver_of_variants(&self, is_requested: &dyn Fn(u32) -> bool) -> Option<Solver> {
+        Solver::for_variants(&self.determined, &self.program, self, is_requested)
     }
 
     /// Returns whether equations are such that their smoothness does not depend on where the motion is: no formula of them has branches or ends, none

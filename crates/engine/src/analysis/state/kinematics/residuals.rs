@@ -29,21 +29,22 @@ impl Kinematics {
     }
 
     /// Returns a monitored quantity relative to its scale, where the position was set.
-    pub fn watched(&self, index: usize) -> f64 {
+    pub fn monitored(&self, index: usize) -> f64 {
         self.registers.get(self.program.outputs.watches[index]) / self.system().monitors()[index].scale
     }
 
-    /// Writes the sign of everything that is watched.
+    /// Writes the sign of each monitored quantity.
     pub fn sides(&self, sides: &mut [bool]) {
         for (k, side) in sides.iter_mut().enumerate() {
-            *side = self.watched(k) > 0.0;
+            *side = self.monitored(k) > 0.0;
         }
     }
 
     /// Returns the coordinates `θ` of lines of centres that point away from the other centre, where the position was set.
     pub fn turned_lines(&self) -> Vec<usize> {
         let system = self.system();
-        let is_turned = |k: &usize| system.monitors()[*k].kind == MonitorKind::LineOfCenters && self.watched(*k) < 0.0;
+        let is_turned =
+            |k: &usize| system.monitors()[*k].kind == MonitorKind::LineOfCenters && self.monitored(*k) < 0.0;
         let joints =
             (0..system.monitors().len()).filter(is_turned).map(|k| Owner::Joint(system.monitors()[k].declaration));
         joints.filter_map(|owner| system.coordinates().iter().position(|c| c.owner == owner)).collect()

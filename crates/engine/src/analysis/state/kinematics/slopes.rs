@@ -7,10 +7,9 @@ use mechc_ir::program::Stage;
 use mechc_ir::tolerances::scales::kinematics::{BESIDE, NO_SLOPE};
 
 impl Kinematics {
-    /// Measures the slopes at a position, at the time that was set, by which nearness to a singular position is judged. Slopes of some rows
-    /// are also evaluated on both sides of it: a slope counts for no less than the lesser of these, so a slope that vanishes in between
-    /// makes a singular position, and one that grows near a pole does not. Rows that are bent are scaled by that as well. The position must
-    /// be set anew.
+    /// Measures the slopes at a position, at the time that was set, by which nearness to a singular position is judged. Slopes of some rows are also
+    /// evaluated on both sides of it: a slope counts for no less than the lesser of these, so a slope that vanishes in between makes a singular
+    /// position, and one that grows near a pole does not. Rows that are bent are scaled by that as well. The position must be set anew.
     pub fn measure_slopes(&mut self, q: &[f64]) {
         if self.linear.equilibration().is_measured() && !self.linear.equilibration().changes() {
             return;

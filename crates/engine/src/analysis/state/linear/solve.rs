@@ -25,8 +25,7 @@ impl BlockLu {
         self.largest_of(&self.judged, x)
     }
 
-    /// Returns the largest scaled `|x|` like [`BlockLu::largest_judged`], but only of coordinates that need iteration: the others have no
-    /// branches.
+    /// Returns the largest scaled `|x|` like [`BlockLu::largest_judged`], but only of coordinates that need iteration: the others have no branches.
     pub fn largest_judged_implicit(&self, x: &[f64]) -> f64 {
         self.largest_of(&self.judged_implicit, x)
     }
@@ -44,14 +43,14 @@ impl BlockLu {
         columns.map(|&column| x[column as usize].abs() / self.column_scale[column as usize]).fold(0.0, f64::max)
     }
 
-    fn solve_parts(&mut self, right: impl Fn(usize) -> f64, x: &mut [f64], wanted: impl Fn(&Part) -> bool) -> f64 {
+    fn solve_parts(&mut self, right: impl Fn(usize) -> f64, x: &mut [f64], is_included: impl Fn(&Part) -> bool) -> f64 {
         let mut largest: f64 = 0.0;
         let n = self.rows.len();
         let (scaled, rest) = self.work.split_at_mut(n);
         let (block, work) = rest.split_at_mut(n);
         let factors = factors!(self);
         for part in &self.parts {
-            if !wanted(part) {
+            if !is_included(part) {
                 for &column in &self.columns[part.at..part.at + part.size] {
                     scaled[column as usize] = 0.0;
                     x[column as usize] = 0.0;
