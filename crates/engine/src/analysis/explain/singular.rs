@@ -45,8 +45,8 @@ pub fn find_stop_near_fold(
         singular_position(kinematics, state, &singular, fold)
     } else if let Some(fault) = fault_at(kinematics, state, target) {
         without_value(system, fault).at(target)
-    } else if let Some(at_rim) = boundary_reached(kinematics, state) {
-        at_rim
+    } else if let Some(at_boundary) = boundary_reached(kinematics, state) {
+        at_boundary
     } else {
         StopCause::NoStep { driver: fastest_driver(kinematics, state, just_ahead) }.at(state.t)
     };

@@ -63,7 +63,7 @@ pub fn start_of_paths(
     Continuation::new(determined, program, Solving::New, options).whole(WAY).assemble_at(stands, Solving::New)
 }
 
-/// Leads a mechanism to the end of its path, from the start and with the solver that [`start_of_paths`] made for the same mechanism.
+/// Continues a mechanism to the end of its path, from the start and with the solver that [`start_of_paths`] made for the same mechanism.
 ///
 /// # Errors
 /// It cannot be assembled at 0.
@@ -75,9 +75,9 @@ pub fn continue_from(
     options: &ContinuationOptions,
 ) -> Result<PathOutcome, Box<Stop>> {
     let solving = Solving::With(solver);
-    let leader = Continuation::new(determined, program, solving.clone(), options);
-    let started = leader.whole(WAY).assemble_at(stands, solving)?;
-    Ok(leader.lead(started, &[1.0]))
+    let continuation = Continuation::new(determined, program, solving.clone(), options);
+    let started = continuation.whole(WAY).assemble_at(stands, solving)?;
+    Ok(continuation.run(started, &[1.0]))
 }
 
 /// Mechanism to be continued, with the options.
@@ -106,7 +106,7 @@ impl<'l> Continuation<'l> {
     }
 
     /// Follows the mechanism from a start at 0 to some fractions of the path.
-    pub fn lead(&self, mut started: Started, parts: &[f64]) -> PathOutcome {
+    pub fn run(&self, mut started: Started, parts: &[f64]) -> PathOutcome {
         let options = self.options;
         let warnings = started.far_estimates_at(options.t);
         let mut way = PathOutcome { reached: Vec::new(), warnings, passed: Vec::new(), stopped: None };

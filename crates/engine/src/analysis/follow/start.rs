@@ -72,8 +72,9 @@ pub fn start_from(whole: &Unassembled, estimates: Option<&[f64]>, solving: Solvi
     Ok(whole.assemble_at_with(kinematics, &q, solving)?.with_doubt(Some(doubt)))
 }
 
-/// Follows a mechanism, in whose equations a straight way from 0 to 1 stands for time, from its estimates, or from where it stands, to some
-/// parts of the way, which rise and are above 0. A velocity that jumps on the way is no reason to stop: there is no time.
+/// Follows a mechanism, in whose equations a fraction of a straight path, from 0 to 1, stands for time, from its estimates, or from a
+/// position, to some fractions of the path, which rise and are above 0. A velocity that jumps on the path is no reason to stop: there is no
+/// time.
 ///
 /// # Errors
 /// It cannot be assembled at 0.
@@ -84,12 +85,12 @@ pub fn lead(
     parts: &[f64],
     options: &ContinuationOptions,
 ) -> Result<PathOutcome, Box<Stop>> {
-    let leader = Continuation::new(determined, program, Solving::New, options);
+    let continuation = Continuation::new(determined, program, Solving::New, options);
     let started = match stands {
-        Some(q) => leader.whole(WAY).assemble_at(q, Solving::New)?,
-        None => start_from(&leader.whole(WAY), None, Solving::New)?,
+        Some(q) => continuation.whole(WAY).assemble_at(q, Solving::New)?,
+        None => start_from(&continuation.whole(WAY), None, Solving::New)?,
     };
-    Ok(leader.lead(started, parts))
+    Ok(continuation.run(started, parts))
 }
 
 /// A mechanism at its start, and what closing it took.
@@ -135,13 +136,13 @@ fn close_and_continue(
     let lines = residuals.iter().map(|residual| (residual.0, [residual.1, TAU * turns(residual)])).collect();
     let way = along(whole, &Homotopy::Residuals { t, lines }).ok()?;
     let options = ContinuationOptions::new(&way, t);
-    let leader = Continuation::new(&way.determined, &way.program, Solving::With(None), &options);
+    let continuation = Continuation::new(&way.determined, &way.program, Solving::With(None), &options);
     let closed = way.close(Some(drawn), Solving::With(None)).ok()?;
     let (doubt, moved) = (closed.doubt(), closed.moved_in_loops());
     if doubt == Some(Doubt::Perturbed) {
         return None;
     }
-    let mut way = leader.lead(closed, &[1.0]);
+    let mut way = continuation.run(closed, &[1.0]);
     let passed = if way.passed.is_empty() { None } else { Some(Doubt::Passed) };
     Some(Closed { q: way.reached.pop()?, moved, doubt: doubt.or(passed) })
 }
@@ -178,8 +179,8 @@ fn follow_back(whole: &Unassembled, started: &Started, start: f64) -> Result<(Ve
     let to = whole.horizon.from;
     let back = along(whole, &Homotopy::Time([start, to]))?;
     let options = ContinuationOptions::new(&back, start);
-    let leader = Continuation::new(&back.determined, &back.program, Solving::With(None), &options);
-    let mut way = leader.lead(back.assemble_at(started.q(), Solving::With(None))?, &[1.0]);
+    let continuation = Continuation::new(&back.determined, &back.program, Solving::With(None), &options);
+    let mut way = continuation.run(back.assemble_at(started.q(), Solving::With(None))?, &[1.0]);
     let time_of = |fraction: f64| start + (to - start) * fraction;
     match (way.reached.pop(), way.stopped) {
         (Some(q), _) => {
