@@ -238,7 +238,8 @@ impl<'s, V: Values> Builder<'s, V> {
                 Value::Number(x) => is_negative ^= x < 0.0,
                 Value::Register { at, negative } => {
                     is_negative ^= negative;
-                    let weight = inverse.positions.iter().map(|&position| self.weight(block, position)).product();
+                    let weight =
+                        inverse.positions.iter().map(|&(row, column)| self.weight(block, row, column)).product();
                     let pivot = self.pivots.len() as u32;
                     self.pivots.push(Pivot { turn, weight });
                     self.symbolic.tape.emit(Instruction::Pivot { a: at, pivot });
@@ -252,7 +253,7 @@ impl<'s, V: Values> Builder<'s, V> {
     }
 
     /// Returns the scale that makes an inverse pivot dimensionless.
-    fn weight(&self, block: &Block, (row, column): (u32, u32)) -> f64 {
+    fn weight(&self, block: &Block, row: u32, column: u32) -> f64 {
         let scale = self.system.coordinates()[block.columns[column as usize] as usize].scale;
         self.reference.row_norm(block.rows[row as usize] as usize) / scale
     }

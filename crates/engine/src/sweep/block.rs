@@ -35,7 +35,7 @@ impl Status {
     }
 }
 
-/// One variant that was computed alone.
+/// Outcome of a variant that was computed alone.
 #[derive(Clone, PartialEq, Debug)]
 pub struct VariantOutcome {
     /// Its outcome.
@@ -169,7 +169,7 @@ impl Swept {
         self.params.iter_mut().chain(&mut self.results).for_each(|column| column.truncate(variants));
         self.columns.iter_mut().for_each(|column| column.truncate(rows));
         self.digits.iter_mut().for_each(|column| column.truncate(variants));
-        // which of the removed variants were in batches is not recorded, so this is a lower bound
+        // a lower bound: it is not recorded which of the removed variants were in batches
         self.abreast = self.abreast.saturating_sub(removed);
         self.answered = self.answered.min(variants);
     }

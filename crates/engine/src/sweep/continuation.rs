@@ -177,8 +177,8 @@ impl ContinuationBase {
         let path_params: Vec<f64> = self.nominal_params.iter().copied().chain(ends).chain(times).collect();
         let determined = Arc::new(self.path_system.determined.with_values(&path_params));
         let options = ContinuationOptions { cancel: cancel.clone(), ..self.options.clone() };
-        let path =
-            analysis::continue_from(&determined, &self.path_system.program, self.path_start.to_shared(), &options);
+        let (start, solver) = self.path_start.to_shared();
+        let path = analysis::continue_from(&determined, &self.path_system.program, start, solver, &options);
         let mut path = path.map_err(|stop| ContinuationError::OnPath(Box::new(Stop { t: 0.0, ..*stop })))?;
         match (path.reached.pop(), path.stopped) {
             (Some(q), _) => Ok((q, path.passed)),

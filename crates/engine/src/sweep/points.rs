@@ -29,7 +29,7 @@ pub struct Varying {
 /// The values of the params of an axis (SI).
 #[derive(Clone, PartialEq, Debug)]
 pub enum Levels {
-    /// One param: `count` equidistant values from first to last, both included.
+    /// Values of a single param: `count` equidistant values from first to last, both included.
     Even {
         /// First and last value.
         ends: [f64; 2],

@@ -1,7 +1,7 @@
-//! From the estimates of the file to a position that satisfies every equation at the first time.
+//! Assembly from the estimates of the file: finds a position that satisfies every equation at the first time.
 //!
 //! First Newton's method with damped steps; where that fails, Levenberg–Marquardt, which also works through singular
-//! positions, from the estimates and then from perturbed ones. What comes out is assembled, or nothing does.
+//! positions, from the estimates and then from perturbed ones. The result is assembled, or an error.
 
 use super::search::{Noise, levenberg_marquardt};
 use crate::analysis::explain::{Stop, StopCause, open_loop, singular};
@@ -60,8 +60,8 @@ pub fn assemble(kinematics: &mut Kinematics, t: f64, near: Option<&[f64]>) -> Re
 /// Rows of all equations, those that are left out among them, each with the value of `Φ` at some position.
 pub type Residuals = Vec<(usize, f64)>;
 
-/// Returns what the drivers prescribe and the estimates leave open at time `t`: by row, `Φ` there. None where there is nothing to be driven: the
-/// estimates agree with the drivers, or have no value, or every coordinate follows from others without iteration.
+/// Returns the residuals of the drivers at the estimates, at time `t`: by row, `Φ` there. `None` if nothing is to be driven: the estimates
+/// agree with the drivers, or have no value, or every coordinate follows from others without iteration.
 pub fn driver_residuals(kinematics: &mut Kinematics, t: f64) -> Option<Residuals> {
     let determined = kinematics.determined();
     if determined.system().has_signals() || determined.blocks().iter().all(|block| block.explicit) {
@@ -75,8 +75,8 @@ pub fn driver_residuals(kinematics: &mut Kinematics, t: f64) -> Option<Residuals
     kept.chain(left_out).any(|open| open > AGREES).then_some(residuals)
 }
 
-/// `Φ` of the rows of drivers, and of others that time moves, at a position, those that are left out among them; none where one has no value.
-/// What was set is factored.
+/// Returns `Φ` of the rows of drivers, and of others that time moves, at a position, including those that are left out; `None` if one has
+/// no value. The position is factored.
 fn residuals_of_drivers(kinematics: &mut Kinematics, t: f64, q: &[f64]) -> Option<Residuals> {
     set_start(kinematics, t);
     kinematics.set_position(q).ok()?;
@@ -89,19 +89,19 @@ fn residuals_of_drivers(kinematics: &mut Kinematics, t: f64, q: &[f64]) -> Optio
     Some(kept.chain(left_out).collect())
 }
 
-/// The rows that are solved and drive the mechanism.
+/// Returns the rows that are solved and drive the mechanism.
 fn driving_rows(system: &ConstraintSystem) -> Vec<usize> {
     let rows = system.rows();
     (0..rows.len()).filter(|&k| system.drives(rows[k].declaration, rows[k].phi)).collect()
 }
 
-/// The equations that are left out and drive the mechanism, by their number among the checks.
+/// Returns the equations that are left out and drive the mechanism, by their number among the checks.
 fn driving_checks(system: &ConstraintSystem) -> Vec<usize> {
     let checks = system.checks();
     (0..checks.len()).filter(|&k| system.drives(checks[k].declaration, checks[k].phi)).collect()
 }
 
-/// Where the estimates lead if drivers let go, and what these ask for and that leaves open; none if nothing closes there.
+/// Returns the position to which the estimates lead if drivers let go, and the residuals of the drivers there; `None` if nothing closes.
 pub fn close_without_drivers(kinematics: &mut Kinematics, t: f64) -> Option<(Vec<f64>, Residuals)> {
     let mut q = kinematics.estimates();
     if q.len() > LARGEST_DENSE {
@@ -116,7 +116,7 @@ pub fn close_without_drivers(kinematics: &mut Kinematics, t: f64) -> Option<(Vec
     (kinematics.hold_nearly(&rows, OPEN_NEARBY) && kinematics.turned_lines().is_empty()).then_some((q, residuals))
 }
 
-/// At a switch the later side counts.
+/// Sets the start time; at a switch its later side counts.
 fn set_start(kinematics: &mut Kinematics, t: f64) {
     let span = kinematics.span();
     kinematics.settle_time(behind_start(t, span));
@@ -152,8 +152,8 @@ pub(super) fn moved(system: &ConstraintSystem, from: &[f64], to: &[f64]) -> Move
     moved
 }
 
-/// The estimates with those coordinates put right that follow from others without iteration: a driven crank, the
-/// places of the bodies on it. So they may be as far off as they like.
+/// Returns the estimates after correcting the coordinates that follow from others without iteration: a driven crank, the locations of the
+/// bodies on it. So their estimates may be far off.
 fn explicit_first(kinematics: &mut Kinematics, estimates: &[f64]) -> Vec<f64> {
     let mut q = estimates.to_vec();
     let mut delta = vec![0.0; q.len()];
@@ -185,11 +185,11 @@ fn assembled(kinematics: &mut Kinematics, start: &[f64]) -> Option<Vec<f64>> {
     if turned.is_empty() {
         return kinematics.broken_check().is_none().then_some(q);
     }
-    let mut again = q;
+    let mut flipped = q;
     for theta in turned {
-        again[theta] += if again[theta] > start[theta] { -PI } else { PI };
+        flipped[theta] += if flipped[theta] > start[theta] { -PI } else { PI };
     }
-    let q = newton(kinematics, &again)?;
+    let q = newton(kinematics, &flipped)?;
     (kinematics.turned_lines().is_empty() && kinematics.broken_check().is_none()).then_some(q)
 }
 
@@ -231,7 +231,7 @@ fn newton(kinematics: &mut Kinematics, start: &[f64]) -> Option<Vec<f64>> {
     None
 }
 
-/// The assembled position, and whether the estimates had to be perturbed to find it.
+/// Returns the assembled position, and whether the estimates had to be perturbed to find it.
 fn by_least_squares(kinematics: &mut Kinematics, estimates: &[f64], t: f64) -> Result<(Vec<f64>, bool), Box<Stop>> {
     let mut nearest = None;
     let mut noise = Noise::new();
@@ -242,8 +242,8 @@ fn by_least_squares(kinematics: &mut Kinematics, estimates: &[f64], t: f64) -> R
             break;
         }
         for (k, start) in start.iter_mut().enumerate() {
-            let aside = size * kinematics.linear().column_scale(k) * noise.next();
-            *start = if is_moved[k] { estimates[k] + aside } else { *start };
+            let offset = size * kinematics.linear().column_scale(k) * noise.next();
+            *start = if is_moved[k] { estimates[k] + offset } else { *start };
         }
         let Rest { q, open } = least_squares(kinematics, start.clone());
         if let Some(polished) = assembled(kinematics, &q) {
@@ -257,7 +257,7 @@ fn by_least_squares(kinematics: &mut Kinematics, estimates: &[f64], t: f64) -> R
             return Ok((q, size > 0.0));
         }
         if let Some(open) = open {
-            // what closes without it stays where it is
+            // blocks that close without the open one keep their positions
             start.copy_from_slice(&q);
             let determined = kinematics.determined();
             let needed = determined.needed_by(open).into_iter().flat_map(|block| &determined.blocks()[block].columns);
@@ -297,7 +297,7 @@ fn refuse_vanishing_tangents(kinematics: &mut Kinematics, q: &[f64], t: f64) -> 
         return Ok(());
     }
     let vanishes = |k: &usize| {
-        system.monitors()[*k].kind == MonitorKind::Tangents && kinematics.watched(*k).abs() < VANISHING_TANGENT
+        system.monitors()[*k].kind == MonitorKind::Tangents && kinematics.monitored(*k).abs() < VANISHING_TANGENT
     };
     match (0..system.monitors().len()).find(vanishes) {
         Some(watch) => Err(StopCause::NoContact { watch }.at(t)),
@@ -305,7 +305,7 @@ fn refuse_vanishing_tangents(kinematics: &mut Kinematics, q: &[f64], t: f64) -> 
     }
 }
 
-/// The equations must be independent where the motion starts.
+/// Checks that the equations are independent where the motion starts.
 fn refuse_singular(kinematics: &mut Kinematics, q: &[f64], t: f64) -> Result<(), Box<Stop>> {
     let determined = kinematics.determined();
     let system = determined.system();
@@ -330,12 +330,11 @@ fn refuse_singular(kinematics: &mut Kinematics, q: &[f64], t: f64) -> Result<(),
 fn independent_elsewhere(kinematics: &mut Kinematics, q: &[f64], free: &[f64], t: f64) -> Option<bool> {
     independent_later(kinematics, q, t).or_else(|| {
         kinematics.set_time(t);
-        independent_beside(kinematics, q, free)
+        independent_nearby(kinematics, q, free)
     })
 }
 
-/// Returns whether the equations are independent beside a position, where its free motion leads if a driver lets go; `None` if it
-/// leads nowhere.
+/// Returns whether the equations are independent near a position, where its free motion leads if a driver lets go; `None` if it leads nowhere.
 fn independent_without(kinematics: &mut Kinematics, q: &[f64], driver: usize, free: &[f64], t: f64) -> Option<bool> {
     if q.len() > LARGEST_DENSE {
         return None;
@@ -350,15 +349,15 @@ fn independent_without(kinematics: &mut Kinematics, q: &[f64], driver: usize, fr
     })
 }
 
-/// Returns whether the equations are independent beside a position, where its free motion leads; `None` if it leads nowhere.
-fn independent_beside(kinematics: &mut Kinematics, q: &[f64], free: &[f64]) -> Option<bool> {
+/// Returns whether the equations are independent near a position, where its free motion leads; `None` if it leads nowhere.
+fn independent_nearby(kinematics: &mut Kinematics, q: &[f64], free: &[f64]) -> Option<bool> {
     [BESIDE, -BESIDE].into_iter().find_map(|way| {
         let start = moved_along(kinematics, q, free, way);
         independent_at(kinematics, q, start)
     })
 }
 
-/// A position moved along a free motion, scaled.
+/// Returns a position moved along a free motion, scaled.
 fn moved_along(kinematics: &Kinematics, q: &[f64], free: &[f64], way: f64) -> Vec<f64> {
     (0..q.len()).map(|k| q[k] + way * free[k] * kinematics.linear().column_scale(k)).collect()
 }
@@ -393,7 +392,7 @@ fn independent_where(kinematics: &mut Kinematics, q: &[f64], near: &[f64], rows:
 /// Minimum that least squares reach.
 struct Rest {
     q: Vec<f64>,
-    /// The first block that stays open, by its number, where blocks were gone through.
+    /// Number of the first block that stays open, if blocks were minimized one by one.
     open: Option<usize>,
 }
 

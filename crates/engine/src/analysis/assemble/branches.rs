@@ -1,8 +1,8 @@
 //! Doubts about the assembled position where estimates are far off.
 //!
-//! Most loops can be assembled in more than one way, and assembly takes the one that it comes to. Where it had to move a
-//! body of a loop far, others are looked for; where one of them is not clearly farther from the estimates, the reader is
-//! told. What follows from drivers and joints without iteration is right however far off its estimate is.
+//! Most loops can be assembled in more than one way, and assembly takes the one that it comes to. If it had to move a
+//! body of a loop far, other ways are sought; if one of them is not clearly farther from the estimates, a warning
+//! says so. Coordinates that follow from drivers and joints without iteration are right however far off their estimates are.
 
 use super::search::{Noise, levenberg_marquardt};
 use crate::analysis::state::{Kinematics, State};
@@ -18,15 +18,15 @@ use std::f64::consts::{PI, TAU};
 pub enum Doubt {
     /// The estimates led nowhere, and others near them were tried.
     Perturbed,
-    /// The equations do not close with the drivers where the estimates have them: they were closed without the drivers, which were led to
-    /// where they begin then.
+    /// The equations do not close with the drivers where the estimates have them. They were closed without the drivers, which then moved to
+    /// where they begin.
     DriversLeftOut,
-    /// No way leads through all turns between where the drivers are drawn and where they begin: they were led the shortest way.
+    /// No way leads through all turns between where the drivers are drawn and where they begin: the drivers took the shortest way.
     ShortestWay,
     /// A bifurcation was passed on the way from where the drivers are drawn to where they begin.
     Passed,
     /// No way leads from the drawn position to where the drivers begin: the equations were closed from the estimates with the drivers there.
-    NotLed,
+    NotDriven,
     /// The estimate of a body is far off.
     Far(FarBody),
 }
@@ -57,7 +57,7 @@ struct Loop {
     columns: Vec<u32>,
 }
 
-/// Returns whether the estimates `from` leave in doubt that the assembled state is the one meant.
+/// Returns the body whose estimate in `from` leaves in doubt that the assembled state is the intended one.
 pub fn doubt(kinematics: &mut Kinematics, from: &[f64], state: &State) -> Option<FarBody> {
     let determined = kinematics.determined();
     let system = determined.system();
@@ -85,7 +85,7 @@ pub fn moved_in_loops(determined: &Determined, from: &[f64], to: &[f64]) -> f64 
     loops.iter().flat_map(Loop::columns).filter(of_bodies).map(way).fold(0.0, f64::max)
 }
 
-/// The first body that turned over, or else the one that moved farthest, if that is far.
+/// Returns the first body that turned over, or else the one that moved farthest, if that is far.
 fn farthest(
     system: &ConstraintSystem,
     columns: impl Iterator<Item = usize>,
@@ -108,7 +108,7 @@ fn farthest(
     moved
 }
 
-/// The loops, in their order of solution. What follows from drivers and joints without iteration is in none.
+/// Returns the loops, in their order of solution. Coordinates that follow from drivers and joints without iteration belong to no loop.
 fn loops(determined: &Determined) -> Vec<Loop> {
     let system = determined.system();
     let mut loops: Vec<Loop> = Vec::new();
@@ -151,7 +151,7 @@ fn is_another_as_near(kinematics: &mut Kinematics, within: &Loop, from: &[f64], 
     })
 }
 
-/// Where to look from: on the other side of the estimates, with one body after the other turned round, and at random.
+/// Returns starts for the search of other branches: on the other side of the estimates, with one body after the other turned round, and at random.
 fn starts(kinematics: &Kinematics, within: &Loop, from: &[f64], to: &[f64]) -> Vec<Vec<f64>> {
     let system = kinematics.system();
     let mut mirrored = to.to_vec();

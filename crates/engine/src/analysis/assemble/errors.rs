@@ -7,9 +7,9 @@ use mechc_ir::tolerances::determinacy::fits::{LARGEST_MISFIT, MOVED, NOTHING};
 use mechc_ir::{ConstraintSystem, DeclarationKind, Fit, JointKind};
 use mechc_text::diag::{Applicability, Code, Diagnostic, Fix, readable};
 
-/// A remark on what leaves in doubt that the position taken is the one meant.
+/// Returns a warning about the doubt that the assembled position is the intended one.
 ///
-/// From the estimates to the assembled position.
+/// `from` are the estimates, `to` the assembled position.
 pub fn far_estimates(system: &ConstraintSystem, doubt: Doubt, [from, to]: [&[f64]; 2], t: f64) -> Diagnostic {
     const NEARER: &str = "give estimates in `at` that are nearer to the position meant";
     let (message, place, label, help) = match doubt {
@@ -40,7 +40,7 @@ pub fn far_estimates(system: &ConstraintSystem, doubt: Doubt, [from, to]: [&[f64
             "went on along the branch that continues smoothly",
             "draw it beyond the bifurcation, with poses in `at`",
         ),
-        Doubt::NotLed => (
+        Doubt::NotDriven => (
             format!("no way leads from the drawn position to where the drivers begin at {}", at(t)),
             system.span(),
             "assembled from the estimates with the drivers there, which may mean another branch",
@@ -63,7 +63,7 @@ pub fn far_estimates(system: &ConstraintSystem, doubt: Doubt, [from, to]: [&[f64
     Diagnostic::new(Code::N0601, message).at(place, label).help(help).change(assembled_poses(system, from, to))
 }
 
-/// The assembled poses as the estimates of those bodies that assembly has moved by more than rounding.
+/// Suggests the assembled poses as estimates of the bodies that assembly has moved by more than rounding.
 fn assembled_poses(system: &ConstraintSystem, from: &[f64], to: &[f64]) -> Option<Fix> {
     let mut edits = Vec::new();
     for (id, body) in system.bodies().pairs() {
@@ -87,10 +87,10 @@ fn assembled_poses(system: &ConstraintSystem, from: &[f64], to: &[f64]) -> Optio
     (!edits.is_empty()).then_some(Fix { message, edits, applies: Applicability::Probably })
 }
 
-/// A warning where the centres of gears, or of a pinion and its rack, are not as far apart as the radii have it.
+/// Returns a warning if the distance between the centres of gears, or of a pinion and its rack, differs from what the radii require.
 pub fn misfit(system: &ConstraintSystem, fit: &Fit, q: &[f64], t: f64) -> Option<Diagnostic> {
-    let [distance, wanted, radius] = [fit.distance, fit.wanted, fit.radius].map(|id| system.value_at(id, q));
-    let off = distance - wanted;
+    let [distance, required, radius] = [fit.distance, fit.wanted, fit.radius].map(|id| system.value_at(id, q));
+    let off = distance - required;
     if off.abs() <= LARGEST_MISFIT * radius {
         return None;
     }
@@ -109,28 +109,28 @@ pub fn misfit(system: &ConstraintSystem, fit: &Fit, q: &[f64], t: f64) -> Option
         DeclarationKind::Joint(JointKind::InternalGear) => ("centres", "the difference of the radii", Some("gear")),
         _ => ("centre and axis", "the radius", None),
     };
-    // the sum of the radii, of gears whose difference was asked for, and the other way round
-    let fits_another = (distance - (2.0 * radius - wanted)).abs() <= LARGEST_MISFIT * radius;
+    // the sum of the radii, of gears that take the difference, and the other way round
+    let fits_another = (distance - (2.0 * radius - required)).abs() <= LARGEST_MISFIT * radius;
     let message = format!(
         "the {what} of `{}` are {} apart at {}, and {why} is {}",
         joint.name,
-        digits_that_differ(distance, wanted),
+        digits_that_differ(distance, required),
         at(t),
-        digits_that_differ(wanted, distance)
+        digits_that_differ(required, distance)
     );
     let label =
-        format!("{} too {}", in_one_unit(off.abs(), 2, distance.max(wanted)), if off < 0.0 { "near" } else { "far" });
+        format!("{} too {}", in_one_unit(off.abs(), 2, distance.max(required)), if off < 0.0 { "near" } else { "far" });
     let help = match other.filter(|_| fits_another) {
         Some(other) => format!("was `{other}` meant? its centres would be right"),
         None => format!(
             "set them {} apart by the joints of their bodies, or change a radius: a mesh does not hold its distance",
-            digits_that_differ(wanted, distance)
+            digits_that_differ(required, distance)
         ),
     };
     Some(Diagnostic::new(Code::W0501, message).at(joint.span, label).help(help))
 }
 
-/// A length (m) with as many digits as tell it from another.
+/// Formats a length (m) with as many digits as distinguish it from another.
 fn digits_that_differ(value: f64, other: f64) -> String {
     if value.abs() < NOTHING {
         return "0 mm".to_owned();
@@ -139,7 +139,7 @@ fn digits_that_differ(value: f64, other: f64) -> String {
     in_one_unit(value, digits, value.abs().max(other.abs()))
 }
 
-/// A length (m) with so many digits behind the first one, in the unit that suits the larger length beside it.
+/// Formats a length (m) with so many digits behind the first one, in the unit that suits `larger`, the larger of two lengths.
 fn in_one_unit(value: f64, digits: usize, larger: f64) -> String {
     let (times, unit) = if larger.abs() < 1.0 { (1e3, "mm") } else { (1.0, "m") };
     let rounded: f64 = format!("{:.digits$e}", value * times).parse().unwrap_or(value);
@@ -147,7 +147,7 @@ fn in_one_unit(value: f64, digits: usize, larger: f64) -> String {
 }
 
 impl Moved {
-    /// In a sentence.
+    /// Describes the displacement in a sentence.
     #[must_use]
     pub fn in_words(&self, system: &ConstraintSystem) -> String {
         format!(

@@ -1,4 +1,4 @@
-//! The position at the first time: found from estimates, proven not to be singular, and told of where it may not be the one meant.
+//! Assembly: the position at the first time, found from estimates and proven not to be singular, with doubts where it may not be the intended one.
 
 mod assembly;
 mod branches;

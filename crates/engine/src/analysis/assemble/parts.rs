@@ -1,8 +1,8 @@
-//! Where parts begin: each where it comes to alone, carried to where its mount is.
+//! Starts of parts: each part is solved alone and carried to its mount.
 //!
-//! What a part is led by, and what carries it, must be known before. So equations of the mechanism around are solved block by block, as
-//! far as parts need it, and parts are placed as soon as all is known that they follow. A part that follows what cannot be known before it
-//! is placed where it is without having been led.
+//! The inputs of a part and the pose of its mount must be resolved first. So equations of the mechanism around are solved block by block,
+//! as far as parts need them, and a part is placed once all that it follows is resolved. A part in a cycle is placed without having been
+//! continued to its inputs.
 
 use super::search::levenberg_marquardt;
 use crate::analysis::state::{Horizon, Kinematics};
@@ -26,7 +26,7 @@ pub struct Request {
 /// Returns the coordinates of parts, in one call for all parts that can be solved at once.
 pub type Leader<'l> = dyn FnMut(&[Request]) -> Vec<Option<Vec<f64>>> + 'l;
 
-/// The estimates of a mechanism at a time (s) [m, rad], with its parts where they begin.
+/// Returns the estimates of a mechanism at a time (s) [m, rad], with its parts at their starts.
 #[must_use]
 pub fn with_parts(
     determined: &Arc<Determined>,
@@ -46,7 +46,7 @@ pub fn with_parts(
             placing.open = open;
             placing.place(&resolved, true, leader);
         } else if !placing.solve_what_is_needed() {
-            // it depends on itself
+            // the part depends on itself
             let part = placing.open.remove(0);
             placing.place(&[part], false, leader);
         }
@@ -67,7 +67,7 @@ struct Placing<'d> {
     block_of: Vec<usize>,
     /// By part: the coordinates that it follows.
     needs: Vec<Vec<u32>>,
-    /// Not placed yet.
+    /// Parts that are not placed yet.
     open: Vec<usize>,
 }
 
@@ -114,13 +114,13 @@ impl<'d> Placing<'d> {
         })
     }
 
-    /// Puts parts to where they come to alone, on their mounts.
-    fn place(&mut self, parts: &[usize], are_led: bool, leader: &mut Leader<'_>) {
+    /// Places parts that were solved alone on their mounts.
+    fn place(&mut self, parts: &[usize], are_continued: bool, leader: &mut Leader<'_>) {
         let mounts: Vec<[f64; 3]> = parts.iter().map(|&part| self.parts[part].mount.map(|id| self.value(id))).collect();
         let request = |(&part, mount): (&usize, &[f64; 3])| {
             let inputs: Vec<f64> = self.parts[part].inputs.iter().map(|(_, id)| self.value(*id)).collect();
             let is_whole = inputs.iter().chain(mount).all(|value| value.is_finite());
-            Request { part, inputs: Some(inputs).filter(|_| are_led && is_whole) }
+            Request { part, inputs: Some(inputs).filter(|_| are_continued && is_whole) }
         };
         let requests: Vec<Request> = parts.iter().zip(&mounts).map(request).collect();
         for ((&part, mount), alone) in parts.iter().zip(&mounts).zip(leader(&requests)) {
@@ -130,10 +130,10 @@ impl<'d> Placing<'d> {
 
     fn set_on_its_mount(&mut self, part: usize, [x, y, phi]: [f64; 3], alone: Option<Vec<f64>>) {
         let start = &self.parts[part];
-        let (poses, own) = (start.poses.clone(), start.own.clone());
-        poses.clone().chain(own.clone()).for_each(|column| self.is_of_an_open_part[column] = false);
+        let (poses, local) = (start.poses.clone(), start.own.clone());
+        poses.clone().chain(local.clone()).for_each(|column| self.is_of_an_open_part[column] = false);
         let is_whole = [x, y, phi].iter().all(|value| value.is_finite());
-        let Some(alone) = alone.filter(|q| q.len() == poses.len() + own.len() && is_whole) else {
+        let Some(alone) = alone.filter(|q| q.len() == poses.len() + local.len() && is_whole) else {
             return;
         };
         let (sin, cos) = math::sin_cos(phi);
@@ -145,19 +145,19 @@ impl<'d> Placing<'d> {
             let placed = [x + along * cos - across * sin, y + along * sin + across * cos, phi + side * turn];
             pose.into_iter().zip(placed).for_each(|(column, value)| self.q[column] = value);
         }
-        self.q[own.clone()].copy_from_slice(&alone[poses.len()..]);
+        self.q[local.clone()].copy_from_slice(&alone[poses.len()..]);
         self.is_settled[poses].fill(true);
-        self.is_settled[own].fill(true);
+        self.is_settled[local].fill(true);
     }
 
-    /// Solves blocks that parts need, each once those before it are settled; whether there was one.
+    /// Solves blocks that parts need, each once those before it are settled; returns whether it solved any.
     fn solve_what_is_needed(&mut self) -> bool {
         let mut required: Vec<u32> = self.open.iter().flat_map(|&part| self.needs[part].iter().copied()).collect();
         let mut numbers: Vec<usize> = Vec::new();
-        let mut is_wanted = vec![false; self.determined.blocks().len()];
+        let mut is_needed = vec![false; self.determined.blocks().len()];
         while let Some(column) = required.pop() {
             let number = self.block_of[column as usize];
-            if self.is_settled[column as usize] || std::mem::replace(&mut is_wanted[number], true) {
+            if self.is_settled[column as usize] || std::mem::replace(&mut is_needed[number], true) {
                 continue;
             }
             numbers.push(number);
@@ -178,12 +178,12 @@ impl<'d> Placing<'d> {
         was_solved
     }
 
-    /// The coordinates of other blocks that the equations of a block hold.
+    /// Returns the coordinates of other blocks that the equations of a block hold.
     fn behind(&self, block: &'d Block) -> impl Iterator<Item = u32> + use<'d> {
         let system = self.determined.system();
-        let own = &block.columns;
+        let columns = &block.columns;
         let of_row = move |&row: &'d u32| system.phi_q().row(row as usize).iter().map(|&(column, _)| column);
-        block.rows.iter().flat_map(of_row).filter(move |column| !own.contains(column))
+        block.rows.iter().flat_map(of_row).filter(move |column| !columns.contains(column))
     }
 }
 

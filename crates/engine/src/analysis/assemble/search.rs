@@ -1,4 +1,4 @@
-//! What assembly searches with: the position that is nearest to satisfying some equations, and starts at random.
+//! Searches of assembly: the position that is nearest to satisfying some equations, and starts at random.
 
 use crate::analysis::state::{Evaluated, Kinematics, minimize};
 
@@ -6,7 +6,7 @@ use crate::analysis::state::{Evaluated, Kinematics, minimize};
 pub fn levenberg_marquardt(kinematics: &mut Kinematics, q: &mut [f64], rows: &[u32], columns: &[u32]) {
     let determined = kinematics.determined();
     let system = determined.system();
-    // where the equations have no value there, the position stays as it is
+    // if the equations have no value there, the position stays as it is
     let _ = minimize(system, columns, q, None, |q, weights| {
         kinematics.set_position(q).ok()?;
         let (phi, phi_q) = (|row| kinematics.phi(row), |position| kinematics.phi_q(position));

@@ -1,4 +1,4 @@
-//! A mechanism that is assembled at its first time: what can be followed from there on.
+//! A mechanism that is assembled at its first time, from which its motion can be followed.
 
 use super::assembly::{self, Assembled, Moved};
 use super::branches::{self, Doubt};
@@ -20,7 +20,7 @@ pub struct Started {
     kinematics: Kinematics,
     state: State,
     moved: Moved,
-    /// Why this may not be the position that the estimates mean.
+    /// Doubt that this is the position that the estimates mean.
     doubt: Option<Doubt>,
     /// Solver for rows; `None` if it would be too large, or no rows are requested.
     solver: Option<Arc<Solver>>,
@@ -67,7 +67,7 @@ impl Unassembled {
     /// As [`Unassembled::close`].
     pub fn close_with(&self, mut kinematics: Kinematics, solving: Solving) -> Result<Started, Box<Stop>> {
         let Assembled { state, moved, is_perturbed } = assembly::assemble(&mut kinematics, self.horizon.from, None)?;
-        let mut started = Started::of(kinematics, (state, moved), solving);
+        let mut started = Started::new(kinematics, state, moved, solving);
         started.doubt = if is_perturbed {
             Some(Doubt::Perturbed)
         } else {
@@ -78,7 +78,7 @@ impl Unassembled {
         Ok(started)
     }
 
-    /// Assembles at a position [m, rad] to which the mechanism was followed, which is the one meant.
+    /// Assembles at a position [m, rad] to which the mechanism was followed, which is the intended one.
     ///
     /// # Errors
     /// As [`Unassembled::close`].
@@ -97,7 +97,7 @@ impl Unassembled {
         solving: Solving,
     ) -> Result<Started, Box<Stop>> {
         let Assembled { state, moved, .. } = assembly::assemble(&mut kinematics, self.horizon.from, Some(q))?;
-        Ok(Started::of(kinematics, (state, moved), solving))
+        Ok(Started::new(kinematics, state, moved, solving))
     }
 
     /// Returns an evaluator of the equations before assembly, with the estimates of the file or with others [m, rad].
@@ -112,8 +112,8 @@ impl Unassembled {
         kinematics
     }
 
-    /// Returns the position in which the bodies come nearest to being assembled, from the file's estimates or from others, if it cannot be: all is closed but what is
-    /// told to be open. None where that is not known, or hopeless [m, rad].
+    /// Returns the position [m, rad] in which the bodies come nearest to being assembled, from the file's estimates or from others, if
+    /// assembly fails: all is closed but the open loop that is reported. `None` if no such position is found, or the gap is hopeless.
     #[must_use]
     pub fn nearest(&self, estimates: Option<&[f64]>) -> Option<Vec<f64>> {
         assembly::nearest(&mut self.kinematics(estimates), self.horizon.from)
@@ -121,7 +121,7 @@ impl Unassembled {
 }
 
 impl Started {
-    fn of(mut kinematics: Kinematics, (state, moved): (State, Moved), solving: Solving) -> Started {
+    fn new(mut kinematics: Kinematics, state: State, moved: Moved, solving: Solving) -> Started {
         // by the position at the start, which is what was factored last
         kinematics.choose_orders();
         let solver = match solving {
@@ -140,7 +140,7 @@ impl Started {
         diagnostics
     }
 
-    /// Returns whether the assembly moved bodies far, said of a time (s).
+    /// Returns diagnostics of bodies that the assembly moved far, at a time (s).
     #[must_use]
     pub fn far_estimates_at(&self, t: f64) -> Diagnostics {
         let (system, from) = (self.kinematics.system(), self.kinematics.estimates());
@@ -156,19 +156,19 @@ impl Started {
         Started { doubt, ..self }
     }
 
-    /// Why this may not be the position that the estimates mean.
+    /// Returns the doubt that this is the position that the estimates mean, if there is one.
     #[must_use]
     pub fn doubt(&self) -> Option<Doubt> {
         self.doubt
     }
 
-    /// The equations.
+    /// Returns the equations.
     #[must_use]
     pub fn system(&self) -> &ConstraintSystem {
         self.kinematics.system()
     }
 
-    /// From now on rows are solved for with these vector instructions, which changes no bit.
+    /// Selects the vector instructions that solve for rows; results are equal bit for bit.
     pub fn use_vectors(&mut self, vectors: Vectors) {
         self.kinematics.use_vectors(vectors);
     }
@@ -193,13 +193,13 @@ impl Started {
         branches::moved_in_loops(&self.kinematics.determined(), &estimates, &self.state.q)
     }
 
-    /// The assembled coordinates [m, rad].
+    /// Returns the assembled coordinates [m, rad].
     #[must_use]
     pub fn q(&self) -> &[f64] {
         &self.state.q
     }
 
-    /// The velocities at the start [m/s, rad/s]; none where they have no values.
+    /// Returns the velocities at the start [m/s, rad/s]; `None` if they have no values.
     #[must_use]
     pub fn velocities(&mut self) -> Option<Vec<f64>> {
         let mut state = self.state.clone();
@@ -208,7 +208,7 @@ impl Started {
         Some(state.qd)
     }
 
-    /// The smallest singular value of any block of the scaled `Φ_q` at the start: 1 is best, 0 a singular position.
+    /// Returns the smallest singular value of any block of the scaled `Φ_q` at the start: 1 is best, 0 a singular position.
     #[must_use]
     pub fn conditioning(&mut self) -> f64 {
         self.kinematics.restore(&self.state);
@@ -245,12 +245,12 @@ impl Started {
 
     /// Returns a solver for some columns of several variants at once; `None` if it would be too large.
     #[must_use]
-    pub fn solver_of_variants(&mut self, is_wanted: &dyn Fn(u32) -> bool) -> Option<Solver> {
+    pub fn solver_of_variants(&mut self, is_requested: &dyn Fn(u32) -> bool) -> Option<Solver> {
         self.kinematics.restore(&self.state);
-        self.kinematics.solver_of_variants(is_wanted)
+        self.kinematics.solver_of_variants(is_requested)
     }
 
-    /// Returns whether the equations are smooth wherever the motion is, and nothing is looked at beside them.
+    /// Returns whether the equations are smooth wherever the motion is, and nothing is monitored.
     #[must_use]
     pub fn is_plain(&self) -> bool {
         self.kinematics.is_plain()

@@ -1,7 +1,7 @@
-//! Whether a system is determined, and if not what is the matter: equations too many, coordinates too free, or both.
+//! Proof that a system is determined, or else an explanation: too many equations, coordinates that are too free, or both.
 //!
-//! `structure` says it by pattern, without values. Here what it refuses is assembled as far as that goes, and looked at with
-//! values: which equations say nothing new, which contradict each other, and which motions are left.
+//! `structure` decides by pattern, without values. Here what it refuses is assembled as far as possible and examined with values: which
+//! equations are redundant, which contradict each other, and which motions are left.
 
 use super::errors;
 use super::evaluator::Evaluator;
@@ -18,7 +18,7 @@ use mechc_text::diag::{Diagnostic, Diagnostics};
 /// Shows that a system is determined, where need be without the equations that are redundant.
 ///
 /// # Errors
-/// Why it is not: too few equations, too many, or some that conflict. Redundant ones are refused unless they are allowed.
+/// Too few equations, too many, or some that conflict. Redundant ones are refused unless they are allowed.
 pub fn determine(
     system: ConstraintSystem,
     allow_redundant: bool,
@@ -48,8 +48,7 @@ pub fn determine(
     }
     let mut system = refused.system;
     let formulas = system.formulas_with_forces();
-    let shared =
-        shared(&system, &refused.too_many, dependents.len(), (horizon, start.as_deref()), formulas.into_iter());
+    let shared = shared(&system, &refused.too_many, dependents.len(), horizon, start.as_deref(), formulas.into_iter());
     system.retain_forces(|value| shared.iter().all(|shared| shared.formula != value));
     if let Some(why) = errors::shared_force(&system, &shared) {
         return Err(why.into());
@@ -63,7 +62,7 @@ pub fn determine(
     }
 }
 
-/// What is the matter with a system that was refused.
+/// Returns the diagnostics of a system that was refused.
 fn explain(refused: Refused, anatomy: &Anatomy) -> Diagnostics {
     let Refused { system, diagnostic, too_few, .. } = refused;
     let is_free = !too_few.columns.is_empty() || anatomy.freedom.as_ref().is_some_and(|freedom| freedom.degrees() > 0);
@@ -81,10 +80,10 @@ fn explain(refused: Refused, anatomy: &Anatomy) -> Diagnostics {
     }
 }
 
-/// A system whose equations depend on each other wherever it is, though they are as many as the coordinates; none where
-/// that cannot be told.
+/// Returns the diagnostic of a system whose equations depend on each other in every position, though they are as many as the coordinates;
+/// `None` where that cannot be decided.
 pub fn explain_dependent(system: &ConstraintSystem, horizon: Horizon) -> Option<Diagnostic> {
-    let Anatomy { dependents, freedom } = Anatomy::of(system, &everything(system), horizon);
+    let Anatomy { dependents, freedom } = Anatomy::new(system, &everything(system), horizon);
     if let Some(touching) = dependents.iter().find(|dependent| dependent.touches) {
         return Some(errors::touching(system, touching, horizon.from));
     }
@@ -92,15 +91,15 @@ pub fn explain_dependent(system: &ConstraintSystem, horizon: Horizon) -> Option<
     (!dependents.is_empty()).then(|| errors::too_many_and_too_few(system, &dependents, &freedom))
 }
 
-/// The motions that a system leaves free that is not determined, where it is drawn; where it is drawn in a position in which it
-/// can move otherwise than elsewhere, those where it is assembled.
+/// Returns the motions that an undetermined system leaves free where it is drawn; where it is drawn in a position in which it can move
+/// otherwise than elsewhere, those where it is assembled.
 #[must_use]
 pub fn free_motions(system: &ConstraintSystem, horizon: Horizon) -> Vec<FreeMotion> {
     let rows = everything(system);
     if usize::max(rows.rows.len(), rows.columns.len()) > LARGEST {
         return Vec::new();
     }
-    let Anatomy { dependents, freedom } = Anatomy::of(system, &rows, horizon);
+    let Anatomy { dependents, freedom } = Anatomy::new(system, &rows, horizon);
     let mut kept = rows;
     kept.rows.retain(|&row| dependents.iter().all(|dependent| dependent.row != row as usize));
     let drawn = motions_as_drawn(system, &kept, horizon.from);
@@ -111,16 +110,16 @@ pub fn free_motions(system: &ConstraintSystem, horizon: Horizon) -> Vec<FreeMoti
     }
 }
 
-/// What values say of a system.
+/// Dependent equations and free motions of a system, found from values.
 struct Anatomy {
     dependents: Vec<Dependent>,
-    /// What is left free, where that is known.
+    /// The freedom that is left, where it could be found.
     freedom: Option<Freedom>,
 }
 
 impl Anatomy {
-    /// Of a system of which a part has too many equations.
-    fn of(system: &ConstraintSystem, too_many: &Subsystem, horizon: Horizon) -> Anatomy {
+    /// Examines a system of which a part has too many equations.
+    fn new(system: &ConstraintSystem, too_many: &Subsystem, horizon: Horizon) -> Anatomy {
         let times = [horizon.from, horizon.span];
         let mut evaluator = Evaluator::new(system);
         let dependents = surplus_within(&mut evaluator, too_many, times, LARGEST);
@@ -137,8 +136,8 @@ impl Anatomy {
     }
 }
 
-/// Where a part with too many equations stands when its drivers have come from where they are drawn to where they are at a time (s); none
-/// where they are drawn there, or do not get there [m, rad].
+/// Returns the position [m, rad] of a part with too many equations after its drivers have moved from where they are drawn to where they are
+/// at a time (s); `None` if they are drawn there or do not get there.
 fn driven(system: &ConstraintSystem, part: &Subsystem, t: f64) -> Option<Vec<f64>> {
     if part.rows.is_empty() || part.rows.len() > LARGEST {
         return None;
@@ -164,17 +163,17 @@ fn driven(system: &ConstraintSystem, part: &Subsystem, t: f64) -> Option<Vec<f64
     is_there.then_some(evaluator.q)
 }
 
-/// As [`surplus`]; none where the part is larger than a limit.
+/// Returns the [`surplus`] of a part, or nothing if the part is larger than a limit.
 fn surplus_within(evaluator: &mut Evaluator<'_>, part: &Subsystem, times: [f64; 2], limit: usize) -> Vec<Dependent> {
     let is_looked_at = !part.rows.is_empty() && part.rows.len() <= limit;
     if is_looked_at { surplus(evaluator, part.clone(), times) } else { Vec::new() }
 }
 
-/// The equations of a part that are too many. Where one conflicts its joint is taken away before the others are judged.
+/// Returns the equations of a part that are too many. If one conflicts, its joint is taken away before the others are judged.
 fn surplus(evaluator: &mut Evaluator<'_>, mut part: Subsystem, times: [f64; 2]) -> Vec<Dependent> {
     let system = evaluator.system;
     let declaration_of = |row: usize| system.rows()[row].declaration;
-    // of joints that hold the same, one that formulas speak of stays
+    // if joints hold the same, one that formulas reference stays
     let rank = |row: &u32| {
         let declaration = system.declaration_of(*row as usize);
         let kind = match declaration.kind {
@@ -192,7 +191,7 @@ fn surplus(evaluator: &mut Evaluator<'_>, mut part: Subsystem, times: [f64; 2]) 
         };
         let leaves_none = part.rows.len() - dependents.len() == part.columns.len();
         if let Some(driver) = stuck_driver(system, &dependents).filter(|_| leaves_none) {
-            // the joints do not fit beside it: the one that closes the loop is to be named
+            // the joints do not fit together with it: the one that closes the loop is to be named
             part.rows.sort_by_key(|&row| (row as usize != driver, suspicion(system, row as usize)));
             dependents = self::dependents(evaluator, &part, times).unwrap_or(dependents);
         }
@@ -206,7 +205,7 @@ fn surplus(evaluator: &mut Evaluator<'_>, mut part: Subsystem, times: [f64; 2]) 
     }
 }
 
-/// The row of a driver to which joints alone leave no motion, none of them being redundant.
+/// Returns the row of a driver to which joints alone leave no motion, none of them being redundant.
 fn stuck_driver(system: &ConstraintSystem, dependents: &[Dependent]) -> Option<usize> {
     let is_stuck = |one: &&Dependent| {
         system.is_driver(one.row) && one.open.is_some() && !one.on.iter().any(|&row| system.is_driver(row))
@@ -215,7 +214,7 @@ fn stuck_driver(system: &ConstraintSystem, dependents: &[Dependent]) -> Option<u
     dependents.iter().find(is_stuck).filter(|_| all_drive).map(|one| one.row)
 }
 
-/// How likely it is that a row is wrong rather than one before it: a length that is prescribed is more often than a pin.
+/// Ranks how likely a row is wrong rather than one before it: a prescribed length is wrong more often than a pin.
 fn suspicion(system: &ConstraintSystem, row: usize) -> u8 {
     match system.declaration_of(row).kind {
         DeclarationKind::Joint(JointKind::RevoluteRevolute) => 2,
@@ -225,12 +224,12 @@ fn suspicion(system: &ConstraintSystem, row: usize) -> u8 {
 }
 
 impl Anatomy {
-    /// What is left free at the start, or shortly after where that is less: a start may be in a singular position.
+    /// Returns the freedom at the start, or shortly after it if less is left there: a start may be in a singular position.
     fn freedom(evaluator: &mut Evaluator<'_>, kept: &Subsystem, [t, span]: [f64; 2]) -> Option<Freedom> {
         let least = kept.columns.len().saturating_sub(kept.rows.len());
         let mut best: Option<Freedom> = None;
         for t in times_nearby(t, span) {
-            if let Some(found) = Freedom::of(evaluator, kept, t)
+            if let Some(found) = Freedom::new(evaluator, kept, t)
                 && best.as_ref().is_none_or(|best| found.degrees() < best.degrees())
             {
                 best = Some(found);

@@ -1,5 +1,5 @@
-//! `Φ` and `Φ_q` of a system that need not be determined, at any position and time: what explains a fault works with these,
-//! and not with the solver.
+//! Evaluation of `Φ` and `Φ_q` of a system that need not be determined, at any position and time. Explanations use it, since they cannot
+//! use the solver.
 
 use super::errors;
 use crate::analysis::state::{Evaluated, Linear, aslant, minimize};
@@ -8,7 +8,7 @@ use mechc_ir::program::{Program, Registers, Stage};
 use mechc_ir::tolerances::assembly::evaluator::{HOPELESS, NUDGE};
 use mechc_ir::{ConstraintSystem, DeclarationId, DeclarationKind, JointKind, PointId};
 
-/// A system with what evaluates it, and a position.
+/// A system with a program that evaluates it, and a position.
 pub struct Evaluator<'s> {
     pub system: &'s ConstraintSystem,
     /// The coordinates [m, rad].
@@ -18,7 +18,7 @@ pub struct Evaluator<'s> {
 }
 
 impl<'s> Evaluator<'s> {
-    /// At the estimates.
+    /// Returns an evaluator at the estimates.
     pub fn new(system: &'s ConstraintSystem) -> Evaluator<'s> {
         let program = Program::new(system);
         let params = system.param_values();
@@ -27,7 +27,7 @@ impl<'s> Evaluator<'s> {
         Evaluator { system, q, program, registers }
     }
 
-    /// Some rows by some columns at a time (s); none where they are not finite. Without weights rows come to unit norm.
+    /// Evaluates some rows by some columns at a time (s); `None` if they are not finite. Without weights rows are scaled to unit norm.
     pub fn linear(&mut self, rows: &[u32], columns: &[u32], weights: Option<&[f64]>, t: f64) -> Option<Linear> {
         self.evaluate(t);
         self.linear_there(rows, columns, weights)
@@ -41,7 +41,7 @@ impl<'s> Evaluator<'s> {
         self.program.run(Stage::Position, &mut self.registers);
     }
 
-    /// Some rows by some columns where all was evaluated last.
+    /// Returns some rows by some columns of the last evaluation.
     pub fn linear_there(&self, rows: &[u32], columns: &[u32], weights: Option<&[f64]>) -> Option<Linear> {
         let (registers, outputs) = (&self.registers, &self.program.outputs);
         let phi = |row: usize| registers.get(outputs.phi[row]);
@@ -56,7 +56,7 @@ impl<'s> Evaluator<'s> {
         if first.residual.iter().any(|open| open.abs() > HOPELESS)
             || first.jacobian.chunks(columns.len().max(1)).any(vanishes)
         {
-            // no small motion changes that row there, but beside it one does
+            // no small motion changes that row there, but near it one does
             self.nudge(columns);
         }
         let mut q = self.q.clone();
@@ -77,12 +77,12 @@ impl<'s> Evaluator<'s> {
         }
     }
 
-    /// An entry of `Φ` where it was evaluated last.
+    /// Returns an entry of `Φ` where it was evaluated last.
     pub fn phi(&self, row: usize) -> f64 {
         self.registers.get(self.program.outputs.phi[row])
     }
 
-    /// The entries of a row of `Φ_q` where it was evaluated last: column and slope.
+    /// Returns the entries of a row of `Φ_q` where it was evaluated last: column and slope.
     pub fn slopes(&self, row: usize) -> impl Iterator<Item = (usize, f64)> {
         let pattern = self.system.phi_q();
         pattern
@@ -91,7 +91,7 @@ impl<'s> Evaluator<'s> {
             .map(|(position, &(column, _))| (column as usize, self.registers.get(self.program.outputs.phi_q[position])))
     }
 
-    /// The distance that a declaration prescribes between two points, if it does, and that between them (m).
+    /// Returns the distance that a declaration prescribes between two points, if it does, and that between them (m).
     pub fn distance(&self, declaration: DeclarationId) -> Option<[f64; 2]> {
         let system = self.system;
         let is_distance = match system.declarations()[declaration].kind {
@@ -108,11 +108,11 @@ impl<'s> Evaluator<'s> {
         is_distance.then(|| [f64::max(square - self.phi(row), 0.0).sqrt(), square.sqrt()])
     }
 
-    /// How far a body would have to be moved (m), or turned (rad), for a row to hold: moved if the row is about places.
+    /// Returns how far a body would have to be moved (m) or turned (rad) for a row to hold: moved if the row is about locations.
     pub fn gap(&self, row: usize) -> f64 {
-        // what is said of a distance is said of the distance itself, and not of its square
-        if let Some([wanted, found]) = self.distance(self.system.rows()[row].declaration) {
-            return (found - wanted).abs();
+        // a prescribed distance is compared itself, not its square as in Φ
+        if let Some([prescribed, found]) = self.distance(self.system.rows()[row].declaration) {
+            return (found - prescribed).abs();
         }
         let kind = errors::gap_kind(self.system, row);
         let of_kind = self.slopes(row).filter(|&(column, _)| self.system.coordinates()[column].kind == kind);
@@ -128,7 +128,7 @@ impl<'s> Evaluator<'s> {
         self.phi(row).abs() / steepest.sqrt()
     }
 
-    /// Where a point is (m).
+    /// Returns the location of a point (m).
     pub fn place_of(&self, point: PointId) -> [f64; 2] {
         let point = &self.system.points()[point];
         let [x, y] = point.at.map(|id| self.system.value_at(id, &[]));

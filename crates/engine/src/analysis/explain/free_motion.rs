@@ -1,10 +1,10 @@
-//! A free motion as a reader sees it.
+//! Free motions in words.
 
 use super::errors;
 use mechc_ir::tolerances::singular::reasons::SEEN;
 use mechc_ir::{ConstraintSystem, CoordinateKind};
 
-/// A motion as a reader sees it: how far one body turns for each degree of another.
+/// Describes a motion: how far one body turns for each degree of another.
 pub fn motion_in_words(system: &ConstraintSystem, right: &[f64]) -> String {
     let largest = right.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
     let rate = |k: usize| right[k];
@@ -40,7 +40,7 @@ pub fn motion_in_words(system: &ConstraintSystem, right: &[f64]) -> String {
     }
 }
 
-/// A motion without turning: which bodies move, and which way the first of them.
+/// Describes a motion without turning: which bodies move, and in which direction the first of them.
 fn slide_in_words(system: &ConstraintSystem, right: &[f64], sliding: &[usize]) -> String {
     let Some(body) = sliding.first().and_then(|&k| system.body_of(k)) else {
         return "left free: the contacts can move".to_owned();

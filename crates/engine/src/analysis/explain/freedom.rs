@@ -28,19 +28,19 @@ pub struct Freedom {
     loose: Vec<BodyId>,
     /// Bodies that can move.
     moving: Vec<BodyId>,
-    /// What would take them where it is driven: `rotation(main)`.
+    /// Quantities that a driver could prescribe to take the freedom: `rotation(main)`.
     drivers: Vec<String>,
     /// Joints that may have been forgotten, as text to write.
     joints: Vec<String>,
-    /// The same of joints that slide.
+    /// Sliding joints that may have been forgotten, as text to write.
     guides: Vec<String>,
     /// True if the mechanism has a driver.
     is_driven: bool,
 }
 
 impl Freedom {
-    /// What the rows of a part leave free of its columns at a time (s); none where they cannot be met.
-    pub fn of(evaluator: &mut Evaluator<'_>, part: &Subsystem, t: f64) -> Option<Freedom> {
+    /// Returns what the rows of a part leave free of its columns at a time (s); `None` if they cannot be met.
+    pub fn new(evaluator: &mut Evaluator<'_>, part: &Subsystem, t: f64) -> Option<Freedom> {
         let linear = evaluator.assemble(&part.rows, &part.columns, None, t)?;
         if linear.residual.iter().any(|open| open.abs() > ASSEMBLED) {
             return None;
@@ -65,7 +65,7 @@ impl Freedom {
         };
         let loose = bodies_where(with_share(LOOSE), 3);
         let moving = bodies_where(with_share(MOVES), 1);
-        let motions = motions_beside(system, part, taken);
+        let motions = motions_left(system, part, taken);
         let is_driven = system.declarations().iter().any(|one| one.kind == DeclarationKind::Driver);
         let mut freedom =
             Freedom { motions, loose, moving, drivers: Vec::new(), joints: Vec::new(), guides: Vec::new(), is_driven };
@@ -85,7 +85,7 @@ impl Freedom {
         self.motions.len()
     }
 
-    /// The bodies that can move.
+    /// Returns the bodies that can move.
     pub fn moving(&self) -> &[BodyId] {
         &self.moving
     }
@@ -153,15 +153,15 @@ impl Freedom {
     }
 }
 
-/// The motions that the rows of a part leave free where it is drawn, whether or not it can be assembled; none where they have no
+/// Returns the motions that the rows of a part leave free where it is drawn, whether or not it can be assembled; `None` if they have no
 /// value at that time (s).
 pub fn motions_as_drawn(system: &ConstraintSystem, part: &Subsystem, t: f64) -> Option<Vec<FreeMotion>> {
     let jacobian = Evaluator::new(system).linear(&part.rows, &part.columns, None, t)?.jacobian;
     let taken = basis_of(&jacobian, part.columns.len()).span;
-    Some(motions_beside(system, part, taken).iter().map(|motion| of_bodies(system, motion)).collect())
+    Some(motions_left(system, part, taken).iter().map(|motion| of_bodies(system, motion)).collect())
 }
 
-/// A motion of all coordinates, scaled, as one of the bodies.
+/// Converts a motion of all coordinates, scaled, to one of the bodies.
 fn of_bodies(system: &ConstraintSystem, motion: &[f64]) -> FreeMotion {
     let fastest = motion.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
     let velocity = |body: BodyId| system.pose_of(body).map(|column| (column, motion[column]));
@@ -174,7 +174,7 @@ fn of_bodies(system: &ConstraintSystem, motion: &[f64]) -> FreeMotion {
 }
 
 /// Returns the motions that are left free, by all coordinates, each independent of the others.
-fn motions_beside(system: &ConstraintSystem, part: &Subsystem, mut taken: Orthonormal) -> Vec<Vec<f64>> {
+fn motions_left(system: &ConstraintSystem, part: &Subsystem, mut taken: Orthonormal) -> Vec<Vec<f64>> {
     let mut motions = Vec::new();
     while let Some(motion) = next_motion(system, part, &mut taken) {
         motions.push(motion);
@@ -182,7 +182,7 @@ fn motions_beside(system: &ConstraintSystem, part: &Subsystem, mut taken: Orthon
     apart(motions).iter().map(|motion| spread(motion.as_slice(), part, system.coordinates().len())).collect()
 }
 
-/// A free motion beside those taken, of unit norm: that of the angle, or else the coordinate, which is freest. It is taken too.
+/// Returns a free motion of unit norm besides those taken, and takes it: the motion of the angle, or else of the coordinate, that is freest.
 fn next_motion(system: &ConstraintSystem, part: &Subsystem, taken: &mut Orthonormal) -> Option<DVector<f64>> {
     let n = part.columns.len();
     if taken.is_whole() {
@@ -191,7 +191,7 @@ fn next_motion(system: &ConstraintSystem, part: &Subsystem, taken: &mut Orthonor
     let shares = taken.shares_left();
     let is_angle = |k: usize| system.coordinates()[part.columns[k] as usize].kind == CoordinateKind::Angle;
     let freest =
-        |wanted: &dyn Fn(usize) -> bool| (0..n).filter(|&k| wanted(k)).max_by(|&a, &b| shares[a].total_cmp(&shares[b]));
+        |counts: &dyn Fn(usize) -> bool| (0..n).filter(|&k| counts(k)).max_by(|&a, &b| shares[a].total_cmp(&shares[b]));
     let any = freest(&|_| true)?;
     let of_angle = freest(&is_angle).filter(|&k| shares[k] > ANGLE_SHARE * shares[any]);
     let mut axis = DVector::zeros(n);
@@ -200,7 +200,7 @@ fn next_motion(system: &ConstraintSystem, part: &Subsystem, taken: &mut Orthonor
     taken.take(&rest, 0.0).then(|| taken.last())?
 }
 
-/// The same motions, each without the leading coordinates of the others: so it can be told by itself.
+/// Subtracts from each motion the leading coordinates of the others, so that each can be described by itself.
 fn apart(mut motions: Vec<DVector<f64>>) -> Vec<DVector<f64>> {
     for k in 0..motions.len() {
         let motion = &motions[k];
@@ -217,7 +217,7 @@ fn apart(mut motions: Vec<DVector<f64>>) -> Vec<DVector<f64>> {
     motions
 }
 
-/// A motion of a part's coordinates as one of all coordinates.
+/// Converts a motion of a part's coordinates to one of all coordinates.
 fn spread(motion: &[f64], part: &Subsystem, n: usize) -> Vec<f64> {
     let mut all = vec![0.0; n];
     for (&column, x) in part.columns.iter().zip(motion) {

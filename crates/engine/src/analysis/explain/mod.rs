@@ -1,4 +1,4 @@
-//! Why a mechanism is not determined, cannot be assembled, or does not go on: found by looking at values, and said in words.
+//! Explanations why a mechanism is not determined, cannot be assembled, or does not go on: found from values, and put into words.
 
 mod determine;
 pub mod errors;

@@ -1,8 +1,7 @@
-//! Why a mechanism cannot be assembled: which closed loop stays open, by how much, and which lengths are too short or too
-//! long for it.
+//! Open loops of a mechanism that cannot be assembled: which closed loop stays open, by how much, and which lengths are too short or too long for it.
 //!
-//! Where the equations come nearest to zero their residuals are in balance, as the forces of springs in the joints would
-//! be. So they pull at the links: one that is drawn apart is too short, one that is pressed together is too long.
+//! Where the residuals are least they are in balance, like the forces of springs in the joints. So they pull at the links: a link that is
+//! drawn apart is too short, one that is pressed together is too long.
 
 use super::errors;
 use super::evaluator::Evaluator;
@@ -19,9 +18,9 @@ use mechc_ir::{BodyId, ConstraintSystem, CoordinateKind, DeclarationId, Declarat
 pub struct OpenLoop {
     /// Declaration at which the loop is reported to be open.
     pub at: DeclarationId,
-    /// By how much there (m or rad), all else being closed.
+    /// Gap there (m or rad), all else being closed.
     pub by: f64,
-    /// In what.
+    /// Kind of the gap.
     pub kind: CoordinateKind,
     /// All declarations that take part, in order.
     pub declarations: Vec<DeclarationId>,
@@ -61,7 +60,7 @@ pub struct FaultyLink {
 /// Kind of a length.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum FaultyLinkKind {
-    /// The distance between two declarations' points on a body; none for the ground.
+    /// The distance between two declarations' points on a body; `None` for the ground.
     Body(Option<BodyId>, [DeclarationId; 2]),
     /// The distance that a declaration prescribes.
     Declaration(DeclarationId),
@@ -75,7 +74,7 @@ pub fn found(determined: &Determined, q: &[f64], t: f64) -> Option<OpenLoop> {
 /// Returns the coordinates [m, rad] where all equations hold but those of the reported open loop.
 pub fn opened(determined: &Determined, q: &[f64], t: f64) -> Option<Vec<f64>> {
     let LocatedOpenLoop { open, mut evaluator, blocks } = locate(determined, q, t)?;
-    // what hangs on the loop is shown where it would be then
+    // bodies that depend on the loop are shown at their positions then
     for block in determined.blocks()[blocks..].iter().filter(|block| block.rows.len() <= LARGEST) {
         evaluator.assemble(&block.rows, &block.columns, None, t);
     }
@@ -84,12 +83,12 @@ pub fn opened(determined: &Determined, q: &[f64], t: f64) -> Option<Vec<f64>> {
     (open.by <= far && q.iter().all(|x| x.is_finite())).then_some(q)
 }
 
-/// A loop that does not close.
+/// An open loop with the position that shows it.
 struct LocatedOpenLoop<'s> {
     open: OpenLoop,
-    /// Where all but one declaration of it is.
+    /// Position in which all of the loop holds but one declaration.
     evaluator: Evaluator<'s>,
-    /// How many blocks it is among, or behind.
+    /// Number of blocks that are examined with the loop or solved before it.
     blocks: usize,
 }
 
@@ -102,13 +101,13 @@ fn locate<'s>(determined: &'s Determined, q: &[f64], t: f64) -> Option<LocatedOp
     Some(LocatedOpenLoop { open, evaluator, blocks: part.blocks })
 }
 
-/// The equations that are looked at together, and how many of the blocks need not be looked at beside them.
+/// Equations that are examined together, and the number of blocks that need no further examination.
 struct OpenPart {
     equations: Subsystem,
     blocks: usize,
 }
 
-/// The first block that stays open, and what it needs, unless that is large; all, where each block closes by itself.
+/// Returns the first block that stays open with the blocks that it needs, unless these are large; all blocks if each closes by itself.
 fn open_part(evaluator: &mut Evaluator<'_>, determined: &Determined, t: f64) -> Option<OpenPart> {
     let blocks = determined.blocks();
     let closes =
@@ -128,7 +127,7 @@ fn open_part(evaluator: &mut Evaluator<'_>, determined: &Determined, t: f64) -> 
     together(&all).map(|equations| OpenPart { equations, blocks: blocks.len() })
 }
 
-/// Some blocks, by their numbers, in the order of the file, which is that of what is said.
+/// Returns some blocks, by their numbers, as one subsystem in the order of the file, which diagnostics follow.
 fn in_order(blocks: &[Block], numbers: &[usize]) -> Subsystem {
     let mut part = Subsystem { rows: Vec::new(), columns: Vec::new() };
     for &number in numbers {
@@ -169,13 +168,13 @@ fn open_loop(evaluator: &mut Evaluator<'_>, part: &Subsystem, t: f64) -> Option<
     Some(OpenLoop { at, by, kind, declarations, links, residual: largest })
 }
 
-/// In what rows are open, and by how much all of these (m or rad); none where they close.
+/// Returns the kind of the gap in some rows, and its size over all of them (m or rad); `None` if they close.
 fn widest_gap(evaluator: &Evaluator<'_>, rows: impl Iterator<Item = usize>) -> Option<(CoordinateKind, f64)> {
     let system = evaluator.system;
     let gaps: Vec<(CoordinateKind, f64)> =
         rows.map(|row| (errors::gap_kind(system, row), evaluator.gap(row))).filter(|(_, by)| by.is_finite()).collect();
     if gaps.is_empty() {
-        // no motion that could be seen closes it
+        // no motion closes the gap
         return Some((CoordinateKind::Length, f64::INFINITY));
     }
     let of_kind = |kind: CoordinateKind| {
@@ -183,7 +182,7 @@ fn widest_gap(evaluator: &Evaluator<'_>, rows: impl Iterator<Item = usize>) -> O
         squares.sum::<f64>().sqrt()
     };
     let (length, angle) = (of_kind(CoordinateKind::Length), of_kind(CoordinateKind::Angle));
-    // from elsewhere it closes: the estimates are too far off, and no length is wrong
+    // the loop closes from here: the estimates are too far off, and no length is wrong
     if length <= CLOSED * system.length() && angle <= CLOSED {
         return None;
     }
@@ -191,8 +190,8 @@ fn widest_gap(evaluator: &Evaluator<'_>, rows: impl Iterator<Item = usize>) -> O
     Some(if is_length { (CoordinateKind::Length, length) } else { (CoordinateKind::Angle, angle) })
 }
 
-/// Where the loop is told to be open: a prescribed length is more often wrong than where something is driven to, and that
-/// than a pin.
+/// Returns the declaration at which the loop is reported to be open: a prescribed length is wrong more often than a driven location, and
+/// that more often than a pin.
 fn weakest(
     system: &ConstraintSystem,
     part: &Subsystem,
@@ -200,8 +199,8 @@ fn weakest(
     declarations: &[DeclarationId],
 ) -> Option<DeclarationId> {
     let is_about_places = |k: DeclarationId| {
-        let own = (0..system.rows().len()).find(|&row| system.rows()[row].declaration == k);
-        own.is_some_and(|row| errors::gap_kind(system, row) == CoordinateKind::Length)
+        let first = (0..system.rows().len()).find(|&row| system.rows()[row].declaration == k);
+        first.is_some_and(|row| errors::gap_kind(system, row) == CoordinateKind::Length)
     };
     let rank = |k: DeclarationId| match system.declarations()[k].kind {
         DeclarationKind::Joint(JointKind::RevoluteRevolute) => 2,
@@ -210,17 +209,17 @@ fn weakest(
         _ => 0,
     };
     let open = |k: DeclarationId| {
-        let own =
+        let rows =
             part.rows.iter().zip(&linear.residual).filter(|(row, _)| system.rows()[**row as usize].declaration == k);
-        own.map(|(_, open)| open * open).sum::<f64>()
+        rows.map(|(_, open)| open * open).sum::<f64>()
     };
-    // of pins that are equally open the last one closes the loop
+    // if pins are equally open, the last one closes the loop
     let is_no_driver = |k: DeclarationId| system.declarations()[k].kind != DeclarationKind::Driver;
     let largest = declarations.iter().map(|&k| open(k)).fold(0.0, f64::max);
     declarations.iter().copied().filter(|&k| open(k) > WIDE * largest).max_by_key(|&k| (rank(k), is_no_driver(k), k))
 }
 
-/// The lengths along which the residuals pull or press.
+/// Returns the lengths along which the residuals pull or press.
 fn links(
     evaluator: &Evaluator<'_>,
     part: &Subsystem,
@@ -240,9 +239,9 @@ fn links(
     let bodies = std::iter::once(None).chain(system.bodies().ids().map(Some));
     let pulls: Vec<(Option<BodyId>, Vec<Pull>)> =
         bodies.map(|body| (body, pulls(evaluator, part, linear, declarations, body))).collect();
-    let largest = pulls.iter().flat_map(|(_, own)| own).map(Pull::size).fold(0.0, f64::max);
-    for (body, own) in &pulls {
-        let acting: Vec<&Pull> = own.iter().filter(|pull| pull.size() > PULLS * largest).collect();
+    let largest = pulls.iter().flat_map(|(_, pulls)| pulls).map(Pull::size).fold(0.0, f64::max);
+    for (body, pulls) in &pulls {
+        let acting: Vec<&Pull> = pulls.iter().filter(|pull| pull.size() > PULLS * largest).collect();
         let &[first, second] = acting.as_slice() else {
             continue;
         };
@@ -258,7 +257,7 @@ fn links(
     links
 }
 
-/// What a declaration pulls at a point of a body with.
+/// Force of a declaration at a point of a body.
 struct Pull {
     declaration: DeclarationId,
     point: PointId,
@@ -271,7 +270,7 @@ impl Pull {
     }
 }
 
-/// The pulls at a body or the ground.
+/// Returns the pulls at a body or the ground.
 fn pulls(
     evaluator: &Evaluator<'_>,
     part: &Subsystem,
@@ -288,7 +287,7 @@ fn pulls(
     declarations.iter().filter_map(|&k| of_body(k)).collect()
 }
 
-/// What a declaration pulls at a body or the ground with, its residuals taken for springs.
+/// Returns the force of a declaration on a body or the ground, if its residuals were springs.
 fn force(
     evaluator: &Evaluator<'_>,
     part: &Subsystem,
@@ -309,8 +308,8 @@ fn force(
             let [x, y, _] = system.pose_of(of);
             let Some(axis) = [x, y].iter().position(|&place| place == column) else { continue };
             match body {
-                Some(wanted) if of == wanted => force[axis] -= pull * slope,
-                // what holds the ground is what it holds the bodies with
+                Some(body) if of == body => force[axis] -= pull * slope,
+                // the ground takes the reactions of the forces on the bodies
                 None => force[axis] += pull * slope,
                 Some(_) => {}
             }

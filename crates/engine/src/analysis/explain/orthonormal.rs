@@ -1,7 +1,7 @@
-//! Orthonormal vectors: they show which equations depend on others and which motions are free.
+//! Orthonormal vectors, which show which equations depend on others and which motions are free.
 //!
-//! Vectors and matrices are those of nalgebra, of which only what goes column by column is used: it has one order of operations on every
-//! processor, and nothing of it is on the way to a printed number.
+//! Vectors and matrices are those of nalgebra, of which only column-wise operations are used: these have one order of operations on every
+//! processor, and no printed number depends on them.
 
 use nalgebra::{DMatrix, DMatrixView, DVector};
 
@@ -14,7 +14,7 @@ pub struct Orthonormal {
 }
 
 impl Orthonormal {
-    /// None as yet, of a space of `n` dimensions.
+    /// Returns an empty set of vectors of a space of `n` dimensions.
     pub fn of_dimension(n: usize) -> Orthonormal {
         Orthonormal { columns: DMatrix::zeros(n, n), count: 0 }
     }
@@ -40,7 +40,7 @@ impl Orthonormal {
         (rest, shares)
     }
 
-    /// Takes in what was left of a vector, if that is longer than a limit and there is room; whether it was.
+    /// Adds the normalized rest of a vector if it is longer than a limit and there is room; returns whether it did.
     pub fn take(&mut self, rest: &DVector<f64>, least: f64) -> bool {
         let norm = rest.norm();
         let is_taken = norm > least && !self.is_whole();
@@ -51,32 +51,32 @@ impl Orthonormal {
         is_taken
     }
 
-    /// The vector that was taken in last.
+    /// Returns the vector that was taken in last.
     pub fn last(&self) -> Option<DVector<f64>> {
         self.vectors().column_iter().next_back().map(nalgebra::Matrix::into_owned)
     }
 
-    /// How much of each axis is free of them.
+    /// Returns the share of each axis that is orthogonal to all vectors.
     pub fn shares_left(&self) -> DVector<f64> {
         DVector::from_iterator(self.columns.nrows(), self.vectors().row_iter().map(|row| 1.0 - row.norm_squared()))
     }
 }
 
-/// Vectors as far as they are independent of those before them.
+/// A maximal independent subset of some vectors, and how the others depend on it.
 #[derive(Clone)]
 pub struct Basis {
-    /// What they span.
+    /// The span of the kept vectors.
     pub span: Orthonormal,
-    /// Which of the vectors given are independent.
+    /// Numbers of the independent vectors.
     pub kept: Vec<usize>,
-    /// The others, and which of the kept ones each depends on, with the weights that make it up.
+    /// Number of each other vector, with the kept ones that it depends on and their weights.
     pub dependent: Vec<(usize, Vec<(usize, f64)>)>,
 }
 
 impl Basis {
-    /// Of vectors of length `n`, each of about unit norm, one after another. One depends on those before it where less than a limit is
-    /// left of it beside them, and on such of them as have a weight in it that is above another limit.
-    pub fn of(vectors: &[f64], n: usize, [nothing, weighs]: [f64; 2]) -> Basis {
+    /// Takes vectors of length `n`, each of about unit norm, in order. A vector is dependent if its rest orthogonal to those before it is
+    /// shorter than `nothing`; it depends on those that have a weight above `weighs` in it.
+    pub fn new(vectors: &[f64], n: usize, [nothing, weighs]: [f64; 2]) -> Basis {
         let mut basis = Basis { span: Orthonormal::of_dimension(n), kept: Vec::new(), dependent: Vec::new() };
         // each kept vector by the span up to its own
         let mut factors = DMatrix::zeros(n, n);
@@ -96,7 +96,7 @@ impl Basis {
         basis
     }
 
-    /// Keeps a vector that depends on others, by its number among the dependent ones, in place of one of those. Weights are told above a limit.
+    /// Keeps a dependent vector, by its index in `dependent`, in place of a kept one on which it depends. Weights up to `weighs` are dropped.
     pub fn exchange(&mut self, index: usize, kept: usize, weighs: f64) {
         let (vector, on) = self.dependent[index].clone();
         let Some(&(_, pivot)) = on.iter().find(|(k, _)| *k == kept) else {
@@ -143,7 +143,7 @@ mod tests {
             [0.0, 1.0, 0.0, 0.0],
             [0.0, 0.0, -1.0, 0.0],
         ];
-        let basis = Basis::of(rows.as_flattened(), 4, [1e-6, 1e-6]);
+        let basis = Basis::new(rows.as_flattened(), 4, [1e-6, 1e-6]);
         assert_eq!(basis.kept, [0, 1, 2]);
         let on = |k: usize| basis.dependent[k].1.iter().map(|&(k, _)| k).collect::<Vec<usize>>();
         assert_eq!([(basis.dependent[0].0, on(0)), (basis.dependent[1].0, on(1))], [(3, vec![0, 1]), (4, vec![2])]);
@@ -157,7 +157,7 @@ mod tests {
     #[test]
     fn a_dependent_vector_takes_the_place_of_one_that_it_depends_on() {
         let rows = [[1.0, 0.0], [0.8, 0.6], [0.6, 0.8], [0.0, 1.0]];
-        let mut basis = Basis::of(rows.as_flattened(), 2, [1e-6, 1e-6]);
+        let mut basis = Basis::new(rows.as_flattened(), 2, [1e-6, 1e-6]);
         assert_eq!(basis.kept, [0, 1]);
         basis.exchange(1, 0, 1e-6);
         assert_eq!(basis.kept, [1, 3]);
@@ -177,14 +177,14 @@ mod tests {
         let (rest, shares) = all.split(DVector::from_column_slice(&[1.0, 1.0, 1.0]));
         assert!(rest.dot(&first).abs() < 1e-15 && (shares[0] - 1.4).abs() < 1e-15);
         assert!(all.take(&rest, 1e-6) && all.count == 2 && !all.is_whole());
-        // what lies between those that are there adds nothing
+        // a vector in the span of the others adds nothing
         let (rest, _) = all.split(&first + all.last().expect("a vector"));
         assert!(!all.take(&rest, 1e-6));
     }
 
     #[test]
     fn without_coordinates_no_vector_is_kept() {
-        let basis = Basis::of(&[], 0, [1e-6, 1e-6]);
+        let basis = Basis::new(&[], 0, [1e-6, 1e-6]);
         assert!(basis.kept.is_empty() && basis.dependent.is_empty() && basis.span.is_whole());
     }
 }

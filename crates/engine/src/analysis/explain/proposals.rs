@@ -1,4 +1,4 @@
-//! What could be written to take a freedom: drivers, and joints that may have been forgotten.
+//! Proposals to take a freedom: drivers, and joints that may have been forgotten.
 
 use super::evaluator::Evaluator;
 use super::orthonormal::Orthonormal;
@@ -11,9 +11,9 @@ use nalgebra::DVector;
 use rustc_hash::FxHashMap;
 use std::collections::hash_map::Entry;
 
-/// What proposals are made from.
+/// Data from which proposals are made.
 pub struct Proposals<'p, 's> {
-    /// Where it is assembled.
+    /// The assembled position.
     pub evaluator: &'p Evaluator<'s>,
     /// The independent motions that are free, by coordinates, scaled.
     pub motions: &'p [Vec<f64>],
@@ -22,7 +22,7 @@ pub struct Proposals<'p, 's> {
 }
 
 impl Proposals<'_, '_> {
-    /// For one degree of freedom some drivers to choose from, else as many as take all degrees together.
+    /// Returns drivers: for one degree of freedom some to choose from, else as many as take all degrees together.
     pub fn drivers(&self) -> Vec<String> {
         let candidates = self.candidates();
         if self.motions.len() == 1 {
@@ -40,7 +40,7 @@ impl Proposals<'_, '_> {
         chosen
     }
 
-    /// What could be driven: of joints first, then of the bodies that move. Each with its rate in every motion.
+    /// Returns quantities that could be driven, of joints first, then of the bodies that move. Each has its rate in every motion.
     fn candidates(&self) -> Vec<(String, Vec<f64>)> {
         let (evaluator, system) = (self.evaluator, self.evaluator.system);
         let mut candidates = Vec::new();
@@ -84,13 +84,13 @@ impl Proposals<'_, '_> {
         candidates
     }
 
-    /// How fast a second point moves away from a first one, along the way it takes.
+    /// Returns how fast a second point moves away from a first one in every motion, along its path relative to the first body.
     fn slides(&self, p: PointId, q: PointId) -> Vec<f64> {
         let (evaluator, system) = (self.evaluator, self.evaluator.system);
         let (from, to) = (evaluator.place_of(p), evaluator.place_of(q));
         let relative = |motion: &Vec<f64>| {
             let (vp, vq) = (velocity(evaluator, motion, p), velocity(evaluator, motion, q));
-            // seen from the first body
+            // relative to the first body
             let turn = turn(system, motion, p);
             [vq[0] - vp[0] + turn * (to[1] - from[1]), vq[1] - vp[1] - turn * (to[0] - from[0])]
         };
@@ -104,7 +104,7 @@ impl Proposals<'_, '_> {
     /// Points of moving bodies that lie on points of others, and that no joint holds together.
     pub fn joints(&self) -> Vec<String> {
         let system = self.evaluator.system;
-        // a joint takes two; it may hold what is held already, and leave one
+        // a joint takes two degrees of freedom; it may be redundant in one of them
         let is_enough = self.motions.len() >= 2 || system.ndof() < self.motions.len().cast_signed();
         if !is_enough || system.points().len() > MOST_POINTS {
             return Vec::new();
@@ -115,7 +115,7 @@ impl Proposals<'_, '_> {
         let text = |&(_, p, q): &(f64, PointId, PointId)| {
             Some(format!("`joint NAME: revolute({}, {})`", system.point_name(p)?, system.point_name(q)?))
         };
-        // of points that are pinned together one will do
+        // points that are pinned together need only one suggestion
         let mut suggested: Vec<[PointId; 2]> = Vec::new();
         pairs.retain(|&(_, p, q)| {
             let mut both = [pinned[p], pinned[q]];
@@ -133,14 +133,14 @@ impl Proposals<'_, '_> {
         let is_free = |axis: AxisId| !system.declarations().iter().any(|one| one.axes.contains(&axis));
         let free: Vec<&Axis> = system.axes().pairs().filter(|&(id, _)| is_free(id)).map(|(_, axis)| axis).collect();
         let body_of = |axis: &Axis| system.points()[axis.origin].body;
-        let own_name = |axis: &Axis| axis.name.rsplit('.').next().map(str::to_owned);
+        let local_name = |axis: &Axis| axis.name.rsplit('.').next().map(str::to_owned);
         let mut suggested = Vec::new();
         for (k, one) in free.iter().enumerate() {
             let moves = |other: &&&Axis| {
                 let bodies = [body_of(one), body_of(other)];
                 bodies[0] != bodies[1] && bodies.iter().flatten().any(|body| self.moving.contains(body))
             };
-            let fits = |other: &&&Axis| own_name(one) == own_name(other) && moves(other);
+            let fits = |other: &&&Axis| local_name(one) == local_name(other) && moves(other);
             let others = free[k + 1..].iter().filter(fits);
             suggested.extend(others.map(|other| format!("`joint NAME: translational({}, {})`", one.name, other.name)));
         }
@@ -148,7 +148,7 @@ impl Proposals<'_, '_> {
         suggested
     }
 
-    /// Returns whether it is known where a point is drawn: what lies at the origin of a body without a pose lies at no place of a drawing.
+    /// Returns whether the drawing shows where a point is: the origin of a body without a pose has no location in it.
     fn has_place(&self, point: PointId) -> bool {
         let system = self.evaluator.system;
         let Point { body, at, .. } = &system.points()[point];
@@ -156,7 +156,7 @@ impl Proposals<'_, '_> {
         body.is_none_or(|body| system.bodies()[body].pose_span.is_some() || !is_origin())
     }
 
-    /// Such points, and how far they are drawn apart (m).
+    /// Returns pairs of points that are drawn together and not held, with their distance (m).
     fn pairs_drawn_together(&self, pinned: &IdVec<PointId, PointId>) -> Vec<(f64, PointId, PointId)> {
         let system = self.evaluator.system;
         let drawn = Evaluator::new(system);
@@ -189,7 +189,7 @@ impl Proposals<'_, '_> {
     }
 }
 
-/// For each point, one that stands for all that are pinned together with it, also by way of others.
+/// Returns, for each point, one that stands for all that are pinned together with it, directly or through others.
 fn pinned_together(system: &ConstraintSystem) -> IdVec<PointId, PointId> {
     let mut stands_for: IdVec<PointId, PointId> = system.points().ids().collect();
     let mut join = |a: PointId, b: PointId| {
@@ -219,12 +219,12 @@ fn pinned_together(system: &ConstraintSystem) -> IdVec<PointId, PointId> {
     stands_for
 }
 
-/// How fast the body of a point turns.
+/// Returns how fast the body of a point turns in a motion.
 fn turn(system: &ConstraintSystem, motion: &[f64], point: PointId) -> f64 {
     system.points()[point].body.map_or(0.0, |body| motion[system.pose_of(body)[2]])
 }
 
-/// How fast a point moves (m).
+/// Returns the velocity of a point in a motion (m).
 fn velocity(evaluator: &Evaluator<'_>, motion: &[f64], point: PointId) -> [f64; 2] {
     let system = evaluator.system;
     let Some(body) = system.points()[point].body else {

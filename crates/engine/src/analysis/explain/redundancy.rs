@@ -1,8 +1,8 @@
-//! Too many equations: which of them say nothing that the others do not, and which cannot hold beside the others.
+//! Too many equations: which of them are redundant, and which conflict with the others.
 //!
-//! All equations of a part are assembled together, by least squares; there each one is taken in turn, joints first and
-//! drivers last, and depends on those before it or not. Whether one that does is redundant or conflicts with them is seen at
-//! nearby times too: two drivers may agree at the start and part at once.
+//! All equations of a part are assembled together by least squares. There each one is taken in turn, joints first and drivers last, and
+//! depends on those before it or not. Whether a dependent one is redundant or conflicts with them is decided at nearby times too: two
+//! drivers may agree at the start and part at once.
 
 use super::errors;
 use super::evaluator::Evaluator;
@@ -19,14 +19,14 @@ pub struct Dependent {
     pub row: usize,
     /// The rows it depends on.
     pub on: Vec<usize>,
-    /// How far it is open with the others met (m or rad, by its coordinates), and when first (s); none if it holds.
+    /// Gap if the others are met (m or rad, by its coordinates), and the first time of it (s); `None` if the equation holds.
     pub open: Option<(f64, f64)>,
-    /// True if it holds, but not wherever the others let the mechanism go: it fixes something, though it has no slope of its own where it does.
+    /// True if it holds, but not wherever the others let the mechanism go: it fixes something, though it has no slope where it does.
     pub touches: bool,
 }
 
-/// The equations of a part that depend on those before them, from the start at `t` on over a span of time (s); none where
-/// they have no values. Where all hold, others may be told in place of some that the rest would nearly depend on without them.
+/// Returns the equations of a part that depend on those before them, from the start at `t` on over a span of time (s); `None` if they have
+/// no values. If all hold, others may be reported in place of some without which the rest would nearly depend on each other.
 pub fn dependents(evaluator: &mut Evaluator<'_>, part: &Subsystem, times: [f64; 2]) -> Option<Vec<Dependent>> {
     let basis = basis_of_start(evaluator, part, times)?;
     let start = evaluator.q.clone();
@@ -48,7 +48,7 @@ pub fn dependents(evaluator: &mut Evaluator<'_>, part: &Subsystem, times: [f64; 
     Some(dependents)
 }
 
-/// The equations that depend on those of a basis, and whether they hold beside them.
+/// Returns the equations that depend on those of a basis, and whether they hold together with them.
 fn judged(
     evaluator: &mut Evaluator<'_>,
     part: &Subsystem,
@@ -70,7 +70,7 @@ fn judged(
     for t in times_nearby(t, span) {
         let before = evaluator.q.clone();
         let met = evaluator.assemble(&kept, &part.columns, None, t)?;
-        // a singular position is known to half the digits
+        // a singular position has only half the digits
         let is_singular = || basis_of(&met.jacobian, part.columns.len()).kept.len() < kept.len();
         let holds = |limit: f64| met.residual.iter().all(|open| open.abs() <= limit);
         let rows: Vec<u32> = dependents.iter().map(|dependent| dependent.row as u32).collect();
@@ -79,7 +79,7 @@ fn judged(
             continue;
         }
         let limit = if is_singular() { OPEN.sqrt() } else { OPEN };
-        // those that are kept may lead to another branch than all together
+        // the kept equations may lead to another branch than all together
         if kept.len() >= part.columns.len() && all_hold(evaluator, part, &before, t)? {
             continue;
         }
@@ -89,7 +89,7 @@ fn judged(
             if is_met && open <= limit {
                 continue;
             }
-            if is_met && closes(evaluator, (&kept, dependent.row), part, t)? {
+            if is_met && closes(evaluator, &kept, dependent.row, part, t)? {
                 dependent.touches = true;
                 continue;
             }
@@ -102,7 +102,7 @@ fn judged(
     Some(dependents)
 }
 
-/// Returns whether all equations of a part can be met from a position, which then is where they are.
+/// Returns whether all equations of a part can be met from a position; if so, the evaluator moves there.
 fn all_hold(evaluator: &mut Evaluator<'_>, part: &Subsystem, from: &[f64], t: f64) -> Option<bool> {
     let q = std::mem::replace(&mut evaluator.q, from.to_vec());
     let met = evaluator.assemble(&part.rows, &part.columns, None, t)?;
@@ -113,9 +113,9 @@ fn all_hold(evaluator: &mut Evaluator<'_>, part: &Subsystem, from: &[f64], t: f6
     Some(hold)
 }
 
-/// Returns whether an equation can be met along a motion that others leave free, though it changes with it in second order alone; the position goes
-/// there.
-fn closes(evaluator: &mut Evaluator<'_>, (kept, row): (&[u32], usize), part: &Subsystem, t: f64) -> Option<bool> {
+/// Returns whether an equation can be met along a motion that others leave free, though it changes in second order only; if so, the
+/// evaluator moves there.
+fn closes(evaluator: &mut Evaluator<'_>, kept: &[u32], row: usize, part: &Subsystem, t: f64) -> Option<bool> {
     if kept.len() >= part.columns.len() {
         return Some(false);
     }
@@ -129,36 +129,36 @@ fn closes(evaluator: &mut Evaluator<'_>, (kept, row): (&[u32], usize), part: &Su
     Some(closes)
 }
 
-/// How far all that the declaration of a row asks for is off where it is least, with all other equations met.
+/// Returns how far all rows of a row's declaration are off where they are least off, with all other equations met.
 fn gap_of_declaration(evaluator: &mut Evaluator<'_>, part: &Subsystem, row: usize, t: f64) -> Option<f64> {
     let system = evaluator.system;
-    let is_own = |other: &u32| system.rows()[*other as usize].declaration == system.rows()[row].declaration;
-    let own = part.rows.iter().filter(|row| is_own(row));
+    let is_of_declaration = |other: &u32| system.rows()[*other as usize].declaration == system.rows()[row].declaration;
+    let rows = part.rows.iter().filter(|row| is_of_declaration(row));
     let q = evaluator.q.clone();
     let weights = evaluator.linear(&part.rows, &part.columns, None, t)?.weights;
-    let weight = |(row, weight): (&u32, &f64)| if is_own(row) { weight * YIELDING } else { *weight };
+    let weight = |(row, weight): (&u32, &f64)| if is_of_declaration(row) { weight * YIELDING } else { *weight };
     let weights: Vec<f64> = part.rows.iter().zip(&weights).map(weight).collect();
     for _ in 0..PASSES {
         evaluator.assemble(&part.rows, &part.columns, Some(&weights), t)?;
     }
     let kind = errors::gap_kind(system, row);
-    let of_kind = own.map(|&own| own as usize).filter(|&own| errors::gap_kind(system, own) == kind);
-    let gap = of_kind.map(|own| evaluator.gap(own)).map(|gap| gap * gap).sum::<f64>().sqrt();
+    let of_kind = rows.map(|&row| row as usize).filter(|&row| errors::gap_kind(system, row) == kind);
+    let gap = of_kind.map(|row| evaluator.gap(row)).map(|gap| gap * gap).sum::<f64>().sqrt();
     evaluator.q = q;
     Some(gap)
 }
 
-/// The start at `t` and some times shortly after it, over a span of time (s).
+/// Returns the start at `t` and some times shortly after it, over a span of time (s).
 pub fn times_nearby(t: f64, span: f64) -> impl Iterator<Item = f64> {
     std::iter::once(t).chain(NEARBY.map(|part| t + part * span))
 }
 
-/// The basis at the start, or shortly after where fewer equations depend on others: a start may be in a singular position.
+/// Returns the basis at the start, or shortly after where fewer equations depend on others: a start may be in a singular position.
 fn basis_of_start(evaluator: &mut Evaluator<'_>, part: &Subsystem, [t, span]: [f64; 2]) -> Option<Basis> {
     let mut best: Option<(Basis, Vec<f64>)> = None;
     for (k, t) in times_nearby(t, span).enumerate() {
         if k > 0 {
-            // in line as drawn, least squares would stay so
+            // least squares would stay in line as drawn
             evaluator.nudge(&part.columns);
         }
         evaluator.assemble(&part.rows, &part.columns, None, t)?;
@@ -177,31 +177,31 @@ fn basis_of_start(evaluator: &mut Evaluator<'_>, part: &Subsystem, [t, span]: [f
     Some(basis)
 }
 
-/// The same basis with other rows kept: none that is left has a large weight of a row that is kept, without which less would be nearly dependent.
-/// Drivers stay.
+/// Exchanges rows of a basis until no dependent row has a large weight of a kept one, without which less would be nearly dependent. Drivers stay.
 fn well_chosen(mut basis: Basis, is_driver: impl Fn(usize) -> bool) -> Basis {
     for _ in 0..MOST_EXCHANGES {
-        let weights = basis.dependent.iter().enumerate().flat_map(|(own, (_, on))| on.iter().map(move |on| (own, *on)));
+        let weights =
+            basis.dependent.iter().enumerate().flat_map(|(index, (_, on))| on.iter().map(move |on| (index, *on)));
         let heavy = weights.filter(|(_, (k, weight))| weight.abs() > HEAVY && !is_driver(*k));
-        let Some((own, (heaviest, _))) = heavy.max_by(|(_, (_, a)), (_, (_, b))| a.abs().total_cmp(&b.abs())) else {
+        let Some((index, (heaviest, _))) = heavy.max_by(|(_, (_, a)), (_, (_, b))| a.abs().total_cmp(&b.abs())) else {
             break;
         };
-        basis.exchange(own, heaviest, TAKES_PART);
+        basis.exchange(index, heaviest, TAKES_PART);
     }
     basis.dependent.sort_unstable_by_key(|&(k, _)| k);
     basis
 }
 
-/// What conflicts may do so with equations that have no part in it where they are looked at: a driven crank that is just in
-/// line has none in the place of its tip. Beside that position they have.
+/// Adds equations that take part in a conflict only near the position where it was found: a driven crank that is just in line has no part
+/// in the location of its tip there, and has one nearby.
 fn add_hidden(evaluator: &mut Evaluator<'_>, part: &Subsystem, t: f64, dependents: &mut [Dependent]) {
     evaluator.nudge(&part.columns);
     let Some(linear) = evaluator.linear(&part.rows, &part.columns, None, t) else {
         return;
     };
-    let beside = basis_of(&linear.jacobian, part.columns.len()).dependent;
+    let nearby = basis_of(&linear.jacobian, part.columns.len()).dependent;
     for dependent in dependents.iter_mut().filter(|dependent| dependent.open.is_some()) {
-        let found = beside.iter().find(|(k, _)| part.rows[*k] as usize == dependent.row);
+        let found = nearby.iter().find(|(k, _)| part.rows[*k] as usize == dependent.row);
         let on = found.into_iter().flat_map(|(_, on)| on).map(|&(k, _)| part.rows[k] as usize);
         dependent.on.extend(on);
         dependent.on.sort_unstable();
@@ -209,7 +209,7 @@ fn add_hidden(evaluator: &mut Evaluator<'_>, part: &Subsystem, t: f64, dependent
     }
 }
 
-/// The equations with a Jacobian over `n` coordinates, as far as they are independent.
+/// Returns the basis of the rows of a Jacobian over `n` coordinates.
 pub fn basis_of(jacobian: &[f64], n: usize) -> Basis {
-    Basis::of(jacobian, n, [DEPENDENT, TAKES_PART])
+    Basis::new(jacobian, n, [DEPENDENT, TAKES_PART])
 }

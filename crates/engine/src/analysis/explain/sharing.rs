@@ -1,8 +1,8 @@
-//! Which forces are not determined where equations are left out.
+//! Forces that are not determined because equations are left out.
 //!
-//! Where rows of `Φ_q` depend on each other, `Φ_qᵀ λ = p` holds for `λ + w` too, `w` being any left null vector of all rows: those that are left
-//! out among them. A force is determined if no such vector changes it. Single positions mislead: where cranks are in line or stand straight a
-//! dependency weighs nothing in equations that it holds elsewhere. So the motion is gone along, and a force that is open anywhere is open.
+//! If rows of `Φ_q` depend on each other, `Φ_qᵀ λ = p` also holds for `λ + w`, with `w` any left null vector of all rows, including those
+//! that are left out. A force is determined if no such vector changes it. Single positions mislead: with cranks in line or upright a
+//! dependency weighs nothing in equations that it holds elsewhere. So the motion is followed, and a force that is open anywhere is open.
 
 use super::evaluator::Evaluator;
 use super::orthonormal::Basis;
@@ -25,13 +25,14 @@ pub struct Shared {
     pub rows: Vec<usize>,
 }
 
-/// The formulas that hold forces which are not determined, in order; `part` holds all rows that depend on each other, of which so many say
-/// nothing new. The motion begins from the estimates, or from where its drivers have led it [m, rad].
+/// Returns the formulas that hold undetermined forces, in order. `part` holds all rows that depend on each other, `surplus` of them
+/// redundant. The motion begins from the estimates, or from `start` [m, rad].
 pub fn shared(
     system: &ConstraintSystem,
     part: &Subsystem,
     surplus: usize,
-    (horizon, start): (Horizon, Option<&[f64]>),
+    horizon: Horizon,
+    start: Option<&[f64]>,
     formulas: impl Iterator<Item = ExprId>,
 ) -> Vec<Shared> {
     let graph = system.graph();
@@ -50,7 +51,7 @@ pub fn shared(
     }
     let places = along_motion(&mut evaluator, part, horizon, |evaluator, linear, t| {
         let basis = basis_of(&linear.jacobian, part.columns.len());
-        // a singular position frees what is determined beside it
+        // a singular position frees what is determined near it
         let is_generic = basis.dependent.len() == surplus;
         if is_generic {
             let dependencies = dependencies(&basis, part, linear, system.rows().len());
@@ -67,20 +68,20 @@ pub fn shared(
     open.into_iter().filter_map(shared).collect()
 }
 
-/// A formula that is determined as far as is known.
+/// A formula that is determined in all positions so far.
 struct Open {
     formula: ExprId,
     forms: Vec<Form>,
-    /// What shares it.
+    /// Rows that share it, once it is not determined.
     rows: Option<Vec<usize>>,
 }
 
 /// A part of a formula that is linear in forces.
 struct Form {
-    /// What it is the sum of, each with its sign.
+    /// Its terms, each with its sign.
     terms: Vec<(ExprId, f64)>,
     rows: Vec<u32>,
-    /// True if it holds derivatives of forces by something else than time, so that each force has to be determined by itself.
+    /// True if it holds derivatives of forces with respect to anything but time, so that each force has to be determined by itself.
     is_varied: bool,
 }
 
@@ -104,7 +105,8 @@ impl Open {
     }
 }
 
-/// The terms of a sum that are linear in forces, each with its sign; what the others are made of is added to what is left to be looked at.
+/// Returns the terms of a sum that are linear in forces, each with its sign. The operands of other terms are added to `left`, the formulas
+/// still to be examined.
 fn linear_terms(graph: &Graph, sum: ExprId, left: &mut Vec<ExprId>) -> Vec<(ExprId, f64)> {
     let (mut linear, mut open, mut linear_terms) = (Vec::new(), vec![(sum, 1.0)], FxHashSet::default());
     while let Some((term, sign)) = open.pop() {
@@ -136,7 +138,7 @@ fn multiplier(symbol: &Symbol) -> Option<u32> {
     }
 }
 
-/// Returns whether a formula that holds forces is linear in them; `linear_terms` are formulas that are.
+/// Returns whether a formula that holds forces is linear in them; `linear_terms` caches formulas that are.
 fn is_linear(graph: &Graph, id: ExprId, linear_terms: &mut FxHashSet<ExprId>) -> bool {
     if linear_terms.contains(&id) {
         return true;
@@ -162,16 +164,16 @@ fn is_linear(graph: &Graph, id: ExprId, linear_terms: &mut FxHashSet<ExprId>) ->
 struct Dependency {
     /// Scaled, of unit length.
     scaled: Vec<f64>,
-    /// What a scaled row was divided by.
+    /// Divisors of the scaled rows.
     weights: Vec<f64>,
 }
 
 fn dependencies(basis: &Basis, part: &Subsystem, linear: &Linear, rows: usize) -> Vec<Dependency> {
     let vector = |(row, on): &(usize, Vec<(usize, f64)>)| {
         let (mut scaled, mut weights) = (vec![0.0; rows], vec![1.0; rows]);
-        let own = on.iter().map(|&(k, weight)| (k, -weight)).chain([(*row, 1.0)]);
+        let shares = on.iter().map(|&(k, weight)| (k, -weight)).chain([(*row, 1.0)]);
         let norm = on.iter().map(|(_, weight)| weight * weight).sum::<f64>() + 1.0;
-        for (k, weight) in own {
+        for (k, weight) in shares {
             let row = part.rows[k] as usize;
             (scaled[row], weights[row]) = (weight / norm.sqrt(), linear.weights[k]);
         }
@@ -180,7 +182,7 @@ fn dependencies(basis: &Basis, part: &Subsystem, linear: &Linear, rows: usize) -
     basis.dependent.iter().map(vector).collect()
 }
 
-/// A position of the motion with all that depends on each other there.
+/// A position of the motion with all dependencies there.
 struct Place<'p, 's> {
     evaluator: &'p Evaluator<'s>,
     t: f64,
@@ -188,7 +190,7 @@ struct Place<'p, 's> {
 }
 
 impl Place<'_, '_> {
-    /// The rows that share what one of some forms holds; none where all are determined.
+    /// Returns the rows that share a force in one of some forms; `None` if all are determined.
     fn sharing(&self, forms: &[Form]) -> Option<Vec<usize>> {
         let (_, dependency) = forms
             .iter()
@@ -219,7 +221,7 @@ impl Place<'_, '_> {
         change.abs() > TAKES_PART * largest
     }
 
-    /// The value of a form where one multiplier is 1 and the others vanish.
+    /// Returns the value of a form where one multiplier is 1 and the others vanish.
     fn value(&self, form: &Form, row: Option<u32>) -> f64 {
         form.terms.iter().map(|&(term, sign)| sign * self.value_of_term(term, row)).sum()
     }
@@ -230,17 +232,17 @@ impl Place<'_, '_> {
             Symbol::Param(k) => system.params()[k as usize].value,
             Symbol::Time => self.t,
             Symbol::Coordinate { index, order: 0 } => self.evaluator.q[index as usize],
-            // how fast it goes does not decide
+            // the speed does not matter: any value will do
             Symbol::Coordinate { index, .. } | Symbol::Varied { index, .. } => aslant(index as usize),
-            Symbol::Multiplier(own) => f64::from(u8::from(row == Some(own))),
+            Symbol::Multiplier(index) => f64::from(u8::from(row == Some(index))),
             Symbol::Shift(_) | Symbol::VariedMultiplier { .. } => 0.0,
             Symbol::Signal { .. } | Symbol::Named(_) => 1.0,
         })
     }
 }
 
-/// Goes along the motion from its start on, by least squares, which dead points and change points do not stop, and looks at positions that
-/// are apart; gives how many of them were what is looked for.
+/// Follows the motion from its start on by least squares, which dead points and change points do not stop, and calls `look` at positions
+/// that are apart; returns how often that returned true.
 pub(super) fn along_motion(
     evaluator: &mut Evaluator<'_>,
     part: &Subsystem,

@@ -45,8 +45,8 @@ pub fn find_stop_near_fold(
         singular_position(kinematics, state, &singular, fold)
     } else if let Some(fault) = fault_at(kinematics, state, target) {
         without_value(system, fault).at(target)
-    } else if let Some(at_rim) = rim_at_hand(kinematics, state) {
-        at_rim
+    } else if let Some(at_boundary) = boundary_reached(kinematics, state) {
+        at_boundary
     } else {
         StopCause::NoStep { driver: fastest_driver(kinematics, state, just_ahead) }.at(state.t)
     };
@@ -69,12 +69,12 @@ pub fn without_value(system: &ConstraintSystem, fault: Fault) -> StopCause {
     }
 }
 
-/// The watch over a contact that ends where the position was set.
+/// Returns the monitor of a contact that ends where the position was set.
 fn contact_that_ends(kinematics: &Kinematics, fault: Fault, sigma: f64) -> Option<usize> {
-    let watches = kinematics.system().monitors();
+    let monitors = kinematics.system().monitors();
     match fault {
-        // a curvature that comes to zero makes the position singular, one that jumps over it does not
-        Fault::Monitor { index } if watches[index].kind != MonitorKind::Curvature || sigma > NEAR => Some(index),
+        // a curvature that reaches zero makes the position singular, one that jumps past zero does not
+        Fault::Monitor { index } if monitors[index].kind != MonitorKind::Curvature || sigma > NEAR => Some(index),
         _ => centers_that_meet(kinematics).or_else(|| vanishing(kinematics, MonitorKind::Tangents)),
     }
 }
@@ -83,7 +83,7 @@ fn contact_that_ends(kinematics: &Kinematics, fault: Fault, sigma: f64) -> Optio
 fn singular_position(kinematics: &Kinematics, state: &State, singular: &Singular, fold: Option<f64>) -> Box<Stop> {
     let system = kinematics.system();
     let (left, right) = (&singular.left, &singular.right);
-    // near a bifurcation that is missed by little the driver's share is small
+    // the driver's share is small near a bifurcation that is narrowly missed
     let (driver, t) = match fold.zip(heaviest_driver(system, left)) {
         Some((t, row)) => (Some(row), t),
         None => (driver_in(system, left), time_of_fold(kinematics.span(), state, right)),
@@ -99,24 +99,24 @@ fn singular_position(kinematics: &Kinematics, state: &State, singular: &Singular
     }
 }
 
-/// When a motion that grows as before a fold comes to it: there q* − q is as √(t* − t), so that t* − t is q̇ / 2q̈. The state is
-/// as near as steps could come; where it is not, its own time is told.
+/// Returns the time at which a motion that grows as before a fold comes to it: there q* − q goes as √(t* − t), so that t* − t is q̇ / 2q̈.
+/// Returns the time of the state if that is not as near as steps could come.
 fn time_of_fold(span: f64, state: &State, right: &[f64]) -> f64 {
     let fastest = (0..right.len()).max_by(|&a, &b| right[a].abs().total_cmp(&right[b].abs()));
     let left = fastest.map_or(0.0, |k| 0.5 * state.qd[k] / state.qdd[k]);
     if left > 0.0 && left < NEAR_FOLD * span { state.t + left } else { state.t }
 }
 
-/// Returns the stop at a contact that ends at a time (s), by the watch over it, at the position that was set or just behind it.
+/// Returns the stop at a contact that ends at a time (s), by its monitor, at the position that was set or just behind it.
 pub fn end_of_contact(kinematics: &Kinematics, index: usize, t: f64) -> Box<Stop> {
     let system = kinematics.system();
-    let watches = system.monitors();
-    let Monitor { kind, declaration, .. } = watches[index];
+    let monitors = system.monitors();
+    let Monitor { kind, declaration, .. } = monitors[index];
     let is_flat = system.declarations()[declaration].kind == DeclarationKind::Joint(JointKind::FlatFollower);
-    let of_contact = |k: &usize| watches[*k].kind == MonitorKind::Curvature && watches[*k].declaration == declaration;
-    let curvature = (0..watches.len()).find(of_contact).map_or(0.0, |k| kinematics.watched(k).abs());
+    let of_contact = |k: &usize| monitors[*k].kind == MonitorKind::Curvature && monitors[*k].declaration == declaration;
+    let curvature = (0..monitors.len()).find(of_contact).map_or(0.0, |k| kinematics.monitored(k).abs());
     // with `T` the tangent and `B` its derivative the radius is T²/B across; where the argument alone rests it is no less than usual
-    let tangent = kinematics.watched(index);
+    let tangent = kinematics.monitored(index);
     if kind == MonitorKind::Tangents && is_flat && tangent * tangent < CUSP * curvature {
         StopCause::Undercut { watch: index }.at(t)
     } else {
@@ -160,18 +160,18 @@ pub fn warn_of_miss(kinematics: &mut Kinematics, state: &State, within: f64, t: 
     moves_bodies.then_some(Warning { t, cause: WarningCause::NearChangePoint { joints, columns, within } })
 }
 
-/// The watch over a line of centres that vanishes, or nearly so, where the position was set.
+/// Returns the monitor of a line of centres that vanishes, or nearly so, where the position was set.
 pub fn centers_that_meet(kinematics: &Kinematics) -> Option<usize> {
     vanishing(kinematics, MonitorKind::LineOfCenters)
 }
 
-/// The watch of a kind over what vanishes, or nearly so, where the position was set.
+/// Returns the monitor of a kind whose quantity vanishes, or nearly so, where the position was set.
 fn vanishing(kinematics: &Kinematics, kind: MonitorKind) -> Option<usize> {
-    let watches = kinematics.system().monitors();
-    (0..watches.len()).find(|&k| watches[k].kind == kind && kinematics.watched(k).abs() < FLAT)
+    let monitors = kinematics.system().monitors();
+    (0..monitors.len()).find(|&k| monitors[k].kind == kind && kinematics.monitored(k).abs() < FLAT)
 }
 
-/// The joint at whose contact the relative curvature vanishes, or nearly so, where the position was set.
+/// Returns the joint at whose contact the relative curvature vanishes, or nearly so, where the position was set.
 fn flat_contact(kinematics: &Kinematics) -> Option<DeclarationId> {
     vanishing(kinematics, MonitorKind::Curvature).map(|k| kinematics.system().monitors()[k].declaration)
 }
@@ -186,20 +186,20 @@ pub fn find_stop_of_haste(kinematics: &mut Kinematics, state: &State, steps: u64
     }
 }
 
-/// The rim that a state has come to, or so near to it that no step leads on.
-fn rim_at_hand(kinematics: &mut Kinematics, state: &State) -> Option<Box<Stop>> {
+/// Returns the stop at a domain boundary that a state has come to, or so near to it that no step leads on.
+fn boundary_reached(kinematics: &mut Kinematics, state: &State) -> Option<Box<Stop>> {
     kinematics.restore(state);
     let span = kinematics.span();
-    let rims = kinematics.rims().to_vec();
-    let mut left = |rim: &BoundaryRegisters| {
-        let [gauge, slope] = gauge_at(kinematics, rim, state, 0.0);
-        f64::min(gauge.abs() / kinematics.largest_term(rim), VANISHED / NEAR_FOLD * (gauge / slope).abs() / span)
+    let boundaries = kinematics.boundaries().to_vec();
+    let mut left = |boundary: &BoundaryRegisters| {
+        let [gauge, slope] = gauge_at(kinematics, boundary, state, 0.0);
+        f64::min(gauge.abs() / kinematics.largest_term(boundary), VANISHED / NEAR_FOLD * (gauge / slope).abs() / span)
     };
-    // where time alone leads to one its driver is the fastest
-    let of_motion = rims.iter().enumerate().filter(|(_, rim)| !rim.on_time);
-    let nearest = of_motion.map(|(index, rim)| (index, left(rim))).min_by(|a, b| a.1.total_cmp(&b.1));
-    let index = nearest.filter(|(_, left)| *left < VANISHED).map(|(rim, _)| rim)?;
-    let corner = corner_ahead(kinematics, &rims[index], state);
+    // a boundary of time alone is explained by its driver, the fastest one
+    let of_motion = boundaries.iter().enumerate().filter(|(_, boundary)| !boundary.on_time);
+    let nearest = of_motion.map(|(index, boundary)| (index, left(boundary))).min_by(|a, b| a.1.total_cmp(&b.1));
+    let index = nearest.filter(|(_, left)| *left < VANISHED).map(|(index, _)| index)?;
+    let corner = corner_ahead(kinematics, &boundaries[index], state);
     let system = kinematics.system();
     let declarations = system.domain_boundaries()[index].declarations.clone();
     let has_tangent = declarations.iter().any(|&declaration| errors::has_tangent(system, declaration));
@@ -209,23 +209,23 @@ fn rim_at_hand(kinematics: &mut Kinematics, state: &State) -> Option<Box<Stop>> 
     })
 }
 
-/// How soon a gauge touches zero (s), behind which its formula goes on with a corner; none where it goes through zero.
-fn corner_ahead(kinematics: &mut Kinematics, rim: &BoundaryRegisters, state: &State) -> Option<f64> {
-    let [gauge, slope] = gauge_at(kinematics, rim, state, 0.0);
+/// Returns the time (s) until an event function touches zero, behind which its formula goes on with a corner; `None` if it goes through zero.
+fn corner_ahead(kinematics: &mut Kinematics, boundary: &BoundaryRegisters, state: &State) -> Option<f64> {
+    let [gauge, slope] = gauge_at(kinematics, boundary, state, 0.0);
     let left = -2.0 * gauge / slope;
-    let [before, _] = gauge_at(kinematics, rim, state, -left);
+    let [before, _] = gauge_at(kinematics, boundary, state, -left);
     // twice as far from it a parabola that touches zero has four times its value; a line has three times that
     (left > 0.0 && (before / gauge - 4.0).abs() < PARABOLA).then_some(left)
 }
 
-/// A gauge and its slope where the motion goes on evenly from a state for a time (s).
-fn gauge_at(kinematics: &mut Kinematics, rim: &BoundaryRegisters, state: &State, after: f64) -> [f64; 2] {
+/// Returns an event function and its slope where a state is extrapolated by its velocity over a time (s).
+fn gauge_at(kinematics: &mut Kinematics, boundary: &BoundaryRegisters, state: &State, after: f64) -> [f64; 2] {
     let q: Vec<f64> = state.q.iter().zip(&state.qd).map(|(q, qd)| q + after * qd).collect();
     kinematics.set_time(state.t + after);
-    // what is wrong with the position shows in the gauge
+    // a fault of the position shows in the event function
     let _ = kinematics.set_position(&q);
     kinematics.set_velocity(&state.qd);
-    kinematics.gauge(rim)
+    kinematics.gauge(boundary)
 }
 
 /// Returns why a formula has no value at a time, the position being as it is.
@@ -259,25 +259,25 @@ pub fn singular_start(
     StopCause::SingularStart { verdict, declarations, free: right.clone(), columns, horizon }.at(horizon.from)
 }
 
-/// The driver's row that weighs most in a dependency, if one takes part.
+/// Returns the driver's row that weighs most in a dependency, if one takes part.
 pub fn driver_in(system: &ConstraintSystem, left: &[f64]) -> Option<usize> {
     let largest = left.iter().fold(0.0, |m: f64, w| m.max(w.abs()));
     heaviest_driver(system, left).filter(|&row| left[row].abs() > TAKES_PART * largest)
 }
 
-/// The driver's row that weighs most in a dependency, however little that is.
+/// Returns the driver's row that weighs most in a dependency, however small its weight.
 fn heaviest_driver(system: &ConstraintSystem, left: &[f64]) -> Option<usize> {
     let drivers = (0..left.len()).filter(|&row| system.is_driver(row) && left[row].abs() > 0.0);
     drivers.max_by(|&a, &b| left[a].abs().total_cmp(&left[b].abs()))
 }
 
-/// The joints and constraints that the dependency is made of, those that weigh most first.
+/// Returns the joints and constraints that the dependency is made of, those that weigh most first.
 fn joints_in(system: &ConstraintSystem, left: &[f64]) -> Vec<DeclarationId> {
     let all = declarations_in(system, left);
     all.into_iter().filter(|&k| system.declarations()[k].kind != DeclarationKind::Driver).collect()
 }
 
-/// All declarations that the dependency is made of, those that weigh most first.
+/// Returns the declarations of the dependency, those that weigh most first.
 fn declarations_in(system: &ConstraintSystem, left: &[f64]) -> Vec<DeclarationId> {
     let largest = left.iter().fold(0.0, |m: f64, w| m.max(w.abs()));
     let mut rows: Vec<usize> = (0..left.len()).filter(|&row| left[row].abs() > TOLD * largest).collect();
@@ -293,20 +293,20 @@ fn declarations_in(system: &ConstraintSystem, left: &[f64]) -> Vec<DeclarationId
     joints
 }
 
-/// The coordinates that the free motion moves.
+/// Returns the coordinates that the free motion moves.
 fn columns_in(right: &[f64]) -> Vec<usize> {
     let fastest = right.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
     (0..right.len()).filter(|&column| right[column].abs() > TOLD * fastest).collect()
 }
 
-/// The row of the driver that asks for the fastest motion from the state on, be it up to a time `t` just ahead (s) by a jump.
+/// Returns the row of the driver that prescribes the fastest motion from the state on, or by a jump up to a time `t` just ahead (s).
 fn fastest_driver(kinematics: &mut Kinematics, state: &State, t: f64) -> Option<usize> {
     let determined = kinematics.determined();
     let system = determined.system();
     kinematics.restore(state);
-    // the speeds that are asked for are known though those of the mechanism may not be
+    // the prescribed speeds are finite even where those of the mechanism are not
     let _ = kinematics.derivatives(&mut state.clone());
-    let speeds: Vec<f64> = (0..system.rows().len()).map(|row| kinematics.asked_speed(row)).collect();
+    let speeds: Vec<f64> = (0..system.rows().len()).map(|row| kinematics.prescribed_speed(row)).collect();
     kinematics.set_time(t);
     let is_set = kinematics.set_position(&state.q).is_ok();
     let speed = |row: usize| {

@@ -22,7 +22,7 @@ pub struct Stop {
 
 /// The reason of a [`Stop`].
 ///
-/// Rows, conditions, watches, checks, columns and loads are indices into the constraint system.
+/// Rows, conditions, monitors, checks, columns and loads are indices into the constraint system.
 #[derive(Clone, Debug)]
 pub enum StopCause {
     /// A formula of these declarations, or a derivative of it, is not finite.
@@ -44,12 +44,12 @@ pub enum StopCause {
     },
     /// A contact ends.
     NoContact {
-        /// Index of the watch over the contact.
+        /// Index of the monitor of the contact.
         watch: usize,
     },
     /// A flat follower touches a cusp.
     Undercut {
-        /// Index of the watch over the contact.
+        /// Index of the monitor of the contact.
         watch: usize,
     },
     /// A redundant equation that was left out does not hold any more.
@@ -233,7 +233,8 @@ impl StopCause {
             StopCause::RestInDeadPoint { driver, joints } => errors::driver_rests(system, *driver, joints, t, false),
             StopCause::Uncertain { declarations } => errors::uncertain(system, declarations, t),
             StopCause::PositionJump { declarations, jump, is_corner } => {
-                errors::position_jump(system, declarations, *is_corner, jump.unwrap_or_default(), t)
+                let (column, by) = jump.unwrap_or_default();
+                errors::position_jump(system, declarations, *is_corner, column, by, t)
             }
             StopCause::VelocityJump { declarations, column, velocities } => {
                 errors::velocity_jump(system, declarations, *column, *velocities, t)

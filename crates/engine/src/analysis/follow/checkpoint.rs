@@ -1,11 +1,11 @@
-//! Where a motion goes back to when it only looked ahead.
+//! Checkpoints, to which a motion returns after it only looked ahead.
 
 use super::crossing::Crossing;
 use super::edges::{Edge, Edges};
 use super::step::{Mark, Step};
 use crate::analysis::state::State;
 
-/// What the next step begins from.
+/// Start of the next step, with what a motion restores to return there.
 #[derive(Clone)]
 pub struct Checkpoint {
     pub mark: Mark,
@@ -20,14 +20,14 @@ impl Checkpoint {
         Checkpoint { mark: step.mark(), clear: crossing.clear().clone(), met: edges.met() }
     }
 
-    /// The same, into this one.
+    /// Writes the current checkpoint into this one.
     pub fn write(&mut self, step: &Step, edges: &Edges, crossing: &Crossing) {
         step.write_mark(&mut self.mark);
         self.clear.copy_from(crossing.clear());
         self.met = edges.met();
     }
 
-    /// The state there.
+    /// Returns the state of the checkpoint.
     pub fn state(&self) -> &State {
         &self.mark.state
     }

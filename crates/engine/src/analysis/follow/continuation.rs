@@ -1,5 +1,4 @@
-//! The way from one start to another: a mechanism whose inputs go along straight lines is followed from where its own inputs have it to
-//! where others do, along the branch.
+//! Continuation: follows a mechanism whose inputs go along straight lines from where its own inputs have it to where others do, along the branch.
 
 use crate::analysis::assemble::{Solving, Started, Unassembled};
 use crate::analysis::explain::{Stop, StopCause, Warning};
@@ -14,35 +13,35 @@ use mechc_text::cancel::Cancel;
 use mechc_text::diag::Diagnostics;
 use std::sync::Arc;
 
-/// The way as a time.
+/// Horizon of a continuation: a fraction of the path, from 0 to 1, stands for time.
 pub(super) const WAY: Horizon = Horizon { from: 0.0, span: 1.0 };
 
-/// How a mechanism is led.
+/// Options of a continuation.
 #[derive(Clone, Debug)]
 pub struct ContinuationOptions {
     /// Bounds each row of Φ, scaled.
     pub tolerance: f64,
-    /// Go on beyond bifurcations.
+    /// True to go on beyond bifurcations.
     pub pass_bifurcations: bool,
-    /// When the way begins, for what is said of that start (s).
+    /// Time of the start (s), for diagnostics about it.
     pub t: f64,
-    /// Ends it.
+    /// Cancels the continuation.
     pub cancel: Cancel,
 }
 
 impl ContinuationOptions {
-    /// The options of one that is to be assembled.
-    pub(super) fn of(unassembled: &Unassembled, t: f64) -> ContinuationOptions {
+    /// Returns the options for an unassembled mechanism that starts at a time (s).
+    pub(super) fn new(unassembled: &Unassembled, t: f64) -> ContinuationOptions {
         let Unassembled { tolerance, pass_bifurcations, ref cancel, .. } = *unassembled;
         ContinuationOptions { tolerance, pass_bifurcations, t, cancel: cancel.clone() }
     }
 }
 
-/// How far a mechanism was led.
+/// Outcome of a continuation: the positions that it reached, and why it stopped.
 pub struct PathOutcome {
-    /// The coordinates [m, rad] at the parts of the way that were asked for, as far as it got.
+    /// Coordinates [m, rad] at the requested fractions of the path, as far as it got.
     pub reached: Vec<Vec<f64>>,
-    /// What is to be said of where it began.
+    /// Warnings about the start.
     pub warnings: Diagnostics,
     /// Bifurcations that were passed; each `t` is a fraction of the path.
     pub passed: Vec<Warning>,
@@ -50,10 +49,11 @@ pub struct PathOutcome {
     pub stopped: Option<Box<Stop>>,
 }
 
-/// What begins all ways of a mechanism whose parameters say where they lead: it stands at their beginning, whatever these are.
+/// Assembles the start of all paths of a mechanism whose parameters say where the paths lead. `stands` [m, rad] is their common start,
+/// whatever the parameters are.
 ///
 /// # Errors
-/// It does not stand there.
+/// The mechanism cannot be assembled there.
 pub fn start_of_paths(
     determined: &Arc<Determined>,
     program: &Arc<Program>,
@@ -63,23 +63,24 @@ pub fn start_of_paths(
     Continuation::new(determined, program, Solving::New, options).whole(WAY).assemble_at(stands, Solving::New)
 }
 
-/// Leads a mechanism to the end of its path, from the start and with the solver that [`start_of_paths`] made for the same mechanism.
+/// Continues a mechanism to the end of its path, from the start and with the solver that [`start_of_paths`] made for the same mechanism.
 ///
 /// # Errors
 /// It cannot be assembled at 0.
 pub fn continue_from(
     determined: &Arc<Determined>,
     program: &Arc<Program>,
-    (stands, solver): (&[f64], Option<Arc<Solver>>),
+    stands: &[f64],
+    solver: Option<Arc<Solver>>,
     options: &ContinuationOptions,
 ) -> Result<PathOutcome, Box<Stop>> {
     let solving = Solving::With(solver);
-    let leader = Continuation::new(determined, program, solving.clone(), options);
-    let started = leader.whole(WAY).assemble_at(stands, solving)?;
-    Ok(leader.lead(started, &[1.0]))
+    let continuation = Continuation::new(determined, program, solving.clone(), options);
+    let started = continuation.whole(WAY).assemble_at(stands, solving)?;
+    Ok(continuation.run(started, &[1.0]))
 }
 
-/// What is led, and how.
+/// Mechanism to be continued, with the options.
 pub(super) struct Continuation<'l> {
     determined: &'l Arc<Determined>,
     program: &'l Arc<Program>,
@@ -97,31 +98,31 @@ impl<'l> Continuation<'l> {
         Continuation { determined, program, solving, options }
     }
 
-    /// What is led, to be assembled where a horizon begins.
+    /// Returns the mechanism, to be assembled where a horizon begins.
     pub fn whole(&self, horizon: Horizon) -> Unassembled {
         let ContinuationOptions { tolerance, pass_bifurcations, ref cancel, .. } = *self.options;
         let (determined, program) = (Arc::clone(self.determined), Arc::clone(self.program));
         Unassembled { determined, program, horizon, tolerance, pass_bifurcations, cancel: cancel.clone() }
     }
 
-    /// Follows it from a start at 0 to some parts of the way.
-    pub fn lead(&self, mut started: Started, parts: &[f64]) -> PathOutcome {
+    /// Follows the mechanism from a start at 0 to some fractions of the path.
+    pub fn run(&self, mut started: Started, parts: &[f64]) -> PathOutcome {
         let options = self.options;
         let warnings = started.far_estimates_at(options.t);
         let mut way = PathOutcome { reached: Vec::new(), warnings, passed: Vec::new(), stopped: None };
         let mut from = (0.0, started.q().to_vec());
         for _ in 0..MOST_KINKS {
-            let known = way.reached.len();
+            let count = way.reached.len();
             let PathOutcome { reached, passed, .. } = &mut way;
-            way.stopped = self.follow(started, from.0, &parts[known..], reached, passed);
+            way.stopped = self.follow(started, from.0, &parts[count..], reached, passed);
             let Some(stop) = &way.stopped else { return way };
-            if let Some(last) = way.reached[known..].last() {
+            if let Some(last) = way.reached[count..].last() {
                 from = (parts[way.reached.len() - 1], last.clone());
             }
             if !stop.is_jump() || options.cancel.is_cancelled() {
                 return way;
             }
-            let Some((behind, beyond)) = self.beyond_kink(stop.t, &from) else { return way };
+            let Some((behind, beyond)) = self.beyond_kink(stop.t, from.0, &from.1) else { return way };
             way.stopped = None;
             while parts.get(way.reached.len()).is_some_and(|&part| part <= behind) {
                 way.reached.push(beyond.q().to_vec());
@@ -136,24 +137,25 @@ impl<'l> Continuation<'l> {
         way
     }
 
-    /// Assembled at a part of the way, where it stands.
+    /// Assembles the mechanism at a fraction of the path, from a position [m, rad].
     fn at(&self, part: f64, q: &[f64]) -> Option<Started> {
         self.whole(WAY.beginning(part)).assemble_at(q, self.solving.clone()).ok()
     }
 
-    /// The start just behind a place where a velocity jumps, with its part of the way; none where the position is another one there.
-    fn beyond_kink(&self, part: f64, (known, q): &(f64, Vec<f64>)) -> Option<(f64, Started)> {
-        let (before, behind) = ((part - KINK_OFFSET).max(*known), (part + KINK_OFFSET).min(1.0));
-        let again = self.at(*known, q)?;
+    /// Returns the start just behind a velocity jump at a fraction of the path, with its own fraction; `None` if the position jumps too.
+    /// `q` is the position at `last`, the last fraction that was reached.
+    fn beyond_kink(&self, part: f64, last: f64, q: &[f64]) -> Option<(f64, Started)> {
+        let (before, behind) = ((part - KINK_OFFSET).max(last), (part + KINK_OFFSET).min(1.0));
+        let restarted = self.at(last, q)?;
         let mut there = Vec::new();
-        let stopped = self.follow(again, *known, &[before], &mut there, &mut Vec::new());
+        let stopped = self.follow(restarted, last, &[before], &mut there, &mut Vec::new());
         let near = there.pop().filter(|_| stopped.is_none())?;
         let beyond = self.at(behind, &near)?;
         is_the_same(self.determined.system(), &near, beyond.q()).then_some((behind, beyond))
     }
 
-    /// Adds the positions at some parts of the way, and the bifurcations that are passed; says where the motion ends before the last, and
-    /// why.
+    /// Appends the positions at some fractions of the path, and the bifurcations that are passed. Returns the stop if the motion ends
+    /// before the last fraction.
     fn follow(
         &self,
         started: Started,

@@ -1,4 +1,4 @@
-//! From the first time on: steps along the branch that the start chose, and what they go over.
+//! Following of a motion from the first time on: steps along the branch that the start chose, and what they cross.
 //!
 //! ```text
 //!            ┌── Step       the state, the one that is tried, the way between

@@ -1,12 +1,12 @@
-//! Change points that the motion just misses. Where a length is off two branches that would cross become two that turn away from each other:
-//! with `s` the way of the driver they are `x² = s² + ε`, and the least singular value goes with `√(s² + ε)`. The motion goes on along one of
-//! them. For a four-bar `ε` is about three times the part of a link that it is off by.
+//! Near misses of change points. If a length is slightly off, two branches that would cross become two that turn away from each other: with
+//! `s` the way of the driver they are `x² = s² + ε`, and the least singular value goes with `√(s² + ε)`. The motion goes on along one of
+//! them. For a four-bar `ε` is about three times the relative error of the link.
 
 use crate::analysis::explain::{Warning, singular};
 use crate::analysis::state::{Kinematics, State};
 use mechc_ir::tolerances::singular::misses::{EVEN, FALLS, FAR, OF_LENGTHS, WITHIN};
 
-/// What there is to be said of the least distance to a singular position so far.
+/// Watches for change points that a motion just misses.
 pub struct NearMisses {
     /// The last two states that were come to.
     last: [Look; 2],
@@ -14,11 +14,11 @@ pub struct NearMisses {
     state: State,
     /// The one that is nearest to a singular position.
     nearest: State,
-    /// Room for another state.
-    beside: State,
+    /// Scratch state.
+    scratch: State,
     /// The largest singular value since the last least one.
     highest: f64,
-    /// True if rows are handed out, beside which it is told; a motion that is followed for its results alone is not watched.
+    /// True if rows are handed out, which the warning accompanies; a motion that is followed for its results alone is not monitored.
     is_watching: bool,
     is_reported: bool,
     found: Option<Miss>,
@@ -27,13 +27,13 @@ pub struct NearMisses {
 /// A change point that was missed.
 #[derive(Clone, Copy)]
 struct Miss {
-    /// When (s).
+    /// Time (s).
     t: f64,
-    /// By what part of the lengths.
+    /// Distance from the change point, as a fraction of the lengths.
     within: f64,
 }
 
-/// How near a state is to a singular position.
+/// Nearness of a state to a singular position.
 #[derive(Clone, Copy)]
 struct Look {
     t: f64,
@@ -50,7 +50,7 @@ impl NearMisses {
             last: [Look::NONE; 2],
             state: state.clone(),
             nearest: state.clone(),
-            beside: state.clone(),
+            scratch: state.clone(),
             highest: 0.0,
             is_watching: false,
             is_reported: false,
@@ -58,19 +58,19 @@ impl NearMisses {
         }
     }
 
-    /// From now on rows are handed out.
+    /// Begins to watch: from now on rows are handed out.
     pub fn watch(&mut self) {
         self.is_watching = true;
     }
 
-    /// What comes next does not lie on the way from here.
+    /// Forgets the last states, which the next one does not continue.
     pub fn forget(&mut self) {
         (self.last, self.highest) = ([Look::NONE; 2], 0.0);
     }
 
     /// Looks at a state that was just come to, where it was factored, with what it was factored with left as it is.
     pub fn take(&mut self, kinematics: &mut Kinematics, state: &State) {
-        // where equations were left out, those that are solved near singular positions at which all together do not
+        // if equations were left out, the others come near to singular positions that all together do not have
         if !self.is_watching || self.is_reported || !kinematics.system().checks().is_empty() {
             return;
         }
@@ -83,8 +83,8 @@ impl NearMisses {
         if let Some([turning, t]) = least_between([before, least, now]).filter(|_| least.sigma <= FALLS * self.highest)
         {
             let then = required_speed(kinematics, &mut self.state);
-            self.beside.copy_from(state);
-            let speed = required_speed(kinematics, &mut self.beside);
+            self.scratch.copy_from(state);
+            let speed = required_speed(kinematics, &mut self.scratch);
             // a driver that turns back before a dead point comes near to one as well
             let is_even = (speed - then).abs() <= EVEN * speed;
             let within = OF_LENGTHS * turning * speed * speed;
@@ -99,8 +99,8 @@ impl NearMisses {
         self.state.copy_from(state);
     }
 
-    /// What has been found up to a time (s), once; the motion stays where it is, `here`.
-    pub fn tell(&mut self, kinematics: &mut Kinematics, here: &State, t: f64) -> Option<Warning> {
+    /// Takes the warning of a near miss up to a time (s); the motion stays where it is, `here`.
+    pub fn take_warning(&mut self, kinematics: &mut Kinematics, here: &State, t: f64) -> Option<Warning> {
         let Miss { t, within } = self.found.take_if(|miss| miss.t <= t)?;
         let why = singular::warn_of_miss(kinematics, &self.nearest, within, t);
         kinematics.restore(here);
@@ -109,8 +109,8 @@ impl NearMisses {
     }
 }
 
-/// The square of the time in which the motion turns away from a singular position that it is nearest to about the second of three states (s²),
-/// and when that is (s).
+/// Returns the square of the time in which the motion turns away from a singular position that it is nearest to at about the second of
+/// three states (s²), and the time of that minimum (s).
 fn least_between([a, b, c]: [Look; 3]) -> Option<[f64; 2]> {
     if !(b.sigma < a.sigma && b.sigma <= c.sigma && b.sigma < FAR) {
         return None;
@@ -120,14 +120,14 @@ fn least_between([a, b, c]: [Look; 3]) -> Option<[f64; 2]> {
     let [left, right] = [a, c].map(|look| (square(look) - square(b)) / (look.t - b.t));
     let bend = (right - left) / (c.t - a.t);
     let slope = left - bend * (a.t - b.t);
-    let (aside, down) = (-0.5 * slope / bend, 0.25 * slope * slope / bend);
-    Some([(square(b) - down).max(0.0) / bend, b.t + aside])
+    let (offset, down) = (-0.5 * slope / bend, 0.25 * slope * slope / bend);
+    Some([(square(b) - down).max(0.0) / bend, b.t + offset])
 }
 
-/// How fast the equations ask to be met in a state, scaled (1/s).
+/// Returns the largest speed that the equations prescribe in a state, scaled (1/s).
 fn required_speed(kinematics: &mut Kinematics, state: &mut State) -> f64 {
     kinematics.restore(state);
-    // the speeds that are asked for are known though those of the mechanism may not be
+    // the prescribed speeds are finite even where those of the mechanism are not
     let _ = kinematics.derivatives(state);
-    (0..kinematics.system().rows().len()).map(|row| kinematics.asked_speed(row)).fold(0.0, f64::max)
+    (0..kinematics.system().rows().len()).map(|row| kinematics.prescribed_speed(row)).fold(0.0, f64::max)
 }

@@ -1,4 +1,4 @@
-//! Which equations are solved, where there are more than are needed.
+//! Selection of the equations that are solved, where there are more than are needed.
 //!
 //! A row that is left out is a sum of the others, `Φ_q,out = Σ w Φ_q,kept`. Where the rows that are kept come near to depending on each other, and
 //! all rows together do not, a weight grows: the row that it belongs to is left out instead, which makes the volume that the kept rows span larger by
@@ -14,7 +14,7 @@ use mechc_ir::structure::Determined;
 use mechc_ir::tolerances::steps::choice::{HEAVY, LARGEST_WEIGHT, MOST_EXCHANGES};
 use std::sync::Arc;
 
-/// Some equations that are solved, with what solves them.
+/// Equations that are solved, with their solver.
 pub struct SelectedRows {
     determined: Arc<Determined>,
     program: Arc<Program>,
@@ -22,19 +22,19 @@ pub struct SelectedRows {
 }
 
 impl SelectedRows {
-    /// A motion with these equations.
+    /// Returns the kinematics of these equations, in all else like another one.
     pub fn kinematics(&self, like: &Kinematics) -> Kinematics {
         like.with_equations(Arc::clone(&self.determined), Arc::clone(&self.program))
     }
 
-    /// The row that these equations have in place of one of others; none where it is left out.
+    /// Returns the row that these equations have in place of one of others; `None` if it is left out.
     pub fn row_in_place_of(&self, row: usize, other: &Determined) -> Option<usize> {
         let row = *other.kept().get(row)?;
         self.determined.kept().binary_search(&row).ok()
     }
 }
 
-/// What watches the equations that are solved.
+/// Selects the equations that are solved, and monitors that they stay independent.
 pub struct RowSelection {
     program: Program,
     registers: Registers,
@@ -45,14 +45,14 @@ pub struct RowSelection {
     /// The slopes of a row that is left out, by coordinate, and its weights, by row that is solved.
     slope: Vec<f64>,
     weights: Vec<f64>,
-    /// What has been chosen so far.
-    known: Vec<Arc<SelectedRows>>,
+    /// All selections so far.
+    cached: Vec<Arc<SelectedRows>>,
     current: Option<Arc<SelectedRows>>,
 }
 
 impl RowSelection {
-    /// Of equations of which some are left out; none where all are needed.
-    pub fn of(kinematics: &Kinematics) -> Option<RowSelection> {
+    /// Returns the selection of a system that leaves out some equations; `None` where all are needed.
+    pub fn new(kinematics: &Kinematics) -> Option<RowSelection> {
         let determined = kinematics.determined();
         let whole = determined.whole();
         if determined.left_out().is_empty() || whole.has_signals() {
@@ -70,21 +70,21 @@ impl RowSelection {
         let registers = program.start(&whole.param_values());
         let kept = determined.kept();
         let (slope, weights) = (vec![0.0; n], vec![0.0; n]);
-        Some(RowSelection { program, registers, slopes, kept, slope, weights, known: Vec::new(), current: None })
+        Some(RowSelection { program, registers, slopes, kept, slope, weights, cached: Vec::new(), current: None })
     }
 
-    /// The equations that are solved, if they are others than those at the start.
+    /// Returns the selection, if it differs from the equations at the start.
     pub fn current(&self) -> Option<&Arc<SelectedRows>> {
         self.current.as_ref()
     }
 
-    /// Returns whether the equations that are solved are well chosen at a state, where these were factored.
+    /// Returns whether the selection is good at a state, where its equations were factored.
     pub fn is_good(&mut self, kinematics: &mut Kinematics, state: &State) -> bool {
         self.heaviest(kinematics, state).is_none_or(|(_, _, weight)| weight <= LARGEST_WEIGHT)
     }
 
-    /// The largest weight of a row that is solved in one that is left out, both by their place among all rows, scaled; none where nothing is left
-    /// out.
+    /// Returns the exchange with the largest weight: a row that is left out and a row that is solved, both by their index among all rows,
+    /// and the scaled weight of the latter in the former; `None` if no row is left out.
     fn heaviest(&mut self, kinematics: &mut Kinematics, state: &State) -> Option<(usize, usize, f64)> {
         let determined = kinematics.determined();
         let inputs = self.program.inputs;
@@ -103,9 +103,9 @@ impl RowSelection {
             }
             let norm = norm.sqrt();
             kinematics.solve_for_multipliers(&self.slope, &mut self.weights);
-            for (own, (&kept, weight)) in self.kept.iter().zip(&self.weights).enumerate() {
-                let weight = weight.abs() * kinematics.linear().row_norm(own) / norm;
-                if weight > heaviest.map_or(0.0, |(_, _, known)| known) {
+            for (index, (&kept, weight)) in self.kept.iter().zip(&self.weights).enumerate() {
+                let weight = weight.abs() * kinematics.linear().row_norm(index) / norm;
+                if weight > heaviest.map_or(0.0, |(_, _, largest)| largest) {
                     heaviest = Some((row, kept, weight));
                 }
             }
@@ -113,7 +113,7 @@ impl RowSelection {
         heaviest
     }
 
-    /// Chooses the equations for a state anew; says whether they are others. Allocates.
+    /// Selects the equations anew for a state; returns whether they changed. Allocates.
     pub fn choose(&mut self, kinematics: &mut Kinematics, state: &State) -> bool {
         let mut is_changed = false;
         for _ in 0..MOST_EXCHANGES {
@@ -142,11 +142,11 @@ impl RowSelection {
         is_changed
     }
 
-    /// The equations of the whole without some rows, of which no solver is known yet where they are new.
+    /// Returns the selection that leaves out some rows of the whole, from the cache or built for a state.
     fn chosen(&mut self, kinematics: &Kinematics, left_out: &[usize], state: &State) -> Option<Arc<SelectedRows>> {
-        let known = self.known.iter().find(|known| known.determined.left_out() == left_out);
-        if let Some(known) = known {
-            return Some(Arc::clone(known));
+        let cached = self.cached.iter().find(|cached| cached.determined.left_out() == left_out);
+        if let Some(cached) = cached {
+            return Some(Arc::clone(cached));
         }
         let determined = Arc::new(kinematics.determined().with_rows_dropped(left_out)?);
         let program = Arc::new(Program::new(determined.system()));
@@ -155,11 +155,11 @@ impl RowSelection {
         other.choose_orders();
         let solver = other.solver().map(Arc::new);
         let chosen = Arc::new(SelectedRows { determined, program, solver });
-        self.known.push(Arc::clone(&chosen));
+        self.cached.push(Arc::clone(&chosen));
         Some(chosen)
     }
 
-    /// What solves for rows of a motion with the equations that are solved now, measured against a span (s).
+    /// Returns the batch that solves for rows with the selected equations, measured against a span (s); `None` without a solver.
     pub fn batch(&self, kinematics: &Kinematics, origin: Checkpoint, span: f64) -> Option<RowBatch> {
         let solver = self.current.as_ref()?.solver.clone()?;
         Some(RowBatch::new(kinematics, solver, origin, span))

@@ -1,7 +1,7 @@
-//! The start of a mechanism.
+//! Start of a mechanism: closes it as it is drawn, and follows it to its first time.
 //!
 //! The branch of a motion is decided once, by the drawing: the equations are closed with the drivers where the drawing has them, and
-//! then the drivers are led to where they begin, along that branch. To any other first time the motion is followed from there.
+//! then the drivers are moved to where they begin, along that branch. To any other first time the motion is followed from there.
 
 use super::continuation::{Continuation, ContinuationOptions, PathOutcome, WAY};
 use crate::analysis::assemble::{Doubt, Solving, Started, Unassembled, close_without_drivers, driver_residuals};
@@ -37,7 +37,7 @@ pub fn start(
 ///
 /// Where the drawing closes clearly better with the drivers where they begin, as of a crank that is not drawn, it means that. Where it closes
 /// neither way, or no way leads on, it is closed with its drivers left out, and driven from there; else it is closed from the estimates with
-/// the drivers where they begin. Both leave the branch in doubt, which [`Started::remarks`] tells.
+/// the drivers where they begin. Both leave the branch in doubt, which [`Started::remarks`] reports.
 ///
 /// # Errors
 /// It cannot be assembled, starts in a singular position, or a formula has no value there.
@@ -65,15 +65,16 @@ pub fn start_from(whole: &Unassembled, estimates: Option<&[f64]>, solving: Solvi
     let (q, doubt) = match free.and_then(|(q, residuals)| close_and_drive(whole, &q, &residuals)) {
         Some(closed) => (closed.q, Doubt::DriversLeftOut),
         None => match (begun, whole.determined.start()) {
-            (Err(_), Some(q)) => (q.to_vec(), Doubt::NotLed),
-            (begun, _) => (begun?.q, Doubt::NotLed),
+            (Err(_), Some(q)) => (q.to_vec(), Doubt::NotDriven),
+            (begun, _) => (begun?.q, Doubt::NotDriven),
         },
     };
     Ok(whole.assemble_at_with(kinematics, &q, solving)?.with_doubt(Some(doubt)))
 }
 
-/// Follows a mechanism, in whose equations a straight way from 0 to 1 stands for time, from its estimates, or from where it stands, to some
-/// parts of the way, which rise and are above 0. A velocity that jumps on the way is no reason to stop: there is no time.
+/// Follows a mechanism, in whose equations a fraction of a straight path, from 0 to 1, stands for time, from its estimates, or from a
+/// position, to some fractions of the path, which rise and are above 0. A velocity that jumps on the path is no reason to stop: there is no
+/// time.
 ///
 /// # Errors
 /// It cannot be assembled at 0.
@@ -84,34 +85,35 @@ pub fn lead(
     parts: &[f64],
     options: &ContinuationOptions,
 ) -> Result<PathOutcome, Box<Stop>> {
-    let leader = Continuation::new(determined, program, Solving::New, options);
+    let continuation = Continuation::new(determined, program, Solving::New, options);
     let started = match stands {
-        Some(q) => leader.whole(WAY).assemble_at(q, Solving::New)?,
-        None => start_from(&leader.whole(WAY), None, Solving::New)?,
+        Some(q) => continuation.whole(WAY).assemble_at(q, Solving::New)?,
+        None => start_from(&continuation.whole(WAY), None, Solving::New)?,
     };
-    Ok(leader.lead(started, parts))
+    Ok(continuation.run(started, parts))
 }
 
 /// A mechanism at its start, and what closing it took.
 struct Closed {
     /// Its coordinates at the start [m, rad].
     q: Vec<f64>,
-    /// How far closing moved what it had to iterate for, scaled.
+    /// Distance by which closing moved what it had to iterate for, scaled.
     moved: f64,
-    /// What leaves in doubt that it closed as it is drawn.
+    /// Doubt that it closed as it is drawn.
     doubt: Option<Doubt>,
 }
 
-/// Closes a mechanism with these residuals of rows of `Φ` as it is drawn [m, rad], and leads it to where they vanish; none where it does not
-/// close there, or no way leads on. Where one of more than half a turn ends at a dead point, the shortest way is taken, which leaves in doubt
-/// what is turned with it.
+/// Closes a mechanism with these residuals of rows of `Φ` as it is drawn [m, rad], and continues it to where they vanish; `None` if it does
+/// not close there, or no way leads on. If a way of more than half a turn ends at a dead point, the shortest way is taken, which leaves in
+/// doubt what is turned with it.
 fn close_and_drive(whole: &Unassembled, drawn: &[f64], residuals: &[(usize, f64)]) -> Option<Closed> {
     let rows = whole.determined.whole().rows();
     let turns = |&(row, from): &(usize, f64)| if rows[row].unit == RowUnit::ANGLE { from / TAU } else { 0.0 };
     let beyond = |turns: f64| (-math::floor(-f64::max(turns.abs() - MOST_TURNS, 0.0))).copysign(turns);
-    close_and_lead(whole, drawn, residuals, |residual| beyond(turns(residual))).or_else(|| {
+    close_and_continue(whole, drawn, residuals, |residual| beyond(turns(residual))).or_else(|| {
         let nearest = |residual: &(usize, f64)| math::floor(turns(residual) + 0.5);
-        let shortest = if is_round(whole, residuals) { close_and_lead(whole, drawn, residuals, nearest) } else { None };
+        let shortest =
+            if is_round(whole, residuals) { close_and_continue(whole, drawn, residuals, nearest) } else { None };
         shortest.map(|closed| Closed { doubt: Some(Doubt::ShortestWay), ..closed })
     })
 }
@@ -122,9 +124,9 @@ fn is_round(whole: &Unassembled, residuals: &[(usize, f64)]) -> bool {
     residuals.iter().any(|&(row, from)| rows[row].unit == RowUnit::ANGLE && from.abs() > PI)
 }
 
-/// Closes a mechanism as it is drawn [m, rad], and leads it to where so many whole turns are left of each residual: the last step of the
-/// assembly turns what follows without iteration. None where it does not close there, or no way leads on.
-fn close_and_lead(
+/// Closes a mechanism as it is drawn [m, rad], and continues it to where so many whole turns are left of each residual: the last step of
+/// the assembly turns what follows without iteration. `None` if it does not close there, or no way leads on.
+fn close_and_continue(
     whole: &Unassembled,
     drawn: &[f64],
     residuals: &[(usize, f64)],
@@ -133,14 +135,14 @@ fn close_and_lead(
     let t = whole.horizon.from;
     let lines = residuals.iter().map(|residual| (residual.0, [residual.1, TAU * turns(residual)])).collect();
     let way = along(whole, &Homotopy::Residuals { t, lines }).ok()?;
-    let options = ContinuationOptions::of(&way, t);
-    let leader = Continuation::new(&way.determined, &way.program, Solving::With(None), &options);
+    let options = ContinuationOptions::new(&way, t);
+    let continuation = Continuation::new(&way.determined, &way.program, Solving::With(None), &options);
     let closed = way.close(Some(drawn), Solving::With(None)).ok()?;
     let (doubt, moved) = (closed.doubt(), closed.moved_in_loops());
     if doubt == Some(Doubt::Perturbed) {
         return None;
     }
-    let mut way = leader.lead(closed, &[1.0]);
+    let mut way = continuation.run(closed, &[1.0]);
     let passed = if way.passed.is_empty() { None } else { Some(Doubt::Passed) };
     Some(Closed { q: way.reached.pop()?, moved, doubt: doubt.or(passed) })
 }
@@ -150,52 +152,53 @@ fn close_and_lead(
 ///
 /// # Errors
 /// The motion does not get there, or cannot begin there.
-pub fn follow_to(whole: &Unassembled, (started, own): (Started, f64)) -> Result<(Started, Vec<Warning>), Box<Stop>> {
+pub fn follow_to(whole: &Unassembled, (started, start): (Started, f64)) -> Result<(Started, Vec<Warning>), Box<Stop>> {
     let to = whole.horizon.from;
     let solver = started.shared_solver();
-    let (q, passed) = if to < own {
-        follow_back(whole, &started, own)?
+    let (q, passed) = if to < start {
+        follow_back(whole, &started, start)?
     } else {
         let layout = RowLayout::new(started.system());
-        let mut motion = started.into_motion(&Times::listed(own, vec![to]));
+        let mut motion = started.into_motion(&Times::listed(start, vec![to]));
         if whole.pass_bifurcations {
             motion.pass_bifurcations();
         }
         let q = match motion.next_row() {
-            Some(row) => row.map(|row| layout.position(row).to_vec()).map_err(|stop| stop.before_start(own))?,
-            None => return Err(StopCause::NoStep { driver: None }.at(own)),
+            Some(row) => row.map(|row| layout.position(row).to_vec()).map_err(|stop| stop.before_start(start))?,
+            None => return Err(StopCause::NoStep { driver: None }.at(start)),
         };
         let passed = motion.take_warnings().into_iter().filter(Warning::is_passage);
-        (q, passed.map(|warning| warning.before_start(own)).collect())
+        (q, passed.map(|warning| warning.before_start(start)).collect())
     };
     Ok((whole.assemble_at(&q, Solving::With(solver))?, passed))
 }
 
-/// Where a motion comes from [m, rad], at a time before its start: it is followed back, along a straight line of time.
-fn follow_back(whole: &Unassembled, started: &Started, own: f64) -> Result<(Vec<f64>, Vec<Warning>), Box<Stop>> {
+/// Returns the position [m, rad] at a time before the start of a motion, and the bifurcations that were passed: the motion is followed
+/// back, along a straight line of time.
+fn follow_back(whole: &Unassembled, started: &Started, start: f64) -> Result<(Vec<f64>, Vec<Warning>), Box<Stop>> {
     let to = whole.horizon.from;
-    let back = along(whole, &Homotopy::Time([own, to]))?;
-    let options = ContinuationOptions::of(&back, own);
-    let leader = Continuation::new(&back.determined, &back.program, Solving::With(None), &options);
-    let mut way = leader.lead(back.assemble_at(started.q(), Solving::With(None))?, &[1.0]);
-    let time_of = |fraction: f64| own + (to - own) * fraction;
+    let back = along(whole, &Homotopy::Time([start, to]))?;
+    let options = ContinuationOptions::new(&back, start);
+    let continuation = Continuation::new(&back.determined, &back.program, Solving::With(None), &options);
+    let mut way = continuation.run(back.assemble_at(started.q(), Solving::With(None))?, &[1.0]);
+    let time_of = |fraction: f64| start + (to - start) * fraction;
     match (way.reached.pop(), way.stopped) {
         (Some(q), _) => {
             let passed = way.passed.into_iter().map(|warning| Warning {
                 t: time_of(warning.t),
-                cause: WarningCause::PassedBeforeStart { from: own, is_backward: true, warning: Box::new(warning) },
+                cause: WarningCause::PassedBeforeStart { from: start, is_backward: true, warning: Box::new(warning) },
             });
             Ok((q, passed.collect()))
         }
         (None, Some(stop)) => {
             let t = time_of(stop.t);
-            Err(StopCause::BeforeStart { from: own, is_backward: true, stop }.at(t))
+            Err(StopCause::BeforeStart { from: start, is_backward: true, stop }.at(t))
         }
-        (None, None) => Err(StopCause::NoStep { driver: None }.at(own)),
+        (None, None) => Err(StopCause::NoStep { driver: None }.at(start)),
     }
 }
 
-/// A mechanism whose equations go along a homotopy, from 0 to 1 in place of time.
+/// Returns a mechanism whose equations go along a homotopy, from 0 to 1 in place of time.
 ///
 /// # Errors
 /// These equations do not determine it.

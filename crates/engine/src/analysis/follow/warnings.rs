@@ -6,7 +6,7 @@ use mechc_ir::{ConstraintSystem, DeclarationId, IdVec};
 /// Warnings of a motion so far.
 pub struct Warnings {
     reported: Reported,
-    /// Times at which accelerations have jumped (s), if anybody asks for them.
+    /// Times at which accelerations have jumped (s), if they are requested.
     jumps: Option<Vec<f64>>,
 }
 
@@ -14,7 +14,7 @@ pub struct Warnings {
 #[derive(Clone)]
 pub struct Reported {
     warnings: Vec<Warning>,
-    /// Declarations of which it has been said that they make an acceleration jump.
+    /// Declarations that have been reported to make an acceleration jump.
     warned: IdVec<DeclarationId, bool>,
 }
 
@@ -28,7 +28,7 @@ impl Warnings {
         self.reported.warnings.push(warning);
     }
 
-    /// All that has been said since this was asked last.
+    /// Takes the warnings since the last call.
     pub fn take(&mut self) -> Vec<Warning> {
         std::mem::take(&mut self.reported.warnings)
     }
@@ -38,17 +38,17 @@ impl Warnings {
         self.reported.clone()
     }
 
-    /// Takes back what has been said since.
+    /// Restores the warnings of an earlier [`Warnings::reported`].
     pub fn restore(&mut self, reported: Reported) {
         self.reported = reported;
     }
 
-    /// From now on times are remembered at which accelerations jump.
+    /// Records from now on the times at which accelerations jump.
     pub fn keep_jumps(&mut self) {
         self.jumps.get_or_insert_default();
     }
 
-    /// These times (s), ascending, each once.
+    /// Returns the recorded times (s), ascending, each once.
     pub fn jumps(&self) -> Vec<f64> {
         let mut jumps = self.jumps.clone().unwrap_or_default();
         jumps.sort_by(f64::total_cmp);
@@ -56,7 +56,7 @@ impl Warnings {
         jumps
     }
 
-    /// An acceleration jumps at an edge (s).
+    /// Records that an acceleration jumps at an edge (s).
     pub fn take_jump(&mut self, t: f64) {
         if let Some(jumps) = &mut self.jumps {
             jumps.push(t);

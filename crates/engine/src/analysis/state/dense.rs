@@ -3,7 +3,7 @@
 
 use mechc_ir::tolerances::solving::order::LEAST_PIVOT;
 
-/// LU with partial pivoting in place, row by row; gives the smallest pivot.
+/// Factors a matrix in place by LU with partial pivoting, row by row; returns the smallest pivot.
 pub fn factor_dense(a: &mut [f64], pivots: &mut [u32], n: usize) -> f64 {
     let mut smallest = f64::INFINITY;
     for k in 0..n {

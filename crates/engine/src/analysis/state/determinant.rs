@@ -1,6 +1,6 @@
 //! Determinants of blocks, of any size without underflow: their signs tell the branches of a motion apart.
 
-/// 2^-256: a determinant below it is told in units of it, since that of a large block would underflow.
+/// 2^-256: a determinant below it is stored in units of it, since that of a large block would underflow.
 const UNIT: f64 = 1.0 / UNITS;
 /// 2^256.
 const UNITS: f64 = (1_u128 << 127) as f64 * (1_u128 << 127) as f64 * 4.0;
@@ -20,8 +20,8 @@ impl Determinant {
         self.value.is_sign_positive()
     }
 
-    /// Its value, measured such that that of `other` is neither too large nor too small for it.
-    pub fn beside(self, other: Determinant) -> f64 {
+    /// Returns the value in such units that the value of `other` neither overflows nor underflows in them.
+    pub fn relative_to(self, other: Determinant) -> f64 {
         match i64::from(self.units) - i64::from(other.units) {
             0 => self.value,
             1 => self.value * UNIT,

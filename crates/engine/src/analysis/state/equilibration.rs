@@ -1,11 +1,10 @@
 //! Equilibration: a scale for each equation and each coordinate, block by block, which measure the nearness to a singular position.
 //!
-//! It must say the same whatever the unit, the place of the origin, what is drawn beside the equations, and the size of one
-//! body against the others. So the entries of a block are taken for as large as they come along a motion, not for what they
-//! happen to be here: the slope of a joint's equation in a turn is that of its lever, whichever way the lever points; a formula's
-//! slope is also looked at beside the position. The matrix of these magnitudes is equilibrated: every row and every column comes
-//! to unit norm (R. Sinkhorn, P. Knopp, 1967). Divided by the same scales, `Φ_q` has entries of about 1 where it is good, and
-//! one that vanishes only here is seen to.
+//! The result must not depend on the unit, on the location of the origin, on drawn features that no equation uses, or on the size of one body
+//! relative to the others. So an entry of a block counts with its typical magnitude along a motion, not with its value at one position: the slope of
+//! a joint's equation in a turn is that of its lever, in whatever direction the lever points; a formula's slope is also evaluated near the position.
+//! The matrix of these magnitudes is equilibrated: every row and every column comes to unit norm (R. Sinkhorn, P. Knopp, 1967). Divided by the same
+//! scales, `Φ_q` has entries of about 1 where it is good, and one that vanishes only here is noticed.
 //!
 //! Where a body's frame lies far from its features, its turn is about their centroid, and its motion is that of the centroid:
 //! else turning would be almost the same as moving.
@@ -48,11 +47,11 @@ enum EntryKind {
 pub struct Centroid {
     /// The column of φ, and its place within the block.
     pub turn: [u32; 2],
-    /// The same of x and of y, as far as they are in the block.
+    /// The columns of x and y, and their places, as far as they are in the block.
     pub moves: [Option<[u32; 2]>; 2],
-    /// In the frame of the body (m).
+    /// Position in the frame of the body (m).
     local: [f64; 2],
-    /// From the body's origin, in the global frame, as far as it moves with the block (m).
+    /// Vector from the body's origin, in the global frame, as far as it moves with the block (m).
     pub from_origin: [f64; 2],
 }
 
@@ -90,7 +89,7 @@ pub struct Equilibration {
 impl Equilibration {
     pub fn new(system: &ConstraintSystem, blocks: &[Block]) -> Equilibration {
         let n = system.coordinates().len();
-        let features = Features::of(system);
+        let features = Features::new(system);
         let mut equilibration = Equilibration {
             parts: Vec::with_capacity(blocks.len()),
             rows: Vec::with_capacity(n),
@@ -111,7 +110,7 @@ impl Equilibration {
             for (place, &column) in block.columns.iter().enumerate() {
                 place_of[column as usize] = place as u32;
             }
-            equilibration.add(system, block, &features, (&place_of, &mut centroid_of));
+            equilibration.add(system, block, &features, &place_of, &mut centroid_of);
             block.columns.iter().for_each(|&column| place_of[column as usize] = NONE);
         }
         equilibration.magnitudes = vec![0.0; equilibration.entries.len()];
@@ -123,7 +122,8 @@ impl Equilibration {
         system: &ConstraintSystem,
         block: &Block,
         features: &Features,
-        (place_of, centroid_of): (&[u32], &mut IdVec<BodyId, u32>),
+        place_of: &[u32],
+        centroid_of: &mut IdVec<BodyId, u32>,
     ) {
         let (rows, entries, centroids) = (self.rows.len(), self.entries.len(), self.centroids.len());
         self.rows.extend_from_slice(&block.rows);
@@ -219,8 +219,8 @@ impl Equilibration {
         &mut self.nearby_slopes[position]
     }
 
-    /// Takes the magnitudes of slopes where the position was set; `slope` gives those by their positions in the pattern, and `rounding` what
-    /// rounding makes of a row. A slope that changes the row by no more over the size of its coordinate is none.
+    /// Measures the slopes where the position was set: `slope` gives each by its position in the pattern, and `rounding` gives the rounding
+    /// of a row. A slope counts as zero if its product with the size of its coordinate does not exceed that.
     pub fn measure(&mut self, slope: impl Fn(usize) -> f64, rounding: impl Fn(usize) -> f64) {
         for k in 0..self.parts.len() {
             if self.parts[k].changes || !self.is_measured {
@@ -246,9 +246,9 @@ impl Equilibration {
             EntryKind::Turn { lever, about } => {
                 let [right, up] = self.centroids[about as usize].from_origin;
                 let (turn, terms) = (here + up * x - right * y, here.abs() + (up * x).abs() + (right * y).abs());
-                // what rounding leaves of an equation that holds at the centroid is no slope
-                let own = if turn.abs() > ROUNDING * terms { turn.abs() } else { 0.0 };
-                return f64::max(own, lever * math::hypot(x, y));
+                // rounding of an equation that holds at the centroid is no slope
+                let moment = if turn.abs() > ROUNDING * terms { turn.abs() } else { 0.0 };
+                return f64::max(moment, lever * math::hypot(x, y));
             }
             EntryKind::Other => here.abs(),
         };
@@ -319,7 +319,7 @@ impl Mean {
         }
     }
 
-    /// 1 where no entry says more.
+    /// Returns the mean, or 1 if it is zero or not finite.
     fn value_or_one(self, [low, high]: [f64; 2]) -> f64 {
         let value = match self {
             Mean::OfExtremes => low.sqrt() * high.sqrt(),
@@ -351,22 +351,21 @@ fn changes(system: &ConstraintSystem, row: usize) -> bool {
     }
 }
 
-/// Returns whether a row's slopes are to be looked at beside a position: it is written by hand, or moves along a curve or line of
-/// centres.
+/// Returns whether a row's slopes need to be evaluated near a position too: it is written by hand, or moves along a curve or line of centres.
 pub fn needs_nearby_slope(system: &ConstraintSystem, row: usize) -> bool {
     let slopes = system.phi_q().row(row);
-    let has_own = slopes.iter().any(|&(column, _)| system.body_of(column as usize).is_none());
+    let has_argument = slopes.iter().any(|&(column, _)| system.body_of(column as usize).is_none());
     let constant = |&(_, slope): &(u32, _)| system.graph().dependence(slope).is_constant();
-    (has_own || !is_of_joint(system, row)) && !slopes.iter().all(constant)
+    (has_argument || !is_of_joint(system, row)) && !slopes.iter().all(constant)
 }
 
-/// Where features are in the frames of their bodies (m), by point.
+/// Locations of features in the frames of their bodies (m), by point.
 struct Features {
     places: IdVec<PointId, [f64; 2]>,
 }
 
 impl Features {
-    fn of(system: &ConstraintSystem) -> Features {
+    fn new(system: &ConstraintSystem) -> Features {
         let formulas: Vec<_> = system.points().iter().flat_map(|point| point.at).collect();
         let mut values = Vec::new();
         if !formulas.is_empty() {
@@ -380,7 +379,7 @@ impl Features {
         Features { places: system.points().map(|point| point.at.map(|id| values[id.index()])) }
     }
 
-    /// The features of a body that a row speaks of.
+    /// Returns the features of a body that a row speaks of.
     fn of_row<'f>(
         &'f self,
         system: &'f ConstraintSystem,
@@ -391,12 +390,12 @@ impl Features {
         features.iter().filter(move |&&k| system.points()[k].body == Some(body)).map(|&k| self.places[k])
     }
 
-    /// How far from a centroid a row takes hold of a body at most (m).
+    /// Returns the largest distance from a centroid at which a row acts on a body (m).
     fn lever(&self, system: &ConstraintSystem, row: usize, body: BodyId, [x, y]: [f64; 2]) -> f64 {
-        // where all features are one point, rounding may put their centroid beside it
-        let beside = |at: &[f64; 2]| math::hypot(at[0] - x, at[1] - y);
-        let is_lever = |at: &[f64; 2]| beside(at).is_finite() && beside(at) > ROUNDING * math::hypot(x, y);
-        let levers = self.of_row(system, row, body).filter(is_lever).map(|at| beside(&at));
+        // if all features are one point, rounding may put their centroid next to it
+        let distance = |at: &[f64; 2]| math::hypot(at[0] - x, at[1] - y);
+        let is_lever = |at: &[f64; 2]| distance(at).is_finite() && distance(at) > ROUNDING * math::hypot(x, y);
+        let levers = self.of_row(system, row, body).filter(is_lever).map(|at| distance(&at));
         let longest = levers.fold(0.0, f64::max);
         if system.declaration_of(row).axes.is_empty() {
             return longest;
@@ -406,8 +405,8 @@ impl Features {
         f64::max(longest, if smallest.is_finite() { LEAST_LEVER * smallest } else { 0.0 })
     }
 
-    /// The bodies of a block that move and turn with it, and whose frames lie far from the features that its equations use,
-    /// with the centroids of these.
+    /// Returns the bodies of a block that move and turn with it, and whose frames lie far from the features that its equations use, with
+    /// the centroids of these features.
     fn far_centroids(&self, system: &ConstraintSystem, block: &Block, place_of: &[u32]) -> Vec<(BodyId, [f64; 2])> {
         let in_block = |column: usize| place_of[column] != NONE;
         let turning = block.columns.iter().filter_map(|&column| {
@@ -439,15 +438,15 @@ impl Features {
     }
 }
 
-/// The centroid of a body's features, if the frame lies far from them.
+/// Returns the centroid of a body's features, if the frame lies far from them.
 fn far_centroid(places: &[(BodyId, [f64; 2])], body: BodyId) -> Option<[f64; 2]> {
     let start = places.partition_point(|&(other, _)| other < body);
-    let own: Vec<[f64; 2]> =
+    let features: Vec<[f64; 2]> =
         places[start..].iter().take_while(|&&(other, _)| other == body).map(|&(_, at)| at).collect();
-    let count = own.len() as f64;
-    let mean = |part: usize| own.iter().map(|at| at[part]).sum::<f64>() / count;
+    let count = features.len() as f64;
+    let mean = |part: usize| features.iter().map(|at| at[part]).sum::<f64>() / count;
     let [x, y] = [mean(0), mean(1)];
-    let reach = own.iter().map(|at| math::hypot(at[0] - x, at[1] - y)).fold(0.0, f64::max);
-    // with but one feature, which it turns about, no lever tells turning and moving apart either
+    let reach = features.iter().map(|at| math::hypot(at[0] - x, at[1] - y)).fold(0.0, f64::max);
+    // with a single feature, about which the body turns, no lever distinguishes turning from moving either
     (math::hypot(x, y) > FAR_FRAME * reach).then_some([x, y])
 }

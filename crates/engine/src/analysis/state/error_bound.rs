@@ -1,7 +1,6 @@
 //! Error bounds of a row: whether its numbers hold digits, and not only rounding.
 //!
-//! It is judged from the state of the row alone, whichever way led there, so that the verdict does not depend on the other output
-//! times.
+//! The verdict uses the state of the row alone, so it does not depend on how the state was reached, nor on the other output times.
 
 use super::kinematics::{Kinematics, State};
 use mechc_ir::tolerances::solving::trust::{ACCELERATION, ACCURACY, FAR, SLOW, VELOCITY};

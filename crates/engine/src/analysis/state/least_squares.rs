@@ -1,5 +1,5 @@
-//! Equations brought as near to zero as they come, where they may be more or fewer than their unknowns, or contradict
-//! each other (K. Levenberg, 1944; D. Marquardt, 1963). Dense: for parts of a mechanism, and never in the time loop.
+//! Least squares: brings equations as near to zero as possible; they may be more or fewer than their unknowns, or contradict each other (K.
+//! Levenberg, 1944; D. Marquardt, 1963). Dense: for parts of a mechanism, and never in the time loop.
 
 use mechc_expr::math;
 use mechc_ir::ConstraintSystem;
@@ -28,7 +28,7 @@ pub struct Evaluated<'s, P, J> {
 }
 
 impl<P: Fn(usize) -> f64, J: Fn(usize) -> f64> Evaluated<'_, P, J> {
-    /// Some rows by some columns; none where they are not finite. Without weights the rows' norms become the weights.
+    /// Returns some rows by some columns; `None` if they are not finite. Without weights the rows' norms become the weights.
     pub fn linear(&self, rows: &[u32], columns: &[u32], weights: Option<&[f64]>) -> Option<Linear> {
         let system = self.system;
         let n = columns.len();
@@ -62,8 +62,8 @@ impl<P: Fn(usize) -> f64, J: Fn(usize) -> f64> Evaluated<'_, P, J> {
     }
 }
 
-/// Moves some coordinates of `q` to where the equations are nearest to zero, and gives them there; `linear` evaluates
-/// them, with the weights it is given. None where they are not finite at the beginning.
+/// Moves some coordinates of `q` to where the equations are nearest to zero, and returns the equations there; `linear` evaluates them with
+/// given weights. `None` if they are not finite at the beginning.
 pub fn minimize(
     system: &ConstraintSystem,
     columns: &[u32],
@@ -111,7 +111,7 @@ pub fn square(v: &[f64]) -> f64 {
     v.iter().map(|x| x * x).sum()
 }
 
-/// The x of least |J x + r|² + λ|x|²: the rows of J are rotated one by one into √λ I, of which each row is held up to its
+/// Returns the x of least |J x + r|² + λ|x|²: the rows of J are rotated one by one into √λ I, of which each row is held up to its
 /// last entry, so that what is sparse costs little (J. A. George, M. T. Heath, 1980).
 fn damped_solution(jacobian: &[f64], residual: &[f64], damping: f64, n: usize) -> Vec<f64> {
     let mut triangle = vec![0.0; n * n];
@@ -148,8 +148,8 @@ fn damped_solution(jacobian: &[f64], residual: &[f64], damping: f64, n: usize) -
     }
     for k in (0..n).rev() {
         let row = &triangle[k * n..(k + 1) * n];
-        let known: f64 = (k + 1..ends[k]).map(|j| row[j] * x[j]).sum();
-        x[k] = (x[k] - known) / row[k];
+        let resolved: f64 = (k + 1..ends[k]).map(|j| row[j] * x[j]).sum();
+        x[k] = (x[k] - resolved) / row[k];
     }
     x
 }

@@ -1,5 +1,5 @@
-//! One state: residuals of the equations, the corrections and derivatives that the factors of the Jacobian give, the nearness to
-//! a singular position, and error bounds. The module must not know other states.
+//! Computations at one state: residuals of the equations, the corrections and derivatives that the factors of the Jacobian give, the nearness to
+//! a singular position, and error bounds. This module must not know other states.
 
 mod dense;
 mod determinant;

@@ -170,7 +170,7 @@ impl Times {
 pub struct Horizon {
     /// The first time (s).
     pub from: f64,
-    /// To the last one (s): what is near in time is near beside this.
+    /// Time from there to the last one (s); it is the scale for what is near in time.
     pub span: f64,
 }
 
@@ -196,7 +196,7 @@ impl Horizon {
     }
 }
 
-/// Returns a time on the later side of whatever is meant to happen at `t` (s).
+/// Returns a time on the later side of whatever happens within rounding of `t` (s).
 pub fn shortly_after(t: f64) -> f64 {
     neighbours::shortly_after(t, SLACK)
 }
@@ -225,9 +225,9 @@ mod tests {
     #[test]
     fn the_first_time_after_another_is_found() {
         let grid = Times::grid(0.0, 1.0, 0.1).unwrap();
-        for (t, wanted) in [(-1.0, 0), (0.0, 1), (0.05, 1), (0.1, 2), (0.99, 10), (1.0, 11), (9.0, 11)] {
-            for from in 0..=wanted {
-                assert_eq!(grid.first_after(t, from), wanted, "t = {t}, from {from}");
+        for (t, expected) in [(-1.0, 0), (0.0, 1), (0.05, 1), (0.1, 2), (0.99, 10), (1.0, 11), (9.0, 11)] {
+            for from in 0..=expected {
+                assert_eq!(grid.first_after(t, from), expected, "t = {t}, from {from}");
             }
         }
     }

@@ -1,6 +1,5 @@
-//! LU of a block in an order that is fixed once: which entries arise, and which operations make them, is known before any
-//! value is. The pivots are chosen for few entries and for size (H. M. Markowitz, 1957); whether they still are large
-//! enough is watched at every factorisation.
+//! LU of a block in an order that is fixed once: which entries arise, and which operations make them, is decided before any value is computed. The
+//! pivots are chosen for few entries and for size (H. M. Markowitz, 1957); every factorisation checks that they still are large enough.
 
 use crate::solver::{BlockEntry, Order};
 use mechc_ir::tolerances::solving::order::LEAST_PIVOT;
@@ -15,7 +14,7 @@ pub struct Plan {
     /// True if the permutation from rows to columns is odd.
     is_odd: bool,
     slots: usize,
-    /// Where each entry of the block goes, in the order they were given.
+    /// Slot of each entry of the block, in the order of `entries`.
     scatter: Vec<u32>,
     /// By position: slots of the multipliers.
     multipliers: Vec<u32>,
@@ -98,7 +97,7 @@ impl Plan {
         let mut updates = self.updates.iter();
         for (k, &at) in self.pivots.iter().enumerate() {
             let pivot = v[at as usize];
-            // what is not a number must win
+            // NaN must win
             smallest = if pivot.abs() >= smallest { smallest } else { pivot.abs() };
             if pivot.abs() < LEAST_PIVOT {
                 v[at as usize] = LEAST_PIVOT.copysign(pivot);

@@ -45,7 +45,7 @@ pub struct BatchContext {
     tear_slopes: Vec<Vec<f64>>,
     /// The factor that makes a smallest pivot an estimated distance to a singular position.
     pub(super) pivot_scale: f64,
-    /// That distance of the nominal state.
+    /// Estimated distance of the nominal state to a singular position.
     nominal_distance: f64,
     /// The first time (s).
     pub(super) from: f64,

@@ -1,4 +1,4 @@
-//! A start that cannot be assembled.
+//! Diagnostics of a start that cannot be assembled.
 
 use super::{at, cut_list, degrees, length, named, three_digits, with_places};
 use crate::analysis::explain::open_loop::{FaultyLink, FaultyLinkKind, OpenLoop};
@@ -7,11 +7,11 @@ use mechc_ir::{ConstraintSystem, CoordinateKind, DeclarationId, DeclarationKind}
 use mechc_text::diag::{Code, Diagnostic};
 use serde_json::{Value, json};
 
-/// Where a gap has another order of magnitude than the mechanism.
+/// Help for a gap of another order of magnitude than the mechanism.
 const FAR_OFF: &str =
     "that is far more than the mechanism's size: look for a length whose unit is missing or another one";
 
-/// A loop that does not close.
+/// Returns the diagnostic of a loop that does not close.
 pub fn open_loop(system: &ConstraintSystem, open: &OpenLoop, t: f64) -> Diagnostic {
     let declaration = &system.declarations()[open.at];
     let (noun, name) = (declaration.kind.noun(), &declaration.name);
@@ -20,7 +20,7 @@ pub fn open_loop(system: &ConstraintSystem, open: &OpenLoop, t: f64) -> Diagnost
         return without_value(system, open, t);
     }
     let by = if open.kind == CoordinateKind::Length { length(open.by) } else { degrees(open.by) };
-    // loops stay open, and what is asked of a body is missed
+    // a loop stays open, a body misses what is prescribed
     let open_word = if is_joint { "open" } else { "off" };
     let message = format!("the mechanism cannot be assembled at {}: {noun} `{name}` stays {open_word} by {by}", at(t));
     let mut diagnostic = Diagnostic::new(Code::E0601, message)
@@ -55,7 +55,7 @@ pub fn open_loop(system: &ConstraintSystem, open: &OpenLoop, t: f64) -> Diagnost
     diagnostic.help(mend)
 }
 
-/// An equation that no motion brings nearer to what it is to be.
+/// Returns the diagnostic of an equation that no motion brings nearer to its prescribed value.
 fn without_value(system: &ConstraintSystem, open: &OpenLoop, t: f64) -> Diagnostic {
     let declaration = &system.declarations()[open.at];
     let (noun, name) = (declaration.kind.noun(), &declaration.name);
@@ -75,13 +75,13 @@ fn without_value(system: &ConstraintSystem, open: &OpenLoop, t: f64) -> Diagnost
         .datum("residual", open.residual)
 }
 
-/// Rounded up to three digits.
+/// Rounds up to three digits.
 fn at_least(value: f64) -> f64 {
     let digit = math::pow(10.0, math::log10(value).floor() - 2.0);
     (value / digit).ceil() * digit
 }
 
-/// What a length is of, and between which declarations it is.
+/// Returns a length, its owner, and the declarations between which it lies.
 fn link_as_data(system: &ConstraintSystem, link: &FaultyLink) -> Value {
     let is = if link.too_short { "too short" } else { "too long" };
     match link.of {

@@ -1,4 +1,4 @@
-//! Too many equations, too few, or both.
+//! Diagnostics of too many equations, too few, or both.
 
 use super::{LISTED, at, degrees, gap_kind, length, with_places};
 use crate::analysis::explain::freedom::Freedom;
@@ -21,8 +21,8 @@ pub fn too_many(system: &ConstraintSystem, dependents: &[Dependent]) -> Diagnost
     diagnostics
 }
 
-/// The groups of dependent rows by declaration, each with the drivers that have nothing left to move because of it: they
-/// are not told by themselves.
+/// Returns the groups of dependent rows by declaration, each with the drivers to which it leaves no motion; these drivers get no diagnostic
+/// of their own.
 fn grouped<'d>(system: &ConstraintSystem, dependents: &'d [Dependent]) -> Vec<(&'d [Dependent], Vec<DeclarationId>)> {
     let groups = by_declaration(system, dependents);
     let reason_of = |group: &[Dependent]| {
@@ -45,7 +45,7 @@ fn by_declaration<'d>(system: &ConstraintSystem, dependents: &'d [Dependent]) ->
     dependents.chunk_by(|a, b| system.rows()[a.row].declaration == system.rows()[b.row].declaration).collect()
 }
 
-/// The declaration of a group of rows of one declaration.
+/// Returns the declaration of a group of rows of one declaration.
 fn declaration_of(system: &ConstraintSystem, group: &[Dependent]) -> DeclarationId {
     system.rows()[group[0].row].declaration
 }
@@ -61,11 +61,11 @@ fn is_stuck(system: &ConstraintSystem, group: &[Dependent]) -> bool {
         && !depends_on(system, group).iter().any(|&k| is_driver(system, k))
 }
 
-/// The declarations that a group of rows of one declaration depends on, in order.
+/// Returns the declarations that a group of rows of one declaration depends on, in order.
 fn depends_on(system: &ConstraintSystem, group: &[Dependent]) -> Vec<DeclarationId> {
-    let own = declaration_of(system, group);
+    let declaration = declaration_of(system, group);
     let rows = group.iter().flat_map(|one| &one.on).map(|&row| system.rows()[row].declaration);
-    let mut declarations: Vec<DeclarationId> = rows.filter(|&declaration| declaration != own).collect();
+    let mut declarations: Vec<DeclarationId> = rows.filter(|&other| other != declaration).collect();
     declarations.sort_unstable();
     declarations.dedup();
     declarations
@@ -91,7 +91,7 @@ fn headline_of_redundant(system: &ConstraintSystem, group: &[Dependent]) -> Stri
     }
 }
 
-/// Where drivers are stuck it is by this that nothing can move.
+/// Returns the diagnostic of a redundant group. If drivers are stuck, the group is what leaves them no motion.
 fn redundant(system: &ConstraintSystem, group: &[Dependent], stuck: &[DeclarationId]) -> Diagnostic {
     let on = depends_on(system, group);
     let index = declaration_of(system, group);
@@ -113,7 +113,7 @@ fn take_away(declaration: &Declaration) -> String {
     format!("take the {} `{}` away", declaration.kind.noun(), declaration.name)
 }
 
-/// What to write instead of a redundant joint, constraint or driver.
+/// Suggests what to write instead of a redundant joint, constraint or driver.
 fn mend(system: &ConstraintSystem, group: &[Dependent]) -> String {
     let index = declaration_of(system, group);
     let declaration = &system.declarations()[index];
@@ -156,22 +156,22 @@ fn mend(system: &ConstraintSystem, group: &[Dependent]) -> String {
     }
 }
 
-/// A link of two pins, one of which is a redundant joint: its length is what says nothing new, so let the pin slide along it.
+/// Suggests a slot for a link of two pins, one of which is a redundant joint: the link's length is redundant, so the pin may slide along it.
 fn sliding_pin(system: &ConstraintSystem, index: DeclarationId) -> Option<String> {
     let joint = &system.declarations()[index];
     let &[p, q] = joint.points.as_slice() else {
         return None;
     };
-    [(p, q), (q, p)].into_iter().find_map(|(own, other)| {
-        let body = system.points()[own].body?;
+    [(p, q), (q, p)].into_iter().find_map(|(pin, other)| {
+        let body = system.points()[pin].body?;
         let on_body = |point: &&PointId| system.points()[**point].body == Some(body);
         let pins: Vec<PointId> =
             system.declarations().iter().filter_map(|one| one.points.iter().find(on_body)).copied().collect();
-        let &[far] = pins.iter().copied().filter(|&pin| pin != own).collect::<Vec<PointId>>().as_slice() else {
+        let &[far] = pins.iter().copied().filter(|&one| one != pin).collect::<Vec<PointId>>().as_slice() else {
             return None;
         };
         let (body, from, to) =
-            (&system.bodies()[body].name, system.points()[far].name.as_ref()?, system.points()[own].name.as_ref()?);
+            (&system.bodies()[body].name, system.points()[far].name.as_ref()?, system.points()[pin].name.as_ref()?);
         Some(format!(
             "let its pin slide along `{body}`: write `axis {0}_slot = {from} to {to}` in `{body}`, \
              and `joint {0}: revolute_translational({1}, {body}.{0}_slot)`",
@@ -199,7 +199,7 @@ fn conflicting(system: &ConstraintSystem, group: &[Dependent], one: &Dependent, 
     if meshes(declaration.kind) { diagnostic.help(MESHES_AS_DRAWN) } else { diagnostic }
 }
 
-/// What is the matter with declarations that conflict; `is_free` is whether anything can move.
+/// Returns the headline for declarations that conflict; `is_free` is true if anything can move.
 fn headline_of_conflict(system: &ConstraintSystem, group: &[Dependent], is_free: bool) -> String {
     let on = depends_on(system, group);
     let declaration = &system.declarations()[declaration_of(system, group)];
@@ -255,8 +255,8 @@ pub fn shared_force(system: &ConstraintSystem, shared: &[Shared]) -> Option<Diag
     let measures = system.measures().iter().map(|of| (of.value, format!("measure `{}`", of.name), of.span));
     let results = system.results().reductions.iter().map(|of| (of.of, "what a result asks for".to_owned(), of.span));
     let of = |value: ExprId| shared.iter().find(|shared| shared.formula == value);
-    let mut asked = reactions.chain(measures).chain(results);
-    let (shared, name, span) = asked.find_map(|(value, name, span)| Some((of(value)?, name, span)))?;
+    let mut requested = reactions.chain(measures).chain(results);
+    let (shared, name, span) = requested.find_map(|(value, name, span)| Some((of(value)?, name, span)))?;
     let mut of_loop: Vec<DeclarationId> = shared.rows.iter().map(|&row| system.rows()[row].declaration).collect();
     of_loop.dedup();
     of_loop.retain(|&declaration| system.declarations()[declaration].span != span);
@@ -269,7 +269,7 @@ pub fn shared_force(system: &ConstraintSystem, shared: &[Shared]) -> Option<Diag
     )
 }
 
-/// A part of so many equations that it is not looked for those that are redundant.
+/// Returns the diagnostic of a part with so many equations that redundant ones are not sought.
 pub fn too_large(mut diagnostic: Diagnostic, rows: usize, limit: usize) -> Diagnostic {
     diagnostic.help.clear();
     diagnostic
@@ -277,7 +277,8 @@ pub fn too_large(mut diagnostic: Diagnostic, rows: usize, limit: usize) -> Diagn
         .help("leave redundant joints away by hand; or drive parts of the mechanism on their own, so that fewer equations hang together")
 }
 
-/// An equation that holds, but where it does no small motion changes it, and none of the equations that it should follow from makes it hold.
+/// Returns the diagnostic of an equation that holds in a position in which no small motion changes it, though the equations on which it
+/// depends do not imply it.
 pub fn touching(system: &ConstraintSystem, dependent: &Dependent, t: f64) -> Diagnostic {
     let group = std::slice::from_ref(dependent);
     let (index, on) = (declaration_of(system, group), depends_on(system, group));
@@ -295,7 +296,7 @@ pub fn touching(system: &ConstraintSystem, dependent: &Dependent, t: f64) -> Dia
         .datum("t", t)
 }
 
-/// An equation that was left out and does not follow from the others any more.
+/// Returns the diagnostic of an equation that was left out and no longer follows from the others.
 pub fn ceases_to_hold(system: &ConstraintSystem, index: usize, t: f64) -> Diagnostic {
     let declaration = &system.declarations()[system.checks()[index].declaration];
     let (noun, name) = (declaration.kind.noun(), &declaration.name);
@@ -305,9 +306,9 @@ pub fn ceases_to_hold(system: &ConstraintSystem, index: usize, t: f64) -> Diagno
         .datum("t", t)
 }
 
-/// What it takes for all equations to close.
+/// Help for equations that do not close.
 const NEARER_TO_THE_START: &str = "draw the bodies nearer to where they are when the motion begins";
-/// What it takes for gears that are redundant to fit.
+/// Help for redundant gears that do not fit.
 const MESHES_AS_DRAWN: &str =
     "it meshes as the poses in `at` have it: write these as formulas, or with twelve digits, so that all fit";
 
@@ -316,7 +317,7 @@ fn meshes(kind: DeclarationKind) -> bool {
     matches!(kind, DeclarationKind::Joint(Gear | InternalGear | RackPinion))
 }
 
-/// An equation that was left out and does not hold where the others are assembled.
+/// Returns the diagnostic of an equation that was left out and does not hold where the others are assembled.
 pub fn does_not_hold(system: &ConstraintSystem, index: usize, t: f64) -> Diagnostic {
     let declaration = &system.declarations()[system.checks()[index].declaration];
     let (noun, name) = (declaration.kind.noun(), &declaration.name);
@@ -327,14 +328,14 @@ pub fn does_not_hold(system: &ConstraintSystem, index: usize, t: f64) -> Diagnos
         .datum("t", t)
 }
 
-/// Beside drivers that have no motion to prescribe.
+/// Labels at drivers that have no motion to prescribe.
 const NOTHING_TO_MOVE: [&str; 2] = ["has nothing left to move", "have nothing left to move"];
 /// Largest number of redundant declarations in a headline.
 const MAX_LISTED_FAULTS: usize = 2;
-/// Bodies that can move, marked at most.
+/// Largest number of movable bodies that are marked.
 const MAX_LISTED_BODIES: usize = 3;
 
-/// What values add to a count that leaves freedom.
+/// Adds the free motions to the diagnostic of a system with too few equations.
 pub fn too_few(mut diagnostic: Diagnostic, system: &ConstraintSystem, freedom: &Freedom) -> Diagnostic {
     if freedom.degrees() == 0 {
         return diagnostic;
@@ -389,7 +390,7 @@ pub fn too_many_and_too_few(system: &ConstraintSystem, dependents: &[Dependent],
         .datum("free", free)
 }
 
-/// What is the matter with declarations, and yet how many degrees of freedom are left.
+/// Returns a diagnostic whose headline names the faults of declarations and the degrees of freedom that are left.
 fn headline_of_both(system: &ConstraintSystem, faults: &[Culprit], degrees: usize) -> Diagnostic {
     let left = match degrees {
         1 => "1 degree of freedom is left".to_owned(),
@@ -408,11 +409,11 @@ fn headline_of_both(system: &ConstraintSystem, faults: &[Culprit], degrees: usiz
     diagnostic
 }
 
-/// A declaration of dependent rows, with what is the matter with it.
+/// A declaration of dependent rows, with the words for its fault.
 struct Culprit {
     declaration: DeclarationId,
     headline: String,
-    /// Beside its place.
+    /// Label at its span.
     label: String,
 }
 
@@ -426,7 +427,7 @@ fn fault_of(system: &ConstraintSystem, group: &[Dependent]) -> Culprit {
     Culprit { declaration, headline, label }
 }
 
-/// How far a row is off.
+/// Describes how far a row is off at a time (s).
 fn gap_in_words(system: &ConstraintSystem, row: usize, by: f64, t: f64) -> String {
     let by = if gap_kind(system, row) == CoordinateKind::Length { length(by) } else { degrees(by) };
     format!("off by {by} at {}", at(t))

@@ -17,19 +17,19 @@ use mechc_text::diag::{Diagnostic, readable};
 /// Labels of one message at most.
 const LISTED: usize = 8;
 
-/// A time as a reader wants it.
+/// Formats a time as `t = 0.1 s`.
 pub fn at(t: f64) -> String {
     format!("t = {} s", short(t))
 }
 
-/// Ten digits at most.
+/// Formats a number with at most ten digits.
 pub fn short(value: f64) -> String {
     readable(format!("{value:.9e}").parse().unwrap_or(value))
 }
 
-/// `3.2 mm`, `1.4 m`.
+/// Formats a length, such as `3.2 mm` or `1.4 m`.
 ///
-/// Less than an atom is nothing.
+/// A length below that of an atom is zero.
 #[must_use]
 pub fn length(metres: f64) -> String {
     // 0.99999 m are 1 m
@@ -66,7 +66,7 @@ pub fn named(system: &ConstraintSystem, row: usize) -> String {
     format!("{} `{}`", declaration.kind.noun(), declaration.name)
 }
 
-/// `joint `contact``, `driver `motor` and `brake``.
+/// Names declarations, such as ``joint `contact` and driver `motor` ``.
 pub fn named_all(system: &ConstraintSystem, declarations: &[DeclarationId]) -> String {
     let names: Vec<String> = declarations
         .iter()
@@ -87,7 +87,7 @@ pub fn before_start(diagnostic: Diagnostic, from: f64) -> Diagnostic {
     Diagnostic { message: format!("on the way from {} s: {}", short(from), diagnostic.message), ..diagnostic }
 }
 
-/// Marks declarations, and says beside the first what holds of it, or of them all.
+/// Marks declarations; the label at the first holds for it alone or for all of them.
 pub fn with_places(
     mut diagnostic: Diagnostic,
     system: &ConstraintSystem,
@@ -106,7 +106,7 @@ pub fn with_places(
     diagnostic
 }
 
-/// The bodies that coordinates are of, and what they do; where no coordinate is a body's, the contacts and meshes.
+/// Returns the bodies of coordinates and what happens to them, in a sentence; the contacts and meshes if no coordinate belongs to a body.
 pub fn owners(system: &ConstraintSystem, columns: &[usize], what: &str) -> String {
     let of_bodies: Vec<usize> = columns.iter().copied().filter(|&k| system.body_of(k).is_some()).collect();
     let (columns, noun) = if of_bodies.is_empty() { (columns, "contacts") } else { (of_bodies.as_slice(), "bodies") };
@@ -120,7 +120,7 @@ pub fn names<'a>(names: impl Iterator<Item = &'a String>) -> Vec<String> {
     names.cloned().collect()
 }
 
-/// Names in a sentence; a long list is cut.
+/// Joins names for a sentence; cuts a long list.
 pub fn cut_list(names: &[String]) -> String {
     let left_out = names.len().saturating_sub(LISTED);
     let shown = names[..names.len() - left_out].join(", ");

@@ -1,4 +1,4 @@
-//! A motion that cannot go on: formulas without a value, jumps, haste.
+//! Diagnostics of a motion that cannot go on: formulas without a value, jumps, excessive speed.
 
 use super::{at, in_units, named_all, short, with_places};
 use crate::analysis::state::Unknown;
@@ -14,7 +14,7 @@ const MOST_COLUMNS: usize = 12;
 /// Reason why a force or derivative may have no value.
 const NO_FORCE: &str = "infinite, undefined, or too near to a singular position";
 
-/// A formula of some declarations that has no value, or a derivative that has none.
+/// Returns the diagnostic of a formula of some declarations that has no value, or a derivative without one.
 pub fn formula_not_finite(system: &ConstraintSystem, declarations: &[DeclarationId], t: f64) -> Diagnostic {
     let named = named_all(system, declarations);
     let message = format!("the formula of {named} or a derivative of it is not finite at {}", at(t));
@@ -22,7 +22,7 @@ pub fn formula_not_finite(system: &ConstraintSystem, declarations: &[Declaration
         .datum("t", t)
 }
 
-/// A load that has no value, of which a condition may not hold.
+/// Returns the diagnostic of a load without a value, of which a condition may not hold.
 pub fn load_not_finite(system: &ConstraintSystem, load: &LoadForce, broken: Option<usize>, t: f64) -> Diagnostic {
     if let Some(broken) = broken {
         return condition(system, &load.conditions[broken], t);
@@ -32,7 +32,7 @@ pub fn load_not_finite(system: &ConstraintSystem, load: &LoadForce, broken: Opti
         .datum("t", t)
 }
 
-/// A warning that a load works on a distance that is nothing, at `t` (s) for the first time.
+/// Returns a warning that a load works on a distance of zero, at `t` (s) for the first time.
 pub fn load_without_direction(load: &LoadForce, t: f64) -> Diagnostic {
     Diagnostic::new(Code::W0603, format!("load `{}` has no direction at {}", load.name, at(t)))
         .at(load.span, "works on a distance that is 0 there")
@@ -41,7 +41,7 @@ pub fn load_without_direction(load: &LoadForce, t: f64) -> Diagnostic {
         .datum("t", t)
 }
 
-/// A warning that a contact would have to pull with a force (N, below zero), at `t` (s) for the first time.
+/// Returns a warning that a contact would have to pull with a force (N, below zero), at `t` (s) for the first time.
 pub fn contact_pulls(system: &ConstraintSystem, contact: &ContactForce, force: f64, t: f64) -> Diagnostic {
     let declaration = &system.declarations()[contact.declaration];
     let message = format!("contact `{}` would have to pull at {}", declaration.name, at(t));
@@ -61,7 +61,7 @@ pub fn has_tangent(system: &ConstraintSystem, declaration: DeclarationId) -> boo
     matches!(system.declarations()[declaration].kind, DeclarationKind::Joint(JointKind::Cam | JointKind::FlatFollower))
 }
 
-/// A warning that something has no value in some rows, the first of them at `t` (s).
+/// Returns a warning that a quantity has no value in some rows, the first of them at `t` (s).
 pub fn without_value(system: &ConstraintSystem, what: Unknown, t: f64, rows: u64) -> Diagnostic {
     let place = at(t);
     let how_many = if rows == 1 { "in 1 row".to_owned() } else { format!("in {rows} rows, first at {place}") };
@@ -91,7 +91,7 @@ pub fn without_value(system: &ConstraintSystem, what: Unknown, t: f64, rows: u64
         .datum("rows", rows as usize)
 }
 
-/// A condition of a formula that does not hold.
+/// Returns the diagnostic of a condition of a formula that does not hold.
 pub fn condition(system: &ConstraintSystem, condition: &Condition, t: f64) -> Diagnostic {
     let diagnostic = |code: Code, what: &str| Diagnostic::new(code, format!("{what} at {}", at(t))).datum("t", t);
     let owner = &condition.owner;
@@ -123,14 +123,15 @@ pub fn condition(system: &ConstraintSystem, condition: &Condition, t: f64) -> Di
     }
 }
 
-/// A position that would have to change in no time.
+/// Returns the diagnostic of a position that would have to change in no time.
 ///
-/// It is a corner if only the tangents of a contact do not agree.
+/// `is_corner` is true if only the tangents of a contact do not agree. `column` would have to jump by `by` [m, rad].
 pub fn position_jump(
     system: &ConstraintSystem,
     behind: &[DeclarationId],
     is_corner: bool,
-    (column, by): (usize, f64),
+    column: usize,
+    by: f64,
     t: f64,
 ) -> Diagnostic {
     if let Some(&joint) = behind.iter().find(|&&k| is_corner && has_tangent(system, k)) {
@@ -148,7 +149,7 @@ pub fn position_jump(
         .datum("t", t)
 }
 
-/// A velocity that would have to change in no time.
+/// Returns the diagnostic of a velocity that would have to change in no time.
 pub fn velocity_jump(
     system: &ConstraintSystem,
     behind: &[DeclarationId],
@@ -165,7 +166,7 @@ pub fn velocity_jump(
         .datum("t", t)
 }
 
-/// An acceleration that has two values at one time.
+/// Returns the warning of an acceleration that has two values at one time.
 pub fn acceleration_jump(
     system: &ConstraintSystem,
     behind: &[DeclarationId],
@@ -199,7 +200,7 @@ pub fn cannot_follow(system: &ConstraintSystem, t: f64, driver: Option<usize>) -
     }
 }
 
-/// A motion that would take too many steps to the next output time.
+/// Returns the diagnostic of a motion that would take too many steps to the next output time.
 pub fn too_fast(system: &ConstraintSystem, t: f64, target: f64, steps: u64, driver: Option<usize>) -> Diagnostic {
     let diagnostic = Diagnostic::new(Code::E0604, format!("the motion is too fast to follow near {}", at(t)))
         .note(format!("{steps} steps did not reach the next output time, {}", at(target)))

@@ -1,4 +1,4 @@
-//! Singular positions, at the start and on the way, and contacts that end.
+//! Diagnostics of singular positions, at the start and on the way, and of contacts that end.
 
 use super::{at, named, names, owners, with_places};
 use mechc_ir::{ConstraintSystem, DeclarationId, DeclarationKind, JointKind, MonitorKind};
@@ -17,7 +17,7 @@ pub enum StartVerdict {
     Unknown,
 }
 
-/// A contact where a tangent vanishes, or gears whose centres meet.
+/// Returns the diagnostic of a contact where a tangent vanishes, or of gears whose centres meet.
 pub fn no_contact(system: &ConstraintSystem, index: usize, t: f64) -> Diagnostic {
     let watch = &system.monitors()[index];
     let joint = &system.declarations()[watch.declaration];
@@ -42,7 +42,7 @@ pub fn no_contact(system: &ConstraintSystem, index: usize, t: f64) -> Diagnostic
     }
 }
 
-/// A flat follower whose curve has a cusp where it touches.
+/// Returns the diagnostic of a flat follower whose curve has a cusp where it touches.
 pub fn undercut(system: &ConstraintSystem, index: usize, t: f64) -> Diagnostic {
     let joint = &system.declarations()[system.monitors()[index].declaration];
     let message = format!(
@@ -56,7 +56,7 @@ pub fn undercut(system: &ConstraintSystem, index: usize, t: f64) -> Diagnostic {
         .datum("t", t)
 }
 
-/// Why a contact is singular, and what to do about it.
+/// Explains why a contact is singular, and suggests a remedy.
 pub fn equal_curvatures(diagnostic: Diagnostic, system: &ConstraintSystem, joint: DeclarationId) -> Diagnostic {
     let name = &system.declarations()[joint].name;
     match system.declarations()[joint].kind {
@@ -104,7 +104,7 @@ pub fn bifurcation(system: &ConstraintSystem, joints: &[DeclarationId], columns:
         .datum("t", t)
 }
 
-/// A driver that turns back exactly in a dead point.
+/// Returns the diagnostic of a driver that turns back exactly in a dead point.
 pub fn driver_rests(
     system: &ConstraintSystem,
     driver: usize,
@@ -127,7 +127,7 @@ pub fn driver_rests(
     }
 }
 
-/// A bifurcation beyond which the motion was followed.
+/// Returns the warning of a bifurcation beyond which the motion was followed.
 pub fn passed(system: &ConstraintSystem, joints: &[DeclarationId], columns: &[usize], t: f64) -> Diagnostic {
     let message = format!("two branches of the motion meet at {}; the one that continues smoothly was taken", at(t));
     with_places(Diagnostic::new(Code::W0602, message), system, joints, ["this leaves it open", "these leave it open"])
@@ -135,7 +135,7 @@ pub fn passed(system: &ConstraintSystem, joints: &[DeclarationId], columns: &[us
         .datum("t", t)
 }
 
-/// A bifurcation that a motion has missed by a part of the lengths.
+/// Returns the warning of a bifurcation that a motion has missed by a part of the lengths.
 pub fn near_change_point(
     system: &ConstraintSystem,
     joints: &[DeclarationId],
@@ -154,7 +154,7 @@ pub fn near_change_point(
         .datum("within", within)
 }
 
-/// A position whose derivatives are more rounding than digits.
+/// Returns the diagnostic of a position whose derivatives are more rounding than digits.
 pub fn uncertain(system: &ConstraintSystem, joints: &[DeclarationId], t: f64) -> Diagnostic {
     let message = format!("the position at {} is too near to a singular one for its accelerations to be known", at(t));
     with_places(
@@ -168,7 +168,7 @@ pub fn uncertain(system: &ConstraintSystem, joints: &[DeclarationId], t: f64) ->
     .datum("t", t)
 }
 
-/// An equation whose derivatives by all coordinates vanish where it should fix something.
+/// Returns the diagnostic of an equation whose derivatives by all coordinates vanish where it should fix something.
 pub fn without_effect(system: &ConstraintSystem, row: usize, t: f64) -> Diagnostic {
     let message =
         format!("the equation of {} fixes nothing in the assembled position at {}", named(system, row), at(t));

@@ -1,4 +1,4 @@
-//! The way over a singular position, as curves between states on both sides of it.
+//! Path over a singular position: curves between states on both sides of it.
 
 use super::refined_bridge::RefinedBridge;
 use crate::analysis::follow::step::{Step, quintic_between};
@@ -10,47 +10,47 @@ use mechc_ir::tolerances::singular::bridge::{EXACT, SOLVABLE};
 #[derive(Clone, Debug, Default)]
 enum Sought {
     #[default]
-    Unknown,
-    Known(Option<RefinedBridge>),
+    Pending,
+    Done(Option<RefinedBridge>),
 }
 
 impl Sought {
     fn curve(&self) -> Option<&RefinedBridge> {
         match self {
-            Sought::Known(Some(finer)) => Some(finer),
+            Sought::Done(Some(finer)) => Some(finer),
             _ => None,
         }
     }
 }
 
-/// The way over a singular position.
+/// Path over a singular position.
 #[derive(Clone, Debug)]
 pub struct Bridge {
     pub from: State,
     pub to: State,
-    /// When the singular position is reached (s).
+    /// Time at which the singular position is reached (s).
     pub at: f64,
-    /// When another one is, or the same again by a motion that turns back just beyond it (s).
+    /// Time at which another one is reached, or the same one once more by a motion that turns back just beyond it (s).
     pub again: Option<f64>,
-    /// A curve for rows that the quintic is not exact enough for.
+    /// Curve for rows that the quintic is not exact enough for.
     finer: Sought,
-    /// The same for what nothing else serves, over a shorter way.
+    /// Curve over a shorter path, for rows that no other curve is exact enough for.
     narrow: Sought,
 }
 
 impl Bridge {
-    /// A row of its own: bridges are rare.
+    /// Returns the bridge between two states. It clones them, since bridges are rare.
     pub fn new(from: &State, to: &State) -> Bridge {
         let (from, to) = (from.clone(), to.clone());
-        Bridge { at: from.t, from, to, again: None, finer: Sought::Unknown, narrow: Sought::Unknown }
+        Bridge { at: from.t, from, to, again: None, finer: Sought::Pending, narrow: Sought::Pending }
     }
 
-    /// How long it is (s).
+    /// Returns the duration (s).
     pub fn length(&self) -> f64 {
         self.to.t - self.from.t
     }
 
-    /// The state at a time between, by the quintic with value, slope and curvature of both ends.
+    /// Returns the state at a time between, by the quintic with value, slope and curvature of both ends.
     pub fn state_at(&self, t: f64) -> State {
         let h = self.length();
         let x = (t - self.from.t) / h;
@@ -66,24 +66,24 @@ impl Bridge {
             state.q[k] = derivative(0);
             state.qd[k] = derivative(1) / h;
             state.qdd[k] = derivative(2) / (h * h);
-            state.qddd[k] = (derivative(3) + third_beside(h, [a.qddd[k], b.qddd[k]], c, x)) / (h * h * h);
+            state.qddd[k] = (derivative(3) + third_gain(h, [a.qddd[k], b.qddd[k]], c, x)) / (h * h * h);
         }
         state
     }
 
-    /// The same by a finer curve, if one has been found.
+    /// Returns the state at a time by the most exact curve that has been found.
     pub fn best_state_at(&self, t: f64) -> State {
         let finer = self.finer.curve().or(self.narrow.curve());
         finer.map_or_else(|| self.state_at(t), |finer| finer.state_at(t))
     }
 
-    /// The same by the finer curve over all of it, if that is exact.
+    /// Returns the state at a time by the finer curve over the whole bridge, if that is exact.
     pub fn finer_state_at(&mut self, kinematics: &mut Kinematics, step: &mut Step, t: f64) -> Option<State> {
         self.look_for_finer(kinematics, step);
         self.finer.curve().map(|finer| finer.state_at(t))
     }
 
-    /// The same by a curve over its narrowest part, if only that is exact.
+    /// Returns the state at a time by a curve over the narrowest part of the bridge, if only that is exact.
     pub fn narrow_state_at(&mut self, kinematics: &mut Kinematics, step: &mut Step, t: f64) -> Option<State> {
         self.look_for_narrow(kinematics, step);
         self.narrow.curve().map(|narrow| narrow.state_at(t))
@@ -96,23 +96,23 @@ impl Bridge {
     }
 
     fn look_for_finer(&mut self, kinematics: &mut Kinematics, step: &mut Step) {
-        if let Sought::Unknown = self.finer {
-            self.finer = Sought::Known(RefinedBridge::between(kinematics, step, [&self.from, &self.to]));
+        if let Sought::Pending = self.finer {
+            self.finer = Sought::Done(RefinedBridge::between(kinematics, step, [&self.from, &self.to]));
         }
     }
 
-    /// Looks for a curve over a shorter way, if there is none over the whole bridge that is exact: a motion that turns back beside
-    /// the singular position is there for long.
+    /// Looks for a curve over a shorter path if no curve over the whole bridge is exact: a motion that turns back near the singular
+    /// position stays there for long.
     fn look_for_narrow(&mut self, kinematics: &mut Kinematics, step: &mut Step) {
         if self.finer.curve().is_none()
-            && let Sought::Unknown = self.narrow
+            && let Sought::Pending = self.narrow
         {
             let mut narrow = [EXACT, SOLVABLE].into_iter();
-            self.narrow = Sought::Known(narrow.find_map(|nearest| self.narrow_curve(kinematics, step, nearest)));
+            self.narrow = Sought::Done(narrow.find_map(|nearest| self.narrow_curve(kinematics, step, nearest)));
         }
     }
 
-    /// A curve between the states that are so near to the singular position.
+    /// Returns a curve between the states whose nearness to the singular position is `nearest`, if one is exact.
     fn narrow_curve(&self, kinematics: &mut Kinematics, step: &mut Step, nearest: f64) -> Option<RefinedBridge> {
         let mut is_near = |t: f64| {
             kinematics.restore(&self.state_at(t));
@@ -130,9 +130,9 @@ impl Bridge {
     }
 }
 
-/// What the third derivative gains over that of a quintic, `c`, where it is known at both ends too: the quintic leaves only a
-/// few digits of it. What is added is x³ (1 − x)³ (α + β x), which changes neither value, slope nor curvature there.
-fn third_beside(h: f64, third: [f64; 2], c: [f64; 6], x: f64) -> f64 {
+/// Returns what a third derivative that is given at both ends too adds to that of the quintic `c`, which leaves only a few digits of it.
+/// The polynomial that is added is x³ (1 − x)³ (α + β x): it changes neither value, slope nor curvature at the ends.
+fn third_gain(h: f64, third: [f64; 2], c: [f64; 6], x: f64) -> f64 {
     let cube = h * h * h;
     let at_start = (cube * third[0] - 6.0 * c[3]) / 6.0;
     let at_end = -(cube * third[1] - 6.0 * c[3] - 24.0 * c[4] - 60.0 * c[5]) / 6.0;

@@ -28,17 +28,17 @@ impl Crossing {
             finer.is_some_and(|state| write_given_row(kinematics, &state, row))
         };
         if write_given_row(kinematics, &state, row)
-            || write_solved_row(kinematics, step, (&state, EXACT), row)
+            || write_solved_row(kinematics, step, &state, EXACT, row)
             || by_finer_curve(kinematics, step, row)
-            || write_solved_row(kinematics, step, (&state, SOLVABLE), row)
+            || write_solved_row(kinematics, step, &state, SOLVABLE, row)
         {
             return Some(Ok(()));
         }
-        // it may be certain as it is found without the bridge
+        // the row may be certain without the bridge
         self.passes.then(|| Err(StopCause::Uncertain { declarations: Vec::new() }.at(t)))
     }
 
-    /// The state at a time by the curve over the last singular position.
+    /// Returns the state at a time by the curve over the last singular position.
     pub fn state_at(&self, t: f64) -> Option<State> {
         self.bridge.as_ref().map(|bridge| bridge.state_at(t))
     }
@@ -58,7 +58,8 @@ impl Crossing {
 fn write_solved_row(
     kinematics: &mut Kinematics,
     step: &mut Step,
-    (state, nearest): (&State, f64),
+    state: &State,
+    nearest: f64,
     row: &mut [f64],
 ) -> bool {
     step.try_state(state);

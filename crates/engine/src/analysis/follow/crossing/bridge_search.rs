@@ -1,4 +1,4 @@
-//! A way over the singular position that the steps have come up to is looked for.
+//! Search for a bridge over the singular position that the steps have come up to.
 
 use super::bridge::Bridge;
 use super::end_of_reach::end_of_reach;
@@ -12,8 +12,8 @@ use mechc_ir::tolerances::singular::bridge::{
 };
 
 impl Crossing {
-    /// A way over the singular position that the steps have come up to, if the motion goes on there. One that begins beside it
-    /// is looked at from before its start.
+    /// Returns a bridge over the singular position that the steps have come up to, if the motion goes on there. A motion that begins next
+    /// to it is followed from before its start.
     pub(super) fn bridge_ahead(&mut self, kinematics: &mut Kinematics, step: &mut Step) -> Option<Bridge> {
         let bridge = self.bridge_from_clear(kinematics, step);
         if bridge.is_none() && self.fold.is_none() && self.go_before_start(kinematics, step) {
@@ -22,12 +22,11 @@ impl Crossing {
         bridge
     }
 
-    /// Looks for a clear state before the first time, if the motion is not clear of singular positions there; says whether there
-    /// is one.
+    /// Looks for a clear state before the first time, if the motion is not clear of singular positions there; returns whether one exists.
     fn go_before_start(&mut self, kinematics: &mut Kinematics, step: &mut Step) -> bool {
         kinematics.restore(&self.clear);
         let mut state = self.clear.clone();
-        // of the start only the position has been kept
+        // the start was kept without its derivatives
         let is_start = state.qd.iter().all(|speed| *speed == 0.0);
         if !is_start || kinematics.derivatives(&mut state).is_err() {
             return false;
@@ -37,7 +36,7 @@ impl Crossing {
             return true;
         }
         for _ in 0..STEPS_BACK {
-            // the other branch is no farther than twice that
+            // the other branch is at most twice that far
             let way = kinematics.nearness(STEP_BACK).min(STEP_BACK);
             let linear = kinematics.linear();
             let (speed, bend) = (linear.largest(&state.qd), linear.largest(&state.qdd));
@@ -58,18 +57,18 @@ impl Crossing {
         false
     }
 
-    /// A state beyond the singular position, to which the prediction from the last clear one leads.
+    /// Returns the bridge to a state beyond the singular position, to which the prediction from the last clear one leads.
     fn bridge_from_clear(&mut self, kinematics: &mut Kinematics, step: &mut Step) -> Option<Bridge> {
         kinematics.restore(step.state());
-        // without a line of centres there is nothing beyond
+        // the motion ends where a line of centres vanishes
         if step.t() <= self.clear.t || singular::centers_that_meet(kinematics).is_some() {
             return None;
         }
         self.come_closer(kinematics, step);
         let (near, way) = (step.t(), step.t() - self.clear.t);
         for part in BEYOND {
-            let bridge = self.bridge_over(kinematics, step, near + part * way);
-            // what is beyond the end of its reach is not come to by going further
+            let bridge = self.bridge_until(kinematics, step, near + part * way);
+            // a longer bridge does not lead beyond the end of reach
             if bridge.is_some() || self.fold.is_some() {
                 return bridge;
             }
@@ -92,13 +91,13 @@ impl Crossing {
         }
     }
 
-    /// The way from the clear state to one at a time (s).
-    fn bridge_over(&mut self, kinematics: &mut Kinematics, step: &mut Step, t: f64) -> Option<Bridge> {
+    /// Returns the bridge from the clear state to one at a time (s), if its curve holds and does not come to the end of reach.
+    fn bridge_until(&mut self, kinematics: &mut Kinematics, step: &mut Step, t: f64) -> Option<Bridge> {
         let (h, clear) = (t - self.clear.t, &self.clear);
         let mut way: f64 = 0.0;
         let ahead = (0..clear.q.len()).map(|k| {
             let (first, second) = (h * clear.qd[k], 0.5 * h * h * clear.qdd[k]);
-            // a motion that turns back has a way too
+            // counts the way of a motion that turns back, too
             way = way.max((first.abs() + second.abs()) / kinematics.linear().column_scale(k));
             clear.q[k] + first + second
         });

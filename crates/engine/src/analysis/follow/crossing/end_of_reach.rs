@@ -1,10 +1,9 @@
-//! Whether there is a position for every time on the way over a singular one, or whether the driver asks there for a little more
+//! End of reach: whether there is a position for every time on the path over a singular one, or the driver requires a little more there
 //! than the mechanism reaches.
 //!
-//! Let all equations be met but for `λ w`, with `w` the dependency of the rows at the singular position. Then λ is a smooth
-//! function of the way along the free motion and of time, with an extremum on that way, the fold: λ there is how much the
-//! mechanism reaches beyond what is asked for, and its sign against the curvature says whether there is a position. Since it is
-//! an extremum, it is known to twice the digits of the curve that it is looked for on.
+//! Let all equations be met but for `λ w`, with `w` the dependency of the rows at the singular position. Then λ is a smooth function of the way along
+//! the free motion and of time, with an extremum on that way, the fold. There λ is how much the mechanism reaches beyond what the driver requires,
+//! and its sign against the curvature decides whether a position exists. As an extremum it has twice the digits of the curve on which it is sought.
 
 use super::bridge::Bridge;
 use crate::analysis::state::Kinematics;
@@ -21,12 +20,12 @@ struct Extremum {
     bend: f64,
 }
 
-/// What bridges are looked at with: one bordered system for all of them, with the factors of its end.
+/// Bordered system for all states of a bridge, with the factors of its end.
 struct Fold<'b> {
     bridge: &'b Bridge,
-    /// By row: what λ is multiplied by.
+    /// By row: factor of λ.
     across: Vec<f64>,
-    /// By coordinate: what measures the way along the free motion.
+    /// By coordinate: weight in the measure of the way along the free motion.
     along: Vec<f64>,
     /// `Φ_q⁻¹ across`
     answer: Vec<f64>,
@@ -35,8 +34,8 @@ struct Fold<'b> {
     extent: f64,
 }
 
-/// When the mechanism comes to the end of its reach, if at some time on a bridge no position meets the equations to their
-/// tolerance. Where that cannot be told they are taken to be met.
+/// Returns the time at which the mechanism comes to the end of its reach, if at some time on a bridge no position meets the equations to
+/// their tolerance. Where that cannot be decided they are taken to be met.
 pub fn end_of_reach(kinematics: &mut Kinematics, bridge: &Bridge) -> Option<f64> {
     kinematics.restore(&bridge.to);
     let n = bridge.to.q.len();
@@ -58,22 +57,22 @@ pub fn end_of_reach(kinematics: &mut Kinematics, bridge: &Bridge) -> Option<f64>
     if lack(kinematics, &fold, worst)? <= MARGIN * limit {
         return None;
     }
-    // where the curve leads away from the fold there is a position
+    // a position exists where the curve leads away from the fold
     let lacks = |t: f64| lack(kinematics, &fold, t).is_some_and(|lack| lack > 0.0);
     Some(boundary(bridge.from.t, worst, lacks))
 }
 
-/// When the lack of reach is largest, about the time of the singular position.
+/// Returns the time at which the lack of reach is largest, near that of the singular position.
 fn time_of_worst_lack(kinematics: &mut Kinematics, fold: &Fold<'_>) -> f64 {
     let Bridge { from, to, at, .. } = fold.bridge;
     let side = f64::min(at - from.t, to.t - at);
     let extremum = extremum(PARABOLAS_IN_TIME, *at, [0.25 * side, side], |t| lack(kinematics, fold, t));
-    // one that is least there is largest at the ends, where positions are known
+    // a lack that is least there is largest at the ends, where positions exist
     extremum.filter(|extremum| extremum.bend < 0.0).map_or(*at, |extremum| extremum.place)
 }
 
-/// By how much more is asked for at a time than the mechanism reaches, scaled; negative where it reaches more. None where
-/// the equations have no fold beside the bridge.
+/// Returns how much more the driver requires at a time than the mechanism reaches, scaled; negative where it reaches more, `None` where the
+/// equations have no fold near the bridge.
 fn lack(kinematics: &mut Kinematics, fold: &Fold<'_>, t: f64) -> Option<f64> {
     let state = fold.bridge.state_at(t);
     let around = [0.5 * fold.extent, 4.0 * fold.extent];
@@ -81,7 +80,7 @@ fn lack(kinematics: &mut Kinematics, fold: &Fold<'_>, t: f64) -> Option<f64> {
     Some(if found.bend > 0.0 { found.value } else { -found.value })
 }
 
-/// What is left open of the dependency where all other equations hold, at a time and a place on the free motion's way.
+/// Returns λ, the residual of the dependency where all other equations hold, at a time and a place on the free motion's way.
 fn open_across(kinematics: &mut Kinematics, fold: &Fold<'_>, from: &[f64], t: f64, way: f64) -> Option<f64> {
     let answers = dot(&fold.along, &fold.answer);
     let mut q = from.to_vec();
@@ -104,7 +103,7 @@ fn open_across(kinematics: &mut Kinematics, fold: &Fold<'_>, from: &[f64], t: f6
         if size <= SETTLED {
             return Some(open);
         }
-        // rounding goes on for ever, but is small
+        // corrections by rounding do not vanish, but are small
         if size.is_nan() || size > CONTRACTS * last {
             return (size <= ROUNDING * SETTLED).then_some(open);
         }
@@ -114,7 +113,7 @@ fn open_across(kinematics: &mut Kinematics, fold: &Fold<'_>, from: &[f64], t: f6
 }
 
 impl Fold<'_> {
-    /// How far the free motion goes over the bridge.
+    /// Measures how far the free motion goes over the bridge.
     fn take_extent(&mut self) {
         let (mut least, mut most) = (f64::INFINITY, f64::NEG_INFINITY);
         let bridge = self.bridge;
@@ -128,7 +127,7 @@ impl Fold<'_> {
     }
 }
 
-/// The extremum near a place by parabolas, the first one over `reach` to both sides; none where it is further off than
+/// Returns the extremum near a location by parabolas, the first one over `reach` to both sides; `None` where it is further off than
 /// `farthest`, or where the function has none.
 fn extremum(
     parabolas: usize,
@@ -144,7 +143,7 @@ fn extremum(
         }
         let step = -0.25 * reach * (after - before) / bend;
         place += step;
-        // where the function is flat it is not a number
+        // NaN if the function is flat
         if place.is_nan() || (place - near).abs() > farthest {
             return None;
         }

@@ -1,8 +1,8 @@
-//! Over a singular position: from the last state that is well clear of it to one as far beyond, never solving at it.
+//! Crossing of a singular position: from the last state that is well clear of it to one as far beyond, never solving at it.
 //!
-//! Beyond a lock-up there is no such state. Beyond a bifurcation the prediction from before leads to the branch that goes on
-//! smoothly, since the other ones are far from it there. Between the two states the motion is the quintic through both,
-//! which also tells when the singular position is reached.
+//! Beyond a lock-up there is no such state. Beyond a bifurcation the prediction from before leads to the branch that goes on smoothly,
+//! since the other ones are far from it there. Between the two states the motion is the quintic through both, from which the time of the
+//! singular position follows.
 
 mod bridge;
 mod bridge_rows;
@@ -24,26 +24,26 @@ pub fn is_clear(kinematics: &mut Kinematics) -> bool {
     kinematics.linear().smallest_pivot() > CLEAR_PIVOT * CLEAR || kinematics.nearness(CLEAR) >= CLEAR
 }
 
-/// What is known of the singular positions on the way.
+/// Singular positions on the path: the last clear state, and the bridges.
 pub struct Crossing {
     /// True if the motion goes on beyond bifurcations.
     passes: bool,
     /// The last state that was clear of singular positions.
     clear: State,
-    /// The way over the last singular position.
+    /// Bridge over the last singular position.
     bridge: Option<Bridge>,
-    /// The same, where it was only looked for to hold a row against it.
+    /// Bridge that was only sought to compare a row with.
     spare: Option<Bridge>,
-    /// Up to this time (s) there is none: the motion is clear again then.
+    /// Time (s) up to which no singular position lies ahead: the motion is clear again then.
     clear_ahead: f64,
-    /// When the mechanism comes to the end of its reach, where that is nearly far enough for what is asked for (s).
+    /// Time at which the mechanism comes to the end of its reach, where that nearly suffices (s).
     fold: Option<f64>,
     /// The time that the steps are measured against, and the last time (s).
     span: f64,
     last: f64,
 }
 
-/// A way over a singular position that is laid aside.
+/// Bridge that is set aside.
 pub struct SuspendedBridge {
     bridge: Option<Bridge>,
     passes: bool,
@@ -63,7 +63,7 @@ impl Crossing {
         }
     }
 
-    /// From now on the motion goes on beyond bifurcations.
+    /// Makes the motion go on beyond bifurcations from now on.
     pub fn pass_bifurcations(&mut self) {
         self.passes = true;
     }
@@ -73,7 +73,7 @@ impl Crossing {
         self.passes
     }
 
-    /// The last state that was clear of singular positions.
+    /// Returns the last state that was clear of singular positions.
     pub fn clear(&self) -> &State {
         &self.clear
     }
@@ -95,22 +95,22 @@ impl Crossing {
         self.clear.copy_from(clear);
     }
 
-    /// Returns whether the motion was seen to be clear again before a time (s).
+    /// Returns whether the motion is clear again at some time after `t` (s), as far as it was looked ahead.
     pub fn is_clear_ahead(&self, t: f64) -> bool {
         t < self.clear_ahead
     }
 
-    /// The motion is clear again at a time (s).
+    /// Records that the motion is clear again at a time (s).
     pub fn take_clear_ahead(&mut self, t: f64) {
         self.clear_ahead = t;
     }
 
-    /// Returns whether a way over a singular position ends at a time (s).
+    /// Returns whether a bridge ends at a time (s).
     pub fn has_bridge_to(&self, t: f64) -> bool {
         self.bridge.as_ref().is_some_and(|bridge| bridge.to.t.total_cmp(&t).is_eq())
     }
 
-    /// The way over a singular position that ends at a time (s), with the most exact curve that there is over it.
+    /// Returns the bridge that ends at a time (s), with the most exact curve over it.
     pub fn bridge_to(&mut self, kinematics: &mut Kinematics, step: &mut Step, t: f64) -> Option<&Bridge> {
         let bridge = self.bridge.as_mut().filter(|bridge| bridge.to.t.total_cmp(&t).is_eq())?;
         bridge.look_for_exact(kinematics, step);
@@ -122,32 +122,31 @@ impl Crossing {
         self.bridge.as_ref().is_some_and(|bridge| bridge.at <= t)
     }
 
-    /// Lays the way aside to look for another one, of which only a row is to be learnt.
+    /// Sets the bridge aside while another one is sought for a single row.
     pub fn suspend(&mut self) -> SuspendedBridge {
         let bridge = std::mem::replace(&mut self.bridge, self.spare.take());
         SuspendedBridge { bridge, passes: self.passes }
     }
 
-    /// Goes back from there, and keeps what was found for the next row.
-    pub fn resume(&mut self, aside: SuspendedBridge) {
-        self.spare = std::mem::replace(&mut self.bridge, aside.bridge);
-        (self.passes, self.fold) = (aside.passes, None);
+    /// Restores the suspended bridge, and keeps the one that was found for the next row.
+    pub fn resume(&mut self, suspended: SuspendedBridge) {
+        self.spare = std::mem::replace(&mut self.bridge, suspended.bridge);
+        (self.passes, self.fold) = (suspended.passes, None);
     }
 
-    /// Lays the way aside, as if there were none and nobody wanted one.
+    /// Sets the bridge aside and passes no bifurcations, until [`Crossing::remember`].
     pub fn forget(&mut self) -> SuspendedBridge {
-        let aside = SuspendedBridge { bridge: self.bridge.take(), passes: self.passes };
+        let suspended = SuspendedBridge { bridge: self.bridge.take(), passes: self.passes };
         self.passes = false;
-        aside
+        suspended
     }
 
-    /// Goes back from there.
-    pub fn remember(&mut self, aside: SuspendedBridge) {
-        (self.bridge, self.passes) = (aside.bridge, aside.passes);
+    /// Restores the bridge that [`Crossing::forget`] set aside.
+    pub fn remember(&mut self, suspended: SuspendedBridge) {
+        (self.bridge, self.passes) = (suspended.bridge, suspended.passes);
     }
 
-    /// What there is to do where no further step can be made, the last one of length `h` on the way to `target`: goes on beyond a
-    /// bifurcation if that is wanted.
+    /// Handles the fault of a last step of length `h` (s) on the way to `target` (s): goes on beyond a bifurcation if that is wanted.
     ///
     /// # Errors
     /// Why and where the motion cannot go on.
@@ -155,7 +154,8 @@ impl Crossing {
         &mut self,
         kinematics: &mut Kinematics,
         step: &mut Step,
-        (fault, h, target): (Fault, f64, f64),
+        fault: Fault,
+        [h, target]: [f64; 2],
         warnings: &mut Warnings,
     ) -> Result<(), Box<Stop>> {
         let is_singular = matches!(fault, Fault::Singular | Fault::Choice | Fault::TooFar | Fault::Monitor { .. });
@@ -174,12 +174,12 @@ impl Crossing {
         }
         if !self.passes {
             let stop = singular::stop_at_bifurcation(kinematics, &bridge.state_at(bridge.at));
-            // rows before the singular position may lie on it
+            // rows before the singular position may lie on the bridge
             self.bridge = Some(bridge);
             return Err(stop);
         }
         for at in [Some(bridge.at), bridge.again].into_iter().flatten() {
-            // what comes behind the last row is not passed
+            // a bifurcation behind the last row is not reported
             if at <= self.last + CERTAIN * bridge.length() {
                 warnings.push(singular::warn_of_passage(kinematics, &bridge.state_at(at)));
             }

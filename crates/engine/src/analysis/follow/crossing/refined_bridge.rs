@@ -1,8 +1,6 @@
-//! A curve over a long bridge that is more exact than the quintic through its ends: through two more states, one before and
-//! one behind.
+//! Refined curve over a long bridge, more exact than the quintic through its ends: it goes through two more states, one before and one behind.
 //!
-//! What it is worth shows between the outer states and the ends of the bridge, where the motion can be solved for: it is as far
-//! off there as on the bridge.
+//! Its error shows between the outer states and the ends of the bridge, where the motion can be solved for: it is as large there as on the bridge.
 
 use crate::analysis::follow::step::Step;
 use crate::analysis::state::{Kinematics, State};
@@ -14,7 +12,7 @@ const CONDITIONS: usize = 12;
 /// Each coordinate by Newton's polynomial over times with three conditions each.
 #[derive(Clone, Debug)]
 pub struct RefinedBridge {
-    /// Where the bridge begins, and its length (s).
+    /// Start and length of the bridge (s).
     from: f64,
     length: f64,
     coefficients: Vec<[f64; CONDITIONS]>,
@@ -24,7 +22,7 @@ impl RefinedBridge {
     /// Times in parts of the bridge.
     const NODES: [f64; 4] = [-OUTWARD, 0.0, 1.0, 1.0 + OUTWARD];
 
-    /// Through four states, in their order.
+    /// Returns the curve through four states, in order of time.
     fn through(states: [&State; 4]) -> RefinedBridge {
         let (from, length) = (states[1].t, states[2].t - states[1].t);
         let coefficients = (0..states[0].q.len()).map(|k| {
@@ -37,7 +35,7 @@ impl RefinedBridge {
         RefinedBridge { from, length, coefficients: coefficients.collect() }
     }
 
-    /// The state at a time (s).
+    /// Returns the state at a time (s).
     pub fn state_at(&self, t: f64) -> State {
         let x = (t - self.from) / self.length;
         let mut state = State::new(t, vec![0.0; self.coefficients.len()]);
@@ -80,7 +78,7 @@ fn divided_differences(at: impl Fn(usize) -> [f64; 3]) -> [f64; CONDITIONS] {
 }
 
 impl RefinedBridge {
-    /// A finer curve than that between two states, if there is one that is exact.
+    /// Returns a finer curve than the quintic between two states, if one is exact.
     pub fn between(kinematics: &mut Kinematics, step: &mut Step, [from, to]: [&State; 2]) -> Option<RefinedBridge> {
         let way = OUTWARD * (to.t - from.t);
         let before = walk(kinematics, step, from, -way)?;
@@ -106,7 +104,7 @@ impl RefinedBridge {
     }
 }
 
-/// The state that a motion without edges leads to in a time from another one, either way.
+/// Returns the state to which a motion without edges leads from another one in a time, forward or backward.
 fn walk(kinematics: &mut Kinematics, step: &mut Step, from: &State, way: f64) -> Option<State> {
     let mut state = from.clone();
     let h = way / STEPS as f64;

@@ -1,4 +1,4 @@
-//! When a motion on a bridge comes to the singular position.
+//! Times at which a motion on a bridge comes to the singular position.
 
 use super::bridge::Bridge;
 use crate::analysis::follow::step::Step;
@@ -13,7 +13,7 @@ use std::convert::Infallible;
 const SLOPE: [f64; 3] = [45.0 / 60.0, -9.0 / 60.0, 1.0 / 60.0];
 const CURVATURE: [f64; 4] = [-490.0 / 180.0, 270.0 / 180.0, -27.0 / 180.0, 2.0 / 180.0];
 
-/// When the singular position is reached: where a determinant changes its sign, or else where it comes nearest to zero.
+/// Returns the time at which the singular position is reached: a determinant changes its sign there, or else comes nearest to zero.
 pub(super) fn singular_time(kinematics: &mut Kinematics, step: &mut Step, bridge: &Bridge) -> f64 {
     let (low, high) = (bridge.from.t, bridge.to.t);
     kinematics.restore(&bridge.to);
@@ -34,8 +34,8 @@ pub(super) fn singular_time(kinematics: &mut Kinematics, step: &mut Step, bridge
     least_time(kinematics, step, bridge, section.middle())
 }
 
-/// When the determinant that is least at about `t` has its minimum: its sign tells the sides of zero apart, so that it is
-/// smooth where singular values have an edge, and its slope vanishes there to more digits than it does.
+/// Returns the time near `t` at which the determinant that is least there has its minimum. Its sign tells the sides of zero apart, so it is
+/// smooth where singular values have an edge, and its slope vanishes there to more digits than its value.
 fn least_time(kinematics: &mut Kinematics, step: &mut Step, bridge: &Bridge, t: f64) -> f64 {
     kinematics.restore(&bridge.state_at(t));
     let Some(block) = kinematics.linear().worst_block() else { return t };
@@ -47,7 +47,7 @@ fn least_time(kinematics: &mut Kinematics, step: &mut Step, bridge: &Bridge, t: 
         if step.correct(kinematics).is_err() {
             kinematics.restore(&state);
         }
-        kinematics.linear().determinant(block).beside(unit)
+        kinematics.linear().determinant(block).relative_to(unit)
     };
     let spread = SPREAD * bridge.length();
     let mut at = t;
@@ -61,7 +61,7 @@ fn least_time(kinematics: &mut Kinematics, step: &mut Step, bridge: &Bridge, t: 
         }
         let change = spread * slope / curvature;
         at -= change;
-        // it is that minimum, or none that this finds
+        // a minimum farther away is another one
         if at.is_nan() || (at - t).abs() > spread {
             return t;
         }
@@ -72,8 +72,8 @@ fn least_time(kinematics: &mut Kinematics, step: &mut Step, bridge: &Bridge, t: 
     at
 }
 
-/// Puts the time of a bridge right by a finer curve, and looks whether a determinant that has one sign at both ends has the
-/// other one between: then the singular position is come to twice.
+/// Refines the singular time of a bridge by a finer curve. A determinant that has one sign at both ends and the other one between shows
+/// that the singular position is reached twice.
 pub(super) fn settle_times(kinematics: &mut Kinematics, step: &mut Step, bridge: &mut Bridge) {
     let units = [&bridge.from, &bridge.to].map(|end| {
         kinematics.restore(end);
@@ -83,7 +83,7 @@ pub(super) fn settle_times(kinematics: &mut Kinematics, step: &mut Step, bridge:
     let changes = |k: &usize| units[0][*k].is_positive() != units[1][*k].is_positive();
     if let Some(block) = (0..units[0].len()).find(changes) {
         bridge.look_for_exact(kinematics, step);
-        let at = boundary(from, to, |t| part(kinematics, bridge, (block, units[0][block]), t) < 0.0);
+        let at = boundary(from, to, |t| relative_determinant(kinematics, bridge, block, units[0][block], t) < 0.0);
         if (at - bridge.at).abs() > CERTAIN * (to - from) {
             bridge.at = at;
         }
@@ -91,9 +91,9 @@ pub(super) fn settle_times(kinematics: &mut Kinematics, step: &mut Step, bridge:
     }
     let places = (1..PLACES_BETWEEN).map(|k| from + (to - from) * k as f64 / PLACES_BETWEEN as f64);
     let places: Vec<f64> = std::iter::once(bridge.at).chain(places).collect();
-    for block in units[0].iter().copied().enumerate() {
+    for (block, unit) in units[0].iter().copied().enumerate() {
         let deepest = |kinematics: &mut Kinematics, bridge: &Bridge| {
-            let parts = places.iter().map(|&t| (part(kinematics, bridge, block, t), t));
+            let parts = places.iter().map(|&t| (relative_determinant(kinematics, bridge, block, unit, t), t));
             parts.min_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or((1.0, bridge.at))
         };
         if deepest(kinematics, bridge).0 > NEARLY_ZERO {
@@ -102,16 +102,16 @@ pub(super) fn settle_times(kinematics: &mut Kinematics, step: &mut Step, bridge:
         bridge.look_for_exact(kinematics, step);
         let (least, between) = deepest(kinematics, bridge);
         if least < BEYOND_ZERO {
-            let at = boundary(from, between, |t| part(kinematics, bridge, block, t) < 0.0);
-            let again = boundary(between, to, |t| part(kinematics, bridge, block, t) >= 0.0);
-            (bridge.at, bridge.again) = (at, Some(again));
+            let at = boundary(from, between, |t| relative_determinant(kinematics, bridge, block, unit, t) < 0.0);
+            let second = boundary(between, to, |t| relative_determinant(kinematics, bridge, block, unit, t) >= 0.0);
+            (bridge.at, bridge.again) = (at, Some(second));
             return;
         }
     }
 }
 
-/// What a block's determinant is at a time, against what it is at the start of the bridge.
-fn part(kinematics: &mut Kinematics, bridge: &Bridge, (block, unit): (usize, Determinant), t: f64) -> f64 {
+/// Returns a block's determinant at a time, relative to that at the start of the bridge, `unit`.
+fn relative_determinant(kinematics: &mut Kinematics, bridge: &Bridge, block: usize, unit: Determinant, t: f64) -> f64 {
     kinematics.restore(&bridge.best_state_at(t));
-    kinematics.linear().determinant(block).beside(unit) / unit.beside(unit)
+    kinematics.linear().determinant(block).relative_to(unit) / unit.relative_to(unit)
 }

@@ -16,20 +16,20 @@ pub(super) struct Chattering {
 }
 
 impl Chattering {
-    /// One that has never been so.
+    /// A switch that has never chattered.
     pub const NEVER: Chattering = Chattering { last: f64::NEG_INFINITY, length: 0.0, until: f64::NEG_INFINITY };
 
-    /// Returns whether nobody looks at it behind a time (s).
+    /// Returns whether the switch is ignored after a time (s).
     pub fn is_suspended(&self, t: f64) -> bool {
         self.until > t
     }
 
-    /// Nobody looks at it up to a time (s).
+    /// Ignores the switch up to a time (s).
     pub fn suspend_until(&mut self, until: f64) {
         self.until = until;
     }
 
-    /// It has changed at a time (s), and nothing jumps; times are measured against a span (s).
+    /// Records a change at a time (s) without a jump; times are measured against a span (s).
     fn take_change(&mut self, t: f64, span: f64) {
         let at_once = t - self.last <= f64::max(4.0 * self.length, FINEST * span);
         self.length = if at_once { f64::max(2.0 * self.length, FINEST * span) } else { 0.0 };
@@ -45,7 +45,7 @@ pub(super) fn may_change(kinematics: &Kinematics, chattering: &[Chattering], reg
 }
 
 impl Edges {
-    /// Nothing jumps at an edge: if it is one of many in no time at all, its switch is left alone for a while.
+    /// Records an edge without a jump: if it is one of many in no time at all, its switch is left alone for a while.
     pub(super) fn note_chattering(&mut self, kinematics: &Kinematics, t: f64) {
         let switches = kinematics.switches().iter().zip(self.sides.switches());
         for (chattering, (switch, before)) in self.chattering.iter_mut().zip(switches) {
@@ -66,7 +66,7 @@ impl Edges {
             for (k, (place, q)) in self.place.iter_mut().zip(&step.state().q).enumerate() {
                 *place = q + nudge * linear.column_scale(k) * aslant(k);
             }
-            // what is wrong with a position shows where it is solved for
+            // a fault of the position shows when it is solved for
             let _ = kinematics.set_position(&self.place);
             kinematics.edge(&switch).0
         };

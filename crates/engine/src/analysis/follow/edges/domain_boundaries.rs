@@ -1,13 +1,13 @@
 //! Domain boundaries: the times where a formula comes to the end of what one of its functions takes, as `sqrt((t - 1 s)^2)` does.
 //!
-//! No switch tells of such an edge, and at its very time the formula mostly has no derivative. What is known is a quantity,
-//! the event function, that is zero there, and its slope along the motion. A step is proven by intervals to hold none: the event function
-//! keeps away from zero, or it goes one way only and has the same sign at both ends. Else its zero is located to
+//! No switch marks such an edge, and at its very time the formula mostly has no derivative. It is found by a quantity,
+//! the event function, that is zero there, and by its slope along the motion. A step is proven by intervals to hold none: the event function
+//! keeps away from zero, or it is monotonic and has the same sign at both ends. Else its zero is located to
 //! neighbouring doubles, the step ends before it, and both sides are judged by states ever nearer to it
-//! (`crates/engine/src/analysis/follow/edges/one_sided_limits.rs`). What agrees on both sides is no edge, and the motion goes on as if nothing had been.
+//! (`crates/engine/src/analysis/follow/edges/one_sided_limits.rs`). If both sides agree there is no edge, and the motion goes on.
 
 use super::event_functions::{EventFunctions, SearchPath, Zero};
-use super::one_sided_limits::{Nearer, OneSidedLimits, Verdict};
+use super::one_sided_limits::{Gap, OneSidedLimits, Verdict};
 use super::one_sided_states::columns_that_jump;
 use crate::analysis::explain::{Stop, StopCause, errors};
 use crate::analysis::follow::step::{Step, write_prediction};
@@ -19,19 +19,19 @@ use mechc_ir::tolerances::steps::rims::{
     MOST_PARTS_BETWEEN, ROUNDING,
 };
 
-/// What is known of the domain boundaries.
+/// Finds the domain boundaries that a motion comes to, and judges whether it goes on there.
 pub(super) struct DomainBoundaries {
     event_functions: EventFunctions,
-    /// The domain boundary that a step has come to, at a time (s).
+    /// Domain boundary that a step has come to, at a time (s).
     met: Option<Zero>,
-    /// The stop that the motion comes to.
+    /// Stop that the motion comes to.
     end: Option<Box<Stop>>,
     limits: OneSidedLimits,
     /// The rows of both sides.
     rows: [Vec<f64>; 2],
     /// Results of the switches where the motion is.
     switches: Vec<f64>,
-    /// A position beside the state, and Newton's correction of it.
+    /// Position near the state, and Newton's correction of it.
     place: Vec<f64>,
     delta: Vec<f64>,
     /// The time that the steps are measured against, and the last time (s).
@@ -56,7 +56,8 @@ impl DomainBoundaries {
         }
     }
 
-    /// When the next step has to end for a domain boundary of time, or for the end of the motion, if it comes to one before `reach` (s).
+    /// Returns the time at which the next step has to end for a domain boundary of time, or for the end of the motion, if that comes before
+    /// `reach` (s).
     pub fn next(&mut self, kinematics: &mut Kinematics, step: &mut Step, reach: f64) -> Option<f64> {
         if self.event_functions.is_empty() {
             return None;
@@ -85,7 +86,7 @@ impl DomainBoundaries {
         warnings: &mut Warnings,
     ) -> Result<(), Box<Stop>> {
         if let Some(Zero { boundary, t }) = self.met.take() {
-            self.judge(kinematics, step, (boundary, t), warnings);
+            self.judge(kinematics, step, boundary, t, warnings);
             return Ok(());
         }
         match self.end.take() {
@@ -94,7 +95,7 @@ impl DomainBoundaries {
         }
     }
 
-    /// Why the motion ends just ahead, if a domain boundary is what ends it: even a step as small as `h` (s) failed.
+    /// Returns the stop of a motion that a domain boundary ends just ahead: even a step as small as `h` (s) failed.
     pub fn end(
         &mut self,
         kinematics: &mut Kinematics,
@@ -103,19 +104,19 @@ impl DomainBoundaries {
         warnings: &mut Warnings,
     ) -> Option<Box<Stop>> {
         if self.end.is_none() {
-            // the way that the state leads to, as far as a domain boundary may be that keeps steps from coming nearer
+            // the extrapolated path, as far as a domain boundary may be that keeps steps from coming nearer
             let h = h.max(FARTHEST * self.span);
             if self.event_functions.has_any(SearchPath::Curve(h)) {
                 step.extrapolate_curve(h, 0..step.state().q.len());
             }
             if let Some(met) = self.first_on_curve(kinematics, step, h) {
-                self.judge(kinematics, step, (met.boundary, step.t() + met.t * h), warnings);
+                self.judge(kinematics, step, met.boundary, step.t() + met.t * h, warnings);
             }
         }
         self.end.take()
     }
 
-    /// Looks for domain boundaries that a step of length `h` goes over, on the curve through both its ends, which must have been drawn.
+    /// Looks for domain boundaries within a step of length `h`, on the curve through both its ends, which must have been drawn.
     pub fn look(&mut self, kinematics: &mut Kinematics, step: &mut Step, h: f64) -> Result<(), Fault> {
         let Some(met) = self.first_on_curve(kinematics, step, h) else {
             return Ok(());
@@ -124,7 +125,7 @@ impl DomainBoundaries {
         if shortly_after(t) >= self.last {
             return Ok(());
         }
-        // over a domain boundary the curve is not exact: a short step knows better where it is
+        // the curve is not exact over a domain boundary: a short step locates it better
         if h > 4.0 * FARTHEST * self.span {
             return Err(Fault::TooFar);
         }
@@ -147,7 +148,8 @@ impl DomainBoundaries {
         &mut self,
         kinematics: &mut Kinematics,
         step: &mut Step,
-        (boundary, near): (usize, f64),
+        boundary: usize,
+        near: f64,
         warnings: &mut Warnings,
     ) {
         self.keep_switches(kinematics);
@@ -187,13 +189,13 @@ impl DomainBoundaries {
     fn look_at_sides(&mut self, kinematics: &mut Kinematics, step: &mut Step, boundary: usize, t: f64) -> Verdict {
         self.limits.begin(kinematics.system(), self.span);
         let mut distance = FARTHEST * self.span;
-        while let Nearer::Wanted = self.limits.wants(distance, t) {
-            let before = self.solve_near(kinematics, step, boundary, (t - distance, false));
+        while self.limits.needs_nearer(distance, t) {
+            let before = self.solve_near(kinematics, step, boundary, t - distance, false);
             if before.is_some() {
                 self.limits.take_before(step.trial());
                 kinematics.write_row(step.trial(), &mut self.rows[0]);
             }
-            let after = self.solve_near(kinematics, step, boundary, (t + distance, true));
+            let after = self.solve_near(kinematics, step, boundary, t + distance, true);
             if after.is_some() {
                 self.limits.take_after(step.trial());
                 kinematics.write_row(step.trial(), &mut self.rows[1]);
@@ -212,21 +214,21 @@ impl DomainBoundaries {
         self.limits.verdict(is_contact && passes)
     }
 
-    /// How far the way that the state before leads to is off from what the equations ask for: the largest correction, scaled, its
-    /// coordinate, and that coordinate's [m, rad].
-    fn gap_at(&mut self, kinematics: &mut Kinematics, t: f64, distance: f64) -> (f64, usize, f64) {
+    /// Returns the largest correction that the equations require of the path to which the state before leads.
+    fn gap_at(&mut self, kinematics: &mut Kinematics, t: f64, distance: f64) -> Gap {
         let ([before, _], h) = (self.limits.sides(), 2.0 * distance);
         for (k, place) in self.place.iter_mut().enumerate() {
             *place = before.q[k] + h * before.qd[k];
         }
         kinematics.set_time(t);
         if kinematics.set_position(&self.place).is_err() || kinematics.factor().is_err() {
-            return (f64::NAN, 0, 0.0);
+            return Gap { size: f64::NAN, column: 0, by: 0.0 };
         }
         kinematics.correction(&mut self.delta);
         let linear = kinematics.linear();
-        let sizes = self.delta.iter().enumerate().map(|(k, delta)| (delta.abs() / linear.column_scale(k), k, *delta));
-        sizes.fold((0.0, 0, 0.0), |best, one| if one.0 > best.0 { one } else { best })
+        let gap = |(k, by): (usize, &f64)| Gap { size: by.abs() / linear.column_scale(k), column: k, by: *by };
+        let gaps = self.delta.iter().enumerate().map(gap);
+        gaps.fold(Gap { size: 0.0, column: 0, by: 0.0 }, |best, one| if one.size > best.size { one } else { best })
     }
 
     /// Returns whether an event function only touches zero at a time, by the way that the state leads to.
@@ -241,14 +243,15 @@ impl DomainBoundaries {
         matches!((at(t - far), at(t + far)), (Some(a), Some(b)) if a != 0.0 && b != 0.0)
     }
 
-    /// Solves for the state at a time next to a domain boundary, on one side of it, with the branches that formulas have there; gives the rounding
-    /// of what the domain boundary's formula computes there, as a part of it. None if there is no such state.
+    /// Solves for the state at a time next to a domain boundary, on one side of it, with the branches that formulas have there. Returns the
+    /// relative rounding of the value of the event function there, or `None` if there is no such state.
     fn solve_near(
         &mut self,
         kinematics: &mut Kinematics,
         step: &mut Step,
         boundary: usize,
-        (t, is_after): (f64, bool),
+        t: f64,
+        is_after: bool,
     ) -> Option<f64> {
         self.restore_switches(kinematics);
         kinematics.settle_time(t);
@@ -267,7 +270,7 @@ impl DomainBoundaries {
         (rounding < KNOWN).then_some(rounding)
     }
 
-    /// The event function and its slope at a time next to the state, solved for.
+    /// Returns the event function and its slope at a time next to the state, solved for.
     fn solved_gauge(&self, kinematics: &mut Kinematics, step: &mut Step, boundary: usize, t: f64) -> Option<[f64; 2]> {
         step.predict(kinematics, t - step.t(), t).ok()?;
         step.correct(kinematics).ok()?;
@@ -276,7 +279,7 @@ impl DomainBoundaries {
         found.iter().all(|value| !value.is_nan()).then_some(found)
     }
 
-    /// The zero of an event function of the motion near a time, by states that are solved for.
+    /// Returns the zero of an event function of the motion near a time, by states that are solved for.
     fn locate(&mut self, kinematics: &mut Kinematics, step: &mut Step, boundary: usize, t: f64) -> f64 {
         let far = FARTHEST * self.span;
         let (a, b) = ((t - far).max(self.event_functions.passed(boundary)), t + far);
@@ -288,13 +291,12 @@ impl DomainBoundaries {
         if !crosses && !touches {
             return t;
         }
-        // where rounding leaves the formula no value its argument is known all the same, on the curve through both sides
+        // the curve through both sides gives the argument even where rounding leaves the formula no value
         let (from, h) = (step.t(), b - step.t());
         step.draw_curve(h);
         let [_, zero] = bisect([a, b], MOST_HALVINGS, |t| {
             let solved = self.solved_gauge(kinematics, step, boundary, t);
-            let on_curve =
-                || self.event_functions.at(kinematics, step, (SearchPath::Curve(h), boundary), (t - from) / h);
+            let on_curve = || self.event_functions.at(kinematics, step, SearchPath::Curve(h), boundary, (t - from) / h);
             let [gauge, slope] = solved.unwrap_or_else(on_curve);
             if crosses { sign * gauge > 0.0 } else { sign * slope < 0.0 }
         });

@@ -1,4 +1,4 @@
-//! Where an event function is zero: proven by intervals, in time or on the curve of a step, and located.
+//! Zeros of event functions: proven by intervals, in time or on the curve of a step, and located.
 
 use crate::analysis::follow::step::Step;
 use crate::analysis::state::{Kinematics, shortly_after};
@@ -6,7 +6,7 @@ use mechc_expr::math::{Halving, about, along, bisect, farthest};
 use mechc_ir::program::{BoundaryRegisters, Enclosure};
 use mechc_ir::tolerances::steps::rims::{BEHIND, MOST_HALVINGS, MOST_WIDER, ROUNDING};
 
-/// Where event functions are looked at.
+/// Path along which event functions are evaluated.
 #[derive(Clone, Copy)]
 pub(super) enum SearchPath {
     /// In time (s).
@@ -39,11 +39,11 @@ pub(super) struct EventFunctions {
 }
 
 impl EventFunctions {
-    /// Of a motion that begins at a time and is measured against a span (s).
+    /// Returns the event functions of a motion that begins at a time and is measured against a span (s).
     pub fn new(kinematics: &Kinematics, t: f64, span: f64) -> EventFunctions {
-        let all = kinematics.rims().to_vec();
+        let all = kinematics.boundaries().to_vec();
         let of = |on_time: bool| (0..all.len()).filter(|&k| all[k].on_time == on_time).collect();
-        let [in_time, along] = kinematics.enclosures_of_rims();
+        let [in_time, along] = kinematics.enclosures_of_boundaries();
         let n = kinematics.system().coordinates().len();
         EventFunctions {
             of_time: of(true),
@@ -58,7 +58,7 @@ impl EventFunctions {
         }
     }
 
-    /// Returns whether there is none.
+    /// Returns whether there are no domain boundaries.
     pub fn is_empty(&self) -> bool {
         self.all.is_empty()
     }
@@ -67,12 +67,12 @@ impl EventFunctions {
         &self.all[boundary]
     }
 
-    /// When a domain boundary was judged last (s).
+    /// Returns the time at which a domain boundary was judged last (s).
     pub fn passed(&self, boundary: usize) -> f64 {
         self.passed[boundary]
     }
 
-    /// A domain boundary has been judged at a time (s).
+    /// Records that a domain boundary has been judged at a time (s).
     pub fn pass(&mut self, boundary: usize, t: f64) {
         self.passed[boundary] = t;
     }
@@ -89,7 +89,7 @@ impl EventFunctions {
         }
     }
 
-    /// The first zero of an event function, in time or on a curve.
+    /// Returns the first zero of an event function, in time or on a curve.
     pub fn first_zero(
         &mut self,
         kinematics: &mut Kinematics,
@@ -99,7 +99,7 @@ impl EventFunctions {
     ) -> Option<Zero> {
         while let Some(part) = parts.next_part() {
             self.enclose(kinematics, step, way, part);
-            let Some(first) = self.may_be_zero(kinematics, step, way, (part, 0)) else {
+            let Some(first) = self.may_be_zero(kinematics, step, way, part, 0) else {
                 continue;
             };
             if parts.halve(part) {
@@ -109,11 +109,11 @@ impl EventFunctions {
             let mut earliest: Option<Zero> = None;
             while let Some(k) = next {
                 let boundary = self.on(way)[k];
-                let zero = self.zero_within(kinematics, step, (way, boundary), part);
+                let zero = self.zero_within(kinematics, step, way, boundary, part);
                 if let Some(t) = zero.filter(|t| earliest.is_none_or(|met| *t < met.t)) {
                     earliest = Some(Zero { boundary, t });
                 }
-                next = self.may_be_zero(kinematics, step, way, (part, k + 1));
+                next = self.may_be_zero(kinematics, step, way, part, k + 1);
             }
             if earliest.is_some() {
                 return earliest;
@@ -122,14 +122,15 @@ impl EventFunctions {
         None
     }
 
-    /// The domain boundary, by its place from `first` on among those of a way, whose event function is not proven to keep its sign in a part that has
-    /// been enclosed.
+    /// Returns the index, from `first` on, among the domain boundaries of a path, of one whose event function is not proven to keep its
+    /// sign in a part that has been enclosed.
     fn may_be_zero(
         &mut self,
         kinematics: &mut Kinematics,
         step: &mut Step,
         way: SearchPath,
-        (part, first): ([f64; 2], usize),
+        part: [f64; 2],
+        first: usize,
     ) -> Option<usize> {
         (first..self.on(way).len()).find(|&k| {
             let boundary = self.on(way)[k];
@@ -139,19 +140,19 @@ impl EventFunctions {
             if low > 0.0 || high < 0.0 {
                 return false;
             }
-            let Some([a, b]) = self.not_passed(step, (way, boundary), part) else {
+            let Some([a, b]) = self.not_passed(step, way, boundary, part) else {
                 return false;
             };
             if least > 0.0 || most < 0.0 {
-                let [at_a, at_b] = [a, b].map(|x| self.at(kinematics, step, (way, boundary), x)[0]);
+                let [at_a, at_b] = [a, b].map(|x| self.at(kinematics, step, way, boundary, x)[0]);
                 return !(at_a > 0.0 && at_b > 0.0 || at_a < 0.0 && at_b < 0.0);
             }
             true
         })
     }
 
-    /// What of a part lies behind the last zero of a domain boundary; none if nothing does.
-    fn not_passed(&self, step: &Step, (way, boundary): (SearchPath, usize), [a, b]: [f64; 2]) -> Option<[f64; 2]> {
+    /// Returns the rest of a part behind the last zero of a domain boundary, if any.
+    fn not_passed(&self, step: &Step, way: SearchPath, boundary: usize, [a, b]: [f64; 2]) -> Option<[f64; 2]> {
         let passed = shortly_after(self.passed[boundary]) + BEHIND * self.span;
         let passed = match way {
             SearchPath::Time => passed,
@@ -178,12 +179,13 @@ impl EventFunctions {
         }
     }
 
-    /// An event function and its slope at a time, or at a place of a curve.
+    /// Returns an event function and its slope at a time, or at a place of a curve.
     pub fn at(
         &mut self,
         kinematics: &mut Kinematics,
         step: &mut Step,
-        (way, boundary): (SearchPath, usize),
+        way: SearchPath,
+        boundary: usize,
         x: f64,
     ) -> [f64; 2] {
         match way {
@@ -193,7 +195,7 @@ impl EventFunctions {
                     let [_, a, b, c, d, e] = *curve;
                     *velocity = along(&[a, 2.0 * b, 3.0 * c, 4.0 * d, 5.0 * e, 0.0], x) / h;
                 }
-                // a formula without a value has no value of its event function
+                // a formula without a value has no event function either
                 let _ = step.set_on_curve(kinematics, h, x);
                 kinematics.set_velocity(&self.velocity);
             }
@@ -201,24 +203,25 @@ impl EventFunctions {
         kinematics.gauge(&self.all[boundary])
     }
 
-    /// The zero of an event function in a small part, be it that it only touches zero, or comes near to it.
+    /// Returns the zero of an event function in a small part, also if the function only touches zero or comes near to it.
     fn zero_within(
         &mut self,
         kinematics: &mut Kinematics,
         step: &mut Step,
-        place: (SearchPath, usize),
+        way: SearchPath,
+        boundary: usize,
         part: [f64; 2],
     ) -> Option<f64> {
-        let [a, b] = self.not_passed(step, place, part)?;
-        let [at_a, slope_a] = self.at(kinematics, step, place, a);
-        let (mut end, [mut at_b, mut slope_b]) = (b, self.at(kinematics, step, place, b));
-        // rounding says nothing of a sign
+        let [a, b] = self.not_passed(step, way, boundary, part)?;
+        let [at_a, slope_a] = self.at(kinematics, step, way, boundary, a);
+        let (mut end, [mut at_b, mut slope_b]) = (b, self.at(kinematics, step, way, boundary, b));
+        // the sign of a rounding error means nothing
         for wider in 0..MOST_WIDER {
-            if !self.is_rounding(kinematics, place.1, at_b) {
+            if !self.is_rounding(kinematics, boundary, at_b) {
                 break;
             }
             end = b + f64::from(1 << wider) * (b - a);
-            [at_b, slope_b] = self.at(kinematics, step, place, end);
+            [at_b, slope_b] = self.at(kinematics, step, way, boundary, end);
         }
         let sign = if at_a < 0.0 { -1.0 } else { 1.0 };
         let crosses = sign * at_b < 0.0;
@@ -227,13 +230,13 @@ impl EventFunctions {
             return None;
         }
         let [_, zero] = bisect([a, end], MOST_HALVINGS, |x| {
-            let [gauge, slope] = self.at(kinematics, step, place, x);
+            let [gauge, slope] = self.at(kinematics, step, way, boundary, x);
             if crosses { sign * gauge > 0.0 } else { sign * slope < 0.0 }
         });
         Some(zero)
     }
 
-    /// Returns whether an event function that was just asked for is rounding.
+    /// Returns whether the value of an event function that was just evaluated is rounding.
     fn is_rounding(&self, kinematics: &Kinematics, boundary: usize, gauge: f64) -> bool {
         let terms = kinematics.largest_term(&self.all[boundary]);
         gauge.abs() <= ROUNDING * f64::EPSILON * terms && (terms > gauge.abs() || gauge == 0.0)

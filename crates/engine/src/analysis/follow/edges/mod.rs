@@ -1,9 +1,8 @@
-//! Edges: the times where a formula goes over to another of its branches.
+//! Edges: the times where a formula changes to another of its branches.
 //!
-//! Within a step every switch is frozen, so that the equations are smooth there. An edge of time is looked for before a
-//! step, one of the motion after it; both are located to neighbouring doubles, and the step ends there. Then both sides
-//! are evaluated at that same time, and compared: a position or velocity that jumps has no acceleration, an acceleration
-//! that jumps has two.
+//! Within a step every switch is frozen, so that the equations are smooth there. An edge of time is sought before a step, one of the motion after it;
+//! both are located to neighbouring doubles, and the step ends there. Then both sides are evaluated at that same time, and compared: a position or
+//! velocity that jumps has no acceleration, an acceleration that jumps has two.
 
 mod chattering;
 mod domain_boundaries;
@@ -24,24 +23,24 @@ use mechc_ir::program::Enclosure;
 use one_sided_states::OneSidedStates;
 use signals::Signals;
 
-/// Where a switch changes.
+/// A change of a switch.
 #[derive(Clone, Copy, Debug)]
 pub struct Edge {
-    /// Where both sides are evaluated (s).
+    /// Time at which both sides are evaluated (s).
     pub t: f64,
-    /// A time (s) at which every switch of time is on the later side; none for an edge of the motion.
+    /// Time (s) at which every switch of time is on the later side; `None` for an edge of the motion.
     after: Option<f64>,
     /// True if it is the place from which a domain boundary is judged.
     is_domain_boundary: bool,
 }
 
 impl Edge {
-    /// The same, taken to be at another time (s).
+    /// Returns the edge moved to another time (s).
     pub fn at(self, t: f64) -> Edge {
         Edge { t, ..self }
     }
 
-    /// The earlier one of two.
+    /// Returns the earlier edge of two.
     fn earlier(a: Option<Edge>, b: Option<Edge>) -> Option<Edge> {
         match (a, b) {
             (Some(a), Some(b)) => Some(if b.t < a.t { b } else { a }),
@@ -50,12 +49,12 @@ impl Edge {
     }
 }
 
-/// What may happen between the ends of steps, and what is known of it.
+/// Events between the ends of steps: edges of time and of the motion, domain boundaries and signals.
 pub struct Edges {
     /// The time that the steps are measured against, and the last time (s).
     span: f64,
     last: f64,
-    /// What may happen in time, and along the motion.
+    /// Enclosures of the switches in time, and along the motion.
     in_time: Enclosure,
     along: Enclosure,
     /// Each coordinate's middle and reach in a part of a step.
@@ -67,12 +66,12 @@ pub struct Edges {
     sides: OneSidedStates,
     domain_boundaries: DomainBoundaries,
     signals: Signals,
-    /// A position beside the state.
+    /// Position near the state.
     place: Vec<f64>,
 }
 
 impl Edges {
-    /// Of a motion from a state to the last time (s), measured against a span (s).
+    /// Returns the edges of a motion from a state to the last time (s), measured against a span (s).
     pub fn new(kinematics: &mut Kinematics, state: &State, span: f64, last: f64) -> Edges {
         let n = state.q.len();
         let signals = Signals::new(kinematics, state);
@@ -93,29 +92,29 @@ impl Edges {
         }
     }
 
-    /// The edge of the motion that a longer step has met.
+    /// Returns the edge of the motion that a longer step has met.
     pub fn met(&self) -> Option<Edge> {
         self.met
     }
 
-    /// Goes back to where that was another one.
+    /// Restores the edge that had been met at a checkpoint.
     pub fn go_back(&mut self, met: Option<Edge>) {
         self.met = met;
     }
 
-    /// Returns whether a step to a time (s) comes to it.
+    /// Returns whether a step to a time (s) comes to the edge that a longer step has met.
     pub fn is_met_by(&self, t: f64) -> bool {
         self.met.is_some_and(|met| met.t <= t)
     }
 
-    /// The row of the later side of the edge that was crossed last.
+    /// Returns the row of the later side of the edge that was crossed last.
     pub fn later_row(&self) -> &[f64] {
         self.sides.later_row()
     }
 
     /// Sets every switch to what it is on the later side of the state; `after` is a time by which those of time have changed (s).
     pub fn settle(&mut self, kinematics: &mut Kinematics, state: &State, after: Option<f64>) {
-        one_sided_states::settle(kinematics, state, (self.span, after), &mut self.place);
+        one_sided_states::settle(kinematics, state, self.span, after, &mut self.place);
     }
 
     /// Takes note of how fast velocities and accelerations change over a step of length `h` that is to be accepted.
@@ -125,8 +124,7 @@ impl Edges {
         }
     }
 
-    /// The first edge that a step to `next` meets, before the last time. An edge that is meant to be at the output time
-    /// `next` is there.
+    /// Returns the first edge that a step to `next` meets before the last time. An edge within rounding of the output time `next` is put there.
     ///
     /// # Errors
     /// A formula of time ends on the way.
@@ -150,7 +148,7 @@ impl Edges {
         Ok(edge.filter(|edge| shortly_after(edge.t) < self.last))
     }
 
-    /// Goes over to the later side of an edge, which the state has reached on the earlier one. Says whether it has a row of its own.
+    /// Crosses to the later side of an edge, which the state has reached on the earlier one. Returns whether the edge has a row.
     pub fn cross(
         &mut self,
         kinematics: &mut Kinematics,
@@ -161,14 +159,14 @@ impl Edges {
         if edge.is_domain_boundary {
             return self.cross_domain_boundary(kinematics, step, warnings).map(|()| false);
         }
-        if self.met.is_some_and(|known| known.t <= edge.t) {
+        if self.met.is_some_and(|met| met.t <= edge.t) {
             self.met = None;
         }
         self.sides.remember(kinematics, step.state());
         self.settle(kinematics, step.state(), edge.after);
         match self.sides.take_later(kinematics, step) {
             Ok(None) => self.note_chattering(kinematics, step.t()),
-            Ok(Some(jump)) => self.sides.say(kinematics, step, jump, warnings)?,
+            Ok(Some(jump)) => self.sides.report(kinematics, step, jump, warnings)?,
             Err(fault) => {
                 return Err(singular::find_stop(kinematics, self.sides.before(), fault, [0.0, step.t()]));
             }
@@ -186,7 +184,7 @@ impl Edges {
         self.domain_boundaries.cross(kinematics, step, warnings)
     }
 
-    /// Why the motion ends just ahead, if a domain boundary is what ends it: even a step as small as `h` (s) failed.
+    /// Returns the stop of a motion that a domain boundary ends just ahead: even a step as small as `h` (s) failed.
     pub fn end_at_domain_boundary(
         &mut self,
         kinematics: &mut Kinematics,
@@ -197,9 +195,9 @@ impl Edges {
         self.domain_boundaries.end(kinematics, step, h, warnings)
     }
 
-    /// Refuses a step of length `h`, whose curve must have been drawn, between whose ends something happens: a signal leaves what it is
-    /// at the ends, an edge of the motion or a domain boundary is gone over. `between` is how far the curve is off, scaled; none for a step to an
-    /// edge of the motion, beyond which nobody looks.
+    /// Refuses a step of length `h`, whose curve must have been drawn, between whose ends something happens: a signal leaves its values at
+    /// the ends, or the step passes an edge of the motion or a domain boundary. `between` is how far the curve is off, scaled; `None` for a
+    /// step to an edge of the motion, beyond which switches are not checked.
     pub fn check_interior(
         &mut self,
         kinematics: &mut Kinematics,

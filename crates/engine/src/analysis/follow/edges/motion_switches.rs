@@ -1,4 +1,4 @@
-//! Edges of the motion, which are looked for behind a step, on its curve.
+//! Edges of the motion, which are sought behind a step, on its curve.
 
 use super::chattering::may_change;
 use super::{Edge, Edges};
@@ -9,7 +9,7 @@ use mechc_ir::tolerances::steps::edges::{FINEST_BETWEEN, MOST_PARTS_BETWEEN};
 use std::cell::Cell;
 
 impl Edges {
-    /// The switch of the motion beyond whose edge the position is that was just set, on the way from a time (s).
+    /// Returns the switch of the motion whose edge the position that was just set has passed, on the way from a time (s).
     pub fn switch_met(&self, kinematics: &Kinematics, from: f64) -> Option<usize> {
         let mut switches = kinematics.switches().iter().zip(&self.chattering);
         switches.position(|(switch, chattering)| {
@@ -22,7 +22,7 @@ impl Edges {
         self.switch_met(kinematics, from).map_or(Ok(()), |switch| Err(Fault::Edge { t, switch }))
     }
 
-    /// Finds the edge of the motion that lies before a time; says whether it could.
+    /// Finds the edge of the motion that lies before a time; returns whether it could.
     pub fn locate(&mut self, kinematics: &mut Kinematics, step: &mut Step, next: f64) -> bool {
         let from = step.t();
         // the switch that changes, and whether formulas go on beyond the edge as far as it is known
@@ -51,8 +51,8 @@ impl Edges {
         edge.is_some()
     }
 
-    /// Looks at what a step that was tried goes over between its ends, on the curve through both: an edge of the motion, a
-    /// formula that ends, a branch that is left and taken again.
+    /// Checks a step that was tried for events between its ends, on the curve through both: an edge of the motion, a formula that ends, a
+    /// branch that is left and taken again.
     pub(super) fn look_for_switches(
         &mut self,
         kinematics: &mut Kinematics,
@@ -65,7 +65,7 @@ impl Edges {
         }
         let mut parts = Halving::<32>::new([0.0, 1.0], FINEST_BETWEEN, MOST_PARTS_BETWEEN);
         while let Some(part) = parts.next_part() {
-            if !self.is_steady_between(kinematics, step, (h, part), between) && !parts.halve(part) {
+            if !self.is_steady_between(kinematics, step, h, part, between) && !parts.halve(part) {
                 self.look_at(kinematics, step, h, part[1])?;
             }
         }
@@ -76,7 +76,8 @@ impl Edges {
         &mut self,
         kinematics: &Kinematics,
         step: &Step,
-        (h, [a, b]): (f64, [f64; 2]),
+        h: f64,
+        [a, b]: [f64; 2],
         between: f64,
     ) -> bool {
         let (middle, reach) = (0.5 * (a + b), 0.5 * (b - a));

@@ -1,15 +1,15 @@
-//! What position, velocity and acceleration tend to on the two sides of a time at which a formula may have none.
+//! Limits from both sides of position, velocity and acceleration at a time at which a formula may have none.
 //!
-//! States are taken at equal distances before and after it, ever nearer. What a smooth motion makes of the distance is
-//! taken away from what they differ by, so that the rest vanishes with a higher power of it. A rest that stays at all
-//! distances is a jump; what grows without bound as the distance vanishes is not finite there.
+//! States are taken at equal distances before and after it, ever nearer. The differences that a smooth motion has over such a distance are
+//! subtracted, so that the rest vanishes with a higher power of the distance. A rest that stays at all distances is a jump; one that grows
+//! without bound as the distance vanishes is not finite there.
 
 use crate::analysis::state::State;
 use mechc_ir::tolerances::jumps::{ACCELERATION_JUMP, POSITION_JUMP, REST, VELOCITY_JUMP};
 use mechc_ir::tolerances::steps::limits::{EXACT, FEWEST, GROWTH, MISPLACED, MOST, NEAREST, UNCERTAIN};
 use mechc_ir::{ConstraintSystem, CoordinateKind};
 
-/// What two sides are like.
+/// Comparison of the two sides.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(super) enum Verdict {
     /// The motion goes on.
@@ -29,30 +29,34 @@ pub(super) enum Verdict {
     NotFinite,
 }
 
-/// True if states still nearer are wanted.
-pub(super) enum Nearer {
-    Wanted,
-    Enough,
-}
-
-/// What a pair of states shows.
+/// Differences between the states of a pair.
 #[derive(Clone, Copy)]
 struct Pair {
-    /// What is left of a difference beside what is allowed, and where it is largest.
+    /// Remainder of each difference in units of what is allowed, and the coordinate where it is largest.
     position: f64,
     position_column: usize,
     velocity: f64,
     velocity_column: usize,
     acceleration: f64,
-    /// What is left of both differences, scaled.
+    /// Remainders of position and velocity, scaled.
     rests: [f64; 2],
     /// True if rounding is small enough for the acceleration to be judged.
     is_exact: bool,
     /// The largest velocity and acceleration, scaled.
     fastest: f64,
     hardest: f64,
-    /// What rounding makes of the acceleration.
+    /// Rounding error of the acceleration.
     noise: f64,
+}
+
+/// Largest correction that the equations require beyond a time that has a state before it and none after it.
+#[derive(Clone, Copy)]
+pub(super) struct Gap {
+    /// The correction, scaled.
+    pub size: f64,
+    pub column: usize,
+    /// The correction of the coordinate [m, rad].
+    pub by: f64,
 }
 
 /// Pairs of states, from far to near.
@@ -61,12 +65,12 @@ pub(super) struct OneSidedLimits {
     after: State,
     pairs: [Option<Pair>; MOST],
     count: usize,
-    /// How often there was a state before, and one after.
+    /// Numbers of states found before the time, and after it.
     found: [usize; 2],
-    /// Where there was one before and none after: how far the equations are from it, scaled.
+    /// Sizes of the gaps, by distance.
     gaps: [Option<f64>; MOST],
-    /// The coordinate that is farthest off, and by how much, in the last of these.
-    farthest: (usize, f64),
+    /// The last gap.
+    last_gap: Gap,
     bodies: Vec<bool>,
     span: f64,
 }
@@ -80,7 +84,7 @@ impl OneSidedLimits {
             count: 0,
             found: [0; 2],
             gaps: [None; MOST],
-            farthest: (0, 0.0),
+            last_gap: Gap { size: 0.0, column: 0, by: 0.0 },
             bodies: vec![true; state.q.len()],
             span: 1.0,
         }
@@ -88,14 +92,14 @@ impl OneSidedLimits {
 
     pub fn begin(&mut self, system: &ConstraintSystem, span: f64) {
         for (is_of_body, coordinate) in self.bodies.iter_mut().zip(system.coordinates()) {
-            // a contact may run along its curve as it likes: what counts is how bodies move
+            // only bodies count: a contact may move along its curve at any speed
             *is_of_body = coordinate.kind != CoordinateKind::Argument;
         }
         (self.pairs, self.gaps) = ([None; MOST], [None; MOST]);
         (self.count, self.found, self.span) = (0, [0; 2], span);
     }
 
-    /// The nearest states before and after the time.
+    /// Returns the nearest states before and after the time.
     pub fn sides(&self) -> [&State; 2] {
         [&self.before, &self.after]
     }
@@ -110,9 +114,9 @@ impl OneSidedLimits {
         self.after.copy_from(state);
     }
 
-    /// Returns whether states at a distance (s) from a time are wanted.
-    pub fn wants(&self, distance: f64, t: f64) -> Nearer {
-        if self.count < MOST && distance > NEAREST * f64::EPSILON * t.abs() { Nearer::Wanted } else { Nearer::Enough }
+    /// Returns whether states at a distance (s) from a time are still needed.
+    pub fn needs_nearer(&self, distance: f64, t: f64) -> bool {
+        self.count < MOST && distance > NEAREST * f64::EPSILON * t.abs()
     }
 
     /// Takes the states `before` and `after`, where there are any, with the rounding of the formula in each.
@@ -126,21 +130,20 @@ impl OneSidedLimits {
         self.count += 1;
     }
 
-    /// The state next to which one before the time is looked for, or one after it; none where nothing is known yet.
+    /// Returns the state next to which another one before the time is sought, or one after it; `None` if none has been found yet.
     pub fn nearest(&self, is_after: bool) -> Option<&State> {
-        let known = |side: usize| self.found[side] > 0;
-        match (is_after && known(1), known(0)) {
+        let has_state = |side: usize| self.found[side] > 0;
+        match (is_after && has_state(1), has_state(0)) {
             (true, _) => Some(&self.after),
             (false, true) => Some(&self.before),
             (false, false) => None,
         }
     }
 
-    /// Takes what is left of the equations beyond the time, where there is a state before and none after: the largest
-    /// correction, scaled, its coordinate, and that coordinate's [m, rad].
-    pub fn take_gap(&mut self, (size, column, by): (f64, usize, f64)) {
-        self.gaps[self.count] = Some(size);
-        self.farthest = (column, by);
+    /// Records a gap.
+    pub fn take_gap(&mut self, gap: Gap) {
+        self.gaps[self.count] = Some(gap.size);
+        self.last_gap = gap;
     }
 
     fn pair(&self, d: f64, rounding: f64, scale: impl Fn(usize) -> f64) -> Pair {
@@ -183,10 +186,9 @@ impl OneSidedLimits {
         self.pairs.iter().flatten()
     }
 
-    /// What the two sides are like; `has_tangent` is whether a contact may have come to a corner.
+    /// Returns how the two sides compare; `has_tangent` is true if a contact may have come to a corner.
     pub fn verdict(&self, has_tangent: bool) -> Verdict {
-        let known = self.pairs().count();
-        if known < FEWEST {
+        if self.pairs().count() < FEWEST {
             let [before, after] = self.found;
             if before < FEWEST || after > 0 {
                 return Verdict::Smooth;
@@ -197,7 +199,7 @@ impl OneSidedLimits {
             } else if grows(gaps.clone()) || shrinks(gaps.clone()) {
                 Verdict::NotFinite
             } else if gaps.clone().count() >= FEWEST && gaps.into_iter().all(|gap| gap > POSITION_JUMP) {
-                let (column, by) = self.farthest;
+                let Gap { column, by, .. } = self.last_gap;
                 Verdict::Position { column, by }
             } else {
                 Verdict::Smooth

@@ -1,4 +1,4 @@
-//! Both sides of an edge, at the same time: what jumps there.
+//! States on both sides of an edge, at its time, and what jumps between them.
 
 use crate::analysis::explain::{Stop, StopCause};
 use crate::analysis::follow::step::{Step, write_prediction};
@@ -9,7 +9,7 @@ use mechc_ir::tolerances::jumps::{ACCELERATION_JUMP, POSITION_JUMP, REST, VELOCI
 use mechc_ir::tolerances::steps::edges::{AHEAD, FARTHEST_AHEAD, ITERATIONS, LAST_DIGITS, TAKES_PART, UNCERTAIN};
 use mechc_ir::{ConstraintSystem, CoordinateKind, DeclarationId};
 
-/// What jumps at an edge, the lowest derivative first.
+/// The lowest derivative that jumps at an edge.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Jump {
     Position,
@@ -17,10 +17,10 @@ pub(super) enum Jump {
     Acceleration,
 }
 
-/// How fast a motion changes, scaled.
+/// Rates of change of a motion, scaled.
 #[derive(Clone, Copy, Default)]
 struct Pace {
-    /// How fast velocities and accelerations changed over the last step (1/s², 1/s³).
+    /// Rates of change of velocity and acceleration over the last step (1/s², 1/s³).
     velocity_change: f64,
     acceleration_change: f64,
     /// The largest velocity and acceleration so far (1/s, 1/s²).
@@ -32,7 +32,7 @@ struct Pace {
 pub(super) struct OneSidedStates {
     before: State,
     row_before: Vec<f64>,
-    /// Of the later side.
+    /// Row of the later side.
     row: Vec<f64>,
     /// Results of the switches on the earlier side.
     switches: Vec<f64>,
@@ -48,17 +48,17 @@ impl OneSidedStates {
         OneSidedStates { before: state.clone(), row_before: row.clone(), row, switches, pace: Pace::default(), span }
     }
 
-    /// The earlier side.
+    /// Returns the earlier side.
     pub fn before(&self) -> &State {
         &self.before
     }
 
-    /// The row of the later side.
+    /// Returns the row of the later side.
     pub fn later_row(&self) -> &[f64] {
         &self.row
     }
 
-    /// Results of the switches on the earlier side.
+    /// Returns the results of the switches on the earlier side.
     pub fn switches(&self) -> &[f64] {
         &self.switches
     }
@@ -95,19 +95,19 @@ impl OneSidedStates {
 
     /// Computes the state anew where it is, with the switches as they are now, and compares.
     pub fn take_later(&mut self, kinematics: &mut Kinematics, step: &mut Step) -> Result<Option<Jump>, Fault> {
-        if !step.solve_state_again(kinematics, ITERATIONS, POSITION_JUMP)? {
+        if !step.correct_state(kinematics, ITERATIONS, POSITION_JUMP)? {
             return Ok(Some(Jump::Position));
         }
         kinematics.write_row(step.state(), &mut self.row);
         if self.compare(kinematics, step.state(), [0.0; 2]).is_none() {
             return Ok(None);
         }
-        // what differs may be the rounding of the edge's time alone
+        // the difference may be the rounding of the edge's time alone
         let change = self.change_of_a_moment(kinematics, step)?;
         Ok(self.compare(kinematics, step.state(), change))
     }
 
-    /// How much velocities and accelerations change within the rounding of the edge's time, on either side, scaled.
+    /// Returns how much velocities and accelerations change within the rounding of the edge's time, on either side, scaled.
     fn change_of_a_moment(&self, kinematics: &mut Kinematics, step: &mut Step) -> Result<[f64; 2], Fault> {
         let moment = shortly_after(step.t()) - step.t();
         step.try_moment_later(kinematics, moment)?;
@@ -121,7 +121,7 @@ impl OneSidedStates {
         Ok([UNCERTAIN * velocity, UNCERTAIN * acceleration])
     }
 
-    /// What jumps by more than some velocity and acceleration, scaled, and more than rounding.
+    /// Returns what jumps by more than some velocity and acceleration, scaled, and more than rounding.
     fn compare(&self, kinematics: &Kinematics, now: &State, [velocity, acceleration]: [f64; 2]) -> Option<Jump> {
         let (before, system) = (&self.before, kinematics.system());
         let scaled = |k: usize, value: f64| value.abs() / kinematics.linear().column_scale(k);
@@ -129,21 +129,21 @@ impl OneSidedStates {
             |a: &[f64], b: &[f64]| (0..a.len()).map(|k| f64::max(scaled(k, a[k]), scaled(k, b[k]))).fold(0.0, f64::max);
         let fastest = largest(&before.qd, &now.qd).max(REST / self.span);
         let hardest = largest(&before.qdd, &now.qdd).max(REST * fastest / self.span);
-        // beside what has been met before, the last digits of a formula are nothing
+        // compared with earlier velocities, the last digits of a formula are rounding
         let velocity = velocity.max(VELOCITY_JUMP * fastest).max(LAST_DIGITS * self.pace.fastest);
         let acceleration = acceleration.max(ACCELERATION_JUMP * hardest).max(LAST_DIGITS * self.pace.hardest);
         let jumps = |k: &usize| scaled(*k, now.qd[*k] - before.qd[*k]) > velocity;
         let bends = |k: &usize| scaled(*k, now.qdd[*k] - before.qdd[*k]) > acceleration;
         let mut all = 0..now.qd.len();
-        // a contact may run along its curve as it likes: what counts is how bodies move
+        // only bodies count: a contact may move along its curve at any speed
         match all.clone().filter(jumps).find(|&k| system.coordinates()[k].kind != CoordinateKind::Argument) {
             Some(column) => Some(Jump::Velocity { column }),
             None => all.any(|k| jumps(&k) || bends(&k)).then_some(Jump::Acceleration),
         }
     }
 
-    /// Says that something jumps: an error, or a warning once for each declaration.
-    pub fn say(
+    /// Reports a jump: as an error, or as a warning once for each declaration.
+    pub fn report(
         &self,
         kinematics: &Kinematics,
         step: &Step,
@@ -174,7 +174,7 @@ impl OneSidedStates {
         }
     }
 
-    /// The declarations whose own equations the earlier side does not satisfy, with the branches of the later one.
+    /// Returns the declarations whose own equations the earlier side does not satisfy, with the branches of the later one.
     fn declarations_behind(&self, kinematics: &Kinematics, jump: Jump) -> Vec<DeclarationId> {
         let system = kinematics.system();
         let open = |row: usize| {
@@ -182,7 +182,7 @@ impl OneSidedStates {
             match jump {
                 Jump::Position => kinematics.residual(row),
                 Jump::Velocity { .. } => velocity,
-                // a contact that runs on at another speed leaves its velocity open
+                // a contact that moves on at another speed violates its velocity equation
                 Jump::Acceleration => acceleration.max(velocity / self.span),
             }
         };
@@ -199,7 +199,7 @@ impl OneSidedStates {
 
 /// Sets every switch to what it is on the later side of a state; `after` is a time by which those of time have changed (s), and `place`
 /// room for a position.
-pub(super) fn settle(kinematics: &mut Kinematics, state: &State, (span, after): (f64, Option<f64>), place: &mut [f64]) {
+pub(super) fn settle(kinematics: &mut Kinematics, state: &State, span: f64, after: Option<f64>, place: &mut [f64]) {
     if let Some(after) = after {
         kinematics.settle_time(after);
     }
@@ -207,19 +207,19 @@ pub(super) fn settle(kinematics: &mut Kinematics, state: &State, (span, after): 
     let (speed, acceleration) = (linear.largest(&state.qd), linear.largest(&state.qdd));
     let ahead = (AHEAD * span).min(FARTHEST_AHEAD / speed).min((FARTHEST_AHEAD / acceleration).sqrt());
     write_prediction(state, ahead, place);
-    // a guard may speak of the motion and of time
+    // a guard may depend on the motion and on time
     kinematics.set_time(state.t + ahead);
     kinematics.settle_motion(place);
     kinematics.set_time(state.t);
 }
 
-/// Names of the result's columns that differ on the two sides of an edge, by the rows of both.
+/// Returns the names of the result's columns that differ on the two sides of an edge, by the rows of both.
 pub(super) fn columns_that_jump(system: &ConstraintSystem, span: f64, [before, after]: [&[f64]; 2]) -> Vec<String> {
     let jumps = |a: f64, b: f64| (a - b).abs() > ACCELERATION_JUMP * a.abs().max(b.abs()).max(REST / (span * span));
-    // what is varied jumps with what it is a derivative of
-    let own = columns(system).into_iter().filter(|column| column.kind != ColumnKind::Variation);
+    // a variation jumps with the quantity of which it is a derivative
+    let given = columns(system).into_iter().filter(|column| column.kind != ColumnKind::Variation);
     let sides = before.iter().zip(after);
-    own.zip(sides).filter(|(_, (a, b))| jumps(**a, **b)).map(|(column, _)| column.name).collect()
+    given.zip(sides).filter(|(_, (a, b))| jumps(**a, **b)).map(|(column, _)| column.name).collect()
 }
 
 /// Returns whether the position stays, and only the tangents of a contact do not agree: the last row of its joint.

@@ -1,5 +1,5 @@
-//! Between the ends of a step a driver may ask for more than the ends show: a pulse that is shorter than the step. Its right
-//! side is enclosed over the step by intervals; where that reaches beyond the values at the ends the step is looked into.
+//! Signals: between the ends of a step a driver may move more than the ends show, as by a pulse that is shorter than the step. Its right
+//! side is enclosed over the step by intervals; where that reaches beyond the values at the ends the step is examined within.
 
 use crate::analysis::follow::step::Step;
 use crate::analysis::state::{Fault, Kinematics, State};
@@ -7,11 +7,11 @@ use mechc_expr::math::Halving;
 use mechc_ir::program::{Enclosure, Signal};
 use mechc_ir::tolerances::steps::signals::{FINEST, MOST_PARTS, NEGLIGIBLE_MOTION, NUDGE};
 
-/// What time alone decides about the equations, and what is known of it.
+/// Terms of the equations that time alone decides, with bounds on what may go unnoticed.
 pub(super) struct Signals {
     all: Vec<Signal>,
     enclosure: Enclosure,
-    /// By how much each may leave the values at the ends of a part unseen.
+    /// Bound on how far each may leave its values at the ends of a part.
     bounds: Vec<f64>,
     /// Values at the ends of a part.
     left: Vec<f64>,
@@ -19,11 +19,11 @@ pub(super) struct Signals {
 }
 
 impl Signals {
-    /// With what the signals do to the equations of a state.
+    /// Returns the signals, with bounds from their effect on the equations of a state.
     pub fn new(kinematics: &mut Kinematics, state: &State) -> Signals {
         let all = kinematics.signals();
         kinematics.restore(state);
-        // what follows without iteration has no branches: there only a formula may end
+        // explicit equations have no branches: only a formula may end there
         let unseen = if kinematics.linear().is_explicit() { f64::MAX } else { NEGLIGIBLE_MOTION };
         let bounds: Vec<f64> =
             kinematics.effects(&all, &state.q, NUDGE).iter().map(|effect| (unseen / effect).min(f64::MAX)).collect();

@@ -1,4 +1,4 @@
-//! Edges of time, which are looked for before a step.
+//! Edges of time, which are sought before a step.
 
 use super::chattering::may_change;
 use super::{Edge, Edges};
@@ -8,7 +8,7 @@ use mechc_expr::math::{Halving, bisect};
 use mechc_ir::tolerances::steps::edges::{FINEST, MOST_PARTS};
 
 impl Edges {
-    /// The first edge of time from a time on, where all switches are known, up to another.
+    /// Returns the first edge of time from a time on, at which all switches have been evaluated, up to another.
     pub(super) fn edge_of_time(
         &mut self,
         kinematics: &mut Kinematics,
@@ -31,7 +31,7 @@ impl Edges {
         kinematics.is_steady(in_time, part, &[], |register| may_change(kinematics, chattering, register, part[0]))
     }
 
-    /// The edge of time between two times, the switches being known at the first; none if nothing has changed at the second
+    /// Returns the edge of time between two times, with the switches evaluated at the first; `None` if nothing has changed at the second
     /// and shortly after it.
     fn edge_within(&mut self, kinematics: &mut Kinematics, [mut low, b]: [f64; 2]) -> Result<Option<Edge>, Box<Stop>> {
         if !self.happens_at(kinematics, b) {
@@ -55,7 +55,7 @@ impl Edges {
                     is_domain_boundary: false,
                 }));
             }
-            // what differs at a single time is no edge, `t == 1 s`; or rounding goes back and forth around one
+            // a change at a single time is no edge, as of `t == 1 s`; or rounding goes back and forth around one
             if after >= b {
                 return Ok(None);
             }

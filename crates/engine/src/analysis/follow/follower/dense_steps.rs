@@ -44,12 +44,12 @@ impl Follower {
         }
     }
 
-    /// A step of length `h` to time `t`, solved for like a row, which says more of the way between than one place of it does;
-    /// none where steps had better go to each output time on their own.
+    /// Tries a step of length `h` to time `t`, which is solved for like a row, so that several places check the way between. Returns `None`
+    /// where single steps to each output time are better.
     fn try_dense_step(&mut self, h: f64, t: f64, to_edge: bool) -> Result<Option<Accepted>, Fault> {
         let Follower { kinematics, step, edges, crossing, rows, .. } = self;
         let to_edge_of_motion = edges.is_met_by(t);
-        let Some((batch, times)) = rows.batch() else {
+        let Some((batch, upcoming)) = rows.batch() else {
             return Ok(None);
         };
         let motion = step.predict(kinematics, h, t)?;
@@ -71,8 +71,8 @@ impl Follower {
             return Ok(None);
         }
         step.draw_curve(h);
-        batch.open(kinematics, step, times, (h, t, to_edge), |origin| origin.write(step, edges, crossing));
-        let between = batch.correction_between(kinematics, step, times, h);
+        batch.open(kinematics, step, upcoming, [h, t], to_edge, |origin| origin.write(step, edges, crossing));
+        let between = batch.correction_between(kinematics, step, upcoming, h);
         if between.is_nan() || (between > LARGEST_BETWEEN && batch.is_short(h)) {
             batch.close();
             return Ok(None);
@@ -85,10 +85,10 @@ impl Follower {
         Ok(Some(Accepted { first_correction, between, motion }))
     }
 
-    /// The row of the next output time `t`, if that lies within the step that was accepted last.
+    /// Returns the row of the next output time `t`, if that lies within the step that was accepted last.
     pub(super) fn row_in_dense_step(&mut self, t: f64) -> Option<Place> {
-        let (batch, times) = self.rows.batch().filter(|(batch, (_, next))| batch.holds_time(*next))?;
-        if let Some(lane) = batch.lane_of(&self.kinematics, &self.step, times) {
+        let (batch, upcoming) = self.rows.batch().filter(|(batch, upcoming)| batch.holds_time(upcoming.next))?;
+        if let Some(lane) = batch.lane_of(&self.kinematics, &self.step, upcoming) {
             return Some(Place::Lane(lane));
         }
         let way = batch.way();
@@ -100,8 +100,8 @@ impl Follower {
         None
     }
 
-    /// Writes the row of a time within the last step, from a time and of a length (s), by solving from its curve, with pivots that suit
-    /// it; whether it holds.
+    /// Writes the row of a time within a step from a time and of a length (s), by solving from the step's curve with factors of that
+    /// position; returns whether the row holds.
     fn row_on_curve(&mut self, way: [f64; 2], t: f64) -> bool {
         let Follower { kinematics, step, edges, rows, .. } = self;
         step.try_on_curve(way, t);

@@ -1,5 +1,5 @@
-//! A row whose derivatives are in doubt, so near to a singular position that rounding may have spoiled them: held against the way
-//! over that position, or against itself.
+//! Rows whose derivatives are in doubt, so near to a singular position that rounding may have spoiled them: compared with the path over
+//! that position, or with themselves.
 
 use super::Follower;
 use crate::analysis::explain::Stop;
@@ -14,18 +14,18 @@ use mechc_ir::tolerances::solving::rows::STEPS_AHEAD;
 const NOTHING: [f64; 2] = [f64::INFINITY, f64::NEG_INFINITY];
 
 impl Follower {
-    /// A row of a time `t` whose derivatives are in doubt. If it lies on the way up to a bifurcation that way shows whether they
-    /// are right, and what they are if not. The motion is left as it was, so that the rows behind it are the same.
+    /// Settles a row of a time `t` whose derivatives are in doubt. If it lies on the way up to a bifurcation, the bridge over that shows
+    /// whether they are right, and corrects them if not. The motion is left as it was, so that the rows behind it are the same.
     pub(super) fn row_in_doubt(&mut self, t: f64) -> Result<(), Box<Stop>> {
         let (row, here, probe) = (self.rows.single().to_vec(), self.checkpoint(), self.step.probe());
-        let (reported, aside) = (self.warnings.reported(), self.crossing.suspend());
+        let (reported, suspended) = (self.warnings.reported(), self.crossing.suspend());
         let mut on_bridge = self.row_on_bridge(t);
         let mut why = None;
         if on_bridge.is_none() && !self.crossing.is_clear_ahead(t) {
             why = self.step_ahead(t);
             on_bridge = self.row_on_bridge(t);
         }
-        self.crossing.resume(aside);
+        self.crossing.resume(suspended);
         let better = on_bridge.is_some().then(|| self.rows.single().to_vec());
         self.go_back(&here);
         self.step.set_probe(probe);
@@ -62,15 +62,14 @@ impl Follower {
         None
     }
 
-    /// Returns whether a row that has been found is certain, be it that it was in doubt.
+    /// Returns whether the row of a state is certain, even if it was in doubt at first.
     pub(super) fn is_certain(&mut self, state: &State) -> bool {
         let trust = self.rows.trust();
         trust.is_certain() || (trust == Trust::Doubtful && self.is_reproducible(state))
     }
 
-    /// Returns whether velocities and accelerations of a state stay what they are where its position is solved for again, from places
-    /// beside it: then rounding does not add up as it might. These places lie about a point of a grid, whichever way led to the
-    /// state.
+    /// Returns whether velocities and accelerations of a state stay the same when its position is solved for from several places nearby: then
+    /// rounding does not add up as it might. These places lie about a point of a grid, so they do not depend on how the state was reached.
     pub(super) fn is_reproducible(&mut self, state: &State) -> bool {
         let n = state.q.len();
         let mut ranges = [vec![NOTHING; n], vec![NOTHING; n]];
@@ -90,21 +89,20 @@ impl Follower {
         is_solved && are_small(&self.kinematics, state, [&wide[0], &wide[1]], [RIGHT[1], RIGHT[2]])
     }
 
-    /// Solves for a state once more, from one of the places beside it.
+    /// Solves for a state once more, from one of the places near it.
     fn solve_near(&mut self, state: &State, place: usize) -> bool {
         let n = state.q.len();
         let linear = self.kinematics.linear();
-        let beside = state.q.iter().enumerate().map(|(k, q)| {
+        let positions = state.q.iter().enumerate().map(|(k, q)| {
             let cell = CELL * linear.column_scale(k);
-            let aside = (GOLDEN * (place * n + k + 1) as f64).fract() - 0.5;
-            ((q / cell).round() + aside) * cell
+            let offset = (GOLDEN * (place * n + k + 1) as f64).fract() - 0.5;
+            ((q / cell).round() + offset) * cell
         });
-        self.step.try_position(state.t, beside);
+        self.step.try_position(state.t, positions);
         self.step.solve(&mut self.kinematics).is_ok()
     }
 
-    /// The row of a time on a bridge, or else the same solved for, be it as near to the singular position as it likes, if it can
-    /// be trusted.
+    /// Accepts the row of a time on a bridge, or else solves for it directly, however near to the singular position, if the solution can be trusted.
     pub(super) fn or_solve_directly(&mut self, t: f64, row: Result<(), Box<Stop>>) -> Result<(), Box<Stop>> {
         row.or_else(|why| if self.trusted_row(t) || self.narrow_row(t) { Ok(()) } else { Err(why) })
     }
@@ -142,7 +140,7 @@ impl Follower {
     }
 }
 
-/// Returns whether a row is right, beside one that is.
+/// Returns whether a row agrees with another one.
 fn agree(kinematics: &Kinematics, row: &[f64], other: &[f64]) -> bool {
     let layout = RowLayout::new(kinematics.system());
     let right = |column: usize| RIGHT[layout.order_of(column)];

@@ -1,4 +1,4 @@
-//! Rows that are held against what comes behind them.
+//! Rows that are compared with what comes behind them.
 
 use super::Follower;
 use crate::analysis::explain::{Stop, singular};
@@ -9,25 +9,25 @@ use mechc_ir::tolerances::solving::rows::STEPS_AHEAD;
 use mechc_ir::tolerances::steps::march::FEWEST_STEPS_NEAR;
 
 impl Follower {
-    /// How far the motion is looked ahead from a time `t` (s): a singular position that a row is so near to that its derivatives
-    /// are in doubt may be twice as far off as the last clear state.
+    /// Returns the time (s) up to which the motion is looked ahead from a time `t`: a singular position so near to a row that its
+    /// derivatives are in doubt may be twice as far off as the last clear state.
     pub(super) fn time_ahead(&self, t: f64) -> f64 {
         let usual = self.span / FEWEST_STEPS_NEAR;
         let is_in_doubt = self.rows.trust() == Trust::Doubtful;
         t + if is_in_doubt { usual.max(2.0 * (t - self.crossing.clear().t)) } else { usual }
     }
 
-    /// A row whose derivatives would be more rounding than digits: mostly a lock-up comes right behind it, or a bifurcation,
-    /// and then the row may lie on the way over it. Says whether it does not.
+    /// Checks a row whose derivatives would be more rounding than digits: mostly a lock-up comes right behind it, or a bifurcation, and
+    /// then the row may lie on the bridge over it. Returns true if no bridge was found and the row is certain as it was solved.
     pub(super) fn look_ahead(&mut self, t: f64) -> Result<bool, Box<Stop>> {
         let (trust, row, here) = (self.rows.trust(), self.rows.single().to_vec(), self.checkpoint());
         let is_certain = self.is_certain(here.state());
-        // a run that passes nothing prints it too, if nothing has been passed before
+        // a run that passes no bifurcation prints it too, if none has been passed before
         let is_plain = is_certain && !self.crossing.has_passed(t);
         let (mut ahead, farthest) = (t + self.span / FEWEST_STEPS_NEAR, self.time_ahead(t));
         for _ in 0..STEPS_AHEAD {
             if let Err(why) = self.step_towards(ahead) {
-                // what comes behind the row does not concern it
+                // a stop behind the row does not concern it
                 if is_certain {
                     break;
                 }
@@ -54,7 +54,7 @@ impl Follower {
                 ahead = farthest;
             }
         }
-        // the next row lies before what was looked at
+        // the next row lies before the states ahead
         self.go_back(&here);
         if is_certain {
             self.rows.single_mut().copy_from_slice(&row);
@@ -63,15 +63,15 @@ impl Follower {
         Err(self.explain_uncertain(t))
     }
 
-    /// The row of a time `t`, which is not certain as it was found, where the motion behind it cannot go on.
+    /// Settles the row of a time `t` that is not certain as it was found, where the motion behind it cannot go on: it may lie on a bridge.
     fn row_before(&mut self, t: f64, here: &Checkpoint, why: Box<Stop>) -> Result<(), Box<Stop>> {
         let on_bridge = self.row_on_bridge(t);
         self.go_back(here);
         on_bridge.unwrap_or_else(|| Err(self.explain_refused(t, Some(why))))
     }
 
-    /// Why the row of a time `t` is not printed: what ends the motion, unless that comes behind the last row, for which nobody
-    /// asked, or its own nearness to a singular position.
+    /// Returns why the row of a time `t` is not printed: the stop that ends the motion, unless it comes behind the last row, or else the
+    /// nearness of the row to a singular position.
     pub(super) fn explain_refused(&mut self, t: f64, why: Option<Box<Stop>>) -> Box<Stop> {
         why.filter(|stop| stop.t <= self.last).unwrap_or_else(|| self.explain_uncertain(t))
     }
@@ -91,17 +91,16 @@ impl Follower {
         false
     }
 
-    /// Finds the row of a time on a bridge by steps from the row before, as if the bridge were not there; says whether that
-    /// is certain.
+    /// Finds the row of a time on a bridge by steps from the row before, as if the bridge were not there; returns whether that row is certain.
     pub(super) fn plain_row(&mut self, t: f64) -> bool {
         let Some(plain) = self.rows.take_plain(t) else {
             return false;
         };
-        let (beyond, aside) = (self.checkpoint(), self.crossing.forget());
+        let (beyond, suspended) = (self.checkpoint(), self.crossing.forget());
         self.go_back(&plain);
         let is_found = self.steps_to(t) && self.is_certain(&self.step.state().clone());
         let here = self.checkpoint();
-        self.crossing.remember(aside);
+        self.crossing.remember(suspended);
         self.go_back(&beyond);
         if is_found {
             let row = self.rows.single().to_vec();
@@ -110,7 +109,7 @@ impl Follower {
         is_found
     }
 
-    /// Steps to the time of the next row by way of all output times before; says whether it comes there.
+    /// Steps to the time of the next row by way of all output times before; returns whether it gets there.
     fn steps_to(&mut self, t: f64) -> bool {
         while self.step.t() < t {
             let upcoming = self.rows.upcoming_after(self.step.t());

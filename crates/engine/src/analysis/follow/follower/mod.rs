@@ -1,9 +1,8 @@
-//! From one output time to the next: what is done in which order. What each part knows is its owner's: the step, the edges, the
-//! crossing of singular positions, the rows.
+//! Follower: goes from one output time to the next, and decides what is done in which order. The data belong to the parts: the step, the
+//! edges, the crossing of singular positions, the rows.
 //!
-//! Where the motion is calm a step goes over as many output times as it may, and when it is accepted their rows are solved
-//! for on its curve, several at once. Near a singular position, and where such a row does not hold, steps go to each
-//! time on its own.
+//! Where the motion is calm a step covers as many output times as it may, and when it is accepted their rows are solved for on its curve,
+//! several at once. Near a singular position, and where such a row does not hold, steps go to each time on its own.
 
 mod dense_steps;
 mod ill_conditioned_rows;
@@ -35,25 +34,25 @@ pub struct Follower {
     edges: Edges,
     crossing: Crossing,
     rows: Rows,
-    /// None where all equations are needed.
+    /// `None` where all equations are needed.
     choice: Option<RowSelection>,
-    /// None where there are no contacts and loads, or nobody asks for forces.
+    /// `None` where there are no contacts and loads, or no forces are requested.
     forces: Option<ForceMonitor>,
     misses: NearMisses,
     warnings: Warnings,
-    /// True if derivatives at the start are known.
+    /// True if derivatives at the start have been computed.
     begun: bool,
     /// The edge that the last step ended at, if its later side has not been taken yet.
     edge: Option<Edge>,
     /// The time that the steps are measured against, and the last time (s).
     span: f64,
     last: f64,
-    /// Up to when edges are looked for (s).
+    /// Time up to which edges are sought (s).
     edges_end: f64,
 }
 
 impl Started {
-    /// The motion from the start on, a row for each of some times, which do not come before the start.
+    /// Returns the motion from the start on, with a row for each of some times, which do not come before the start.
     #[must_use]
     pub fn into_motion(self, times: &Times) -> Follower {
         Follower::new(self.into_parts(), times.clone())
@@ -61,7 +60,7 @@ impl Started {
 }
 
 impl Follower {
-    /// Of a mechanism in a state, with what solves for its rows.
+    /// Returns the motion of a mechanism in a state, with the solver for its rows.
     #[must_use]
     pub fn new((mut kinematics, state, solver): (Kinematics, State, Option<Arc<Solver>>), times: Times) -> Follower {
         let last = times.last();
@@ -69,14 +68,14 @@ impl Follower {
         let edges_end = times.end();
         let edges = Edges::new(&mut kinematics, &state, span, edges_end);
         let crossing = Crossing::new(&state, span, last);
-        let forces = ForceMonitor::of(&kinematics, &state);
+        let forces = ForceMonitor::new(&kinematics, &state);
         let misses = NearMisses::new(&state);
         let step = Step::new(&kinematics, state, times.span());
         let origin = || Checkpoint::new(&step, &edges, &crossing);
         let batch = solver.map(|solver| RowBatch::new(&kinematics, solver, origin(), span));
         let rows = Rows::new(&kinematics, batch, times);
         let warnings = Warnings::new(kinematics.system());
-        let choice = RowSelection::of(&kinematics);
+        let choice = RowSelection::new(&kinematics);
         let (begun, edge) = (false, None);
         Follower {
             kinematics,
@@ -101,29 +100,28 @@ impl Follower {
         self.crossing.pass_bifurcations();
     }
 
-    /// From now on it remembers at which times accelerations jump.
+    /// Records from now on the times at which accelerations jump.
     pub fn keep_edges(&mut self) {
         self.warnings.keep_jumps();
     }
 
-    /// These times (s), ascending, each once.
+    /// Returns the times at which accelerations jumped (s), ascending, each once.
     #[must_use]
     pub fn edges(&self) -> Vec<f64> {
         self.warnings.jumps()
     }
 
-    /// What there is to say beside the rows so far, each thing once.
+    /// Takes the warnings so far, each once.
     pub fn take_warnings(&mut self) -> Vec<Warning> {
-        self.rows.say_what_is_missing(&mut self.warnings);
+        self.rows.report_missing(&mut self.warnings);
         let Follower { kinematics, step, rows, misses, warnings, .. } = self;
-        if let Some(missed) = rows.last_time().and_then(|t| misses.tell(kinematics, step.state(), t)) {
+        if let Some(missed) = rows.last_time().and_then(|t| misses.take_warning(kinematics, step.state(), t)) {
             warnings.push(missed);
         }
         self.warnings.take()
     }
 
-    /// The row of the next output time, in the order of `Started::columns`; none behind the last one, and where the motion
-    /// could not go on.
+    /// Returns the row of the next output time, in the order of `Started::columns`; `None` behind the last one, and where the motion could not go on.
     ///
     /// # Errors
     /// Why and where the motion cannot go on.
@@ -139,7 +137,7 @@ impl Follower {
             Ok(place) => place,
             Err(why) => {
                 self.rows.stop();
-                // who cancelled does not wait for a reason
+                // cancelled: the caller discards the reason
                 return if self.kinematics.is_cancelled() { None } else { Some(Err(why)) };
             }
         };
@@ -175,7 +173,7 @@ impl Follower {
                 return Ok(Place::Single);
             }
             if !self.may_step_densely() {
-                // beside a bifurcation that is passed every digit counts
+                // near a bifurcation that is passed every digit counts
                 if self.go_to(t)? && !self.rows.is_near() {
                     self.refine(t);
                 }
@@ -186,7 +184,7 @@ impl Follower {
         }
     }
 
-    /// Derivatives at the start, if they are not known yet; says whether they were.
+    /// Computes the derivatives at the start, if that has not been done; returns whether it had been.
     fn begin(&mut self) -> Result<bool, Box<Stop>> {
         if std::mem::replace(&mut self.begun, true) {
             return Ok(true);
@@ -195,7 +193,7 @@ impl Follower {
         let Follower { kinematics, step, .. } = self;
         kinematics.restore(step.state());
         if !kinematics.switches().is_empty() {
-            // which way it goes on decides on which side of an edge it begins
+            // the direction of motion decides on which side of an edge it begins
             let _ = step.derive_state(kinematics);
             self.settle();
             self.kinematics.restore(self.step.state());
@@ -214,7 +212,7 @@ impl Follower {
         self.edges.settle(&mut self.kinematics, self.step.state(), Some(after));
     }
 
-    /// Chooses anew which equations are solved where the motion is, if all are not needed; says whether they are others.
+    /// Selects anew the equations that are solved where the motion is, if not all are needed; returns whether they changed.
     fn choose_equations(&mut self) -> bool {
         let Follower { kinematics, step, edges, rows, choice, forces, .. } = self;
         let Some(choice) = choice else {
@@ -238,14 +236,14 @@ impl Follower {
         self.step.change_equations(&mut self.kinematics, self.span / FEWEST_STEPS_NEAR).is_ok()
     }
 
-    /// Why the state where the motion is has no row.
+    /// Returns why the state where the motion is has no row.
     fn explain_state(&mut self, fault: Fault) -> Box<Stop> {
         let state = self.step.state();
         singular::find_stop(&mut self.kinematics, state, fault, [0.0, state.t])
     }
 
     fn count_step(&mut self, t: f64) -> Result<(), Box<Stop>> {
-        // who cancelled does not read why
+        // cancelled: the caller discards the reason
         if self.rows.count_step() || self.kinematics.is_cancelled() {
             let state = self.step.state();
             return Err(singular::find_stop_of_haste(&mut self.kinematics, state, MOST_STEPS, t));
@@ -253,13 +251,12 @@ impl Follower {
         Ok(())
     }
 
-    /// Steps to an output time on its own; says whether its row was solved for there, and not taken from the way over a singular
-    /// position.
+    /// Steps to an output time on its own; returns whether its row was solved for there, and not taken from the bridge over a singular position.
     fn go_to(&mut self, t: f64) -> Result<bool, Box<Stop>> {
         while self.step.t() < t {
             self.count_step(t)?;
             if let Err(why) = self.step_towards(t) {
-                // so near to a bifurcation no step leads, but the way over it may
+                // no step may lead so near to a bifurcation, but the bridge over it may
                 return self.row_on_bridge(t).unwrap_or(Err(why)).map(|()| false);
             }
         }
@@ -275,13 +272,13 @@ impl Follower {
         Ok(true)
     }
 
-    /// A step, as far as the error and the next edge allow, which is gone over.
+    /// Steps as far as the error and the next edge allow, and crosses that edge.
     fn step_towards(&mut self, t: f64) -> Result<(), Box<Stop>> {
         let edge = self.step_to_edge(t)?;
         edge.map_or(Ok(()), |edge| self.cross(edge))
     }
 
-    /// The same, up to the edge.
+    /// Steps as far as the error and the next edge allow; returns the edge.
     fn step_to_edge(&mut self, t: f64) -> Result<Option<Edge>, Box<Stop>> {
         let next = self.step.end_towards(t);
         let edge = self.edges.next(&mut self.kinematics, &mut self.step, next, next >= t)?;
@@ -299,8 +296,8 @@ impl Follower {
         }
     }
 
-    /// A step of length `h` to time `t`, whose row is written if it is wanted.
-    fn try_step(&mut self, h: f64, t: f64, wanted: bool) -> Result<Accepted, Fault> {
+    /// Tries a step of length `h` to time `t`, and writes its row if `writes_row`.
+    fn try_step(&mut self, h: f64, t: f64, writes_row: bool) -> Result<Accepted, Fault> {
         let Follower { kinematics, step, edges, crossing, rows, choice, .. } = self;
         let to_edge_of_motion = edges.is_met_by(t);
         let motion = step.predict(kinematics, h, t)?;
@@ -314,7 +311,7 @@ impl Follower {
             return Err(Fault::Choice);
         }
         step.derive_trial(kinematics)?;
-        if wanted {
+        if writes_row {
             rows.take(kinematics, step.trial(), |kinematics| crossing.passes() && !is_clear(kinematics));
         }
         let between = step.correction_between(kinematics, h)?;
@@ -338,7 +335,7 @@ impl Follower {
         misses.take(kinematics, step.state());
     }
 
-    /// What there is to do where a step of length `h` on the way to `target` was refused.
+    /// Handles the refusal of a step of length `h` on the way to `target`.
     fn handle_rejection(&mut self, h: f64, fault: Fault, target: f64) -> Result<(), Box<Stop>> {
         if fault == Fault::Choice && self.choose_equations() {
             return Ok(());
@@ -360,7 +357,7 @@ impl Follower {
         let Follower { kinematics, step, edges, crossing, warnings, .. } = self;
         match edges.end_at_domain_boundary(kinematics, step, h, warnings) {
             Some(why) => Err(why),
-            None => crossing.pass_or_explain(kinematics, step, (fault, h, target), warnings),
+            None => crossing.pass_or_explain(kinematics, step, fault, [h, target], warnings),
         }
     }
 
@@ -381,7 +378,7 @@ impl Follower {
         Ok(())
     }
 
-    /// The row of the state that has been reached already: the start.
+    /// Writes the row of the state that has been reached already: the start.
     fn row_at_rest(&mut self) -> Result<(), Box<Stop>> {
         self.kinematics.restore(self.step.state());
         let mut trust = self.trust_at_rest();
@@ -415,7 +412,7 @@ impl Follower {
         self.rows.refine(&mut self.kinematics, self.step.state(), t);
     }
 
-    /// Where the motion is, to go back to.
+    /// Returns the checkpoint of the present state.
     fn checkpoint(&self) -> Checkpoint {
         Checkpoint::new(&self.step, &self.edges, &self.crossing)
     }
@@ -442,7 +439,7 @@ impl Follower {
         self.kinematics.system()
     }
 
-    /// Where the motion is.
+    /// Returns the state where the motion is.
     #[must_use]
     pub fn here(&self) -> &State {
         self.step.state()

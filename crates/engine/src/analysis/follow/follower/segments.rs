@@ -1,6 +1,6 @@
-//! The motion as the stretches that its steps go over: in each the equations are smooth, and both its ends are solved for.
+//! The motion as segments, one for each of its steps: in each the equations are smooth, and both its ends are solved for.
 //!
-//! They do not depend on which rows are asked for, and end at the edges of the equations.
+//! They do not depend on which rows are requested, and end at the edges of the equations.
 
 use super::Follower;
 use crate::analysis::explain::Stop;
@@ -13,7 +13,7 @@ use std::sync::Arc;
 /// A part of the motion between two states.
 pub struct SmoothSegment {
     pub from: State,
-    /// Halfway in time, if it has been solved for.
+    /// State halfway in time, if it has been solved for.
     pub middle: Option<State>,
     pub to: State,
     /// The results of the equations' switches.
@@ -48,7 +48,7 @@ impl SmoothSegment {
 }
 
 impl Follower {
-    /// Goes on to the end of the next stretch; none behind the last time.
+    /// Goes on to the end of the next segment; `None` behind the last time.
     ///
     /// # Errors
     /// Why and where the motion cannot go on.
@@ -87,13 +87,13 @@ impl Follower {
         SmoothSegment { from, middle, to, switches: self.switches(), chosen, bridge, begins_at_edge, ends_at_edge }
     }
 
-    /// The state in the middle of the step that was accepted last, if that was a dense step and can be solved for there.
+    /// Returns the state in the middle of the step that was accepted last, if that was a dense step and can be solved for there.
     fn middle_of_batch(&mut self) -> Option<State> {
         let (batch, _) = self.rows.batch()?;
         batch.middle(&self.kinematics, &self.step)
     }
 
-    /// The results that the equations' switches have now.
+    /// Returns the results that the equations' switches have now.
     #[must_use]
     pub fn switches(&self) -> Rc<[f64]> {
         self.kinematics.switches().iter().map(|switch| self.kinematics.switch(switch)).collect()

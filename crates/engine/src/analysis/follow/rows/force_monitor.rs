@@ -1,4 +1,4 @@
-//! Forces beside the rows: contacts that would have to pull, in rows or between them, and loads that have no value.
+//! Monitor of forces: contacts that would have to pull, in rows or between them, and loads that have no value.
 
 use crate::analysis::explain::{Stop, StopCause, Warning, WarningCause};
 use crate::analysis::follow::warnings::Warnings;
@@ -10,12 +10,12 @@ use mechc_ir::program::{Program, Ranges, Register, Registers, Stage};
 use mechc_ir::tolerances::contacts::{CORRECTIONS, FINEST_BETWEEN, MOST_BETWEEN, PULLS, STRIKES, WIDEST_BETWEEN};
 use mechc_ir::{ConstraintSystem, LoadForce};
 
-/// A load, as it is watched.
+/// Monitor of a load.
 struct LoadMonitor {
     force: Register,
-    /// By how much the distance that it works on is longer than what has no direction.
+    /// Excess of the distance that the load works on over a length without a direction.
     excess: Option<Register>,
-    /// What must be above zero, in the order of its conditions.
+    /// Quantities that must be above zero, in the order of the load's conditions.
     conditions: Vec<Register>,
     is_reported: bool,
 }
@@ -23,13 +23,13 @@ struct LoadMonitor {
 /// A contact that pulls between rows.
 #[derive(Clone, Copy)]
 struct Pull {
-    /// When it does so most (s).
+    /// Time of the strongest pull (s).
     t: f64,
-    /// What it presses with then (N).
+    /// Contact force then, negative for a pull (N).
     pressing: f64,
 }
 
-/// What looks at the forces of rows, once more, and of the way between them.
+/// Checks the forces of rows, which it computes once more, and those between rows.
 pub struct ForceMonitor {
     kinematics: Kinematics,
     program: Program,
@@ -37,34 +37,34 @@ pub struct ForceMonitor {
     /// By contact.
     presses: Vec<Register>,
     has_pulled: Vec<bool>,
-    /// The side to which each presses: 1 where that is known, 0 where the first row will tell.
+    /// By contact: the side to which it presses, or 0 until a row decides it.
     sides: Vec<f64>,
-    /// True if a row has been looked at: before the first one, and for who asks for no rows, the way is not.
+    /// True if a row has been checked. The motion before the first row is not checked, nor one without rows.
     has_begun: bool,
-    /// By contact: where it pulls on the way that no row has been told of.
+    /// By contact: its strongest pull between rows.
     between: Vec<Option<Pull>>,
     loads: Vec<LoadMonitor>,
-    /// By load: what it can be on a part of the way.
+    /// By load: enclosure of its value on a part of the step.
     ranges: Vec<Ranges>,
     /// By load: its value at both ends of that part, and the largest so far.
     ends: Vec<[f64; 2]>,
     largest_load: f64,
     delta: Vec<f64>,
-    /// Where a row has the coordinates, by their order, and how many there are.
+    /// First column of the coordinates in a row, and of their first, second and third derivatives.
     coordinates: [usize; 4],
     state: State,
 }
 
 impl LoadMonitor {
-    /// A load whose formulas are in the next registers.
-    fn of(load: &LoadForce, registers: &mut impl Iterator<Item = Register>) -> Option<LoadMonitor> {
+    /// Returns the monitor of a load whose formulas are in the next registers.
+    fn new(load: &LoadForce, registers: &mut impl Iterator<Item = Register>) -> Option<LoadMonitor> {
         let force = registers.next()?;
         let excess = load.excess.and_then(|_| registers.next());
         let conditions = registers.take(load.conditions.len()).collect();
         Some(LoadMonitor { force, excess, conditions, is_reported: false })
     }
 
-    /// Warns once of a distance that has no direction at a time (s); a load that has no value is why there is none of anything.
+    /// Warns once of a distance that has no direction at a time (s); a load without a value is an error.
     fn look(&mut self, index: usize, registers: &Registers, t: f64, warnings: &mut Warnings) -> Result<(), Box<Stop>> {
         if !registers.get(self.force).is_finite() {
             let holds = |register: &Register| registers.get(*register) > 0.0;
@@ -80,8 +80,8 @@ impl LoadMonitor {
 }
 
 impl ForceMonitor {
-    /// Of equations in a state; none where there is nothing to watch.
-    pub fn of(kinematics: &Kinematics, state: &State) -> Option<ForceMonitor> {
+    /// Returns the monitor of the forces from a state on; `None` without contacts and loads.
+    pub fn new(kinematics: &Kinematics, state: &State) -> Option<ForceMonitor> {
         let system = kinematics.system();
         if system.loads().is_empty() && system.contact_forces().is_empty() {
             return None;
@@ -93,7 +93,7 @@ impl ForceMonitor {
         let mut registers = registers.into_iter();
         let presses: Vec<Register> = registers.by_ref().take(system.contact_forces().len()).collect();
         let loads: Vec<LoadMonitor> =
-            system.loads().iter().map_while(|load| LoadMonitor::of(load, &mut registers)).collect();
+            system.loads().iter().map_while(|load| LoadMonitor::new(load, &mut registers)).collect();
         let params = system.param_values();
         let registers = program.start(&params);
         let range = |load: &LoadMonitor| Ranges::new(&program, &registers, &[load.force], Stage::Measures, false);
@@ -125,21 +125,20 @@ impl ForceMonitor {
 
     /// Goes on with other equations, which exert the same.
     pub fn change_equations(&mut self, kinematics: &Kinematics) {
-        if let Some(other) = ForceMonitor::of(kinematics, &self.state) {
-            let told: Vec<bool> = self.loads.iter().map(|load| load.is_reported).collect();
+        if let Some(other) = ForceMonitor::new(kinematics, &self.state) {
+            let reported: Vec<bool> = self.loads.iter().map(|load| load.is_reported).collect();
             let (has_pulled, sides) = (std::mem::take(&mut self.has_pulled), std::mem::take(&mut self.sides));
             let (has_begun, largest_load) = (self.has_begun, self.largest_load);
             let between = std::mem::take(&mut self.between);
             *self = ForceMonitor { has_pulled, sides, has_begun, between, largest_load, ..other };
-            for (load, is_reported) in self.loads.iter_mut().zip(told) {
+            for (load, is_reported) in self.loads.iter_mut().zip(reported) {
                 load.is_reported = is_reported;
             }
         }
     }
 
-    /// Looks at a row of a motion: warns once of each contact that pulls there, with a part of the row's largest force that is no rounding, or
-    /// has pulled on the way to it; where no curve tells its side, of one that presses to the other side than before. A load that has no value is
-    /// why there is none.
+    /// Checks a row of a motion: warns once of each contact that pulls in it, by more than rounding of the row's largest force, or has pulled on the
+    /// way to it. If the sign of a contact's force is not declared, the first row decides which sign is a pull. A load without a value is an error.
     pub fn look(&mut self, of: &Kinematics, row: &[f64], warnings: &mut Warnings) -> Result<(), Box<Stop>> {
         self.has_begun = true;
         let is_whole = row.iter().all(|value| value.is_finite());
@@ -172,8 +171,8 @@ impl ForceMonitor {
         Ok(())
     }
 
-    /// Looks at the way that a step of length `h` from a time (s) goes over, each coordinate being a polynomial of the part of the step. Where a
-    /// load may do what its values at both ends of a part do not tell it is looked at in smaller parts. What is found is told with the next row.
+    /// Checks the forces within a step of length `h` from a time (s), each coordinate being a polynomial of the fraction of the step. Parts
+    /// in which a load may leave its values at both ends are halved. The next row reports the pulls that are found.
     pub fn check_interior(&mut self, of: &Kinematics, [from, h]: [f64; 2], curve: &[[f64; 6]]) {
         if !self.has_begun {
             return;
@@ -243,7 +242,7 @@ impl ForceMonitor {
         })
     }
 
-    /// Solves for a place of the curve of a step and computes what is watched there; says whether it could.
+    /// Solves for a place of the curve of a step and computes the forces there; returns whether it could.
     fn set_on_curve(&mut self, curve: &[[f64; 6]], [from, h]: [f64; 2], x: f64) -> bool {
         let ForceMonitor { kinematics, state, delta, .. } = self;
         state.t = from + x * h;
@@ -267,7 +266,7 @@ impl ForceMonitor {
         is_solved
     }
 
-    /// The largest of the multipliers.
+    /// Returns the largest absolute multiplier.
     fn largest(&self, system: &ConstraintSystem) -> f64 {
         (0..system.rows().len()).map(|row| self.kinematics.multiplier(row).abs()).fold(0.0, f64::max)
     }
@@ -277,13 +276,13 @@ impl ForceMonitor {
         let ForceMonitor { state, coordinates, .. } = self;
         let n = state.q.len();
         state.t = row[0];
-        let own = [&mut state.q, &mut state.qd, &mut state.qdd];
-        for (values, first) in own.into_iter().zip(&*coordinates) {
+        let parts = [&mut state.q, &mut state.qd, &mut state.qdd];
+        for (values, first) in parts.into_iter().zip(&*coordinates) {
             values.copy_from_slice(&row[*first..first + n]);
         }
     }
 
-    /// Computes what is watched at the state.
+    /// Computes the forces at the state.
     fn compute(&mut self) {
         let ForceMonitor { kinematics, program, registers, state, .. } = self;
         kinematics.vary_at(state);
@@ -299,7 +298,7 @@ impl ForceMonitor {
     }
 }
 
-/// The time derivative of a polynomial of the part of a step of length `h` (s), likewise.
+/// Returns the time derivative of a polynomial of the fraction of a step of length `h` (s), as such a polynomial.
 fn slope(&[_, a, b, c, d, e]: &[f64; 6], h: f64) -> [f64; 6] {
     [a / h, 2.0 * b / h, 3.0 * c / h, 4.0 * d / h, 5.0 * e / h, 0.0]
 }

@@ -5,7 +5,7 @@ use crate::analysis::follow::warnings::Warnings;
 use crate::analysis::state::Unknown;
 use mechc_ir::ConstraintSystem;
 
-/// The rows in which one of them has none.
+/// Rows in which one quantity has no value.
 #[derive(Clone, Copy)]
 struct Gap {
     /// Times of the first and the last of them (s).
@@ -18,7 +18,7 @@ struct Gap {
 impl Gap {
     const NONE: Gap = Gap { first: 0.0, last: f64::NAN, rows: 0, is_reported: false };
 
-    /// A cell of a row at a time; several of one row count once.
+    /// Records a cell of a row at a time (s); several cells of one row count once.
     fn take_note(&mut self, t: f64) {
         if self.rows == 0 {
             self.first = t;
@@ -43,7 +43,7 @@ impl MissingValues {
         MissingValues { measures, derivatives, forces: Gap::NONE }
     }
 
-    /// There is no number in a cell of the row of a time (s).
+    /// Records that a cell of the row of a time (s) has no number.
     pub fn take_note(&mut self, what: Unknown, t: f64) {
         let gap = match what {
             Unknown::Measure(index) => &mut self.measures[index],
@@ -53,8 +53,8 @@ impl MissingValues {
         gap.take_note(t);
     }
 
-    /// A warning for each, once.
-    pub fn say(&mut self, warnings: &mut Warnings) {
+    /// Warns of each quantity that had no value, once.
+    pub fn report(&mut self, warnings: &mut Warnings) {
         let measures = self.measures.iter_mut().enumerate().map(|(k, gap)| (Unknown::Measure(k), gap));
         let derivatives = self.derivatives.iter_mut().enumerate().map(|(k, gap)| (Unknown::Derivative(k), gap));
         let all = measures.chain(derivatives).chain([(Unknown::Forces, &mut self.forces)]);

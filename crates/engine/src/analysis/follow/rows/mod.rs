@@ -15,19 +15,27 @@ use missing_values::MissingValues;
 pub use row_batch::{RowBatch, state_of_row};
 pub use single_row::SingleRow;
 
-/// Where a row is.
+/// Location of a row.
 #[derive(Clone, Copy)]
 pub enum Place {
-    /// On its own.
+    /// The row that was solved for on its own.
     Single,
-    /// Among those that were solved for at once.
+    /// A lane of the batch.
     Lane(usize),
+}
+
+/// Output times from the next one on.
+#[derive(Clone, Copy)]
+pub struct Upcoming<'t> {
+    pub times: &'t Times,
+    /// Number of the next one.
+    pub next: u64,
 }
 
 /// The output times, and the rows that are ready.
 pub struct Rows {
     times: Times,
-    /// The number of the time that comes next.
+    /// Number of the next output time.
     next: u64,
     /// True if the motion could not go on.
     has_stopped: bool,
@@ -37,9 +45,9 @@ pub struct Rows {
     careful_until: f64,
     /// True if a step may go over several output times.
     may_step_densely: bool,
-    /// What solves for the rows of such a step.
+    /// Solver for the rows of such a step.
     batch: Option<RowBatch>,
-    /// The row that was found last on its own, and what it is worth.
+    /// Row that was found last on its own, and how far it can be trusted.
     row: Vec<f64>,
     trust: Trust,
     /// True if it is near a position that may be a bifurcation to pass.
@@ -50,7 +58,7 @@ pub struct Rows {
 }
 
 impl Rows {
-    /// For some times; `batch` solves for several rows at once.
+    /// Returns the rows for some times; `batch` solves for several of them at once.
     pub fn new(kinematics: &Kinematics, batch: Option<RowBatch>, times: Times) -> Rows {
         Rows {
             times,
@@ -58,7 +66,7 @@ impl Rows {
             has_stopped: false,
             steps: 0,
             careful_until: f64::NEG_INFINITY,
-            // what was left out of the equations is looked at wherever a row is printed
+            // equations that were left out are checked at every row
             may_step_densely: kinematics.system().checks().is_empty(),
             batch,
             row: vec![0.0; kinematics.row_length()],
@@ -69,38 +77,38 @@ impl Rows {
         }
     }
 
-    /// The next output time (s); none behind the last one, and where the motion could not go on.
+    /// Returns the next output time (s); `None` behind the last one, and where the motion could not go on.
     pub fn next_time(&self) -> Option<f64> {
         (!self.has_stopped && self.next < self.times.len()).then(|| self.upcoming())
     }
 
-    /// The time of the row that was handed out last (s).
+    /// Returns the time of the row that was handed out last (s).
     pub fn last_time(&self) -> Option<f64> {
         self.next.checked_sub(1).map(|number| self.times.at(number))
     }
 
-    /// The next output time (s), be it behind the last one.
+    /// Returns the next output time (s), even if that is behind the last one.
     pub fn upcoming(&self) -> f64 {
         self.times.at(self.next)
     }
 
-    /// The first output time behind a time, or the next one, if that is earlier (s).
+    /// Returns the first output time behind a time, or the next one, if that is earlier (s).
     pub fn upcoming_after(&self, t: f64) -> f64 {
         self.times.at(self.times.first_after(t, 0).min(self.next))
     }
 
-    /// The motion could not go on.
+    /// Records that the motion could not go on.
     pub fn stop(&mut self) {
         self.has_stopped = true;
     }
 
-    /// The next row has been handed out.
+    /// Records that the next row has been handed out.
     pub fn count_row(&mut self) {
         self.next += 1;
         self.forget_steps();
     }
 
-    /// The next row, if it has been solved for and there is nothing to be said of it; it has been handed out then.
+    /// Returns the next row if it has been solved for and needs no warning; it counts as handed out then.
     pub fn hand_out_ready(&mut self) -> Option<Place> {
         let lane = self.batch.as_ref()?.ready_lane(self.next)?;
         self.count_row();
@@ -112,7 +120,7 @@ impl Rows {
         self.steps = 0;
     }
 
-    /// Counts a step; says whether there are too many.
+    /// Counts a step; returns whether there are too many.
     pub fn count_step(&mut self) -> bool {
         self.steps += 1;
         self.steps > MOST_STEPS
@@ -123,40 +131,40 @@ impl Rows {
         self.batch.is_some() && self.may_step_densely && t >= self.careful_until
     }
 
-    /// Up to a time (s) steps go to each output time on their own.
+    /// Makes steps go to each output time on their own up to a time (s).
     pub fn single_step_until(&mut self, t: f64) {
         self.careful_until = t;
     }
 
-    /// Where a dense step of length `h` from a time goes (s): to an output time, if it comes so far.
+    /// Returns the end (s) of a dense step of length `h` from a time: an output time, if the step comes so far.
     pub fn target(&self, from: f64, h: f64) -> f64 {
         let (upcoming, farthest) = (self.upcoming(), from + h);
         let behind = self.times.first_after(farthest, self.next);
-        // what does not change the time is no step
+        // a step must change the time
         let farthest = if farthest > from { farthest } else { upcoming };
         if h >= CRUMB * (upcoming - from) { self.times.at(behind.saturating_sub(1).max(self.next)) } else { farthest }
     }
 
-    /// An edge, ahead of a time (s), that is meant to be at an output time is there.
+    /// Returns an edge ahead of a time (s), moved to an output time if it is within rounding of it.
     pub fn at_output(&self, edge: Edge, from: f64) -> Edge {
         let behind = self.times.first_after(edge.t, self.next);
         let before = if behind > self.next { self.times.at(behind - 1) } else { edge.t };
-        let is_meant = before > from && shortly_after(before) >= edge.t;
-        if is_meant { edge.at(before) } else { edge }
+        let is_at_output = before > from && shortly_after(before) >= edge.t;
+        if is_at_output { edge.at(before) } else { edge }
     }
 
-    /// The output times with the number of the next one, and what solves for several of their rows at once.
-    pub fn batch(&mut self) -> Option<(&mut RowBatch, (&Times, u64))> {
+    /// Returns the batch, and the output times from the next one on.
+    pub fn batch(&mut self) -> Option<(&mut RowBatch, Upcoming<'_>)> {
         let Rows { batch, times, next, .. } = self;
-        batch.as_mut().map(|batch| (batch, (&*times, *next)))
+        batch.as_mut().map(|batch| (batch, Upcoming { times, next: *next }))
     }
 
-    /// From now on rows are solved for otherwise.
+    /// Replaces the solver of several rows at once.
     pub fn change_solver(&mut self, batch: Option<RowBatch>) {
         self.batch = batch;
     }
 
-    /// The step that was gone over last holds no rows.
+    /// Discards the rows of the last dense step.
     pub fn close_batch(&mut self) {
         self.batch.iter_mut().for_each(RowBatch::close);
     }
@@ -168,12 +176,12 @@ impl Rows {
         }
     }
 
-    /// The row that was found on its own.
+    /// Returns the row that was found on its own.
     pub fn single(&self) -> &[f64] {
         &self.row
     }
 
-    /// The same, to be written.
+    /// Returns the row that was found on its own, to be written.
     pub fn single_mut(&mut self) -> &mut [f64] {
         &mut self.row
     }
@@ -181,13 +189,13 @@ impl Rows {
     /// Returns whether all numbers of a row are finite.
     pub fn is_whole(&self, place: Place) -> bool {
         match (place, &self.batch) {
-            // what solved for it has seen all of it
+            // the solver has checked all columns
             (Place::Lane(lane), Some(batch)) if batch.is_whole(lane) => true,
             _ => self.row(place).iter().all(|value| value.is_finite()),
         }
     }
 
-    /// The row at a place.
+    /// Returns the row at a place.
     pub fn row(&self, place: Place) -> &[f64] {
         match (place, &self.batch) {
             (Place::Lane(lane), Some(batch)) => batch.row(lane),
@@ -202,19 +210,19 @@ impl Rows {
         }
     }
 
-    /// Takes the row of a state that was just computed; `is_near` says whether it is near a bifurcation to pass.
+    /// Takes the row of a state that was just computed; `is_near` decides whether it is near a bifurcation to pass.
     pub fn take(&mut self, kinematics: &mut Kinematics, state: &State, is_near: impl FnOnce(&mut Kinematics) -> bool) {
         self.trust = Trust::of(kinematics, state);
         self.is_near = is_near(kinematics);
         kinematics.write_row(state, &mut self.row);
     }
 
-    /// What the row that was taken last is worth.
+    /// Returns how far the row that was taken last can be trusted.
     pub fn trust(&self) -> Trust {
         self.trust
     }
 
-    /// Returns whether it is near a position that may be a bifurcation to pass.
+    /// Returns whether that row is near a position that may be a bifurcation to pass.
     pub fn is_near(&self) -> bool {
         self.is_near
     }
@@ -224,12 +232,12 @@ impl Rows {
         self.plain = here;
     }
 
-    /// Where the last one was, if that is before a time (s).
+    /// Takes the checkpoint of the last such row, if it is before a time (s).
     pub fn take_plain(&mut self, t: f64) -> Option<Checkpoint> {
         self.plain.take().filter(|plain| plain.state().t < t)
     }
 
-    /// Cells of a row at a time (s) that are not finite hold no number: they are of measures, since the coordinates are.
+    /// Marks the cells of a row at a time (s) that are not finite as missing. They are cells of measures, since coordinates are finite.
     pub fn leave_out_measures(&mut self, kinematics: &Kinematics, place: Place, t: f64) {
         for column in 0..self.row.len() {
             let cell = &mut self.row_mut(place)[column];
@@ -240,8 +248,8 @@ impl Rows {
         }
     }
 
-    /// A warning for each measure that had no value, once.
-    pub fn say_what_is_missing(&mut self, warnings: &mut Warnings) {
-        self.missing.say(warnings);
+    /// Warns of each quantity that had no value, once.
+    pub fn report_missing(&mut self, warnings: &mut Warnings) {
+        self.missing.report(warnings);
     }
 }

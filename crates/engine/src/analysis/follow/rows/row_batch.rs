@@ -1,9 +1,10 @@
 //! A step over several output times, whose rows are solved for on its curve, several at once (`solver`).
 
+use super::Upcoming;
 use super::single_row::SingleRow;
 use crate::analysis::follow::checkpoint::Checkpoint;
 use crate::analysis::follow::step::Step;
-use crate::analysis::state::{Kinematics, State, Times, are_alike};
+use crate::analysis::state::{Kinematics, State, are_alike};
 use crate::solver::{Batch, Bend, Lanes, Pivoting, Solver};
 use mechc_expr::math::{WIDE, numbers_to_cache_line};
 use mechc_ir::layout::RowLayout;
@@ -26,11 +27,11 @@ pub struct RowBatch {
     values: Vec<f64>,
     begin: usize,
     holds: Vec<[bool; LANES]>,
-    /// For the end of a step.
+    /// Row at the end of a step.
     alone: SingleRow,
     /// A position as a curve that stays there.
     rest: Vec<[f64; 6]>,
-    /// Where the solver's order of elimination loses digits; none where a block is too large.
+    /// Elimination with pivoting, for positions at which the solver's fixed order loses digits; `None` if a block is too large.
     pivoting: Option<Pivoting>,
     /// A state to be solved for with partial pivoting.
     pivoted: State,
@@ -40,26 +41,26 @@ pub struct RowBatch {
     last: u64,
     /// Up to this number they hold, with all their columns.
     ready: u64,
-    /// What may be left of each row of Φ, as its inverse.
+    /// Inverse bound of each row of Φ.
     bounds: Vec<f64>,
     has_bounds: bool,
-    /// Where the step begins.
+    /// Start of the step.
     origin: Checkpoint,
     length: f64,
-    /// Where the step before began, if it led smoothly to this one.
+    /// Start of the step before, if that led smoothly to this one.
     before: State,
     is_smooth: bool,
-    /// How the curve of each tear goes on from the step before.
+    /// Continuation of each tear's curve from the step before.
     bends: Vec<Bend>,
     /// The time that the steps are measured against (s).
     span: f64,
 }
 
-/// How many threads a solver is worth.
+/// Returns the number of threads that a solver is worth.
 #[cfg(feature = "threads")]
 fn threads(solver: &Solver) -> usize {
     if solver.instructions().len() < WORTH_A_THREAD {
-        // asking for the processors takes as long as a hundred steps of a four-bar
+        // querying the processors takes as long as a hundred steps of a four-bar
         return 1;
     }
     std::thread::available_parallelism().map_or(1, |n| n.get().min(MOST_THREADS))
@@ -70,7 +71,7 @@ fn threads(_: &Solver) -> usize {
     1
 }
 
-/// The state at a time that a solver's row holds, like another state.
+/// Returns the state at a time from a solver's row; it takes what the row does not hold from another state.
 pub fn state_of_row(layout: &RowLayout, row: &[f64], like: &State, t: f64) -> State {
     let n = like.q.len();
     let part = |order: usize| row[layout.coordinates[order] as usize..][..n].to_vec();
@@ -79,7 +80,7 @@ pub fn state_of_row(layout: &RowLayout, row: &[f64], like: &State, t: f64) -> St
 }
 
 impl RowBatch {
-    /// With the operations of a solver, for a motion that is at a checkpoint and is measured against a span (s).
+    /// Returns a batch with the operations of a solver, for a motion that is at a checkpoint and is measured against a span (s).
     pub fn new(kinematics: &Kinematics, solver: Arc<Solver>, origin: Checkpoint, span: f64) -> RowBatch {
         let threads = threads(&solver);
         let n = kinematics.system().coordinates().len();
@@ -109,34 +110,34 @@ impl RowBatch {
         }
     }
 
-    /// The row of a lane.
+    /// Returns the row of a lane.
     pub fn row(&self, lane: usize) -> &[f64] {
         let layout = self.solver.layout();
         &self.values[self.begin + lane * layout.stride..][..layout.printed]
     }
 
-    /// The same, to be written.
+    /// Returns the row of a lane, to be written.
     pub fn row_mut(&mut self, lane: usize) -> &mut [f64] {
         let layout = self.solver.layout();
         &mut self.values[self.begin + lane * layout.stride..][..layout.printed]
     }
 
-    /// Where the step that was gone over last begins.
+    /// Returns the start of the last dense step.
     pub fn origin(&self) -> &Checkpoint {
         &self.origin
     }
 
-    /// From when that step goes (s), and its length (s).
+    /// Returns the start time and the length of the last dense step (s).
     pub fn way(&self) -> [f64; 2] {
         [self.origin.state().t, self.length]
     }
 
-    /// Returns whether an output time, by its number, lies within that step.
+    /// Returns whether an output time, by its number, lies within the last dense step.
     pub fn holds_time(&self, number: u64) -> bool {
         number < self.last
     }
 
-    /// Forgets the step.
+    /// Forgets the last dense step.
     pub fn close(&mut self) {
         (self.first, self.end, self.last, self.ready) = (0, 0, 0, 0);
         (self.length, self.is_smooth) = (0.0, false);
@@ -148,15 +149,15 @@ impl RowBatch {
         h <= SHORT * self.span
     }
 
-    /// Solves at the end of a step of length `h` to a time (s), and gives how far that is from Taylor's prediction, which has been made;
-    /// none where it does not hold.
+    /// Solves at the end of a step of length `h` to a time (s), after Taylor's prediction has been made. Returns the distance from that
+    /// prediction, scaled, or `None` if the solution does not hold.
     pub fn solve_ahead(&mut self, kinematics: &Kinematics, step: &mut Step, h: f64, t: f64) -> Option<f64> {
         if !self.has_bounds {
             kinematics.write_bounds(&mut self.bounds);
             self.has_bounds = true;
         }
         if !self.solve_beyond(kinematics, step, t) && !self.solve_on_parabola(kinematics, step, h, t) {
-            // one that is far off wants a shorter step, and not more care
+            // a solution that is far off needs a shorter step
             let size = self.alone.first_correction();
             return Some(size).filter(|size| *size > LARGEST_CORRECTION && !self.is_short(h));
         }
@@ -166,8 +167,8 @@ impl RowBatch {
         Some(step.take_solved(kinematics, orders.map(part)))
     }
 
-    /// Solves at a time from where the last step leads beyond its end, if it led smoothly to where the motion is: so near to the solution
-    /// that it saves an iteration. Says whether it holds.
+    /// Solves at a time from the extrapolated curve of the last step, if that led smoothly to where the motion is: the start is so near to
+    /// the solution that it saves an iteration. Returns whether the solution holds.
     fn solve_beyond(&mut self, kinematics: &Kinematics, step: &mut Step, t: f64) -> bool {
         if !self.is_smooth || !self.leads_to(step.t()) {
             return false;
@@ -179,7 +180,7 @@ impl RowBatch {
         self.alone.solve(kinematics, &self.solver, &way)
     }
 
-    /// The same from where the derivatives lead, for a step of length `h`.
+    /// Solves at a time from the parabola of the state's derivatives, for a step of length `h`. Returns whether the solution holds.
     fn solve_on_parabola(&mut self, kinematics: &Kinematics, step: &mut Step, h: f64, t: f64) -> bool {
         step.extrapolate_curve(h, self.solver.tears().iter().map(|&tear| tear as usize));
         self.solve_within(kinematics, step.curve(), [step.t(), h, t])
@@ -191,14 +192,14 @@ impl RowBatch {
         length > 0.0 && (from + length - t).abs() <= SAME_TIME * length
     }
 
-    /// Solves at one time, of a step from a time and of a length; says whether it holds.
+    /// Solves at one time of a step from a time and of a length; returns whether the solution holds.
     fn solve_within(&mut self, kinematics: &Kinematics, curve: &[[f64; 6]], [from, length, t]: [f64; 3]) -> bool {
         let way = Batch { times: [t], from, length, curve, bends: &[], bounds: &self.bounds };
         self.alone.solve(kinematics, &self.solver, &way)
     }
 
-    /// The state in the middle of the step that was accepted last, if that was a dense step to where the motion is and can be solved for
-    /// there.
+    /// Returns the state in the middle of the step that was accepted last, if that was a dense step to where the motion is and can be
+    /// solved for there.
     pub fn middle(&mut self, kinematics: &Kinematics, step: &Step) -> Option<State> {
         let [from, length] = self.way();
         let t = 0.5 * from + 0.5 * step.t();
@@ -208,12 +209,12 @@ impl RowBatch {
         Some(state_of_row(self.solver.layout(), self.alone.row(), step.state(), t))
     }
 
-    /// How far the curve of a step is from the motion: at the first rows within it, or where there are few, at some place.
+    /// Returns how far the curve of a step is from the motion: at the first rows within it, or at one probe where there are few.
     pub fn correction_between(
         &mut self,
         kinematics: &Kinematics,
         step: &mut Step,
-        (times, next): (&Times, u64),
+        upcoming: Upcoming<'_>,
         h: f64,
     ) -> f64 {
         let probe = step.next_probe();
@@ -221,8 +222,8 @@ impl RowBatch {
             self.solve_within(kinematics, step.curve(), [step.t(), h, step.t() + probe * h]);
             return self.alone.first_correction();
         }
-        self.solve_batch(kinematics, step, (times, next));
-        // whichever threads there are, the first lanes are the same
+        self.solve_batch(kinematics, step, upcoming);
+        // the first lanes do not depend on the number of threads
         self.lanes[0].first_correction()
     }
 
@@ -232,10 +233,12 @@ impl RowBatch {
         &mut self,
         kinematics: &Kinematics,
         step: &Step,
-        (times, next): (&Times, u64),
-        (h, end, to_edge): (f64, f64, bool),
+        upcoming: Upcoming<'_>,
+        [h, end]: [f64; 2],
+        to_edge: bool,
         take_origin: impl FnOnce(&mut Checkpoint),
     ) {
+        let Upcoming { times, next } = upcoming;
         let behind = times.first_after(end, next);
         let at_end = to_edge && behind > next && times.at(behind - 1) >= end;
         (self.first, self.end, self.ready) = (next, next, next);
@@ -257,13 +260,14 @@ impl RowBatch {
         take_origin(&mut self.origin);
     }
 
-    /// The lane with the row of an output time within the step, by its number; none if that does not hold.
-    pub fn lane_of(&mut self, kinematics: &Kinematics, step: &Step, (times, next): (&Times, u64)) -> Option<usize> {
+    /// Returns the lane with the row of the next output time, which is within the step; `None` if the row does not hold.
+    pub fn lane_of(&mut self, kinematics: &Kinematics, step: &Step, upcoming: Upcoming<'_>) -> Option<usize> {
+        let next = upcoming.next;
         if let Some(lane) = self.ready_lane(next) {
             return Some(lane);
         }
         if next >= self.end {
-            self.solve_batch(kinematics, step, (times, next));
+            self.solve_batch(kinematics, step, upcoming);
         }
         let lane = (next - self.first) as usize;
         let is_ready = |lane: &usize| self.is_solved(*lane) && self.is_whole(*lane);
@@ -272,7 +276,8 @@ impl RowBatch {
         (self.is_solved(lane) && (self.is_whole(lane) || self.is_finite(lane))).then_some(lane)
     }
 
-    /// The lane with the row of an output time, by its number, if the one before has been asked for and that is known to hold with all its columns.
+    /// Returns the lane with the row of an output time, by its number, if that row holds with all its columns as far as
+    /// [`RowBatch::lane_of`] has looked.
     pub fn ready_lane(&self, number: u64) -> Option<usize> {
         (number < self.ready).then(|| (number - self.first) as usize)
     }
@@ -281,7 +286,7 @@ impl RowBatch {
         self.holds[lane / LANES][lane % LANES]
     }
 
-    /// Returns whether all numbers of a lane's row are finite, be they of measures.
+    /// Returns whether all numbers of a lane's row are finite, including its measures.
     pub fn is_whole(&self, lane: usize) -> bool {
         self.lanes[lane / LANES].is_finite(lane % LANES)
     }
@@ -295,14 +300,14 @@ impl RowBatch {
         parts.all(|part| part.iter().all(|value| value.is_finite()))
     }
 
-    /// Solves for the next rows of a step, in threads where there is enough to do: each has times of its own, so that the bits
-    /// are the same.
-    fn solve_batch(&mut self, kinematics: &Kinematics, step: &Step, (times, next): (&Times, u64)) {
+    /// Solves for the next rows of a step, in threads where there is enough to do. Each thread has its times, so the bits do not depend on
+    /// their number.
+    fn solve_batch(&mut self, kinematics: &Kinematics, step: &Step, Upcoming { times, next }: Upcoming<'_>) {
         let RowBatch { solver, lanes, values, holds, bounds, bends, .. } = self;
         let (first, last) = (next, self.last.min(next + (LANES * lanes.len()) as u64));
         (self.first, self.end) = (first, last);
         let batch = |part: usize| Batch {
-            // the lanes that are left over do the last time again
+            // surplus lanes solve at the last time
             times: std::array::from_fn(|lane| times.at((first + (part * LANES + lane) as u64).min(last - 1))),
             from: self.origin.mark.state.t,
             length: self.length,
@@ -327,7 +332,7 @@ impl RowBatch {
                 }
             };
             std::thread::scope(|scope| {
-                // where the system gives fewer threads, these do all
+                // if the system gives fewer threads, they do all the work
                 let _others: Vec<_> = (1..parts).map(|_| Builder::new().spawn_scoped(scope, work)).collect();
                 work();
             });
@@ -336,18 +341,18 @@ impl RowBatch {
         all.for_each(|(part, ((lanes, values), holds))| solve(part, lanes, values, holds));
     }
 
-    /// Solves again for a row that was found otherwise, by the operations that all other rows come from: whichever way it was
-    /// found, its bits are the same. The motion stays where it is, `here`.
+    /// Solves once more for a row that was found otherwise, by the operations that all other rows come from, so that its bits do not depend
+    /// on how it was found. The motion stays where it is, `here`.
     pub fn refine(&mut self, kinematics: &mut Kinematics, here: &State, t: f64, row: &mut [f64]) {
         let is_solved = self.solve_at_rest(kinematics, t, row) || self.solve_pivoted(kinematics, here, t, row);
         let (layout, refined) = (self.solver.layout(), self.alone.row());
         let n = here.q.len();
         let part = |order: usize| layout.coordinates[order] as usize..layout.coordinates[order] as usize + n;
         let [found, solved] = [&*row, refined].map(|row| [0, 1, 2].map(|order| &row[part(order)]));
-        // where both do not agree the position is too near to a singular one for the grid
+        // if both disagree, the position is too near to a singular one for the grid
         if is_solved && are_alike(kinematics, found, solved, REFINED) {
             for (column, (cell, refined)) in row.iter_mut().zip(refined).enumerate() {
-                // what could not be trusted before cannot be now
+                // a cell that could not be trusted before cannot be now
                 if cell.is_finite() || !kinematics.may_be_missing(column) {
                     *cell = *refined;
                 }
@@ -355,7 +360,7 @@ impl RowBatch {
         }
     }
 
-    /// Solves from the position of a row; says whether it holds.
+    /// Solves from the position of a row; returns whether the solution holds.
     fn solve_at_rest(&mut self, kinematics: &Kinematics, t: f64, row: &[f64]) -> bool {
         kinematics.write_bounds(&mut self.bounds);
         for (rest, q) in self.rest.iter_mut().zip(self.solver.layout().position(row)) {
@@ -365,7 +370,7 @@ impl RowBatch {
         self.alone.solve(kinematics, &self.solver, &rest)
     }
 
-    /// The same with partial pivoting.
+    /// Solves from the position of a row with partial pivoting; returns whether it holds.
     fn solve_pivoted(&mut self, kinematics: &mut Kinematics, here: &State, t: f64, row: &[f64]) -> bool {
         let Some(pivoting) = &mut self.pivoting else {
             return false;

@@ -1,13 +1,13 @@
-//! The branch that a motion is on: the signs of determinants, and of what is watched.
+//! The branch of a motion: the signs of determinants and of monitors.
 
 use crate::analysis::state::{Determinant, Fault, Kinematics};
 
-/// What tells a branch from others.
+/// Signs that tell a branch from others.
 #[derive(Clone)]
 pub struct Signs {
     /// Each block's determinant.
     determinants: Vec<Determinant>,
-    /// The sign of what is watched.
+    /// Sign of each monitor.
     sides: Vec<bool>,
     /// The equations that are left out: determinants are of the others.
     left_out: Vec<usize>,
@@ -26,12 +26,12 @@ impl Signs {
         self.left_out.clone_from(&other.left_out);
     }
 
-    /// The determinant of each block.
+    /// Returns the determinant of each block.
     pub fn determinants(&self) -> &[Determinant] {
         &self.determinants
     }
 
-    /// The first block whose determinant has another sign where a position was factored.
+    /// Returns the first block whose determinant has another sign where a position was factored.
     pub fn block_that_turned(&self, kinematics: &Kinematics) -> Option<usize> {
         (0..self.determinants.len()).find(|&block| self.has_turned(kinematics, block))
     }
@@ -42,7 +42,7 @@ impl Signs {
     }
 }
 
-/// The branch of the state, what the state that is tried has, and the way up to there.
+/// Branch of the state and of the trial state, and the approach to the state.
 pub(super) struct Branch {
     now: Signs,
     trial: Signs,
@@ -51,7 +51,7 @@ pub(super) struct Branch {
     approach: Approach,
 }
 
-/// What is known of the way up to a state.
+/// The last step before a state.
 #[derive(Clone, Copy, Debug)]
 struct Approach {
     /// The length of the last step (s); 0 where there was none on this branch of the formulas.
@@ -61,7 +61,7 @@ struct Approach {
 }
 
 impl Approach {
-    /// Nothing is known, at a start.
+    /// The approach of a start, which has no step before it.
     const UNKNOWN: Approach = Approach { h: 0.0, smallest_pivot: 0.0 };
 }
 
@@ -83,7 +83,7 @@ impl Branch {
         }
     }
 
-    /// Takes the determinants where the state was factored, there being none before to compare with.
+    /// Takes the determinants where the state was factored; there are none before to compare with.
     pub fn begin(&mut self, kinematics: &Kinematics) {
         kinematics.linear().determinants(&mut self.now.determinants);
         self.approach = Approach::UNKNOWN;
@@ -100,7 +100,7 @@ impl Branch {
         kinematics.sides(&mut self.now.sides);
     }
 
-    /// Returns whether a position that was factored is on the branch.
+    /// Checks that a position that was factored is on the branch.
     pub fn compare(&mut self, kinematics: &Kinematics) -> Result<(), Fault> {
         kinematics.linear().determinants(&mut self.trial.determinants);
         self.compare_sides(kinematics)?;
@@ -108,7 +108,7 @@ impl Branch {
         if pairs.all(|(trial, now)| trial.is_positive() == now.is_positive()) { Ok(()) } else { Err(Fault::Singular) }
     }
 
-    /// Returns whether what is watched has kept its sign where a position was set.
+    /// Checks that the monitors have kept their signs where a position was set.
     pub fn compare_sides(&mut self, kinematics: &Kinematics) -> Result<(), Fault> {
         kinematics.sides(&mut self.trial.sides);
         match self.now.sides.iter().zip(&self.trial.sides).position(|(now, trial)| now != trial) {
@@ -128,22 +128,22 @@ impl Branch {
             return true;
         }
         let meets_zero = |(now, then): (&Determinant, &Determinant)| {
-            let (then, now) = (then.beside(*now).abs(), now.beside(*now).abs());
+            let (then, now) = (then.relative_to(*now).abs(), now.relative_to(*now).abs());
             (then - now) * h > now * self.approach.h
         };
         self.now.determinants.iter().zip(&self.before).any(meets_zero)
     }
 
-    /// The determinants of a block at the ends of the step, both positive where it is singular at neither.
+    /// Returns the determinants of a block at the ends of the step, both positive where it is singular at neither.
     pub fn at_ends(&self, block: usize) -> (f64, f64) {
         let (a, b) = (self.now.determinants[block], self.trial.determinants[block]);
-        (a.beside(a).abs(), b.beside(a).abs())
+        (a.relative_to(a).abs(), b.relative_to(a).abs())
     }
 
-    /// The determinant of a block where a position within the step was factored, negative beyond a singular position.
+    /// Returns the determinant of a block where a position within the step was factored, negative beyond a singular position.
     pub fn within(&self, kinematics: &Kinematics, block: usize) -> f64 {
         let (end, within) = (self.now.determinants[block], kinematics.linear().determinant(block));
-        let value = within.beside(end);
+        let value = within.relative_to(end);
         if end.is_positive() { value } else { -value }
     }
 }

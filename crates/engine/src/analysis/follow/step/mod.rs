@@ -1,4 +1,4 @@
-//! One step: from a state that is known to one that is tried.
+//! A step from a state to a trial state.
 //!
 //! Each step predicts `q + h q̇ + h²/2 q̈`, corrects by Newton, and is accepted only if the way between is smooth: the
 //! first correction is small, so is one between the ends, and no block's determinant changes its sign or touches zero. Else it
@@ -24,21 +24,21 @@ pub struct Step {
     length: Length,
     /// Each coordinate between the ends, as a polynomial of the part of the step.
     curve: Vec<[f64; 6]>,
-    /// Returns the fraction of the step, from 0 to 1, that was checked last.
+    /// Number from 0 to 1 that the last probe was made of.
     probe: f64,
-    /// Newton's last correction, and a position beside the state.
+    /// Newton's last correction, and a position near the state.
     delta: Vec<f64>,
     place: Vec<f64>,
 }
 
-/// How well a step went.
+/// Corrections of an accepted step.
 pub struct Accepted {
     pub first_correction: f64,
     pub between: f64,
     pub motion: f64,
 }
 
-/// What a step begins from.
+/// Start of a step, to which a motion can go back.
 #[derive(Clone)]
 pub struct Mark {
     pub state: State,
@@ -46,17 +46,17 @@ pub struct Mark {
     h: f64,
 }
 
-/// A state's value, first and second derivative of a coordinate.
+/// Returns a coordinate of a state with its first and second derivatives.
 fn end(state: &State, k: usize) -> [f64; 3] {
     [state.q[k], state.qd[k], state.qdd[k]]
 }
 
-/// The quintic of a coordinate with value, slope and curvature of two states, `h` (s) apart.
+/// Returns the quintic of a coordinate with value, slope and curvature of two states, `h` (s) apart.
 pub fn quintic_between(a: &State, b: &State, k: usize, h: f64) -> [f64; 6] {
     quintic(end(a, k), end(b, k), h)
 }
 
-/// Where the derivatives of a state lead in a time `h` (s).
+/// Writes the position to which the derivatives of a state lead in a time `h` (s).
 pub fn write_prediction(from: &State, h: f64, q: &mut [f64]) {
     for (k, q) in q.iter_mut().enumerate() {
         *q = predicted(end(from, k), h);
@@ -64,7 +64,7 @@ pub fn write_prediction(from: &State, h: f64, q: &mut [f64]) {
 }
 
 impl Step {
-    /// At the start of a motion over a span (s).
+    /// Returns the step at the start of a motion over a span (s).
     pub fn new(kinematics: &Kinematics, state: State, span: f64) -> Step {
         let n = state.q.len();
         Step {
@@ -88,17 +88,17 @@ impl Step {
         self.derive_state(kinematics)
     }
 
-    /// Where the motion is.
+    /// Returns the state of the motion.
     pub fn state(&self) -> &State {
         &self.state
     }
 
-    /// When the motion is there (s).
+    /// Returns the time of the state (s).
     pub fn t(&self) -> f64 {
         self.state.t
     }
 
-    /// The state that is tried.
+    /// Returns the trial state.
     pub fn trial(&self) -> &State {
         &self.trial
     }
@@ -113,12 +113,12 @@ impl Step {
         &self.delta
     }
 
-    /// When the next step towards a time ends, as far as the error is known (s).
+    /// Returns the time at which the next step towards a time ends, as far as the error allows (s).
     pub fn end_towards(&self, t: f64) -> f64 {
         self.length.end_towards(self.state.t, t)
     }
 
-    /// The length that the error allows (s).
+    /// Returns the length that the error allows (s).
     pub fn h(&self) -> f64 {
         self.length.h()
     }
@@ -154,54 +154,53 @@ impl Step {
     pub fn restore_branch(&mut self, kinematics: &mut Kinematics, to: &Mark) {
         kinematics.restore(&self.state);
         self.begin_branch(kinematics);
-        // as they were accepted, should the position be so near to a singular one that they are rounding
+        // the signs as accepted: so near to a singular position new ones may be rounding
         self.branch.take_signs(&to.signs);
     }
 
-    /// Takes the determinants where the state was factored, there being none before to compare with.
+    /// Takes the determinants where the state was factored; there are none before to compare with.
     pub fn begin_branch(&mut self, kinematics: &Kinematics) {
         self.branch.begin(kinematics);
     }
 
-    /// Takes the sign of what is watched where the state was set.
+    /// Takes the signs of the monitors where the state was set.
     pub fn record_monitor_signs(&mut self, kinematics: &Kinematics) {
         self.branch.record_monitor_signs(kinematics);
     }
 
-    /// Returns whether the position that was factored is on the branch of the state: every determinant, and what is watched, has
-    /// kept its sign.
+    /// Checks that the position that was factored is on the branch of the state: all determinants and monitors have kept their signs.
     pub fn same_branch(&mut self, kinematics: &Kinematics) -> Result<(), Fault> {
         self.branch.compare(kinematics)
     }
 
-    /// Returns whether what is watched has the sign of the state where a position was set.
+    /// Checks that the monitors have the signs of the state where a position was set.
     pub fn check_monitors(&mut self, kinematics: &Kinematics) -> Result<(), Fault> {
         self.branch.compare_sides(kinematics)
     }
 
-    /// The signs of the state's branch.
+    /// Returns the signs of the state's branch.
     pub fn signs(&self) -> &Signs {
         self.branch.signs()
     }
 
-    /// Derivatives of the state where it was factored.
+    /// Computes the derivatives of the state where it was factored.
     pub fn derive_state(&mut self, kinematics: &mut Kinematics) -> Result<(), Fault> {
         kinematics.derivatives(&mut self.state)
     }
 
-    /// Derivatives of the state that is tried, where it was factored.
+    /// Computes the derivatives of the trial state where it was factored.
     pub fn derive_trial(&mut self, kinematics: &mut Kinematics) -> Result<(), Fault> {
         kinematics.derivatives(&mut self.trial)
     }
 
-    /// Taylor's predictor, which costs nothing: both derivatives are known. Gives the largest motion, scaled.
+    /// Predicts the trial position by Taylor's polynomial with both derivatives of the state; returns the largest motion, scaled.
     pub fn predict(&mut self, kinematics: &Kinematics, h: f64, t: f64) -> Result<f64, Fault> {
         self.trial.t = t;
         for k in 0..self.trial.q.len() {
             self.delta[k] = h * (self.state.qd[k] + 0.5 * h * self.state.qdd[k]);
             self.trial.q[k] = self.state.q[k] + self.delta[k];
         }
-        // what follows without iteration has no branches, and may go as far as the predictor is right
+        // explicit coordinates have no branches, and may move as far as the predictor is right
         let motion = kinematics.linear().largest_judged_implicit(&self.delta);
         if motion <= LARGEST_MOTION { Ok(motion) } else { Err(Fault::TooFar) }
     }
@@ -226,57 +225,56 @@ impl Step {
     /// Tries a position at a time (s).
     pub fn try_position(&mut self, t: f64, q: impl Iterator<Item = f64>) {
         self.trial.t = t;
-        for (own, q) in self.trial.q.iter_mut().zip(q) {
-            *own = q;
+        for (coordinate, q) in self.trial.q.iter_mut().zip(q) {
+            *coordinate = q;
         }
     }
 
-    /// The place of a step that is looked at next, as a part of the step. It wanders from step to step, so that no period of a
-    /// driver can hide from it.
+    /// Returns the next fraction of the step to be checked. It wanders from step to step, so that no period of a driver can hide from it.
     pub fn next_probe(&mut self) -> f64 {
         self.probe = (self.probe + GOLDEN).fract();
         0.3 + 0.4 * self.probe
     }
 
-    /// Returns the fraction of the step, from 0 to 1, that was checked last.
+    /// Returns the number from 0 to 1 that the last probe was made of.
     pub fn probe(&self) -> f64 {
         self.probe
     }
 
-    /// Looks on from there.
+    /// Continues the sequence of probes from a value that [`Step::probe`] returned.
     pub fn set_probe(&mut self, probe: f64) {
         self.probe = probe;
     }
 
-    /// The quintic with value, slope and curvature of both ends, by its coefficients.
+    /// Sets the curve to the quintics with value, slope and curvature of both ends.
     pub fn draw_curve(&mut self, h: f64) {
         for (k, curve) in self.curve.iter_mut().enumerate() {
             *curve = quintic_between(&self.state, &self.trial, k, h);
         }
     }
 
-    /// The way from another state to where the motion is, `h` (s) later, of some coordinates.
+    /// Sets the curve of some coordinates to the way from another state to where the motion is, `h` (s) later.
     pub fn draw_way_since(&mut self, before: &State, h: f64, columns: impl Iterator<Item = usize>) {
         for k in columns {
             self.curve[k] = quintic_between(before, &self.state, k, h);
         }
     }
 
-    /// The way that the state leads to, of some coordinates.
+    /// Sets the curve of some coordinates to the parabola of the state's derivatives, over a time `h` (s).
     pub fn extrapolate_curve(&mut self, h: f64, columns: impl Iterator<Item = usize>) {
         for k in columns {
             self.curve[k] = parabola(end(&self.state, k), h);
         }
     }
 
-    /// Newton's correction between the ends, on the quintic that both ends give, with the factors of the end.
+    /// Computes Newton's correction between the ends of a step, on the quintic through both, with the factors of the end; returns its size, scaled.
     pub fn correction_between(&mut self, kinematics: &mut Kinematics, h: f64) -> Result<f64, Fault> {
         let x = self.next_probe();
         self.draw_curve(h);
         self.correction_at(kinematics, h, x)
     }
 
-    /// Newton's correction at a place of the curve, given as a part of the step, with the factors of its end.
+    /// Computes Newton's correction at a place of the curve, given as a part of the step, with the factors of its end; returns its size, scaled.
     pub fn correction_at(&mut self, kinematics: &mut Kinematics, h: f64, x: f64) -> Result<f64, Fault> {
         self.set_on_curve(kinematics, h, x)?;
         kinematics.correction(&mut self.delta);
@@ -302,8 +300,8 @@ impl Step {
         }
     }
 
-    /// Takes what was solved for otherwise at the end of a step, position and derivatives, as the state that is tried; gives how far
-    /// that is from the prediction, scaled.
+    /// Takes what was solved for otherwise at the end of a step, position and derivatives, as the trial state; returns its distance from
+    /// the prediction, scaled.
     pub fn take_solved<'a>(
         &mut self,
         kinematics: &Kinematics,
@@ -314,8 +312,8 @@ impl Step {
             *place = *predicted;
         }
         let State { q, qd, qdd, qddd, .. } = trial;
-        for (own, solved) in [q, qd, qdd, qddd].into_iter().zip(derivatives) {
-            own.copy_from_slice(solved);
+        for (values, solved) in [q, qd, qdd, qddd].into_iter().zip(derivatives) {
+            values.copy_from_slice(solved);
         }
         for (place, q) in self.place.iter_mut().zip(&self.trial.q) {
             *place = q - *place;
@@ -335,13 +333,13 @@ impl Step {
         self.length.adapt(kinematics, h, accepted);
     }
 
-    /// Halves the length of a step that was refused; says whether there is none any more.
+    /// Halves the length of a step that was refused; returns whether it has become too short.
     pub fn halve(&mut self, h: f64) -> bool {
         self.length.halve(h, self.state.t)
     }
 }
 
-/// No step ends too near to a singular position.
+/// Rejects a position too near to a singular one for a step to end there.
 pub fn reject_near_singular(kinematics: &mut Kinematics) -> Result<(), Fault> {
     if kinematics.nearness(NEAREST) < NEAREST { Err(Fault::Singular) } else { Ok(()) }
 }

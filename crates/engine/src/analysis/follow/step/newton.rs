@@ -1,4 +1,4 @@
-//! Newton: the state that is tried, or the state itself, brought to where all equations hold.
+//! Newton's method: brings the trial state, or the state itself, to where all equations hold.
 
 use super::Step;
 use crate::analysis::state::{Fault, Kinematics};
@@ -12,7 +12,7 @@ impl Step {
         self.derive_trial(kinematics)
     }
 
-    /// Newton, until the full Φ is below the tolerance; gives the first correction.
+    /// Iterates Newton's method until the full Φ is below the tolerance; returns the size of the first correction.
     pub fn correct(&mut self, kinematics: &mut Kinematics) -> Result<f64, Fault> {
         kinematics.set_time(self.trial.t);
         kinematics.set_position(&self.trial.q)?;
@@ -34,7 +34,7 @@ impl Step {
                 let broken = kinematics.broken_check();
                 kinematics.factor()?;
                 if let Some(index) = broken {
-                    // beside a singular position it is the position that is not known, and not the equation that does not hold
+                    // near a singular position the position is uncertain, rather than the equation broken
                     let is_near = kinematics.nearness(ILL) < ILL;
                     return Err(if is_near { Fault::Singular } else { Fault::Check { index } });
                 }
@@ -44,9 +44,9 @@ impl Step {
         Err(Fault::TooFar)
     }
 
-    /// Solves for the state anew where it is, with the branches that formulas have now, in so many corrections. False if its position
-    /// would have to move farther than a limit, scaled.
-    pub fn solve_state_again(
+    /// Solves for the state anew where it is, with the present branches of the formulas, in at most `corrections` corrections. Returns
+    /// false if its position would have to move farther than a limit, scaled.
+    pub fn correct_state(
         &mut self,
         kinematics: &mut Kinematics,
         corrections: usize,
@@ -92,8 +92,8 @@ impl Step {
     }
 }
 
-/// A correction below this leaves nothing to the next one: near a singular position what it leaves is larger by as much as
-/// that is near, and no correction is smaller than rounding.
+/// Returns the size of a correction that leaves nothing to the next one: near a singular position what it leaves is larger by the inverse
+/// of the nearness, and no correction is smaller than rounding.
 fn settled(kinematics: &mut Kinematics) -> f64 {
     if kinematics.linear().smallest_pivot() > CLEAR_PIVOT * ILL {
         return SETTLED;

@@ -17,7 +17,7 @@ pub struct Length {
 }
 
 impl Length {
-    /// For a motion over a span (s).
+    /// Returns the length control of a motion over a span (s).
     pub fn new(span: f64) -> Length {
         let measure = if span > 0.0 { span } else { DEFAULT_SPAN };
         Length { h: span / FEWEST_STEPS_NEAR, smallest: SMALLEST_STEP * span, span: measure }
@@ -36,7 +36,7 @@ impl Length {
         if self.h >= CRUMB * (t - from) { t } else { from + self.h }
     }
 
-    /// Behind a step of length `h` that was accepted.
+    /// Adapts the length after an accepted step of length `h`.
     pub fn adapt(&mut self, kinematics: &Kinematics, h: f64, accepted: &Accepted) {
         // a singular value changes by no more than the motion, or little more
         let longest = self.span / FEWEST_STEPS;
@@ -45,14 +45,14 @@ impl Length {
         let calm = accepted.first_correction < LARGEST_CORRECTION / CALM_CORRECTION
             && accepted.between < LARGEST_BETWEEN / CALM_BETWEEN;
         if calm {
-            // a step cut short by an output time says little of a longer one
+            // a step cut short by an output time does not predict a longer one
             self.h = self.h.max(2.0 * h).min(longest);
         } else {
             self.h = self.h.min(h).min(longest);
         }
     }
 
-    /// Behind a step of length `h` from a time that was refused; says whether there is no shorter one.
+    /// Halves the length after a step of length `h` from a time was refused; returns whether it has become too short.
     pub fn halve(&mut self, h: f64, from: f64) -> bool {
         self.h = 0.5 * h;
         let vanishes = from + self.h <= from;

@@ -1,8 +1,8 @@
 //! A determinant that touches zero within a step, without changing its sign: a singular position of even order.
 //!
-//! Two zeros of one block that coincide, or a driver that turns back in its dead point ever so gently. Both ends of the step
-//! show nothing. But before such a place a determinant falls, ever more slowly, so that the line through its last two values
-//! meets zero before it does. Only a step on which that happens is looked into.
+//! It comes from two zeros of one block that coincide, or from a driver that turns back gently in its dead point. Both ends of the step
+//! show nothing. But before such a place a determinant falls, ever more slowly, so the line through its last two values meets zero before
+//! it does. Only a step on which that happens is examined.
 
 use super::{Step, reject_near_singular};
 use crate::analysis::state::{Fault, Kinematics};
@@ -29,7 +29,7 @@ impl Step {
         Ok(())
     }
 
-    /// Golden section for the least determinant of a block, on the curve.
+    /// Searches the least determinant of a block on the curve by golden section.
     fn search(&mut self, kinematics: &mut Kinematics, block: usize, h: f64) -> Result<(), Fault> {
         let (at_low, at_high) = self.branch.at_ends(block);
         let deep = DEEP * f64::min(at_low, at_high);

@@ -1,10 +1,10 @@
-//! Velocity, acceleration and jerk of a state, and how far off they may be.
+//! Velocity, acceleration and jerk of a state, with bounds on their rounding errors.
 
 use super::{Fault, Kinematics, State};
 use mechc_ir::program::{Program, Register, Registers, Stage};
 use std::sync::Arc;
 
-/// Rounding errors of a state: for each coordinate how far off its position, velocity and acceleration may be.
+/// Rounding errors of a state, by coordinate: of its position, velocity and acceleration.
 #[derive(Clone, Default)]
 pub(super) struct Spread {
     position: Vec<f64>,
@@ -22,7 +22,7 @@ impl Spread {
 }
 
 impl Kinematics {
-    /// Velocity, acceleration and, where needed, jerk of a state whose position was set and factored.
+    /// Computes velocity, acceleration and, where needed, jerk of a state whose position was set and factored.
     pub fn derivatives(&mut self, state: &mut State) -> Result<(), Fault> {
         let linear = &mut self.linear;
         rates(&self.program, &mut self.registers, state, |registers, right, x| {
@@ -32,7 +32,7 @@ impl Kinematics {
     }
 
     /// Returns the speed that a row prescribes, scaled (1/s); the derivatives where the position was set must have been computed.
-    pub fn asked_speed(&self, row: usize) -> f64 {
+    pub fn prescribed_speed(&self, row: usize) -> f64 {
         self.registers.get(self.program.outputs.nu()[row]).abs() / self.linear.row_norm(row)
     }
 
@@ -51,9 +51,9 @@ impl Kinematics {
         velocity.max(acceleration).max(1.0)
     }
 
-    /// Computes how far off velocity and acceleration of a state may be, if it is nearer to a singular position than a limit; says
-    /// whether it is. Equations hold but for their rounding, which the position makes up for by moving the more the nearer it
-    /// is, and derivatives move with it. The state must just have been computed.
+    /// Computes bounds on the errors of velocity and acceleration of a state, if it is nearer to a singular position than a limit; returns
+    /// whether it is. Equations hold but for their rounding: the nearer the state is, the more its position moves to make up for that, and
+    /// derivatives move with it. The state must just have been computed.
     pub fn compute_error_bounds(&mut self, state: &State, limit: f64) -> bool {
         let mut doubt = std::mem::take(&mut self.doubt);
         let is_near = self.linear.write_weights(limit, &mut doubt.right);
@@ -65,31 +65,31 @@ impl Kinematics {
         is_near
     }
 
-    /// By coordinate, how far off velocity and acceleration may be, which must have been computed [m/s, rad/s; m/s², rad/s²].
+    /// Returns bounds on the errors of velocity and acceleration, by coordinate [m/s, rad/s; m/s², rad/s²]. They must have been computed.
     pub fn doubt(&self) -> [&[f64]; 2] {
         [&self.doubt.velocity, &self.doubt.acceleration]
     }
 
-    /// From the weights of the rows in their dependency to what their rounding, all adding up, makes of a state.
+    /// Propagates the rounding of the rows, weighted by their dependency and all adding up, to the errors of a state.
     fn carry_rounding(&mut self, state: &State, doubt: &mut Spread) {
         for (row, weight) in doubt.right.iter_mut().enumerate() {
             *weight = f64::EPSILON * self.largest_part(row).copysign(*weight) * f64::from(u8::from(*weight != 0.0));
         }
         self.solve(&doubt.right, &mut doubt.position);
-        for ((beside, q), off) in self.beside.iter_mut().zip(&state.q).zip(&doubt.position) {
-            *beside = q + off;
+        for ((nearby, q), off) in self.nearby.iter_mut().zip(&state.q).zip(&doubt.position) {
+            *nearby = q + off;
         }
         let program = Arc::clone(&self.program);
         let ([coordinates, qd, ..], outputs) = (program.inputs.coordinates, &program.outputs);
-        self.registers.set_all(coordinates, &self.beside);
+        self.registers.set_all(coordinates, &self.nearby);
         program.run(Stage::Position, &mut self.registers);
         program.run(Stage::Velocity, &mut self.registers);
         self.write_open(outputs.nu(), &state.qd, &mut doubt.right);
         self.solve(&doubt.right, &mut doubt.velocity);
-        for ((beside, speed), off) in self.beside.iter_mut().zip(&state.qd).zip(&doubt.velocity) {
-            *beside = speed - off;
+        for ((nearby, speed), off) in self.nearby.iter_mut().zip(&state.qd).zip(&doubt.velocity) {
+            *nearby = speed - off;
         }
-        self.registers.set_all(qd, &self.beside);
+        self.registers.set_all(qd, &self.nearby);
         program.run(Stage::Acceleration, &mut self.registers);
         self.write_open(outputs.gamma(), &state.qdd, &mut doubt.right);
         self.solve(&doubt.right, &mut doubt.acceleration);
@@ -117,7 +117,7 @@ impl Kinematics {
     pub(super) fn set_derivatives(&mut self, state: &State) {
         let (program, registers) = (&*self.program, &mut self.registers);
         let [_, qd, qdd, qddd] = program.inputs.coordinates;
-        // what measures share with the right sides is computed there, and has to be of these derivatives
+        // measures share subexpressions with the right sides, which have to be of these derivatives
         program.run(Stage::Velocity, registers);
         registers.set_all(qd, &state.qd);
         program.run(Stage::Acceleration, registers);
@@ -127,7 +127,7 @@ impl Kinematics {
     }
 }
 
-/// Velocity, acceleration and, where needed, jerk of a state whose position was set, by what solves `Φ_q x = b` for a right side.
+/// Computes velocity, acceleration and, where needed, jerk of a state whose position was set, by a closure that solves `Φ_q x = b` for a right side.
 pub(super) fn rates(
     program: &Program,
     registers: &mut Registers,

@@ -1,6 +1,6 @@
-//! Why a state cannot be computed.
+//! Faults of a state.
 
-/// Why a state cannot be computed.
+/// Reason why a state cannot be computed.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub enum Fault {
     /// An entry of Φ, Φ_q or a right side is not finite: its row.
@@ -11,7 +11,7 @@ pub enum Fault {
     TooFar,
     /// A formula that must be positive is not: its number.
     Condition { index: usize },
-    /// What is watched changes its sign: its number.
+    /// A monitor changes its sign: its number.
     Monitor { index: usize },
     /// An equation that was left out ceases to hold: its number among the checks.
     Check { index: usize },
@@ -19,8 +19,8 @@ pub enum Fault {
     Uncertain,
     /// The equations that are solved come near to depending on each other where all equations together do not.
     Choice,
-    /// The step goes over a rim, of which a note has been taken.
+    /// The step passes a domain boundary, which has been recorded.
     DomainBoundary,
-    /// The step goes over an edge of a switch, by its number, which lies before a time (s).
+    /// The step passes an edge of a switch, by its number, before a time (s).
     Edge { t: f64, switch: usize },
 }

@@ -1,4 +1,4 @@
-//! Everything that can be said of one state: residual, correction, velocity, acceleration.
+//! Computations at one state: residual, correction, velocity, acceleration.
 
 mod derivatives;
 mod fault;
@@ -43,7 +43,7 @@ impl State {
         State { t, q, qd: zero.clone(), qdd: zero.clone(), qddd: zero }
     }
 
-    /// A coordinate with its time derivatives, by their orders.
+    /// Returns a coordinate with its time derivatives, by their orders.
     pub fn tower(&self, k: usize) -> [f64; 4] {
         [self.q[k], self.qd[k], self.qdd[k], self.qddd[k]]
     }
@@ -70,11 +70,11 @@ pub struct Kinematics {
     cancel: Cancel,
     /// Rows whose slope may vanish though nothing about the mechanism does, as that of `sin(angle(b))`.
     bent: Vec<usize>,
-    /// Rows whose slopes are looked at beside a position, these among them.
+    /// Rows whose slopes are also evaluated near a position; includes those of `bent`.
     with_nearby_slopes: Vec<usize>,
-    beside: Vec<f64>,
-    /// By row: the largest term of it there; 0 of those that are not looked at there.
-    terms_beside: Vec<f64>,
+    nearby: Vec<f64>,
+    /// By row: its largest term near the position; 0 if it is not evaluated there.
+    nearby_terms: Vec<f64>,
     doubt: Spread,
     /// Start of assembly, if it differs from the file's estimates.
     other_estimates: Option<Vec<f64>>,
@@ -102,7 +102,7 @@ impl Kinematics {
         let n = system.coordinates().len();
         let other_estimates = None;
         let holds = layout::holds(system);
-        let (beside, terms_beside) = (vec![0.0; n], vec![0.0; n]);
+        let (nearby, nearby_terms) = (vec![0.0; n], vec![0.0; n]);
         let (doubt, variations) = (Spread::new(n), Varied::new(system, &holds));
         Kinematics {
             determined,
@@ -114,8 +114,8 @@ impl Kinematics {
             cancel,
             bent,
             with_nearby_slopes,
-            beside,
-            terms_beside,
+            nearby,
+            nearby_terms,
             doubt,
             other_estimates,
             variations,
@@ -136,7 +136,7 @@ impl Kinematics {
         self.vectors
     }
 
-    /// From now on rows are solved for with these vector instructions, which changes no bit.
+    /// Selects the vector instructions that solve for rows; results are equal bit for bit.
     pub fn use_vectors(&mut self, vectors: Vectors) {
         self.vectors = vectors;
     }
@@ -145,7 +145,7 @@ impl Kinematics {
         self.determined.system()
     }
 
-    /// For how long the mechanism is looked at (s).
+    /// Returns the time span of the analysis (s).
     pub fn span(&self) -> f64 {
         self.span
     }
@@ -155,7 +155,7 @@ impl Kinematics {
         self.cancel.is_cancelled()
     }
 
-    /// The mechanism, to be held while the state changes.
+    /// Returns the mechanism, shared, so that it can be used while the state changes.
     pub fn determined(&self) -> Arc<Determined> {
         Arc::clone(&self.determined)
     }
@@ -164,7 +164,7 @@ impl Kinematics {
         &self.linear
     }
 
-    /// The estimates of the file [m, rad].
+    /// Returns the estimates from which assembly starts [m, rad]: those of the file unless others were given.
     pub fn estimates(&self) -> Vec<f64> {
         let of_file = || self.program.outputs.estimates.iter().map(|&register| self.registers.get(register)).collect();
         self.other_estimates.clone().unwrap_or_else(of_file)
@@ -193,17 +193,17 @@ impl Kinematics {
         }
     }
 
-    /// An entry of Φ where the position was set.
+    /// Returns an entry of Φ where the position was set.
     pub fn phi(&self, row: usize) -> f64 {
         self.registers.get(self.program.outputs.phi[row])
     }
 
-    /// An entry of Φ_q, by its position in the pattern.
+    /// Returns an entry of Φ_q, by its position in the pattern.
     pub fn phi_q(&self, position: usize) -> f64 {
         self.registers.get(self.program.outputs.phi_q[position])
     }
 
-    /// The value of a register.
+    /// Returns the value of a register.
     pub fn value(&self, register: Register) -> f64 {
         self.registers.get(register)
     }
@@ -223,12 +223,12 @@ impl Kinematics {
     }
 
     /// Returns a solver as [`Kinematics::solver`] does, for some columns of several variants at once.
-    pub fn solver_of_variants(&self, is_wanted: &dyn Fn(u32) -> bool) -> Option<Solver> {
-        Solver::for_variants(&self.determined, &self.program, self, is_wanted)
+    pub fn solver_of_variants(&self, is_requested: &dyn Fn(u32) -> bool) -> Option<Solver> {
+        Solver::for_variants(&self.determined, &self.program, self, is_requested)
     }
 
     /// Returns whether equations are such that their smoothness does not depend on where the motion is: no formula of them has branches or ends, none
-    /// may lose its slope, nothing is looked at beside them, and what time alone decides goes straight on.
+    /// may lose its slope, nothing is monitored, and what time alone decides goes straight on.
     pub fn is_plain(&self) -> bool {
         let system = self.system();
         let has_branches = !self.program.switches().is_empty() || !self.program.tables().is_empty();
@@ -242,7 +242,7 @@ impl Kinematics {
         !(has_branches || is_watched || on_the_way || has_more || is_varied || is_bent)
     }
 
-    /// The program with its registers, whose switches stand as they are in this step.
+    /// Returns the program with its registers, whose switches stand as they are in this step.
     pub fn program(&self) -> (&Program, &Registers) {
         (&self.program, &self.registers)
     }
@@ -272,23 +272,23 @@ impl Kinematics {
             .find(|&row| pattern.range(row).any(|position| !self.phi_q(position).is_finite()))
     }
 
-    /// Newton's correction of the position, and its largest scaled entry.
+    /// Computes Newton's correction of the position; returns its largest scaled entry.
     pub fn correction(&mut self, delta: &mut [f64]) -> f64 {
         let (registers, outputs) = (&self.registers, &self.program.outputs);
         self.linear.solve(|row| -registers.get(outputs.phi[row]), delta)
     }
 
-    /// Solves `Φ_q x = right` with the factors there are.
+    /// Solves `Φ_q x = right` with the present factors.
     pub fn solve(&mut self, right: &[f64], x: &mut [f64]) {
         self.linear.solve(|row| right[row], x);
     }
 
-    /// Solves `Φ_qᵀ λ = needed` with the factors there are.
+    /// Solves `Φ_qᵀ λ = needed` with the present factors.
     pub fn solve_for_multipliers(&mut self, needed: &[f64], multipliers: &mut [f64]) {
         self.linear.solve_for_multipliers(|column| needed[column], multipliers);
     }
 
-    /// The correction of those coordinates that follow without iteration from the others, and its largest scaled entry.
+    /// Computes Newton's correction of the coordinates that follow without iteration from the others; returns its largest scaled entry.
     pub fn explicit_correction(&mut self, delta: &mut [f64]) -> f64 {
         let (registers, outputs) = (&self.registers, &self.program.outputs);
         self.linear.solve_explicit(|row| -registers.get(outputs.phi[row]), delta)
@@ -307,7 +307,7 @@ impl Kinematics {
         self.linear.nearness(limit)
     }
 
-    /// The most nearly singular block where Φ_q was factored.
+    /// Returns the most nearly singular block where Φ_q was factored.
     pub fn worst(&mut self) -> Singular {
         self.linear.worst()
     }

@@ -17,33 +17,34 @@ impl Kinematics {
         (open(&state.qd, outputs.nu()[row]), open(&state.qdd, outputs.gamma()[row]))
     }
 
-    /// The equation that was left out and does not hold where the position was set.
+    /// Returns the number of the first equation that was left out and does not hold where the position was set.
     pub fn broken_check(&self) -> Option<usize> {
         let mut open = self.system().checks().iter().enumerate().map(|(k, check)| self.check(k).abs() / check.scale);
         open.position(|open| open.is_nan() || open > LARGEST_OPENING)
     }
 
-    /// `Φ` of an equation that was left out, by its number among the checks, where the position was set.
+    /// Returns `Φ` of an equation that was left out, by its number among the checks, where the position was set.
     pub fn check(&self, index: usize) -> f64 {
         self.registers.get(self.program.outputs.checks[index])
     }
 
-    /// A quantity that is watched, against its scale, where the position was set.
-    pub fn watched(&self, index: usize) -> f64 {
+    /// Returns a monitored quantity relative to its scale, where the position was set.
+    pub fn monitored(&self, index: usize) -> f64 {
         self.registers.get(self.program.outputs.watches[index]) / self.system().monitors()[index].scale
     }
 
-    /// Writes the sign of everything that is watched.
+    /// Writes the sign of each monitored quantity.
     pub fn sides(&self, sides: &mut [bool]) {
         for (k, side) in sides.iter_mut().enumerate() {
-            *side = self.watched(k) > 0.0;
+            *side = self.monitored(k) > 0.0;
         }
     }
 
-    /// The coordinates `θ` of lines of centres that point away from the other centre, where the position was set.
+    /// Returns the coordinates `θ` of lines of centres that point away from the other centre, where the position was set.
     pub fn turned_lines(&self) -> Vec<usize> {
         let system = self.system();
-        let is_turned = |k: &usize| system.monitors()[*k].kind == MonitorKind::LineOfCenters && self.watched(*k) < 0.0;
+        let is_turned =
+            |k: &usize| system.monitors()[*k].kind == MonitorKind::LineOfCenters && self.monitored(*k) < 0.0;
         let joints =
             (0..system.monitors().len()).filter(is_turned).map(|k| Owner::Joint(system.monitors()[k].declaration));
         joints.filter_map(|owner| system.coordinates().iter().position(|c| c.owner == owner)).collect()
@@ -68,7 +69,7 @@ impl Kinematics {
         rows.iter().all(|&row| self.residual(row as usize) <= limit)
     }
 
-    /// The row that violates its tolerance most, with its scaled residual; `None` if all hold.
+    /// Returns the row that violates its tolerance most, with its scaled residual; `None` if all hold.
     ///
     /// A row's tolerance is `--tolerance` times its norm, plus what rounding alone makes of its terms and of the
     /// coordinates that it depends on.
@@ -77,7 +78,7 @@ impl Kinematics {
         let mut worst: Option<(usize, f64)> = None;
         for row in (0..n).filter(|&row| !self.is_met(row)) {
             let residual = self.residual(row);
-            if worst.is_none_or(|(_, known)| residual > known) {
+            if worst.is_none_or(|(_, largest)| residual > largest) {
                 worst = Some((row, residual));
             }
         }
@@ -100,7 +101,7 @@ impl Kinematics {
         (0..self.system().rows().len()).map(|row| self.residual(row)).fold(0.0, f64::max)
     }
 
-    /// 8 eps times the largest term of a row, the steps of its coordinates included.
+    /// Returns 8 eps times the largest term of a row, including the steps of its coordinates.
     fn rounding(&self, row: usize) -> f64 {
         ROUNDING * self.largest_part(row)
     }
@@ -109,7 +110,7 @@ impl Kinematics {
         self.steps(row).fold(self.largest_term_of(row), f64::max)
     }
 
-    /// The largest term of a row where the position was set.
+    /// Returns the largest term of a row where the position was set.
     pub(super) fn largest_term_of(&self, row: usize) -> f64 {
         largest_term(&self.program, &self.registers, row)
     }
@@ -123,9 +124,9 @@ impl Kinematics {
         })
     }
 
-    /// The formula that must be positive and is not, where time or a position was set.
+    /// Returns the formula that must be positive and is not, where time or a position was set.
     pub fn broken_condition(&self) -> Option<usize> {
-        // a formula that is not a number is no better
+        // NaN violates the condition too
         self.program.outputs.conditions.iter().position(|&register| {
             let value = self.registers.get(register);
             value.is_nan() || value <= 0.0
@@ -139,14 +140,14 @@ impl Kinematics {
         }
     }
 
-    /// A row of `Φ_q x`.
+    /// Returns a row of `Φ_q x`.
     pub(super) fn left(&self, row: usize, x: &[f64]) -> f64 {
         let pattern = self.system().phi_q();
         pattern.range(row).zip(pattern.row(row)).map(|(at, &(column, _))| self.phi_q(at) * x[column as usize]).sum()
     }
 }
 
-/// The largest term of a row of a program that has been run.
+/// Returns the largest term of a row of a program that has been run.
 pub(super) fn largest_term(program: &Program, registers: &Registers, row: usize) -> f64 {
     program.outputs.terms[row].iter().map(|&register| registers.get(register).abs()).fold(0.0, f64::max)
 }

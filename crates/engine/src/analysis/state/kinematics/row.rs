@@ -104,7 +104,7 @@ impl Kinematics {
         [0, 1, 2].map(|order| self.registers.get(self.program.inputs.varied(number, order) + coordinate as u32))
     }
 
-    /// The multiplier of a row, where forces have been computed.
+    /// Returns the multiplier of a row, where forces have been computed.
     pub fn multiplier(&self, row: usize) -> f64 {
         self.registers.get(self.program.inputs.multipliers + row as Register)
     }
@@ -132,7 +132,7 @@ impl Kinematics {
         self.system().forces().is_some() || !self.system().variations().is_empty()
     }
 
-    /// There are no forces and variations at this position.
+    /// Marks forces and variations as missing at this position.
     fn leave_variations_out(&mut self) {
         let inputs = self.program.inputs;
         let (variations, has_forces) = (self.system().variations().len() as u32, self.system().forces().is_some());
@@ -140,7 +140,7 @@ impl Kinematics {
         for register in inputs.varied..last {
             self.registers.set(register, f64::NAN);
         }
-        // what measures share with the right sides is computed there
+        // measures share subexpressions with the right sides
         self.program.run(Stage::Forces, &mut self.registers);
         self.program.run(Stage::Variation, &mut self.registers);
     }
@@ -160,7 +160,7 @@ impl Kinematics {
         let mut cells = row.iter_mut();
         let mut put = |value: f64| {
             if let Some(cell) = cells.next() {
-                // −0 would surprise a reader
+                // print 0 rather than −0
                 *cell = value + 0.0;
             }
         };
@@ -178,7 +178,7 @@ impl Kinematics {
         }
     }
 
-    /// Solves for a row with partial pivoting, from the position that it holds (m, rad); says whether it holds.
+    /// Solves for a row with partial pivoting, from the position that it holds (m, rad); returns whether the solution holds.
     pub fn pivoted_row(&mut self, pivoting: &mut Pivoting, state: &mut State, row: &mut [f64]) -> bool {
         self.set_time(state.t);
         if !pivoting.position(self, &mut state.q) || self.violated().is_some() {
@@ -208,7 +208,7 @@ impl Kinematics {
         self.write_columns(state, row);
     }
 
-    /// Whose number there is none of where a cell of a result row is empty, which must be one of a measure, derivative or force.
+    /// Returns the quantity without a value if a cell of a result row is empty; it must be a cell of a measure, derivative or force.
     pub fn unknown_in(&self, column: usize) -> Unknown {
         match self.holds.get(column) {
             Some(&ColumnContent::Measure { index, .. }) => Unknown::Measure(index),
@@ -219,7 +219,7 @@ impl Kinematics {
         }
     }
 
-    /// Length of a result row.
+    /// Returns the length of a result row.
     pub fn row_length(&self) -> usize {
         self.holds.len()
     }
@@ -253,8 +253,8 @@ impl BothWays for Pivoting {
     }
 }
 
-/// What is wanted of a state beside its motion, whose derivatives are set: multipliers, variations, and how multipliers vary. All are left
-/// in their registers.
+/// Solves for what a state needs besides its motion, whose derivatives are set: multipliers, variations, and variations of multipliers. The
+/// results stay in their registers.
 fn solve_for_more(
     determined: &Determined,
     program: &Program,
@@ -273,12 +273,12 @@ fn solve_for_more(
     });
     let variations = determined.system().variations();
     for by_two in [false, true] {
-        let asked = (0..).zip(&outputs.varied_forces).filter(|(_, right)| !right.is_empty());
-        let mut of_kind = asked.filter(|(k, _)| variations[*k as usize].by.1.is_some() == by_two).peekable();
+        let required = (0..).zip(&outputs.varied_forces).filter(|(_, right)| !right.is_empty());
+        let mut of_kind = required.filter(|(k, _)| variations[*k as usize].by.1.is_some() == by_two).peekable();
         if of_kind.peek().is_none() {
             continue;
         }
-        // those by two follow from those by one
+        // variations by two variables follow from those by one
         program.run(Stage::Variation, registers);
         for (variation, right) in of_kind {
             factored.solve_for_multipliers(|column| registers.get(right[column]), &mut varied.solution);
@@ -287,8 +287,8 @@ fn solve_for_more(
     }
 }
 
-/// The variations of a state whose derivatives are set, by what solves `Φ_q x = b` for a right side: those by one variable, then those
-/// by two, each order from those before. They are left in their registers.
+/// Solves for the variations of a state whose derivatives are set, by a closure that solves `Φ_q x = b` for a right side: those by one
+/// variable, then those by two, each order from those before. The results stay in their registers.
 fn vary(
     determined: &Determined,
     program: &Program,

@@ -1,4 +1,4 @@
-//! Switches, domain boundaries and signals, which time and motion decide beside the equations.
+//! Switches, domain boundaries and signals, which time and motion decide.
 
 use super::Kinematics;
 use mechc_ir::program::{BoundaryRegisters, Enclosure, FrozenSwitches, Op, Register, Signal, Stage, Switch};
@@ -19,7 +19,7 @@ impl Kinematics {
     /// Sets the switches of the motion to what they are at a position, and keeps them so.
     pub fn settle_motion(&mut self, q: &[f64]) {
         self.freeze(true, false);
-        // what is wrong with the position itself shows where it is solved for
+        // a fault of the position shows when it is solved for
         let _ = self.set_position(q);
         self.freeze(true, true);
     }
@@ -29,7 +29,7 @@ impl Kinematics {
         self.program.switches()
     }
 
-    /// The result that a switch has now.
+    /// Returns the result that a switch has now.
     pub fn switch(&self, switch: &Switch) -> f64 {
         self.registers.get(switch.to)
     }
@@ -50,24 +50,24 @@ impl Kinematics {
     }
 
     /// Returns the domain boundaries, at which the domains of functions end.
-    pub fn rims(&self) -> &[BoundaryRegisters] {
+    pub fn boundaries(&self) -> &[BoundaryRegisters] {
         &self.program.outputs.rims
     }
 
-    /// Room for proofs about rims of time, and of the motion.
-    pub fn enclosures_of_rims(&self) -> [Enclosure; 2] {
+    /// Returns workspaces for proofs about domain boundaries of time, and of the motion.
+    pub fn enclosures_of_boundaries(&self) -> [Enclosure; 2] {
         [true, false].map(|on_time| Enclosure::of_rims(&self.program, &self.registers, on_time))
     }
 
-    /// A rim's gauge and its slope where time, position and velocity were set.
-    pub fn gauge(&mut self, rim: &BoundaryRegisters) -> [f64; 2] {
+    /// Returns the event function of a domain boundary and its slope where time, position and velocity were set.
+    pub fn gauge(&mut self, boundary: &BoundaryRegisters) -> [f64; 2] {
         self.program.run(Stage::Rims, &mut self.registers);
-        [rim.gauge, rim.slope].map(|register| self.registers.get(register))
+        [boundary.gauge, boundary.slope].map(|register| self.registers.get(register))
     }
 
-    /// The largest term of a gauge, which must just have been asked for.
-    pub fn largest_term(&self, rim: &BoundaryRegisters) -> f64 {
-        rim.terms.iter().map(|&register| self.registers.get(register).abs()).fold(0.0, f64::max)
+    /// Returns the largest term of an event function, which must just have been evaluated.
+    pub fn largest_term(&self, boundary: &BoundaryRegisters) -> f64 {
+        boundary.terms.iter().map(|&register| self.registers.get(register).abs()).fold(0.0, f64::max)
     }
 
     /// Sets the velocity alone.
@@ -85,7 +85,7 @@ impl Kinematics {
     /// Returns whether a switch would have another result now if it were not frozen.
     pub fn would_switch(&self, switch: &Switch) -> bool {
         let (live, now) = (self.program.live(switch, &self.registers), self.registers.get(switch.to));
-        // what is not a number is told elsewhere
+        // a value that is not a number is reported elsewhere
         !live.is_nan() && (live + 0.0).to_bits() != (now + 0.0).to_bits()
     }
 
@@ -102,13 +102,13 @@ impl Kinematics {
         }
     }
 
-    /// Room for proofs about what time alone decides, and about what the motion decides.
+    /// Returns workspaces for proofs about what time alone decides, and about what the motion decides.
     pub fn enclosures(&self) -> [Enclosure; 2] {
         let of = [Enclosure::of_time, Enclosure::of_motion];
         of.map(|enclosure| enclosure(&self.program, &self.registers))
     }
 
-    /// What time alone decides about the equations, unless it is a straight line.
+    /// Returns the signals: terms of the equations that time alone decides, but not those that are linear in it.
     pub fn signals(&self) -> Vec<Signal> {
         self.program.signals()
     }
@@ -129,10 +129,10 @@ impl Kinematics {
         enclosure.enclose(&self.program, &self.registers, times);
     }
 
-    /// How much of the mechanism's size each signal moves an equation by, for each unit of its own; `nudge` is the part of
-    /// itself by which it is changed to learn that.
+    /// Returns how much of the mechanism's size each signal moves an equation by, per unit of the signal; `nudge` is the relative change of
+    /// the signal by which this is measured.
     pub fn effects(&mut self, signals: &[Signal], q: &[f64], nudge: f64) -> Vec<f64> {
-        // what is wrong with the position shows where it is solved for
+        // a fault of the position shows when it is solved for
         let _ = self.set_position(q);
         let before: Vec<Vec<f64>> = signals
             .iter()

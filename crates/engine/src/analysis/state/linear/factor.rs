@@ -34,7 +34,7 @@ impl BlockLu {
         }
     }
 
-    /// A block's entries where it was loaded.
+    /// Returns a block's entries where it was loaded.
     fn entries_of(&self, part: &Part) -> Vec<BlockEntry> {
         let entry = |index: &u32| {
             let (row, column) = self.entries[*index as usize].place?;
@@ -64,18 +64,18 @@ impl BlockLu {
         }
     }
 
-    /// The smallest pivot as nearness is judged: the factors of a scaled matrix are the scaled factors. Where bodies are taken by
-    /// their centroids, which pivots know nothing of, it is the smallest singular value.
+    /// Returns the smallest pivot as nearness is judged: the factors of a scaled matrix are the scaled factors. If bodies turn about their
+    /// centroids, which pivots do not represent, it is the smallest singular value.
     fn judged_pivot(&mut self, k: usize) -> f64 {
         let (work, part) = (&mut self.work, &self.parts[k]);
         let factors = factors!(self);
         if !self.equilibration.centroids(k).is_empty() {
             let (left, rest) = work.split_at_mut(self.rows.len());
             let (right, work) = rest.split_at_mut(self.rows.len());
-            let vectors = (&mut left[..part.size], &mut right[..part.size]);
+            let vectors = [&mut left[..part.size], &mut right[..part.size]];
             return factors.nearness(k, part, vectors, work) * part.length_of_chain();
         }
-        // what is not a number must win
+        // NaN must win
         let smaller = |least: f64, pivot: f64| if pivot.abs() >= least { least } else { pivot.abs() };
         let judged = |row: usize, column: usize, pivot: f64| {
             pivot * factors.row_scale(part, row) * factors.column_scale(part, column)
@@ -112,7 +112,7 @@ impl BlockLu {
         }
     }
 
-    /// Factors by one of the orders there are, the one in use first; whether one was good.
+    /// Factors by one of the existing orders, beginning with the one in use; returns whether one was good.
     fn factor_planned(&mut self, k: usize) -> bool {
         let part = &mut self.parts[k];
         let first = if let Form::Planned(plan) = part.form { plan } else { 0 };
@@ -143,7 +143,7 @@ impl BlockLu {
         part.form = Form::Dense;
     }
 
-    /// A large block whose order has lost digits. Allocates.
+    /// Factors a large block in a new order where its present one has lost digits. Allocates.
     fn factor_in_another_order(&mut self, k: usize) {
         let plan = Plan::new(self.parts[k].size, &self.entries_of(&self.parts[k]));
         let part = &mut self.parts[k];

@@ -1,4 +1,4 @@
-//! The factors of all blocks, as the solution and the judgement of nearness use them.
+//! The factors of all blocks, for solving and for judging nearness to a singular position.
 
 use super::{Form, Part};
 use crate::analysis::state::dense::{solve_dense, solve_dense_transposed};
@@ -23,13 +23,14 @@ pub(super) struct Factors<'l> {
 }
 
 impl Factors<'_> {
-    /// What an entry of the scaled `Φ_q` is multiplied by for its row as nearness is judged; a row by its place in the block.
+    /// Returns the factor that turns an entry of the scaled `Φ_q` into that by which nearness is judged, for its row, given by its place in
+    /// the block.
     pub fn row_scale(&self, part: &Part, place: usize) -> f64 {
         let row = self.rows[part.at + place] as usize;
         if self.is_judging { self.row_norm[row] / self.equilibration.row(row) } else { 1.0 }
     }
 
-    /// As [`Factors::row_scale`] for its column.
+    /// Returns the factor of [`Factors::row_scale`] for the column of the entry.
     pub fn column_scale(&self, part: &Part, place: usize) -> f64 {
         let column = self.columns[part.at + place] as usize;
         if self.is_judging { self.equilibration.column(column) / self.size[column] } else { 1.0 }
@@ -93,7 +94,7 @@ impl Factors<'_> {
         }
     }
 
-    /// The entry of a block of one equation, which stands for one that vanishes too.
+    /// Returns the entry of a block of one equation, with the least allowed magnitude if it vanishes.
     pub fn single(&self, part: &Part) -> f64 {
         let value = self.values[self.inside[part.inside.start] as usize];
         if value.abs() < LEAST_PIVOT { LEAST_PIVOT.copysign(value) } else { value }
@@ -103,19 +104,19 @@ impl Factors<'_> {
         &self.dense[part.matrix..part.matrix + part.size * part.size]
     }
 
-    /// As the scales that are solved with have it.
+    /// Returns the factors with the scales that are solved with.
     pub fn as_solved(self) -> Self {
         Factors { is_judging: false, ..self }
     }
 
     /// Returns how near a block is to a singular position, with the vectors of its smallest singular value in the equilibration scales.
-    pub fn nearness(self, k: usize, part: &Part, (left, right): (&mut [f64], &mut [f64]), work: &mut [f64]) -> f64 {
-        let sigma = self.as_solved().singular(k, part, (left, right), work);
-        if self.is_judging { borne_out(sigma, self.singular(k, part, (left, right), work)) } else { sigma }
+    pub fn nearness(self, k: usize, part: &Part, [left, right]: [&mut [f64]; 2], work: &mut [f64]) -> f64 {
+        let sigma = self.as_solved().singular(k, part, [&mut *left, &mut *right], work);
+        if self.is_judging { borne_out(sigma, self.singular(k, part, [left, right], work)) } else { sigma }
     }
 
-    /// The smallest singular value of a block as nearness is judged, with its left and right vectors, by inverse iteration.
-    pub fn singular(self, k: usize, part: &Part, (left, right): (&mut [f64], &mut [f64]), work: &mut [f64]) -> f64 {
+    /// Returns the smallest singular value of a block as nearness is judged, and writes its left and right vectors; by inverse iteration.
+    pub fn singular(self, k: usize, part: &Part, [left, right]: [&mut [f64]; 2], work: &mut [f64]) -> f64 {
         if part.form == Form::Single {
             (left[0], right[0]) = (self.single(part).signum(), 1.0);
             return self.single(part).abs() * self.row_scale(part, 0) * self.column_scale(part, 0);

@@ -1,11 +1,11 @@
 //! The linear systems of one state: `Φ_q x = b`, block by block.
 //!
-//! Everything is scaled: lengths by the size of their body, rows to unit norm; what nearness to a singular position is judged
-//! by are scales of their own (`equilibration`). Within a block the order of elimination is
+//! Everything is scaled: lengths by the size of their body, rows to unit norm; nearness to a singular position is judged
+//! by other scales (`equilibration`). Within a block the order of elimination is
 //! fixed (`sparse`); where that loses digits a small block is factored densely with partial pivoting, and a large one gets
 //! another order. Between blocks the solution is substituted forward, so that cost grows with the number of blocks.
 
-/// The factors, beside which the workspace may be borrowed.
+/// The factors, borrowed separately from the workspace.
 macro_rules! factors {
     ($lu:expr) => {
         Factors {
@@ -70,7 +70,7 @@ enum Form {
 }
 
 impl Part {
-    /// A block whose rows and columns, and whose dense matrix, begin at these places.
+    /// Returns a block whose rows and columns begin at `at`, and its dense matrix at `matrix`.
     fn new(block: &Block, at: usize, matrix: usize) -> Part {
         let size = block.rows.len();
         Part {
@@ -102,7 +102,7 @@ impl Part {
 struct Entry {
     position: u32,
     column: u32,
-    /// Row and column within its block; none if it is outside.
+    /// Row and column within its block; `None` if it is outside.
     place: Option<(u32, u32)>,
 }
 
@@ -114,7 +114,7 @@ struct Pattern {
 }
 
 impl Pattern {
-    /// Of some blocks, which take note of their own entries; `place_of` gives for a column its block and its place there.
+    /// Returns the pattern of some blocks, and records in each the range of its entries; `place_of` gives the block and place of a column.
     fn new(
         system: &ConstraintSystem,
         parts: &mut [Part],
@@ -161,7 +161,7 @@ pub struct BlockLu {
     judged_implicit: Vec<u32>,
     /// Divisor of each scaled row: its norm, or the least norm if that is larger.
     row_norm: Vec<f64>,
-    /// By row; 0 where the norm itself is meant.
+    /// By row; 0 if only the norm counts.
     least_norm: Vec<f64>,
     /// Scaled values of the entries.
     values: Vec<f64>,
@@ -235,7 +235,7 @@ impl BlockLu {
         self.column_scale[column]
     }
 
-    /// From now on a row is divided by no less than this: a formula whose slope vanishes is to be seen.
+    /// Sets the least divisor of a row, so that a formula whose slope vanishes is noticed.
     pub fn set_least_norm(&mut self, row: usize, norm: f64) {
         self.least_norm[row] = norm;
     }
@@ -245,7 +245,7 @@ impl BlockLu {
         self.least_norm[row]
     }
 
-    /// A row whose slope, scaled, was less than this where `Φ_q` was factored.
+    /// Returns a row whose slope, scaled, was less than `least` where `Φ_q` was factored.
     pub fn row_without_slope(&self, least: f64) -> Option<usize> {
         let slope =
             |k: usize| self.values[self.starts[k]..self.starts[k + 1]].iter().map(|x| x * x).sum::<f64>().sqrt();
@@ -264,7 +264,7 @@ impl BlockLu {
         }
     }
 
-    /// The determinant of a block. The matching fixes the order of columns, so that a sign means the same at every state.
+    /// Returns the determinant of a block. The matching fixes the order of columns, so that a sign means the same at every state.
     pub fn determinant(&self, block: usize) -> Determinant {
         let part = &self.parts[block];
         let mut determinant = Determinant::ONE;
@@ -283,12 +283,12 @@ impl BlockLu {
         determinant
     }
 
-    /// The smallest pivot of all blocks: little more than the nearness to a singular position, and for nothing.
+    /// Returns the smallest pivot of all blocks: little more than the nearness to a singular position, and without cost.
     pub fn smallest_pivot(&self) -> f64 {
         self.parts.iter().map(|part| part.smallest_pivot).fold(1.0, f64::min)
     }
 
-    /// The block with the smallest pivot.
+    /// Returns the block with the smallest pivot.
     pub fn worst_block(&self) -> Option<usize> {
         let pivot = |k: usize| self.parts[k].smallest_pivot;
         (0..self.parts.len()).min_by(|&a, &b| pivot(a).total_cmp(&pivot(b)))
@@ -308,8 +308,8 @@ impl BlockLu {
     }
 }
 
-/// The coordinates that a step is judged by: those that `Φ_q` depends on, those that an equation of time speaks of, and all
-/// angles. The places that are left follow from these, however far they go.
+/// Returns the coordinates that a step is judged by: those that `Φ_q` depends on, those that an equation of time speaks of, and all angles.
+/// The places that are left follow from these, however far they go.
 fn judged_coordinates(system: &ConstraintSystem) -> Vec<u32> {
     let slopes: Vec<ExprId> = system.phi_q().entries().iter().map(|&(_, slope)| slope).collect();
     let mut is_judged: Vec<bool> = system.coordinates().iter().map(|c| c.kind != CoordinateKind::Length).collect();

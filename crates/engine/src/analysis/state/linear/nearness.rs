@@ -14,7 +14,7 @@ pub struct Singular {
 }
 
 impl BlockLu {
-    /// The nearness to a singular position: the smallest singular value of any block, as far as it is below `limit`.
+    /// Returns the nearness to a singular position: the smallest singular value of any block, as far as it is below `limit`.
     ///
     /// Taken by blocks, because a long chain of blocks is badly conditioned without being near to anything; and so is a long
     /// chain within a block, whose singular values fall with the square of its length. A block whose pivots are all well
@@ -26,14 +26,14 @@ impl BlockLu {
         let factors = factors!(self);
         let is_near = |part: &Part| part.smallest_pivot < PIVOT_MARGIN * limit;
         for (k, part) in self.parts.iter().enumerate().filter(|(_, part)| is_near(part)) {
-            let vectors = (&mut left[..part.size], &mut right[..part.size]);
+            let vectors = [&mut left[..part.size], &mut right[..part.size]];
             nearest = nearest.min(factors.nearness(k, part, vectors, work) * part.length_of_chain());
         }
         nearest
     }
 
-    /// Writes by row how it weighs in the dependency of its block, of those blocks that are nearer to a singular position than a
-    /// limit; 0 in all others. Says whether there are such blocks.
+    /// Writes the weight of each row in the dependency of its block, for blocks that are nearer to a singular position than a limit, and 0
+    /// for others. Returns whether there are such blocks.
     pub fn write_weights(&mut self, limit: f64, weights: &mut [f64]) -> bool {
         let (left, rest) = self.work.split_at_mut(self.rows.len());
         let (right, work) = rest.split_at_mut(self.rows.len());
@@ -42,7 +42,7 @@ impl BlockLu {
         for (k, part) in self.parts.iter().enumerate() {
             let (left, right) = (&mut left[..part.size], &mut right[..part.size]);
             let is_near = part.smallest_pivot < PIVOT_MARGIN * limit
-                && factors.nearness(k, part, (left, right), work) * part.length_of_chain() < limit;
+                && factors.nearness(k, part, [&mut *left, &mut *right], work) * part.length_of_chain() < limit;
             is_any_near |= is_near;
             for (&row, weight) in self.rows[part.at..part.at + part.size].iter().zip(left.iter()) {
                 weights[row as usize] = if is_near { *weight } else { 0.0 };
@@ -51,17 +51,17 @@ impl BlockLu {
         is_any_near
     }
 
-    /// The smallest singular value of all blocks, with its vectors over the whole of the scaled `Φ_q`: the rows on which
-    /// that block's rows depend, and the coordinates that move with its own. Allocates.
+    /// Returns the smallest singular value of all blocks, with its vectors over the whole of the scaled `Φ_q`: the rows on which that
+    /// block's rows depend, and the coordinates that move with its own. Allocates.
     pub fn worst(&mut self) -> Singular {
         let n = self.rows.len();
         let mut worst: Option<(usize, Singular)> = None;
         let mut work = vec![0.0; n];
         for (k, part) in self.parts.iter().enumerate() {
             let (mut left, mut right) = (vec![0.0; part.size], vec![0.0; part.size]);
-            let sigma = self.factors().nearness(k, part, (&mut left, &mut right), &mut work);
+            let sigma = self.factors().nearness(k, part, [&mut left, &mut right], &mut work);
             let found = Singular { sigma, left, right };
-            if worst.as_ref().is_none_or(|(_, known)| found.sigma < known.sigma) {
+            if worst.as_ref().is_none_or(|(_, worst)| found.sigma < worst.sigma) {
                 worst = Some((k, found));
             }
         }
@@ -88,13 +88,13 @@ impl BlockLu {
         Singular { sigma: block.sigma, left, right }
     }
 
-    /// The vectors of a block's smallest singular value as right sides that its factors turn into dependency and motion. Where
-    /// the scales that are solved with are borne out they give the vectors: of several, these are told that weigh most in them.
+    /// Returns the vectors of a block's smallest singular value as right sides that its factors turn into dependency and motion. If the
+    /// scales that are solved with are confirmed, they give the vectors: of several, those that weigh most in them.
     fn as_solved(&self, k: usize, mut judged: Singular) -> Singular {
         let (part, factors) = (&self.parts[k], self.factors());
         let (mut left, mut right) = (vec![0.0; part.size], vec![0.0; part.size]);
         let mut work = vec![0.0; self.rows.len()];
-        let sigma = factors.as_solved().singular(k, part, (&mut left, &mut right), &mut work);
+        let sigma = factors.as_solved().singular(k, part, [&mut left, &mut right], &mut work);
         if sigma.total_cmp(&judged.sigma).is_eq() {
             return Singular { sigma, left, right };
         }

@@ -10,47 +10,47 @@ impl BlockLu {
         self.solve_parts(right, x, |_| true)
     }
 
-    /// As [`BlockLu::solve`] for the explicit blocks, all other coordinates being kept.
+    /// Solves `Φ_q x = b` in the explicit blocks like [`BlockLu::solve`], and keeps all other coordinates.
     pub fn solve_explicit(&mut self, right: impl Fn(usize) -> f64, x: &mut [f64]) -> f64 {
         self.solve_parts(right, x, |part| part.explicit)
     }
 
-    /// The largest scaled `|x|` of all coordinates.
+    /// Returns the largest scaled `|x|` of all coordinates.
     pub fn largest(&self, x: &[f64]) -> f64 {
         x.iter().zip(&self.column_scale).map(|(x, scale)| x.abs() / scale).fold(0.0, f64::max)
     }
 
-    /// The largest scaled `|x|` of the coordinates that a step is judged by.
+    /// Returns the largest scaled `|x|` of the coordinates that a step is judged by.
     pub fn largest_judged(&self, x: &[f64]) -> f64 {
         self.largest_of(&self.judged, x)
     }
 
-    /// As [`BlockLu::largest_judged`] without those that follow without iteration: they have no branches.
+    /// Returns the largest scaled `|x|` like [`BlockLu::largest_judged`], but only of coordinates that need iteration: the others have no branches.
     pub fn largest_judged_implicit(&self, x: &[f64]) -> f64 {
         self.largest_of(&self.judged_implicit, x)
     }
 
-    /// The largest scaled `|x|` of some coordinates; not a number if one is not.
+    /// Returns the largest scaled `|x|` of some coordinates; NaN if one is NaN.
     fn largest_of(&self, columns: &[u32], x: &[f64]) -> f64 {
         let scaled = columns.iter().map(|&column| x[column as usize].abs() / self.column_scale[column as usize]);
         scaled.fold(0.0, math::max)
     }
 
-    /// The largest scaled `|x|` of the coordinates that need iteration.
+    /// Returns the largest scaled `|x|` of the coordinates that need iteration.
     pub fn largest_implicit(&self, x: &[f64]) -> f64 {
         let implicit = self.parts.iter().filter(|part| !part.explicit);
         let columns = implicit.flat_map(|part| &self.columns[part.at..part.at + part.size]);
         columns.map(|&column| x[column as usize].abs() / self.column_scale[column as usize]).fold(0.0, f64::max)
     }
 
-    fn solve_parts(&mut self, right: impl Fn(usize) -> f64, x: &mut [f64], wanted: impl Fn(&Part) -> bool) -> f64 {
+    fn solve_parts(&mut self, right: impl Fn(usize) -> f64, x: &mut [f64], is_included: impl Fn(&Part) -> bool) -> f64 {
         let mut largest: f64 = 0.0;
         let n = self.rows.len();
         let (scaled, rest) = self.work.split_at_mut(n);
         let (block, work) = rest.split_at_mut(n);
         let factors = factors!(self);
         for part in &self.parts {
-            if !wanted(part) {
+            if !is_included(part) {
                 for &column in &self.columns[part.at..part.at + part.size] {
                     scaled[column as usize] = 0.0;
                     x[column as usize] = 0.0;
@@ -89,7 +89,7 @@ impl BlockLu {
         }
     }
 
-    /// Solves the transposed scaled system: the right side by coordinates, of which it is told the scale, and `w` by rows.
+    /// Solves the transposed scaled system, `w` by rows; `right` returns the right side of a coordinate for its index and scale.
     pub(super) fn solve_transposed(&mut self, right: impl Fn(usize, f64) -> f64, w: &mut [f64]) {
         let n = self.rows.len();
         let (rest, work) = self.work.split_at_mut(n);
