@@ -62,7 +62,7 @@ pub(super) fn watch() {
     }
 }
 
-/// Does nothing: interruptions are handled on Unix only.
+/// Does nothing: only Unix has signals.
 #[cfg(not(unix))]
 pub(super) fn watch() {}
 

@@ -1,18 +1,17 @@
-//! The parameters as Rust has them: a structure, in which those of a part are a structure of their own, and those of a repeated part an
-//! array of such.
+//! Parameters as Rust structures: one for the mechanism, with a nested structure for each part and an array for each repeated part.
 //!
-//! Copies make an array where their numbers begin with 0 and leave none out, and all have the same parameters; other copies are fields,
-//! `leg_2`, of one type as long as they are alike. What is bound is no parameter, and a part without parameters is not there.
+//! Copies form an array if their numbers are consecutive from 0 and all have the same parameters; other copies are fields,
+//! `leg_2`, of one type as long as they are alike. Bound params are no parameters, and parts without parameters are left out.
 
 use super::names::Case;
 use mechc_ir::{ConstraintSystem, Param};
 use std::collections::BTreeMap;
 
-/// The parameters of a system, in structures.
+/// Parameters of a system, in structures.
 pub(super) struct Params {
-    /// `Params` itself, and behind it those of its parts.
+    /// `Params` itself, followed by the structures of its parts.
     pub types: Vec<Type>,
-    /// By parameter: how it is reached, `leg[1].shank`.
+    /// Path of each parameter: `leg[1].shank`.
     pub paths: Vec<String>,
     whole: Group,
 }
@@ -20,25 +19,25 @@ pub(super) struct Params {
 /// A structure of parameters.
 pub(super) struct Type {
     pub name: String,
-    /// The part that it is of, the first of copies: `leg[0]`, `front.wheel`; nothing of the mechanism itself.
+    /// Path of its part, for copies of the first: `leg[0]`, `front.wheel`; empty for the mechanism itself.
     pub source: String,
     pub fields: Vec<Field>,
 }
 
 pub(super) struct Field {
     pub name: String,
-    /// Its name in the text of its part.
+    /// Name in the source of the part.
     pub source: String,
     pub of: Of,
 }
 
 /// Content of a field.
 pub(super) enum Of {
-    /// A parameter; its number, in the first of copies.
+    /// Index of a parameter, for copies in the first one.
     Number(usize),
-    /// A part, by the number of its type.
+    /// A part, by the index of its type.
     Part(usize),
-    /// All copies of a part, with how many there are by each index.
+    /// All copies of a part: the index of their type, and the number of copies along each index.
     Copies(usize, Vec<usize>),
 }
 
@@ -59,7 +58,7 @@ enum Slot<'g> {
         source: &'g str,
         param: usize,
     },
-    /// A copy, whose part has others that are alike or not.
+    /// A copy; `are_alike` if all copies of its part have the same parameters.
     Part {
         part: &'g str,
         source: String,
@@ -104,7 +103,7 @@ impl Params {
         }
     }
 
-    /// A value of `Params` with something for each parameter, by its number, in lines that stand under an indent.
+    /// Returns a struct expression of type `name`, with `of(k)` as the value of parameter `k`, in indented lines.
     pub fn value(&self, own: &str, indent: &str, of: &dyn Fn(usize) -> String) -> String {
         self.value_of((0, own), &self.whole, indent, of)
     }
@@ -137,11 +136,11 @@ impl Params {
     }
 }
 
-/// Types in the making.
+/// Builder of types.
 #[derive(Default)]
 struct Types {
     all: Vec<Type>,
-    /// Path of the part of each, without the numbers of copies that share it.
+    /// Path of each type's part, without the numbers of copies that share it.
     called: Vec<String>,
 }
 
@@ -183,7 +182,7 @@ impl Types {
         self.add([&called, &source], group)
     }
 
-    /// The types with their names.
+    /// Names the types and returns them.
     fn named(self) -> Vec<Type> {
         let sources: Vec<String> = self.called.iter().map(|called| format!("{called}.params")).collect();
         let names = Case::Camel.names(sources.iter().map(String::as_str));
@@ -203,7 +202,7 @@ impl Group {
         group.members.push(Member::Number { source: own.to_owned(), param: number });
     }
 
-    /// The copies of a part.
+    /// Returns the copies of a part, and adds the part if necessary.
     fn part(&mut self, name: &str) -> &mut BTreeMap<Vec<i64>, Group> {
         let is_it = |member: &Member| matches!(member, Member::Part { source, .. } if source == name);
         let at = self.members.iter().position(is_it).unwrap_or_else(|| {
@@ -282,7 +281,7 @@ fn place(number: usize, lengths: &[usize]) -> String {
     text
 }
 
-/// Values as an array of arrays, the last index fastest.
+/// Returns values as an array of arrays, the last index fastest.
 fn array(values: &[String], lengths: &[usize], indent: &str) -> String {
     let (Some((_, rest)), false) = (lengths.split_first(), values.is_empty()) else {
         return values.concat();

@@ -343,7 +343,7 @@ fn found_at(text: &str, offset: usize) -> Range<usize> {
 fn expectation(rules: &[Rule], found: &str, end: &str) -> String {
     let mut words: Vec<&str> = Vec::new();
     let goes_on = rules.iter().any(|rule| matches!(rule, Rule::infix | Rule::unit_power));
-    // a point may end behind its name, but who goes on there has forgotten the `=`
+    // a point may end behind its name, but if text follows there, the `=` is missing
     let only_equals = rules.contains(&Rule::equals) && !goes_on;
     for rule in rules.iter().filter(|rule| !only_equals || **rule == Rule::equals) {
         let word = human(*rule, goes_on, end);

@@ -134,7 +134,7 @@ impl Fault<'_> {
             let words = "`every` is how far one time is from the next: of 100 steps each is `every (B - A) / 100`";
             return Some(FixIt::words(words));
         }
-        // who writes one means it, though not here
+        // the author means the word that is written, though not in this position
         let is_a_keyword = Keyword::named(self.found).is_some();
         let declarations = KEYWORDS.iter().filter(|word| word.begins_declaration()).map(|word| word.word.name);
         // `1 evry 0.1`: the word before was taken for a unit

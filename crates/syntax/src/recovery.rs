@@ -135,7 +135,7 @@ impl Recovery<'_> {
         let name = match head {
             Ok(head) => head.name,
             Err(fault) => {
-                // who leaves out the brace that opens leaves out the one that closes as well
+                // without its opening brace a block mostly lacks the closing one too
                 has_brace = brace.is_some();
                 let is_head = self.sync.begins_declaration(first + 2) && fault_at(&fault) == self.sync.start(first + 2);
                 self.report(fault);

@@ -11,9 +11,9 @@ use std::ops::Range;
 pub(super) struct SyncPoints<'a> {
     text: &'a str,
     tokens: Vec<Token<'a>>,
-    /// By token: its role, if it is a keyword in this position.
+    /// Role of each token that is a keyword in its position.
     roles: Vec<Option<Role>>,
-    /// By token: true if it stands where the declaration before it has its name.
+    /// True for tokens in the position of a declaration's name.
     names: Vec<bool>,
     /// Hyphenated names at their declarations; every use of them parses as a difference.
     hyphenated: FxHashSet<&'a str>,
@@ -204,7 +204,7 @@ impl<'a> SyncPoints<'a> {
 
     /// Returns whether a declaration begins at a token: by its keyword, or by a word in its place.
     pub fn begins_declaration(&self, k: usize) -> bool {
-        // `ground.O` is a point, `joint joint: …` has a name that is none
+        // `ground.O` is a point, and `joint joint: …` has a keyword as its name
         if self.word(k + 1) == "." {
             return false;
         }

@@ -7,9 +7,9 @@ use mechc_text::vocabulary::{Keyword, Role, is_declaration};
 /// A word or character.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Token<'a> {
-    /// Its first byte.
+    /// First byte.
     pub start: usize,
-    /// Its text.
+    /// Text.
     pub text: &'a str,
 }
 

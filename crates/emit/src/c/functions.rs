@@ -1,4 +1,4 @@
-//! The functions that C calls: what they are given, what they do, and the file that holds them.
+//! Functions that C calls: their arguments, bodies and source file.
 
 use super::names::field;
 use super::{Interface, codes};
@@ -31,13 +31,13 @@ pub(super) enum Gives {
     Count,
 }
 
-/// A function of the header.
+/// Function of the header.
 pub(super) struct Function {
     pub name: &'static str,
     pub docs: &'static str,
     pub arguments: Vec<(&'static str, Of)>,
     pub gives: Gives,
-    /// Its body as a Rust expression; for a code, of type `Result<(), Status>`.
+    /// Body as a Rust expression, of type `Result<(), Status>` if the function returns a code.
     pub does: &'static str,
 }
 
@@ -133,7 +133,7 @@ fn function(name: &'static str, docs: &'static str, arguments: &[(&'static str, 
 }
 
 impl Interface<'_> {
-    /// All functions.
+    /// Returns all functions.
     pub(super) fn all(&self) -> Vec<Function> {
         let (state, to_write) = (("state", Of::State), ("state", Of::StateToWrite));
         let (params, inputs) = (("params", Of::Params), ("inputs", Of::Inputs));
@@ -221,7 +221,7 @@ impl Interface<'_> {
         used
     }
 
-    /// The file of the functions.
+    /// Returns the Rust source file of the functions.
     pub(super) fn functions(&self) -> String {
         let mut page = Page::default();
         page.line(&format!("// {}", self.mark));
@@ -252,7 +252,7 @@ impl Interface<'_> {
         page.done().trim_end().to_owned() + "\n"
     }
 
-    /// A number that other mechanisms hardly have (FNV-1a).
+    /// Returns the hash (FNV-1a) that marks states of this mechanism.
     fn sign(&self) -> u64 {
         let what = self.prefix.bytes().chain(self.words.to_le_bytes());
         what.fold(0xcbf2_9ce4_8422_2325, |sign, byte| (sign ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3))
@@ -276,7 +276,7 @@ impl Interface<'_> {
         });
     }
 
-    /// The fields of inputs, as C has them.
+    /// Returns name, documentation and whether it is time, for each field of the C structure of inputs.
     pub(super) fn fields_of_inputs(&self) -> Vec<(String, String, bool)> {
         let Some(following) = &self.unit.following else {
             return Vec::new();
@@ -290,7 +290,7 @@ impl Interface<'_> {
     }
 }
 
-/// Codes and what they mean.
+/// Prints the status codes with their messages.
 fn of_codes(page: &mut Page) {
     let codes = codes();
     for (number, code) in codes.iter().filter(|(number, code)| *number != 0 && code.error.is_none()) {
@@ -322,7 +322,7 @@ fn of_codes(page: &mut Page) {
     });
 }
 
-/// A sentence's first letter, large.
+/// Returns a text with its first letter in upper case.
 fn capital(text: &str) -> String {
     let (first, rest) = text.split_at(text.len().min(1));
     first.to_uppercase() + rest

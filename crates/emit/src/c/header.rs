@@ -1,4 +1,4 @@
-//! The header: constants, structures and functions as C and C++ read them.
+//! The C and C++ header: constants, structures and functions.
 
 use super::functions::{Function, Gives};
 use super::names::{comment, field};
@@ -28,7 +28,7 @@ another length, a state that was not assembled and a number that is not one are 
 change nothing. That a list is as long as is said, and that a pointer leads somewhere, C alone can know.";
 
 impl Interface<'_> {
-    /// The header.
+    /// Returns the header.
     pub(super) fn header(&self) -> String {
         let mut page = Page::default();
         let (name, guard) = (self.unit.system.name(), format!("{}_H", self.constants()));
@@ -66,7 +66,7 @@ impl Interface<'_> {
         page.end_statement();
     }
 
-    /// Places and counts.
+    /// Prints indices and counts.
     fn numbers(&self, page: &mut Page) {
         let (system, constants) = (self.unit.system, self.constants());
         let coordinates = Case::Constant.names(system.coordinates().iter().map(|of| of.name.as_str()));
@@ -124,7 +124,7 @@ impl Interface<'_> {
         page.blank();
     }
 
-    /// Numbers by names, and how many they are.
+    /// Prints named indices and their count.
     fn places(&self, page: &mut Page, one: &str, all: &str, says: &str, named: &[(String, String)]) {
         let constants = self.constants();
         page.line(&comment(says));
@@ -166,7 +166,7 @@ impl Interface<'_> {
         page.blank();
     }
 
-    /// The parameters; what others hold stands before them.
+    /// Prints the structures of the parameters, nested ones first.
     fn params(&self, page: &mut Page) {
         let params = Params::new(self.unit.system);
         let called = |name: &str| apart(name).to_lowercase();

@@ -1,8 +1,8 @@
-//! A mechanism for C: a header, and the functions behind it, which are all that is unsafe in a crate.
+//! The C interface of a mechanism: a header, and its functions, the only unsafe code of an emitted crate.
 //!
-//! The caller has the memory of everything. A state is so many words, which only these functions look into; params and inputs are plain
-//! structures, those of the crate laid out as C does. What a function is given, and what it gives, stands in one list (`functions.rs`),
-//! from which both files are written.
+//! The caller owns all memory. A state is an opaque array of words that only these functions access; params and inputs are plain
+//! structures of the crate with C layout. One list (`functions.rs`) defines the arguments and results of functions,
+//! from which both files are generated.
 
 mod functions;
 mod header;
@@ -15,7 +15,7 @@ use super::text::{one_line, unit};
 use super::{CrateFile, TranslationUnit};
 use mechc_ir::layout::{ColumnContent, ColumnUnit, columns, holds};
 
-/// Source of both files.
+/// Context of both files.
 struct Interface<'i> {
     unit: &'i TranslationUnit<'i>,
     /// Prefix of names: `four_bar`.
@@ -28,7 +28,7 @@ struct Interface<'i> {
     bounds: &'i [(&'static str, usize)],
 }
 
-/// The header and the functions of a crate's library, whose name all names begin with.
+/// Returns the header and the source file of the functions; all names begin with that of the library.
 pub(super) fn files(unit: &TranslationUnit<'_>, module: &Module, library: &str, mark: &str) -> Vec<CrateFile> {
     let interface = Interface { unit, prefix: library, mark, words: module.words + 1, bounds: &module.bounds };
     vec![
@@ -42,7 +42,7 @@ struct Code {
     /// `LOCK_UP`
     name: String,
     message: &'static str,
-    /// The error in Rust; none of what only C can do wrong.
+    /// Variant of the Rust error; `None` for errors that only C can cause.
     error: Option<&'static str>,
 }
 
@@ -57,7 +57,7 @@ const OF_C: [(&str, &str); 4] = [
     ("NO_SUCH_COLUMN", "there is no such column"),
 ];
 
-/// All codes with their numbers, that of no error and 0 among them.
+/// Returns all codes with their numbers, including 0 and the status that is no error.
 fn codes() -> Vec<(i32, Code)> {
     let fine = Code { name: "OK".to_owned(), message: "all went well", error: None };
     let errors =
@@ -69,7 +69,7 @@ fn codes() -> Vec<(i32, Code)> {
     std::iter::once((-1, on_the_way)).chain(all).collect()
 }
 
-/// `NOT_A_NUMBER` of `NotANumber`.
+/// Converts `NotANumber` to `NOT_A_NUMBER`.
 fn apart(name: &str) -> String {
     let mut text = String::new();
     for c in name.chars() {
@@ -99,7 +99,7 @@ impl Interface<'_> {
         self.prefix.to_uppercase()
     }
 
-    /// The columns of a row: their names in C, and what they hold, in SI.
+    /// Returns the columns of a row: their names in C, and their contents with SI units.
     fn columns(&self) -> Vec<(String, String)> {
         let system = self.unit.system;
         // forces have a list of their own

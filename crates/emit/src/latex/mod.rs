@@ -67,7 +67,7 @@ pub fn latex(system: &ConstraintSystem, mechanics: Option<&Mechanics>, is_determ
     writer.text + "\n\\end{document}\n"
 }
 
-/// A measure's formula, without the condition under which it has a value: a reader sees from a table where that ends.
+/// Returns a measure's formula, without the condition under which it has a value: a reader sees from a table where that ends.
 fn where_it_has_a_value(system: &ConstraintSystem, measure: ExprId) -> ExprId {
     let is_none =
         |id: ExprId| system.graph().dependence(id).is_constant() && !system.graph().value(id, |_| 0.0).is_finite();
@@ -77,7 +77,7 @@ fn where_it_has_a_value(system: &ConstraintSystem, measure: ExprId) -> ExprId {
     }
 }
 
-/// Every formula that is written.
+/// Returns all formulas that are emitted.
 fn roots(system: &ConstraintSystem, mechanics: Option<&Mechanics>) -> Vec<ExprId> {
     let mut roots: Vec<ExprId> = system.rows().iter().map(|row| row.phi).collect();
     roots.extend(system.phi_q().entries().iter().map(|&(_, id)| id));
@@ -281,7 +281,7 @@ impl Writer<'_> {
         self.terms();
     }
 
-    /// A column with its coordinate on top.
+    /// Returns a column with its coordinate on top.
     fn column(&mut self, column: u32, rows: &[usize]) -> Vec<Set> {
         let system = self.system;
         let mut cells = vec![coordinate(system, column as usize, 0)];
@@ -375,7 +375,7 @@ impl Writer<'_> {
     }
 }
 
-/// An SI unit behind a number, from `m`, `1/s` or `m^2/s`; nothing for a pure number.
+/// Returns an SI unit behind a number, from `m`, `1/s` or `m^2/s`; nothing for a pure number.
 fn unit(unit: &str) -> String {
     if unit == "1" {
         return String::new();

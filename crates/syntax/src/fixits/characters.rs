@@ -130,7 +130,7 @@ impl Fault<'_> {
         is_sure.then(|| self.replaced(start..self.here().end, ":", words, Applicability::Always))
     }
 
-    /// `# a comment`, and what is none: `a#1`.
+    /// `# a comment`, but not `a#1`.
     fn number_sign(&self) -> FixIt {
         let words = "a comment begins with `//`";
         let marks = self.found.len() + self.behind().len() - self.behind().trim_start_matches('#').len();

@@ -38,9 +38,9 @@ enum Comma {
 pub(super) struct Formatted<'a> {
     lexemes: Vec<Lexeme<'a>>,
     rows: Vec<Row>,
-    /// By lexeme.
+    /// One for each lexeme.
     gaps: Vec<Gap>,
-    /// By lexeme.
+    /// One for each lexeme.
     commas: Vec<Comma>,
     /// Number of examined items.
     pub steps: usize,

@@ -6,22 +6,22 @@
 /// Style in which the gaps of a group break if it does not fit.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Style {
-    /// Only those behind which the next piece would not fit.
+    /// Only gaps behind which the next piece does not fit are broken.
     Filled,
-    /// All of them.
+    /// All gaps are broken.
     Stacked,
-    /// All of them, and the bracket that closes it stands on a line of its own.
+    /// All gaps are broken, and the closing bracket stands on a line of its own.
     Listed,
 }
 
 /// A piece of a line.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Node {
-    /// So many columns.
+    /// Width of a text in columns.
     Text(usize),
-    /// So many spaces.
+    /// Fixed number of spaces.
     Space(usize),
-    /// So many spaces, or the end of a line.
+    /// Number of spaces, or the end of a line.
     Gap(usize),
     /// The end of a line.
     Line,
@@ -41,9 +41,9 @@ pub(super) const DEEPEST_INDENT: usize = 48;
 /// Result of the layout.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub(super) struct Laid {
-    /// For each node that is a gap or line: the indentation of the line that it begins, if it does.
+    /// Indentation of the lines that begin with each node that is a gap or line, if it begins one.
     pub lines: Vec<Option<usize>>,
-    /// For each node that opens a group: whether it is broken.
+    /// True for nodes that open a broken group.
     pub is_broken: Vec<bool>,
     /// The column behind the last node.
     pub column: usize,
@@ -59,9 +59,9 @@ struct Measures {
     columns: Vec<usize>,
     /// Lines before each node, and behind the last.
     lines: Vec<usize>,
-    /// For each gap and each node that closes a group: the node at which a line can end next, outside of groups that begin later.
+    /// Node at which a line can end next, outside of groups that begin later, for each gap and each node that closes a group.
     next_end: Vec<usize>,
-    /// For each node that opens a group: the one that closes it.
+    /// Closing node of each group, by its opening node.
     closes: Vec<usize>,
     steps: usize,
 }

@@ -11,7 +11,7 @@ pub(super) enum Shape {
     Number,
     /// A string with its quotes.
     Quoted,
-    /// From its slashes to the end of its line, white space at the end left out.
+    /// A comment from its slashes to the end of the line, without trailing white space.
     Comment,
     /// Anything else.
     Sign,

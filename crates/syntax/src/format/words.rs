@@ -28,7 +28,7 @@ pub(super) enum Class {
     /// A name, where one is declared or used.
     Name,
     Number,
-    /// Behind a number.
+    /// A unit behind a number.
     Unit,
     Quoted,
     Open(Bracket),
@@ -84,7 +84,7 @@ pub(super) struct Word {
 /// Spaces between declarations that share a line.
 const BETWEEN_FEATURES: usize = 2;
 
-/// The words that a text declares as names, wherever: none of them means a unit in a formula.
+/// The words that a text declares as names anywhere: in a formula they do not denote units.
 pub(super) fn declared<'a>(lexemes: &[Lexeme<'a>]) -> FxHashSet<&'a str> {
     let is_keyword =
         |lexeme: &Lexeme<'_>| declares_name(lexeme.text) && Keyword::named(lexeme.text).is_some_and(|k| begins(k.role));
@@ -127,25 +127,25 @@ pub(super) fn width(words: &[Word], lexemes: &[Lexeme<'_>]) -> usize {
     shown.map(|(k, (word, lexeme))| usize::from(k > 0) * word.spaces + super::width(lexeme.text)).sum()
 }
 
-/// Position of the next column.
+/// Position at which the next cell of aligned columns begins.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Cells {
     None,
-    /// Before the next lexeme.
+    /// The next lexeme begins it.
     Next,
-    /// Before `=`.
+    /// `=` begins it.
     Equals,
-    /// Behind `:`.
+    /// It begins behind `:`.
     Colon,
-    /// Behind `:`, and then with `=`.
+    /// It begins behind `:`, and another with `=`.
     ColonAndEquals,
-    /// Before the next keyword.
+    /// The next keyword begins it.
     As,
-    /// Before the next keyword, and then again.
+    /// The next keyword begins it, and the one after that begins another.
     At,
-    /// Before every keyword.
+    /// Every keyword begins one.
     Keywords,
-    /// Before the brace that opens a block.
+    /// The opening brace of a block begins it.
     Brace,
 }
 
@@ -171,7 +171,7 @@ struct Classifier<'a> {
     before: Option<Class>,
     cells: Cells,
     quantity: Quantity,
-    /// In the unit behind `in`, or in those of a table's file.
+    /// True in the unit behind `in`, and in the units of a table's file.
     is_in_unit: bool,
     takes_name: bool,
 }
@@ -311,7 +311,7 @@ impl<'a> Classifier<'a> {
     /// Returns whether a unit stands behind a lexeme, with its power or alone.
     fn is_a_unit_behind(&self, k: usize) -> bool {
         let mut behind = self.lexemes[k + 1..self.range.end].iter().filter(|lexeme| !lexeme.is_comment());
-        // `min` is none, but meant as one; `t` is the time
+        // `min` is no unit, but its author means one; `t` is the time
         let is_meant = |text: &str| Synonym::of(Place::Unit, text).is_some() && Constant::named(text).is_none();
         let names_one = |text: &str| Unit::named(text).is_some() || is_meant(text);
         let is_unit = |lexeme: &Lexeme<'_>| names_one(lexeme.text) && !self.names.contains(lexeme.text);

@@ -58,7 +58,7 @@ pub(super) fn not_json(error: &Error<Rule>, text: &str, file: FileId) -> Diagnos
         .help_if(suggestion(word, text, start))
 }
 
-/// A string that does not end, or that holds an escape which is none.
+/// Reports a string that does not end, or that has an invalid escape.
 fn broken_string(text: &str, start: usize, file: FileId) -> Option<Diagnostic> {
     let span = |from: usize, length: usize| {
         let start = (start + from) as u32;
@@ -179,7 +179,7 @@ pub(super) fn renamed(what: &str, old: &str, new: &str, span: Span, why: &str) -
     Diagnostic::new(Code::N0702, format!("the {what} `{old}` is called `{new}`")).at(span, why)
 }
 
-/// Something without a name got one.
+/// Reports that an item without a name got one.
 pub(super) fn named(what: &str, new: &str, span: Span) -> Diagnostic {
     Diagnostic::new(Code::N0702, format!("the {what} without a name is called `{new}`")).at(span, "it has no `name`")
 }

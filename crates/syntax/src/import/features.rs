@@ -54,9 +54,9 @@ struct Axis {
 /// Direction of an axis from its point.
 #[derive(Clone)]
 pub(super) enum Line {
-    /// In a direction.
+    /// Direction of an axis.
     Along([f64; 2]),
-    /// To a second point, written as it should be.
+    /// Second point of an axis; `target` is its formula in the output.
     To { numbers: [f64; 2], target: Expr },
 }
 

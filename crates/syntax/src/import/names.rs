@@ -8,11 +8,11 @@ use mechc_text::source::Span;
 use mechc_text::vocabulary::{Constant, Unit};
 use rustc_hash::{FxHashMap, FxHashSet};
 
-/// One space of names.
+/// Namespace.
 #[derive(Default)]
 pub(super) struct Names {
     used: FxHashSet<String>,
-    /// For each stem, the number to try next: many things of one name must not cost the square of their count.
+    /// Number to try next for each stem: the cost of many items with one name must not be quadratic.
     next: FxHashMap<String, u32>,
 }
 

@@ -75,9 +75,9 @@ fn origin(file: &str) -> (String, String) {
 }
 
 struct Translator<'a> {
-    /// Their names.
+    /// Names of the bodies.
     bodies: &'a [String],
-    /// For each body.
+    /// Features of each body.
     features: Vec<Features>,
     /// Names of the mechanism's space.
     names: Names,

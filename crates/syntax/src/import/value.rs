@@ -37,7 +37,7 @@ pub(super) struct Quoted {
     pub text: String,
     /// Span with its quotes.
     pub span: Span,
-    /// For each byte of the text and its end, the offset in the file; empty where nothing was escaped.
+    /// Offset in the file of each byte of the text and of its end; empty if the text has no escapes.
     pub places: Vec<u32>,
 }
 

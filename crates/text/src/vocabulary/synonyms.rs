@@ -25,7 +25,7 @@ pub enum Place {
     Joint,
     /// Called in a formula.
     Call,
-    /// After a number.
+    /// Unit, after a number.
     Unit,
     /// Number in a formula.
     Number,

@@ -1,4 +1,4 @@
-//! From tokens to a formula, by MATLAB's precedences.
+//! Parser of formulas with MATLAB's precedences.
 //!
 //! Loosest first, all from the left: `||`, `&&`, `|`, `&`, comparisons, `+ -`, `* /`, signs and `~`, `^` and `'`. A
 //! sign behind `^` belongs to the exponent.

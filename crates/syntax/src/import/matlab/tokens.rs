@@ -18,7 +18,7 @@ pub(super) enum TokenKind<'a> {
 pub(super) struct Token<'a> {
     pub kind: TokenKind<'a>,
     pub span: Span,
-    /// Its words.
+    /// Words.
     pub text: &'a str,
 }
 
