@@ -241,7 +241,7 @@ fn tree() -> impl Strategy<Value = Expr> {
         let boxed = || inner.clone().prop_map(Box::new);
         let list = |least: usize| proptest::collection::vec(inner.clone(), least..4);
         let sign = prop_oneof![Just(Sign::Plus), Just(Sign::Minus)];
-        let factor = prop_oneof![Just(Factor::Times), Just(Factor::Over)];
+        let factor = prop_oneof![Just(Factor::Times), Just(Factor::Divide)];
         let comparison = prop_oneof![
             Just(ComparisonSign::Less),
             Just(ComparisonSign::LessEqual),

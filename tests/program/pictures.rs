@@ -1154,7 +1154,7 @@ fn lengths_that_are_blamed_stand_beside_what_is_red() {
         assert!(named.contains(&body), "{named:?}");
     }
     assert!(!named.contains(&"crank") && !named.contains(&"ground"), "{named:?}");
-    let file = still(&seen.scene, &seen.motion, &seen.motion, &Options { said: reports, ..Options::default() });
+    let file = still(&seen.scene, &seen.motion, &seen.motion, &Options { messages: reports, ..Options::default() });
     assert_eq!(file.matches("<text class=\"remark\"").count(), 3);
     // the command tells them below it, and breaks no number off its unit
     let folder = tempfile::tempdir().expect("a folder");
@@ -1179,7 +1179,7 @@ fn what_stops_is_shown_up_to_there() {
     assert!(last < t && t < last + 0.01);
     let names: Vec<&str> = seen.scene.named.iter().map(|k| seen.scene.declarations[*k].name.as_str()).collect();
     assert!(names.contains(&"motor"), "{names:?}");
-    let file = animated(&seen.scene, &seen.motion, &Options { said: vec![why.message.clone()], ..Options::default() });
+    let file = animated(&seen.scene, &seen.motion, &Options { messages: vec![why.message.clone()], ..Options::default() });
     assert!(file.contains("class=\"said\"") && file.contains("named m m") && file.contains("locks up"));
     assert!(farthest_pin("four_bar", &seen, &file) < 0.5);
 }
@@ -1193,7 +1193,7 @@ fn stopped() -> Visualization {
 fn messages_take_no_room_from_what_is_drawn() {
     let (seen, reports) = static_visualization("tests/ui/run/loop_that_never_closes.mech");
     for size in [None, Some([400.0, 300.0]), Some([1280.0, 720.0])] {
-        let options = Options { said: reports.clone(), labels: true, size, ..Options::default() };
+        let options = Options { messages: reports.clone(), labels: true, size, ..Options::default() };
         let file = still(&seen.scene, &seen.motion, &seen.motion, &options);
         let lines: Vec<f64> = file
             .split("<text class=\"said\"")
@@ -1226,11 +1226,11 @@ fn goldens() -> Vec<(String, String)> {
     let pen = ("coupler.pen".to_owned(), Anchor { frame: pen.frame, at: pen.at });
     let of_broken = |path: &str| {
         let (seen, reports) = static_visualization(path);
-        still(&seen.scene, &seen.motion, &seen.motion, &Options { said: reports, ..Options::default() })
+        still(&seen.scene, &seen.motion, &seen.motion, &Options { messages: reports, ..Options::default() })
     };
     let stopped = stopped();
     let why = stopped.stopped.as_ref().map(|why| why.message.clone());
-    let at_the_end = Options { said: why.into_iter().collect(), ..Options::default() };
+    let at_the_end = Options { messages: why.into_iter().collect(), ..Options::default() };
     let last = stopped.motion.moment(stopped.motion.len() - 1);
     let labelled = Options { labels: true, traces: vec![pen], ..Options::default() };
     let held = seen_with_forces(HELD);

@@ -104,8 +104,8 @@ impl Params {
     }
 
     /// Returns a struct expression of type `name`, with `of(k)` as the value of parameter `k`, in indented lines.
-    pub fn value(&self, own: &str, indent: &str, of: &dyn Fn(usize) -> String) -> String {
-        self.value_of((0, own), &self.whole, indent, of)
+    pub fn value(&self, name: &str, indent: &str, of: &dyn Fn(usize) -> String) -> String {
+        self.value_of((0, name), &self.whole, indent, of)
     }
 
     fn value_of(
@@ -155,16 +155,16 @@ impl Types {
         for slot in group.slots() {
             fields.push(match slot {
                 Slot::Number { source, param } => (source.to_owned(), Of::Number(param)),
-                Slot::Part { part, source: own, group, are_alike } => {
-                    let known = before.filter(|(known, _)| are_alike && *known == part).map(|(_, of)| of);
-                    let telling = if are_alike { part } else { &own };
-                    let of = known.unwrap_or_else(|| self.add_part([called, source], [telling, &own], group));
+                Slot::Part { part, source: field, group, are_alike } => {
+                    let alike = before.filter(|(previous, _)| are_alike && *previous == part).map(|(_, of)| of);
+                    let name = if are_alike { part } else { &field };
+                    let of = alike.unwrap_or_else(|| self.add_part([called, source], [name, &field], group));
                     before = Some((part, of));
-                    (own, Of::Part(of))
+                    (field, Of::Part(of))
                 }
-                Slot::Copies { source: own, lengths, groups } => {
-                    let first = copy_of(own, &vec![0; lengths.len()]);
-                    (own.to_owned(), Of::Copies(self.add_part([called, source], [own, &first], groups[0]), lengths))
+                Slot::Copies { source: field, lengths, groups } => {
+                    let first = copy_of(field, &vec![0; lengths.len()]);
+                    (field.to_owned(), Of::Copies(self.add_part([called, source], [field, &first], groups[0]), lengths))
                 }
             });
         }
@@ -175,9 +175,9 @@ impl Types {
     }
 
     /// Adds the type of a part within another.
-    fn add_part(&mut self, around: [&str; 2], own: [&str; 2], group: &Group) -> usize {
+    fn add_part(&mut self, around: [&str; 2], inner: [&str; 2], group: &Group) -> usize {
         let within =
-            |k: usize| if around[k].is_empty() { own[k].to_owned() } else { format!("{}.{}", around[k], own[k]) };
+            |k: usize| if around[k].is_empty() { inner[k].to_owned() } else { format!("{}.{}", around[k], inner[k]) };
         let (called, source) = (within(0), within(1));
         self.add([&called, &source], group)
     }
@@ -192,14 +192,14 @@ impl Types {
 
 impl Group {
     fn add(&mut self, param: &Param, number: usize) {
-        let (parts, own) = param.name.split_at(param.part);
+        let (parts, field) = param.name.split_at(param.part);
         let mut group = self;
         for part in parts.split_terminator('.') {
             let (name, indices) = part.trim_end_matches(']').split_once('[').unwrap_or((part, ""));
             let indices = indices.split(',').filter_map(|index| index.trim().parse().ok()).collect();
             group = group.part(name).entry(indices).or_default();
         }
-        group.members.push(Member::Number { source: own.to_owned(), param: number });
+        group.members.push(Member::Number { source: field.to_owned(), param: number });
     }
 
     /// Returns the copies of a part, and adds the part if necessary.

@@ -21,7 +21,7 @@ pub struct Leaf {
     /// Index of the scope that holds it.
     pub scope: u32,
     /// Binding and its time derivatives, as formulas that may contain leaves.
-    pub over_leaves: [ExprId; LEAF_ORDERS],
+    pub with_leaves: [ExprId; LEAF_ORDERS],
     /// Binding and time derivatives with all leaves replaced.
     pub plain: [ExprId; LEAF_ORDERS],
 }

@@ -140,7 +140,7 @@ impl Variations {
                 let (number, order) = as_leaf(symbol)?;
                 let leaf = &self.leaves[number];
                 let is_held = scope == Some(leaf.scope);
-                let bound = leaf.over_leaves[order];
+                let bound = leaf.with_leaves[order];
                 (!is_held).then(|| self.along(graph, &[bound], variable, &|_| false)[0])
             }
             Symbol::Coordinate { index, order } => {

@@ -571,7 +571,7 @@ pub enum Factor {
     /// `*`
     Times,
     /// `/`
-    Over,
+    Divide,
 }
 
 /// Comparison operators.

@@ -412,7 +412,7 @@ impl Reader<'_> {
         let (mut factors, mut factor): (Vec<UnitFactor>, Factor) = (Vec::new(), Factor::Times);
         for pair in pair.into_inner() {
             if pair.as_rule() != Rule::unit_factor {
-                factor = if pair.as_str().ends_with('*') { Factor::Times } else { Factor::Over };
+                factor = if pair.as_str().ends_with('*') { Factor::Times } else { Factor::Divide };
                 continue;
             }
             let mut parts = pair.into_inner();

@@ -454,7 +454,7 @@ fn human(rule: Rule, after_operand: bool, end: &str) -> &str {
         Rule::table_rows => "`[`",
         Rule::table_file | Rule::string => "a file name in quotes",
         Rule::exponent => "a whole number",
-        Rule::unit_name | Rule::unit_factor | Rule::unit_product | Rule::one_over => "a unit",
+        Rule::unit_name | Rule::unit_factor | Rule::unit_product | Rule::reciprocal => "a unit",
         Rule::column | Rule::column_number => "a number or name of a column",
         _ => "",
     }

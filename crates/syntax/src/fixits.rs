@@ -145,12 +145,12 @@ impl Fault<'_> {
             .or_else(|| nearest(self.word_before(), connecting.iter().copied()).map(|word| (word_before, word)))
             .or_else(|| nearest(self.found, declarations).filter(|_| !is_a_keyword).map(|word| (self.here(), word)));
         if let Some((place, word)) = suggestion {
-            return Some(FixIt::Fix(Fix::meant(self.span(place), word)));
+            return Some(FixIt::Fix(Fix::suggest(self.span(place), word)));
         }
         let other = Synonym::of(Place::Declaration, self.found).filter(|synonym| self.begins(synonym.means));
         if let Some(synonym) = other {
             if let ([only], true) = (synonym.means, synonym.is_same) {
-                return Some(FixIt::Fix(Fix::meant(self.span(self.here()), only)));
+                return Some(FixIt::Fix(Fix::suggest(self.span(self.here()), only)));
             }
             return Some(FixIt::Words(synonym.say(&[])));
         }

@@ -63,7 +63,7 @@ struct Recovery<'a> {
 impl Recovery<'_> {
     fn file(&mut self) -> File {
         let (mut uses, mut mechanisms): (Vec<UsedFile>, Vec<Mechanism>) = (Vec::new(), Vec::new());
-        let mut is_outside_told = false;
+        let mut has_reported_outside = false;
         while !self.sync.is_behind_the_last(self.at) {
             if self.sync.begins_use(self.at) {
                 if !mechanisms.is_empty() {
@@ -80,7 +80,7 @@ impl Recovery<'_> {
                 continue;
             }
             // the declarations behind a superfluous brace are reported once
-            if !std::mem::replace(&mut is_outside_told, true) {
+            if !std::mem::replace(&mut has_reported_outside, true) {
                 let expected = if mechanisms.is_empty() { Rule::mechanism } else { Rule::mechanism_or_end };
                 let fault = self.fault_of(expected);
                 self.report(fault);

@@ -185,7 +185,7 @@ impl<'a> SyncPoints<'a> {
             "analysis" => next == "from",
             "fn" | "curve" => second == "(",
             "joint" | "driver" | "constraint" | "part" | "load" => second == ":",
-            // seen by what stands beside it
+            // `role` recognizes these by adjacent tokens
             "gravity" | "mass" => true,
             "mechanism" => second == "{",
             "body" => second == "{" || second == "at",
@@ -267,8 +267,8 @@ impl<'a> SyncPoints<'a> {
 
     /// Returns the hyphenated name that begins with a token.
     fn hyphenated_name(&self, token: &Token<'a>) -> Option<&'a str> {
-        let is_known = |name: &&str| self.hyphenated.contains(name);
-        if self.hyphenated.is_empty() { None } else { hyphenated_at(self.text, token.start).filter(is_known) }
+        let is_declared = |name: &&str| self.hyphenated.contains(name);
+        if self.hyphenated.is_empty() { None } else { hyphenated_at(self.text, token.start).filter(is_declared) }
     }
 
     /// Returns whether a range of tokens contains a hyphenated name.

@@ -63,8 +63,8 @@ impl Foreign<'_> {
         let begins = begins_declaration(self.text, Token { start: self.at, text: self.found });
         let is_opener = || Keyword::named(self.found).is_some_and(|keyword| keyword.role == Role::Opener);
         let begins = begins || self.text[last.end()..self.at].contains('\n') && is_opener();
-        let is_over = begins || self.found == "}" || self.found.is_empty();
-        if !is_over {
+        let is_at_end = begins || self.found == "}" || self.found.is_empty();
+        if !is_at_end {
             return None;
         }
         let form = || {

@@ -40,10 +40,10 @@ impl Foreign<'_> {
     fn applies_before_the_next(&self) -> Applicability {
         let behind = self.at + self.found.len();
         let next = tokens(&self.text[behind..]).first().copied();
-        let is_over = next.is_none_or(|next| {
+        let is_last = next.is_none_or(|next| {
             next.text == "}" || begins_declaration(self.text, Token { start: behind + next.start, ..next })
         });
-        if is_over { Applicability::Always } else { Applicability::Probably }
+        if is_last { Applicability::Always } else { Applicability::Probably }
     }
 
     /// `point P = (45, 40) mm`

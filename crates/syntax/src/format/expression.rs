@@ -202,11 +202,11 @@ fn write_product(text: &mut String, first: &Expr, rest: &[(Factor, Expr)]) -> bo
     };
     for (factor, e) in rest {
         in_quantity = match factor {
-            Factor::Over if in_quantity && is_unit(e) => {
+            Factor::Divide if in_quantity && is_unit(e) => {
                 *text += "/";
                 true
             }
-            Factor::Over => {
+            Factor::Divide => {
                 *text += " / ";
                 false
             }

@@ -122,8 +122,8 @@ fn unit(written: &WrittenUnit) -> String {
         match of.factor {
             Factor::Times if k == 0 => {}
             Factor::Times => text += "*",
-            Factor::Over if k == 0 => text += "1/",
-            Factor::Over => text += "/",
+            Factor::Divide if k == 0 => text += "1/",
+            Factor::Divide => text += "/",
         }
         text += &of.name.text;
         if of.power != 1 {

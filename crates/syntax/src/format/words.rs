@@ -141,7 +141,7 @@ enum Cells {
     ColonAndEquals,
     /// The next keyword begins it.
     As,
-    /// The next keyword begins it, and the one after that begins another.
+    /// The next keyword begins it, and an opening brace begins another.
     At,
     /// Every keyword begins one.
     Keywords,
@@ -312,8 +312,8 @@ impl<'a> Classifier<'a> {
     fn is_a_unit_behind(&self, k: usize) -> bool {
         let mut behind = self.lexemes[k + 1..self.range.end].iter().filter(|lexeme| !lexeme.is_comment());
         // `min` is no unit, but its author means one; `t` is the time
-        let is_meant = |text: &str| Synonym::of(Place::Unit, text).is_some() && Constant::named(text).is_none();
-        let names_one = |text: &str| Unit::named(text).is_some() || is_meant(text);
+        let is_synonym = |text: &str| Synonym::of(Place::Unit, text).is_some() && Constant::named(text).is_none();
+        let names_one = |text: &str| Unit::named(text).is_some() || is_synonym(text);
         let is_unit = |lexeme: &Lexeme<'_>| names_one(lexeme.text) && !self.names.contains(lexeme.text);
         behind.next().is_some_and(is_unit)
             && match behind.next().map(|lexeme| lexeme.text) {

@@ -58,7 +58,7 @@ fn step(end: Number, steps: Number) -> Expr {
     }
     let end = build::quantity(end.value, "s", end.span, build::Zero::WithUnit);
     let steps = build::number(steps.value, steps.span);
-    Expr { kind: ExprKind::Product(Box::new(end), vec![(Factor::Over, steps)]), span }
+    Expr { kind: ExprKind::Product(Box::new(end), vec![(Factor::Divide, steps)]), span }
 }
 
 /// A time over a count, where it is a short decimal: the number and its unit.

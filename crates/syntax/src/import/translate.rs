@@ -259,7 +259,7 @@ fn mesh_offset(parts: &RackPinion) -> Expr {
     let span = parts.radius.span;
     let quarter_turns = ExprKind::Product(
         Box::new(build::number(3.0, span)),
-        vec![(Factor::Times, build::word("pi", span)), (Factor::Over, build::number(2.0, span))],
+        vec![(Factor::Times, build::word("pi", span)), (Factor::Divide, build::number(2.0, span))],
     );
     let quarter_turns = Expr { kind: quarter_turns, span };
     let [theta1, theta2] = parts.phases;

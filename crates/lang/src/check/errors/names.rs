@@ -26,11 +26,11 @@ pub fn unknown_number(what: &str, name: &Name, candidates: &[&str]) -> Diagnosti
         return diagnostic.instead(Fix::replace(name.span, written, message, Applicability::Probably));
     }
     if let (Some(power), true) = (power_of_a_unit(&name.text), diagnostic.help.is_empty()) {
-        return diagnostic.instead(Fix::meant(name.span, &power));
+        return diagnostic.instead(Fix::suggest(name.span, &power));
     }
     if let Some(synonym) = Synonym::of(Place::Number, &name.text) {
         return match synonym.means {
-            [only] if synonym.is_same => diagnostic.instead(Fix::meant(name.span, only)),
+            [only] if synonym.is_same => diagnostic.instead(Fix::suggest(name.span, only)),
             _ => diagnostic.help(synonym.say(&[])),
         };
     }
@@ -57,7 +57,7 @@ pub fn path_from_outside(span: Span, owner: &str, noun: &str, is_whole: bool) ->
 pub fn names_in_option(name: &Name) -> Diagnostic {
     Diagnostic::new(Code::E0706, format!("a value from outside the file cannot name `{}`", name.text))
         .at(name.span, "a name of the file")
-        .fix_if(power_of_a_unit(&name.text).map(|power| Fix::meant(name.span, &power)))
+        .fix_if(power_of_a_unit(&name.text).map(|power| Fix::suggest(name.span, &power)))
         .help("write it out in numbers and units")
 }
 
@@ -70,7 +70,7 @@ pub fn names_in_formula(name: &Name) -> Diagnostic {
             .at(name.span, "not known here");
     let synonym = Synonym::of(Place::Unit, &name.text).filter(|_| name.text.len() > 1);
     if let Some(power) = power_of_a_unit(&name.text) {
-        return diagnostic.fix(Fix::meant(name.span, &power));
+        return diagnostic.fix(Fix::suggest(name.span, &power));
     }
     match (nearest, synonym) {
         (_, Some(synonym)) => diagnostic.help(synonym.say(&[])),
@@ -157,7 +157,7 @@ pub(super) fn power_of_a_unit(name: &str) -> Option<String> {
 /// Adds the probable unit to a diagnostic, or lists all units.
 pub(super) fn suggest_unit(diagnostic: Diagnostic, name: &Name) -> Diagnostic {
     if let Some(power) = power_of_a_unit(&name.text) {
-        return diagnostic.fix(Fix::meant(name.span, &power));
+        return diagnostic.fix(Fix::suggest(name.span, &power));
     }
     let units: Vec<&str> = Unit::names().collect();
     match (Synonym::of(Place::Unit, &name.text), Unit::prefixed_value(&name.text), nearest_name(name, &units)) {

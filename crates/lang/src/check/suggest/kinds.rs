@@ -63,7 +63,7 @@ impl Checker<'_> {
         let names: Vec<&str> = fitting.map(|joint| joint.declared.name.as_str()).collect();
         let diagnostic = match names[..] {
             [] => diagnostic,
-            [only] => diagnostic.fix(Fix::meant(name.span, only)),
+            [only] => diagnostic.fix(Fix::suggest(name.span, only)),
             _ => diagnostic.help(format!("joints of `{}` are {}", name.text, list(&names))),
         };
         if quantity == "rotation" {

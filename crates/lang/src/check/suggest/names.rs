@@ -99,7 +99,7 @@ impl Checker<'_> {
         candidates.push("ground");
         let diagnostic = errors::unknown("body", name, &candidates);
         let is_ground = diagnostic.help.is_empty() && is_ground(&name.text);
-        let ground = is_ground.then(|| Fix::meant(name.span, "ground"));
+        let ground = is_ground.then(|| Fix::suggest(name.span, "ground"));
         self.report(diagnostic.fix_if(ground));
     }
 

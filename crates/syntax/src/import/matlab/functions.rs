@@ -119,8 +119,8 @@ fn no_constant(name: &str, span: Span) -> Diagnostic {
 pub(super) fn call(name: &str, name_span: Span, arguments: &[Expr], span: Span) -> Built<Expr> {
     let Some(&(_, count, formula)) = FUNCTIONS.iter().find(|(function, ..)| *function == name) else {
         let near = nearest(name, FUNCTIONS.iter().map(|(function, ..)| *function));
-        let known = matches!(name, "t" | "pi");
-        let help = if known {
+        let is_constant = matches!(name, "t" | "pi");
+        let help = if is_constant {
             Some(format!("a product is written with `*`: `{name}*(…)`"))
         } else {
             near.map(|near| format!("was `{near}` meant?"))

@@ -42,8 +42,8 @@ const INFIX: &[(&str, u8, Infix)] = &[
     ("-", 6, Infix::Sum(Sign::Minus)),
     ("*", 7, Infix::Product(Factor::Times)),
     (".*", 7, Infix::Product(Factor::Times)),
-    ("/", 7, Infix::Product(Factor::Over)),
-    ("./", 7, Infix::Product(Factor::Over)),
+    ("/", 7, Infix::Product(Factor::Divide)),
+    ("./", 7, Infix::Product(Factor::Divide)),
     ("\\", 7, Infix::LeftDivision),
     (".\\", 7, Infix::LeftDivision),
     ("^", POWER, Infix::Power),
@@ -235,7 +235,7 @@ fn join(left: Term, infix: Infix, right: Term) -> Term {
         }
         Infix::Sum(sign) => sum(left.into_number(), sign, right.into_number()),
         Infix::Product(factor) => product(left.into_number(), factor, right.into_number()),
-        Infix::LeftDivision => product(right.into_number(), Factor::Over, left.into_number()),
+        Infix::LeftDivision => product(right.into_number(), Factor::Divide, left.into_number()),
         Infix::Power => ExprKind::Power(Box::new(left.into_number()), Box::new(right.into_number())),
     };
     Term::number(Expr { kind, span })
