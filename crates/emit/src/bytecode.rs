@@ -378,7 +378,7 @@ mod tests {
 
     /// Each opcode, and the positions of its operands, are those of the interpreter.
     #[test]
-    fn written_operations_do_what_they_say() {
+    fn encoded_operations_match_the_interpreter() {
         let (program, params) = program();
         let scalars = program.start(&params);
         let columns = program.tables().iter().flat_map(|table| Column::ALL.map(|column| table.column(column)));
@@ -433,7 +433,7 @@ mod tests {
 
     /// Checks the instructions that load and store values.
     #[test]
-    fn written_instructions_do_what_they_say() {
+    fn encoded_instructions_match_the_interpreter() {
         let input = |_| Loaded::Input { array: 1, index: 2 };
         let mut pool = ConstantPool::default();
         let mut tape = pool.encode(
@@ -464,7 +464,7 @@ mod tests {
     }
 
     #[test]
-    fn every_number_is_that_of_an_operation() {
+    fn opcodes_match_operations() {
         let codes = operations().into_iter().map(|op| op.code().0);
         let joining = [
             codes::NUMBER,

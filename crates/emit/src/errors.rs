@@ -39,7 +39,7 @@ mod tests {
     use crate::runtime::error::Error;
 
     #[test]
-    fn errors_are_told_as_they_tell_themselves() {
+    fn error_texts_match_their_display() {
         for error in [
             Error::NotANumber,
             Error::LockUp,

@@ -252,7 +252,7 @@ mod tests {
     }
 
     #[test]
-    fn where_two_names_meet_the_plainer_one_keeps_it() {
+    fn plainer_names_win_collisions() {
         let names = |sources: [&'static str; 3]| Case::Constant.names(sources);
         assert_eq!(names(["pen.x", "pen_x", "pen.y"]), ["PEN_X_2", "PEN_X", "PEN_Y"]);
         assert_eq!(names(["leg[0].x", "leg[1].x", "leg_0.x"]), ["LEG_0_X_2", "LEG_1_X", "LEG_0_X"]);

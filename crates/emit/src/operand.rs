@@ -80,7 +80,7 @@ mod tests {
     use super::Operand;
 
     #[test]
-    fn signs_are_those_of_numbers() {
+    fn operand_signs_match_numbers() {
         let (number, held) = (Operand::Number(-2.5), Operand::new("q[1]".to_owned(), &["q"]));
         assert_eq!([number.negated(), held.negated()].map(|of| of.to_string()), ["2.5", "-q[1]"]);
         assert_eq!([number.absolute(), held.absolute()], ["(-2.5).abs()", "q[1].abs()"]);

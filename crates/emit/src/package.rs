@@ -555,7 +555,7 @@ mod tests {
     }
 
     #[test]
-    fn libm_is_the_one_that_is_used_here() {
+    fn libm_version_is_pinned() {
         let pinned = format!("\nlibm = \"={LIBM}\"\n");
         assert!(include_str!("../../../Cargo.toml").contains(&pinned), "{pinned}");
     }

@@ -130,7 +130,7 @@ mod tests {
     use super::{Head, Page};
 
     #[test]
-    fn what_is_long_is_broken_and_nothing_blank_ends_a_block() {
+    fn long_lines_break_and_blocks_end_without_blanks() {
         let arguments = [("first", "&mut [f64; 12345678901234]"), ("second", "&mut [f64; 123456789]")];
         let mut page = Page::default();
         page.item("impl Long", |page| {

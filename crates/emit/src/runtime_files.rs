@@ -266,7 +266,7 @@ mod tests {
     }
 
     #[test]
-    fn files_name_what_goes_along_with_them() {
+    fn files_declare_their_dependencies() {
         for (number, file) in FILES.iter().enumerate() {
             if file.source.starts_with("// ") {
                 continue; // of another crate

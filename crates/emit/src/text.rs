@@ -76,7 +76,7 @@ mod tests {
     use super::signature;
 
     #[test]
-    fn what_is_not_used_is_marked_and_what_is_long_is_broken() {
+    fn unused_arguments_are_marked_and_long_heads_break() {
         assert_eq!(
             signature("pub ", "f", &[("q", "f64"), ("t", "f64")], "f64", &|name| name == "t", 0),
             "pub fn f(_q: f64, t: f64) -> f64 {\n"

@@ -287,7 +287,7 @@ mod tests {
     }
 
     #[test]
-    fn what_does_not_follow_the_grammar_is_not_read_in_pieces() {
+    fn invalid_texts_are_not_parsed_in_parallel() {
         for middle in
             ["    joint j: revolute(ground.O\n", "    }\n", "    {\n", "    \"param\n", "    // } param\n    param\n"]
         {

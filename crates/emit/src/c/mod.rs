@@ -126,7 +126,7 @@ mod tests {
     use super::{FIRST_OF_C, codes};
 
     #[test]
-    fn codes_have_names_and_numbers_of_their_own() {
+    fn codes_have_unique_names_and_numbers() {
         let codes = codes();
         let names: Vec<&str> = codes.iter().map(|(_, code)| code.name.as_str()).collect();
         assert_eq!(names[..4], ["ON_THE_WAY", "OK", "NOT_A_NUMBER", "LOCK_UP"]);

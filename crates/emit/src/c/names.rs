@@ -118,7 +118,7 @@ mod tests {
     use super::{comment, field};
 
     #[test]
-    fn names_are_those_of_the_crate_where_c_lets_them() {
+    fn c_names_match_the_crate() {
         assert_eq!(["reach", "int", "class", "fn_"].map(field), ["reach", "int_", "class_", "fn_"]);
     }
 

@@ -273,7 +273,7 @@ mod tests {
     use super::{Style, numeral, symbol, words};
 
     #[test]
-    fn names_hold_what_pdflatex_can_set() {
+    fn names_are_valid_for_pdflatex() {
         let cases = [
             ("crank_length", r"\mathit{crank\_length}"),
             ("a", "a"),
@@ -309,7 +309,7 @@ mod tests {
     }
 
     #[test]
-    fn numbers_are_what_they_mean() {
+    fn numerals_match_their_values() {
         let cases = [
             (0.05, "0.05"),
             (3.0, "3"),

@@ -218,7 +218,7 @@ mod tests {
     }
 
     #[test]
-    fn what_fits_stays_on_one_line() {
+    fn fitting_groups_stay_on_one_line() {
         let half = WIDTH / 2;
         assert_eq!(shown(&[Node::Text(half - 1), Node::Gap(1), Node::Text(half)]), [WIDTH]);
         assert_eq!(shown(&[Node::Text(half), Node::Gap(1), Node::Text(half)]), [half, INDENT + half]);

@@ -113,7 +113,7 @@ mod tests {
     use super::{Shape, lexemes};
 
     #[test]
-    fn a_text_comes_apart_as_the_grammar_reads_it() {
+    fn lexemes_match_the_grammar() {
         let texts = |text| lexemes(text).iter().map(|lexeme| lexeme.text).collect::<Vec<_>>().join("|");
         assert_eq!(texts("p[k in 0..n]=.5e-3 mm^-2 // c \n"), "p|[|k|in|0|..|n|]|=|.5e-3|mm|^|-|2|// c");
         assert_eq!(texts("0..=3 2e 1.5E+3x \"a//b\" \"c"), "0|..=|3|2|e|1.5E+3|x|\"a//b\"|\"|c");

@@ -550,7 +550,7 @@ mod tests {
     use super::{Place, Synonym};
 
     #[test]
-    fn arguments_are_told_as_they_were_written() {
+    fn synonym_arguments_keep_their_spelling() {
         let say = |word: &str, arguments: &[&str]| Synonym::of(Place::Call, word).unwrap().say(arguments);
         assert!(say("sind", &["30"]).ends_with("`sin(30 deg)`"));
         assert!(say("sind", &["2 * t"]).ends_with("`sin((2 * t) * 1 deg)`"));
