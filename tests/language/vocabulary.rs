@@ -4,7 +4,7 @@
 
 use crate::support::{Span, compile, compiled, run};
 use mechc_ir::DeclarationKind;
-use mechc_text::vocabulary::{self, Category, KEYWORDS, Keyword, OVERVIEWS, Place, Role, SYNONYMS, Synonym, Unit};
+use mechc_text::vocabulary::{self, Category, KEYWORDS, Keyword, OVERVIEWS, Position, Role, SYNONYMS, Synonym, Unit};
 use proptest::prelude::*;
 use std::collections::BTreeSet;
 use std::fs;
@@ -312,7 +312,7 @@ const VALUES: &[(&str, &[&str], f64)] = &[
 #[test]
 fn synonym_suggestions_have_the_right_value() {
     for &(word, arguments, value) in VALUES {
-        let messages = Synonym::of(Place::Call, word).unwrap_or_else(|| panic!("{word}")).say(arguments);
+        let messages = Synonym::of(Position::Call, word).unwrap_or_else(|| panic!("{word}")).say(arguments);
         let formula = *code_in(&messages).last().expect("a formula");
         let outcome = run(word, &with(&format!("measure v = {formula}")), Span::default()).expect_success();
         let found = outcome.column("v")[0];
@@ -340,12 +340,12 @@ fn only_existing_names_are_suggested() {
             assert_eq!(*name, name.to_lowercase(), "they are compared in small letters");
             let is_one = vocabulary::words().any(|word| {
                 word.name == *name
-                    && match synonym.place {
-                        Place::Joint => word.category == Category::Joint,
-                        Place::Call => vocabulary::is_called(name),
-                        Place::Unit => word.category == Category::Unit,
-                        Place::Declaration => Keyword::named(name).is_some_and(Keyword::begins_declaration),
-                        Place::Number => word.category == Category::Constant,
+                    && match synonym.position {
+                        Position::Joint => word.category == Category::Joint,
+                        Position::Call => vocabulary::is_called(name),
+                        Position::Unit => word.category == Category::Unit,
+                        Position::Declaration => Keyword::named(name).is_some_and(Keyword::begins_declaration),
+                        Position::Number => word.category == Category::Constant,
                     }
             });
             // `min` is a function, and no unit
@@ -365,7 +365,7 @@ fn only_existing_names_are_suggested() {
             let is_reduction = vocabulary::REDUCTIONS.iter().any(|reduction| reduction.word.name == name);
             assert!(is_joint || is_quantity || is_reduction || vocabulary::is_called(&name), "{messages}: `{name}`");
         }
-        if synonym.place == Place::Call && !messages.ends_with('?') {
+        if synonym.position == Position::Call && !messages.ends_with('?') {
             for k in 0..code_in(&messages).len() {
                 let works = of_kinds.iter().any(|arguments| {
                     let messages = synonym.say(arguments);
@@ -389,7 +389,7 @@ fn synonyms_are_unique() {
     let mut seen = BTreeSet::new();
     for synonym in SYNONYMS {
         for name in synonym.names {
-            assert!(seen.insert((format!("{:?}", synonym.place), name)), "`{name}` stands twice");
+            assert!(seen.insert((format!("{:?}", synonym.position), name)), "`{name}` stands twice");
         }
     }
 }

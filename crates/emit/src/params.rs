@@ -28,11 +28,11 @@ pub(super) struct Field {
     pub name: String,
     /// Name in the source of the part.
     pub source: String,
-    pub of: Of,
+    pub kind: FieldType,
 }
 
 /// Content of a field.
-pub(super) enum Of {
+pub(super) enum FieldType {
     /// Index of a parameter, for copies in the first one.
     Number(usize),
     /// A part, by the index of its type.
@@ -90,10 +90,10 @@ impl Params {
         while let Some((of, group, path)) = open.pop() {
             for (field, slot) in self.types[of].fields.iter().zip(group.slots()) {
                 let path = format!("{path}{}", field.name);
-                match (&field.of, slot) {
+                match (&field.kind, slot) {
                     (_, Slot::Number { param, .. }) => self.paths[param] = path,
-                    (Of::Part(of), Slot::Part { group, .. }) => open.push((*of, group, path + ".")),
-                    (Of::Copies(of, lengths), Slot::Copies { groups, .. }) => {
+                    (FieldType::Part(of), Slot::Part { group, .. }) => open.push((*of, group, path + ".")),
+                    (FieldType::Copies(of, lengths), Slot::Copies { groups, .. }) => {
                         let groups = groups.into_iter().enumerate();
                         open.extend(groups.map(|(k, group)| (*of, group, format!("{path}{}.", place(k, lengths)))));
                     }
@@ -118,11 +118,11 @@ impl Params {
         let within = format!("{indent}    ");
         let mut text = format!("{name} {{\n");
         for (field, slot) in self.types[number].fields.iter().zip(group.slots()) {
-            let value = match (&field.of, slot) {
-                (Of::Part(part), Slot::Part { group, .. }) => {
+            let value = match (&field.kind, slot) {
+                (FieldType::Part(part), Slot::Part { group, .. }) => {
                     self.value_of((*part, &self.types[*part].name), group, &within, of)
                 }
-                (Of::Copies(part, lengths), Slot::Copies { groups, .. }) => {
+                (FieldType::Copies(part, lengths), Slot::Copies { groups, .. }) => {
                     let depth = within.clone() + &"    ".repeat(lengths.len());
                     let copy = |group: &&Group| self.value_of((*part, &self.types[*part].name), group, &depth, of);
                     array(&groups.iter().map(copy).collect::<Vec<String>>(), lengths, &within)
@@ -150,26 +150,29 @@ impl Types {
         let number = self.all.len();
         self.all.push(Type { name: String::new(), source: source.to_owned(), fields: Vec::new() });
         self.called.push(called.to_owned());
-        let mut fields: Vec<(String, Of)> = Vec::new();
+        let mut fields: Vec<(String, FieldType)> = Vec::new();
         let mut before: Option<(&str, usize)> = None;
         for slot in group.slots() {
             fields.push(match slot {
-                Slot::Number { source, param } => (source.to_owned(), Of::Number(param)),
+                Slot::Number { source, param } => (source.to_owned(), FieldType::Number(param)),
                 Slot::Part { part, source: field, group, are_alike } => {
                     let alike = before.filter(|(previous, _)| are_alike && *previous == part).map(|(_, of)| of);
                     let name = if are_alike { part } else { &field };
                     let of = alike.unwrap_or_else(|| self.add_part([called, source], [name, &field], group));
                     before = Some((part, of));
-                    (field, Of::Part(of))
+                    (field, FieldType::Part(of))
                 }
                 Slot::Copies { source: field, lengths, groups } => {
                     let first = copy_of(field, &vec![0; lengths.len()]);
-                    (field.to_owned(), Of::Copies(self.add_part([called, source], [field, &first], groups[0]), lengths))
+                    (
+                        field.to_owned(),
+                        FieldType::Copies(self.add_part([called, source], [field, &first], groups[0]), lengths),
+                    )
                 }
             });
         }
         let names = Case::Snake.names(fields.iter().map(|(source, _)| source.as_str()));
-        let named = fields.into_iter().zip(names).map(|((source, of), name)| Field { name, source, of });
+        let named = fields.into_iter().zip(names).map(|((source, kind), name)| Field { name, source, kind });
         self.all[number].fields = named.collect();
         number
     }

@@ -13,7 +13,7 @@ use super::tokens::{Token, begins_declaration, next_token, tokens};
 use mechc_text::diag::{Applicability, Edit, Fix, nearest};
 use mechc_text::source::{FileId, Span};
 use mechc_text::vocabulary::{
-    KEYWORDS, Keyword, Place, Role, Synonym, Unit, is_declaration, is_feature, is_one_argument_function,
+    KEYWORDS, Keyword, Position, Role, Synonym, Unit, is_declaration, is_feature, is_one_argument_function,
 };
 use std::ops::Range;
 
@@ -147,7 +147,7 @@ impl Fault<'_> {
         if let Some((place, word)) = suggestion {
             return Some(FixIt::Fix(Fix::suggest(self.span(place), word)));
         }
-        let other = Synonym::of(Place::Declaration, self.found).filter(|synonym| self.begins(synonym.means));
+        let other = Synonym::of(Position::Declaration, self.found).filter(|synonym| self.begins(synonym.means));
         if let Some(synonym) = other {
             if let ([only], true) = (synonym.means, synonym.is_same) {
                 return Some(FixIt::Fix(Fix::suggest(self.span(self.here()), only)));
@@ -166,7 +166,7 @@ impl Fault<'_> {
         if is_one_argument_function(self.word_before()) {
             return Some(self.argument());
         }
-        if let Some(synonym) = Synonym::of(Place::Call, self.word_before()) {
+        if let Some(synonym) = Synonym::of(Position::Call, self.word_before()) {
             return Some(FixIt::Words(synonym.say(&[self.found])));
         }
         // within parentheses it may as well be a comma

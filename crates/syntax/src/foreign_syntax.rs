@@ -13,7 +13,7 @@ use super::tokens::{Token, begins_declaration, tokens};
 use heads::is_dash;
 use mechc_text::diag::{Applicability, Edit, Fix};
 use mechc_text::source::{FileId, Span};
-use mechc_text::vocabulary::{Dimension, Keyword, Place, QuantityWord, Role, Synonym, Unit};
+use mechc_text::vocabulary::{Dimension, Keyword, Position, QuantityWord, Role, Synonym, Unit};
 use std::ops::Range;
 
 /// A declaration with a fault, by its words before and after the fault.
@@ -208,7 +208,7 @@ impl<'a> Foreign<'a> {
         }
         let named = |k: usize| {
             let word = self.rest.get(k)?.text;
-            let synonym = || Synonym::of(Place::Unit, word).and_then(|synonym| synonym.means.first().copied());
+            let synonym = || Synonym::of(Position::Unit, word).and_then(|synonym| synonym.means.first().copied());
             Unit::named(word).map(|unit| unit.word.name).or_else(synonym)
         };
         let is_joined = ["in", "as"].contains(&self.found) && named(1).is_some();

@@ -8,7 +8,7 @@ use crate::text::unit;
 
 /// Kind of an argument.
 #[derive(Clone, Copy, PartialEq, Eq)]
-pub(super) enum Of {
+pub(super) enum Argument {
     State,
     StateToWrite,
     Params,
@@ -24,7 +24,7 @@ pub(super) enum Of {
 
 /// Kind of a result.
 #[derive(Clone, Copy, PartialEq, Eq)]
-pub(super) enum Gives {
+pub(super) enum ResultType {
     Code,
     Message,
     Params,
@@ -35,54 +35,54 @@ pub(super) enum Gives {
 pub(super) struct Function {
     pub name: &'static str,
     pub docs: &'static str,
-    pub arguments: Vec<(&'static str, Of)>,
-    pub gives: Gives,
+    pub arguments: Vec<(&'static str, Argument)>,
+    pub result: ResultType,
     /// Body as a Rust expression, of type `Result<(), Status>` if the function returns a code.
-    pub does: &'static str,
+    pub body: &'static str,
 }
 
-impl Of {
+impl Argument {
     fn in_rust(self) -> &'static str {
         match self {
-            Of::State => "*const Memory",
-            Of::StateToWrite => "*mut Memory",
-            Of::Params => "*const Params",
-            Of::Inputs => "*const Inputs",
-            Of::InputsToWrite => "*mut Inputs",
-            Of::Number => "f64",
-            Of::Numbers => "*const f64",
-            Of::NumbersToWrite => "*mut f64",
-            Of::WholeToWrite => "*mut i32",
-            Of::Count => "usize",
-            Of::Code => "i32",
+            Argument::State => "*const Memory",
+            Argument::StateToWrite => "*mut Memory",
+            Argument::Params => "*const Params",
+            Argument::Inputs => "*const Inputs",
+            Argument::InputsToWrite => "*mut Inputs",
+            Argument::Number => "f64",
+            Argument::Numbers => "*const f64",
+            Argument::NumbersToWrite => "*mut f64",
+            Argument::WholeToWrite => "*mut i32",
+            Argument::Count => "usize",
+            Argument::Code => "i32",
         }
     }
 
     /// Returns the declaration of an argument in C.
     pub fn in_c(self, name: &str, prefix: &str) -> String {
         match self {
-            Of::State => format!("const {prefix}_state *{name}"),
-            Of::StateToWrite => format!("{prefix}_state *{name}"),
-            Of::Params => format!("const {prefix}_params *{name}"),
-            Of::Inputs => format!("const {prefix}_inputs *{name}"),
-            Of::InputsToWrite => format!("{prefix}_inputs *{name}"),
-            Of::Number => format!("double {name}"),
-            Of::Numbers => format!("const double *{name}"),
-            Of::NumbersToWrite => format!("double *{name}"),
-            Of::WholeToWrite => format!("int32_t *{name}"),
-            Of::Count => format!("size_t {name}"),
-            Of::Code => format!("int32_t {name}"),
+            Argument::State => format!("const {prefix}_state *{name}"),
+            Argument::StateToWrite => format!("{prefix}_state *{name}"),
+            Argument::Params => format!("const {prefix}_params *{name}"),
+            Argument::Inputs => format!("const {prefix}_inputs *{name}"),
+            Argument::InputsToWrite => format!("{prefix}_inputs *{name}"),
+            Argument::Number => format!("double {name}"),
+            Argument::Numbers => format!("const double *{name}"),
+            Argument::NumbersToWrite => format!("double *{name}"),
+            Argument::WholeToWrite => format!("int32_t *{name}"),
+            Argument::Count => format!("size_t {name}"),
+            Argument::Code => format!("int32_t {name}"),
         }
     }
 }
 
-impl Gives {
+impl ResultType {
     fn in_rust(self) -> &'static str {
         match self {
-            Gives::Code => "i32",
-            Gives::Message => "*const c_char",
-            Gives::Params => "Params",
-            Gives::Count => "usize",
+            ResultType::Code => "i32",
+            ResultType::Message => "*const c_char",
+            ResultType::Params => "Params",
+            ResultType::Count => "usize",
         }
     }
 }
@@ -128,31 +128,40 @@ const FORCES: &str =
     "What joints exert on their second bodies and what drivers supply at a state, in SI, by the numbers of FORCE; NAN
 close to a singular position. The length of the list is FORCES.";
 
-fn function(name: &'static str, docs: &'static str, arguments: &[(&'static str, Of)], does: &'static str) -> Function {
-    Function { name, docs, arguments: arguments.to_vec(), gives: Gives::Code, does }
+fn function(
+    name: &'static str,
+    docs: &'static str,
+    arguments: &[(&'static str, Argument)],
+    body: &'static str,
+) -> Function {
+    Function { name, docs, arguments: arguments.to_vec(), result: ResultType::Code, body }
 }
 
 impl Interface<'_> {
     /// Returns all functions.
     pub(super) fn all(&self) -> Vec<Function> {
-        let (state, to_write) = (("state", Of::State), ("state", Of::StateToWrite));
-        let (params, inputs) = (("params", Of::Params), ("inputs", Of::Inputs));
-        let (t, most, list, length) =
-            (("t", Of::Number), ("most", Of::Count), ("list", Of::NumbersToWrite), ("length", Of::Count));
+        let (state, to_write) = (("state", Argument::State), ("state", Argument::StateToWrite));
+        let (params, inputs) = (("params", Argument::Params), ("inputs", Argument::Inputs));
+        let (t, most, list, length) = (
+            ("t", Argument::Number),
+            ("most", Argument::Count),
+            ("list", Argument::NumbersToWrite),
+            ("length", Argument::Count),
+        );
         let mut all = vec![Function {
-            gives: Gives::Message,
-            ..function("message", MESSAGE, &[("code", Of::Code)], "message(code).as_ptr()")
+            result: ResultType::Message,
+            ..function("message", MESSAGE, &[("code", Argument::Code)], "message(code).as_ptr()")
         }];
         if self.has_params() {
             let default = function("params_default", PARAMS_DEFAULT, &[], "Params::default()");
-            all.push(Function { gives: Gives::Params, ..default });
-            let does = "let params = given(params)?; given_to_write(state)?.hold(|| Ok(assemble(params)?))";
-            all.push(function("assemble", ASSEMBLE, &[to_write, params], does));
+            all.push(Function { result: ResultType::Params, ..default });
+            let body = "let params = given(params)?; given_to_write(state)?.hold(|| Ok(assemble(params)?))";
+            all.push(function("assemble", ASSEMBLE, &[to_write, params], body));
         } else {
-            let does = "given_to_write(state)?.hold(|| Ok(assemble(&Params)?))";
-            all.push(function("assemble", ASSEMBLE, &[to_write], does));
+            let body = "given_to_write(state)?.hold(|| Ok(assemble(&Params)?))";
+            all.push(function("assemble", ASSEMBLE, &[to_write], body));
         }
-        let assembly = [state, ("assembly", Of::WholeToWrite)];
+        let assembly = [state, ("assembly", Argument::WholeToWrite)];
         all.push(function(
             "assembly",
             ASSEMBLY,
@@ -160,38 +169,43 @@ impl Interface<'_> {
             "write_whole(assembly, state_of(state)?.assembly() as i32)",
         ));
         let most_work = function("most_work", MOST_WORK, &[most], "most_work(most)");
-        all.push(Function { gives: Gives::Count, ..most_work });
-        let does = "Ok(step(t, state_to_write(state)?)?)";
-        all.push(function("step", STEP, &[to_write, t], does));
-        let does = "reached(step_within(t, state_to_write(state)?, most)?)";
-        all.push(function("step_within", STEP_WITHIN, &[to_write, t, most], does));
-        let does = "write(list, length, &state_of(state)?.row())";
-        all.push(function("row", ROW, &[state, list, length], does));
-        let does = "write(value, 1, &[*state_of(state)?.row().get(column).ok_or(NO_SUCH_COLUMN)?])";
-        all.push(function("value", VALUE, &[state, ("column", Of::Count), ("value", Of::NumbersToWrite)], does));
+        all.push(Function { result: ResultType::Count, ..most_work });
+        let body = "Ok(step(t, state_to_write(state)?)?)";
+        all.push(function("step", STEP, &[to_write, t], body));
+        let body = "reached(step_within(t, state_to_write(state)?, most)?)";
+        all.push(function("step_within", STEP_WITHIN, &[to_write, t, most], body));
+        let body = "write(list, length, &state_of(state)?.row())";
+        all.push(function("row", ROW, &[state, list, length], body));
+        let body = "write(value, 1, &[*state_of(state)?.row().get(column).ok_or(NO_SUCH_COLUMN)?])";
+        all.push(function(
+            "value",
+            VALUE,
+            &[state, ("column", Argument::Count), ("value", Argument::NumbersToWrite)],
+            body,
+        ));
         if self.has_inputs() {
-            let to_inputs = ("inputs", Of::InputsToWrite);
-            let (given, does) = if self.has_params() {
+            let to_inputs = ("inputs", Argument::InputsToWrite);
+            let (given, body) = if self.has_params() {
                 (vec![t, params, to_inputs], "say(inputs, || Ok(Inputs::at(number(t)?, given(params)?)))")
             } else {
                 (vec![t, to_inputs], "say(inputs, || Ok(Inputs::at(number(t)?, &Params)))")
             };
-            all.push(function("inputs_at", INPUTS_AT, &given, does));
-            let does = "say(inputs, || Ok(state_of(state)?.inputs()))";
-            all.push(function("inputs_of", INPUTS, &[state, to_inputs], does));
-            let does = "Ok(follow(given(inputs)?, state_to_write(state)?)?)";
-            all.push(function("follow", FOLLOW, &[to_write, inputs], does));
-            let does = "reached(follow_within(given(inputs)?, state_to_write(state)?, most)?)";
-            all.push(function("follow_within", FOLLOW_WITHIN, &[to_write, inputs, most], does));
-            let does = "read(list, length, |all| state_to_write(state).map(|state| state.set_largest_change(all)))";
-            let arguments = [to_write, ("list", Of::Numbers), ("length", Of::Count)];
-            all.push(function("set_largest_change", SET_LARGEST_CHANGE, &arguments, does));
-            let does = "write(list, length, influence(state_of(state)?)?.as_flattened())";
-            all.push(function("influence", INFLUENCE, &[state, list, length], does));
+            all.push(function("inputs_at", INPUTS_AT, &given, body));
+            let body = "say(inputs, || Ok(state_of(state)?.inputs()))";
+            all.push(function("inputs_of", INPUTS, &[state, to_inputs], body));
+            let body = "Ok(follow(given(inputs)?, state_to_write(state)?)?)";
+            all.push(function("follow", FOLLOW, &[to_write, inputs], body));
+            let body = "reached(follow_within(given(inputs)?, state_to_write(state)?, most)?)";
+            all.push(function("follow_within", FOLLOW_WITHIN, &[to_write, inputs, most], body));
+            let body = "read(list, length, |all| state_to_write(state).map(|state| state.set_largest_change(all)))";
+            let arguments = [to_write, ("list", Argument::Numbers), ("length", Argument::Count)];
+            all.push(function("set_largest_change", SET_LARGEST_CHANGE, &arguments, body));
+            let body = "write(list, length, influence(state_of(state)?)?.as_flattened())";
+            all.push(function("influence", INFLUENCE, &[state, list, length], body));
         }
         if self.has_sensitivity() {
-            let does = "write(list, length, sensitivity(given(params)?, state_of(state)?)?.as_flattened())";
-            all.push(function("sensitivity", SENSITIVITY, &[state, params, list, length], does));
+            let body = "write(list, length, sensitivity(given(params)?, state_of(state)?)?.as_flattened())";
+            all.push(function("sensitivity", SENSITIVITY, &[state, params, list, length], body));
         }
         if self.unit.has_forces() {
             all.push(function(
@@ -266,13 +280,13 @@ impl Interface<'_> {
         page.line("#[unsafe(no_mangle)]");
         let kind = if is_safe { "pub extern \"C\" fn" } else { "pub unsafe extern \"C\" fn" };
         let name = format!("{}_{}", self.prefix, function.name);
-        let head = Head { kind, name: &name, arguments: &arguments, result: function.gives.in_rust() };
-        page.function(&head, |page| match function.gives {
-            Gives::Code => {
+        let head = Head { kind, name: &name, arguments: &arguments, result: function.result.in_rust() };
+        page.function(&head, |page| match function.result {
+            ResultType::Code => {
                 page.line("// SAFETY: pointers are what the header asks for; null ones are refused");
-                page.line(&format!("answer(|| unsafe {{ {} }})", function.does));
+                page.line(&format!("answer(|| unsafe {{ {} }})", function.body));
             }
-            _ => page.line(function.does),
+            _ => page.line(function.body),
         });
     }
 

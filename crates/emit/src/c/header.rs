@@ -1,10 +1,10 @@
 //! The C and C++ header: constants, structures and functions.
 
-use super::functions::{Function, Gives};
+use super::functions::{Function, ResultType};
 use super::names::{comment, field};
-use super::{Interface, apart, codes};
+use super::{Interface, codes, constant_case};
 use crate::names::Case;
-use crate::params::{Of, Params};
+use crate::params::{FieldType, Params};
 use crate::print::Page;
 use crate::text::{literal, unit};
 use mechc_ir::tolerances::steps::march::FEWEST_STEPS;
@@ -169,7 +169,7 @@ impl Interface<'_> {
     /// Prints the structures of the parameters, nested ones first.
     fn params(&self, page: &mut Page) {
         let params = Params::new(self.unit.system);
-        let called = |name: &str| apart(name).to_lowercase();
+        let called = |name: &str| constant_case(name).to_lowercase();
         for of in params.types.iter().rev() {
             page.line(&comment(&if of.source.is_empty() {
                 "The parameters, in SI.".to_owned()
@@ -180,13 +180,13 @@ impl Interface<'_> {
                 for member in &of.fields {
                     let name = field(&member.name);
                     let inner = |part: usize| format!("{}_{}", self.prefix, called(&params.types[part].name));
-                    let (declared, says) = match &member.of {
-                        Of::Number(param) => {
+                    let (declared, says) = match &member.kind {
+                        FieldType::Number(param) => {
                             let of = self.unit.system.params()[*param].unit();
                             (format!("double {name}"), format!("{} ({})", member.source, unit(&of)))
                         }
-                        Of::Part(part) => (format!("{} {name}", inner(*part)), member.source.clone()),
-                        Of::Copies(part, lengths) => {
+                        FieldType::Part(part) => (format!("{} {name}", inner(*part)), member.source.clone()),
+                        FieldType::Copies(part, lengths) => {
                             let lengths: Vec<String> = lengths.iter().map(|length| format!("[{length}]")).collect();
                             (format!("{} {name}{}", inner(*part), lengths.concat()), member.source.clone())
                         }
@@ -202,13 +202,13 @@ impl Interface<'_> {
         page.line(&format!("/* {} */", function.docs));
         let arguments: Vec<String> = function.arguments.iter().map(|(name, of)| of.in_c(name, prefix)).collect();
         let arguments = if arguments.is_empty() { "void".to_owned() } else { arguments.join(", ") };
-        let gives = match function.gives {
-            Gives::Code => "int32_t ".to_owned(),
-            Gives::Message => "const char *".to_owned(),
-            Gives::Params => format!("{prefix}_params "),
-            Gives::Count => "size_t ".to_owned(),
+        let result = match function.result {
+            ResultType::Code => "int32_t ".to_owned(),
+            ResultType::Message => "const char *".to_owned(),
+            ResultType::Params => format!("{prefix}_params "),
+            ResultType::Count => "size_t ".to_owned(),
         };
-        page.line(&format!("{gives}{prefix}_{}({arguments});", function.name));
+        page.line(&format!("{result}{prefix}_{}({arguments});", function.name));
         page.blank();
     }
 }

@@ -47,10 +47,10 @@ struct Code {
 }
 
 /// First code of the errors that only C can cause; they come after those of `Error`.
-const FIRST_OF_C: i32 = 101;
+const FIRST_C_CODE: i32 = 101;
 /// Message of the status that is no error; its code is below 0.
-const ON_THE_WAY: &str = "the state is on its way, and the same call goes on";
-const OF_C: [(&str, &str); 4] = [
+const IN_PROGRESS: &str = "the state is on its way, and the same call goes on";
+const C_ERRORS: [(&str, &str); 4] = [
     ("BAD_POINTER", "a pointer is null or not aligned"),
     ("NOT_ASSEMBLED", "the state is not one that was assembled for this mechanism"),
     ("WRONG_LENGTH", "the list has another length"),
@@ -60,17 +60,20 @@ const OF_C: [(&str, &str); 4] = [
 /// Returns all codes with their numbers, including 0 and the status that is no error.
 fn codes() -> Vec<(i32, Code)> {
     let fine = Code { name: "OK".to_owned(), message: "all went well", error: None };
-    let errors =
-        ERRORS.iter().map(|error| Code { name: apart(error.name), message: error.message, error: Some(error.name) });
-    let of_c = OF_C.iter().map(|(name, message)| Code { name: (*name).to_owned(), message, error: None });
-    let numbers = (0..).take(ERRORS.len() + 1).chain(FIRST_OF_C..);
-    let on_the_way = Code { name: "ON_THE_WAY".to_owned(), message: ON_THE_WAY, error: None };
-    let all = numbers.zip(std::iter::once(fine).chain(errors).chain(of_c));
-    std::iter::once((-1, on_the_way)).chain(all).collect()
+    let errors = ERRORS.iter().map(|error| Code {
+        name: constant_case(error.name),
+        message: error.message,
+        error: Some(error.name),
+    });
+    let c_errors = C_ERRORS.iter().map(|(name, message)| Code { name: (*name).to_owned(), message, error: None });
+    let numbers = (0..).take(ERRORS.len() + 1).chain(FIRST_C_CODE..);
+    let in_progress = Code { name: "ON_THE_WAY".to_owned(), message: IN_PROGRESS, error: None };
+    let all = numbers.zip(std::iter::once(fine).chain(errors).chain(c_errors));
+    std::iter::once((-1, in_progress)).chain(all).collect()
 }
 
 /// Converts `NotANumber` to `NOT_A_NUMBER`.
-fn apart(name: &str) -> String {
+fn constant_case(name: &str) -> String {
     let mut text = String::new();
     for c in name.chars() {
         if c.is_ascii_uppercase() && !text.is_empty() {
@@ -123,7 +126,7 @@ impl Interface<'_> {
 
 #[cfg(test)]
 mod tests {
-    use super::{FIRST_OF_C, codes};
+    use super::{FIRST_C_CODE, codes};
 
     #[test]
     fn codes_have_unique_names_and_numbers() {
@@ -131,6 +134,6 @@ mod tests {
         let names: Vec<&str> = codes.iter().map(|(_, code)| code.name.as_str()).collect();
         assert_eq!(names[..4], ["ON_THE_WAY", "OK", "NOT_A_NUMBER", "LOCK_UP"]);
         assert!((-1..8).zip(&codes).all(|(k, (number, _))| k == *number));
-        assert_eq!(codes[9].0, FIRST_OF_C);
+        assert_eq!(codes[9].0, FIRST_C_CODE);
     }
 }

@@ -63,7 +63,7 @@ pub(super) fn module(following: &Following<'_>, page: &mut Page) -> (RuntimeDeps
     let mut deps = by_formulas(following, &names, &tables, &mut body);
     let solution = Solution::new(unit, motion, &equations);
     writer.input_driven(&solution, &mut body);
-    let words = writer.words_of_lead(&solution);
+    let words = writer.words_of_input_path(&solution);
     deps.add(&equations.deps.take());
     let inputs = Inputs { all: unit.system.inputs(), names: &names, for_c: unit.for_c };
     inputs.print(page);

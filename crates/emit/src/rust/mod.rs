@@ -57,7 +57,7 @@ pub(super) fn module(unit: &TranslationUnit<'_>) -> Module {
     writer.indices(&mut body);
     writer.tables(&mut body);
     writer.functions(&mut body);
-    let (mut words, mut lead) = (0, None);
+    let (mut words, mut work_to_follow) = (0, None);
     if let Some(motion) = &unit.motion {
         let solution = Solution::new(unit, motion, &equations);
         writer.entry_points(&mut body);
@@ -67,12 +67,12 @@ pub(super) fn module(unit: &TranslationUnit<'_>) -> Module {
     }
     equations.print_pool(&mut body);
     if let Some(following) = &unit.following {
-        let (deps, words_of_lead, work) = following::module(following, &mut body);
-        words += words_of_lead;
-        lead = work;
+        let (deps, words_of_input_path, work) = following::module(following, &mut body);
+        words += words_of_input_path;
+        work_to_follow = work;
         equations.deps.borrow_mut().include(&deps);
     }
-    let bounds = if unit.motion.is_some() { writer.bounds(lead) } else { Bounds::new() };
+    let bounds = if unit.motion.is_some() { writer.bounds(work_to_follow) } else { Bounds::new() };
     let deps = equations.deps.take();
     let mut page = Page::default();
     writer.header(deps.needs_libm(), &mut page);

@@ -1,7 +1,7 @@
 //! Structures of the parameters that users can set.
 
 use super::Writer;
-use crate::params::{Of, Params};
+use crate::params::{FieldType, Params};
 use crate::print::{Head, Page};
 use crate::text::{literal, one_line};
 
@@ -89,13 +89,13 @@ impl Writer<'_> {
             page.item(&format!("pub struct {}", of.name), |page| {
                 for field in &of.fields {
                     let (source, name) = (one_line(&field.source), &field.name);
-                    let (docs, of) = match &field.of {
-                        Of::Number(param) => {
+                    let (docs, of) = match &field.kind {
+                        FieldType::Number(param) => {
                             let param = &self.unit.system.params()[*param];
                             (format!("`{source}` ({}){}", param.unit(), self.line(param.span)), "f64".to_owned())
                         }
-                        Of::Part(part) => (format!("Those of `{source}`."), params.types[*part].name.clone()),
-                        Of::Copies(part, lengths) => {
+                        FieldType::Part(part) => (format!("Those of `{source}`."), params.types[*part].name.clone()),
+                        FieldType::Copies(part, lengths) => {
                             let inner = params.types[*part].name.clone();
                             let array = lengths.iter().rev().fold(inner, |of, length| format!("[{of}; {length}]"));
                             (format!("Those of `{source}`, by its numbers."), array)

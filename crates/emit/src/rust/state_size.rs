@@ -25,11 +25,11 @@ impl Writer<'_> {
     }
 
     /// Returns the words of the input path: the mechanism along signals, two solutions, the step size, the largest changes, the target.
-    pub fn words_of_lead(&self, solution: &Solution<'_>) -> usize {
+    pub fn words_of_input_path(&self, solution: &Solution<'_>) -> usize {
         let signals = self.unit.system.inputs().len();
-        let of_way = self.unit.system.params().len() + 4 * signals;
+        let of_path = self.unit.system.params().len() + 4 * signals;
         let of_track = 2 * self.words_of_solution(solution) + 1 + words_of(2);
-        of_way + solution.derived.len() + of_track + signals + (signals + 1) + words_of(1)
+        of_path + solution.derived.len() + of_track + signals + (signals + 1) + words_of(1)
     }
 
     fn words_of_solution(&self, solution: &Solution<'_>) -> usize {
@@ -72,22 +72,22 @@ impl Writer<'_> {
     }
 
     /// Returns the bounds of a mechanism, with those of its input path.
-    pub fn bounds(&self, lead: Option<Work>) -> Bounds {
+    pub fn bounds(&self, path: Option<Work>) -> Bounds {
         let work = self.work();
         let most_work = self.boundaries().count() * (MOST_HALVINGS + 3) + 2 + 2 * MOST_LOOKS * work.reaching;
         let of_step = work.step + if self.has_boundaries() { most_work } else { 0 };
-        let of_lead_step = lead.map_or(0, |lead| lead.step + 1);
-        let to_follow = |lead: Work| 1 + lead.sides + lead.reaching + lead.regular + lead.reaching + 2;
-        let to_take_up = lead.map_or(0, |lead| to_follow(lead) + 1 + work.sides + work.reaching);
+        let of_path_step = path.map_or(0, |path| path.step + 1);
+        let to_follow = |path: Work| 1 + path.sides + path.reaching + path.regular + path.reaching + 2;
+        let to_take_up = path.map_or(0, |path| to_follow(path) + 1 + work.sides + work.reaching);
         let of_parts = (2 + FIRST_PARTS + MOST_PARTS) * (2 * work.sides + work.reaching + 1);
         let mut bounds = vec![
             ("MOST_STEPS", MOST_STEPS),
-            ("MOST_WORK", MOST_STEPS * of_step.max(of_lead_step) + to_take_up + work.regular),
+            ("MOST_WORK", MOST_STEPS * of_step.max(of_path_step) + to_take_up + work.regular),
             ("MOST_WORK_TO_ASSEMBLE", of_parts + work.sides + (1 + MOST_SHORTER) * MOST_TRIALS),
         ];
-        if let Some(lead) = lead {
+        if let Some(path) = path {
             bounds.push(("MOST_STEPS_TO_FOLLOW", MOST_STEPS_TO_FOLLOW));
-            bounds.push(("MOST_WORK_TO_FOLLOW", MOST_STEPS_TO_FOLLOW * of_lead_step + to_follow(lead)));
+            bounds.push(("MOST_WORK_TO_FOLLOW", MOST_STEPS_TO_FOLLOW * of_path_step + to_follow(path)));
         }
         bounds
     }

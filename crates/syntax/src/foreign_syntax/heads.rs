@@ -4,7 +4,7 @@ use super::{Correction, Foreign, hyphenated_at, is_name};
 use crate::grammar::Rule;
 use crate::tokens::{Token, tokens};
 use mechc_text::diag::{Applicability, Fix};
-use mechc_text::vocabulary::{JointWord, Keyword, Place, Role, Synonym, is_called, is_declaration};
+use mechc_text::vocabulary::{JointWord, Keyword, Position, Role, Synonym, is_called, is_declaration};
 
 impl Foreign<'_> {
     /// Returns a correction of the head of a declaration.
@@ -38,7 +38,7 @@ impl Foreign<'_> {
 
     /// `joint revolute j2(…)`
     fn name_behind_kind(&self, keyword: &str, last: &Token<'_>) -> Option<Correction> {
-        let is_kind = |word: &str| JointWord::named(word).is_some() || Synonym::of(Place::Joint, word).is_some();
+        let is_kind = |word: &str| JointWord::named(word).is_some() || Synonym::of(Position::Joint, word).is_some();
         let is_called = self.rest.get(1).is_some_and(|token| token.text == "(");
         if keyword != "joint" || !self.is_behind_the_name() || JointWord::named(last.text).is_none() {
             return None;
@@ -62,7 +62,7 @@ impl Foreign<'_> {
         let is_named_by_a_call = || match keyword {
             "joint" => JointWord::named(last.text).is_some(),
             "body" | "fn" | "table" => false,
-            _ => is_called(last.text) || Synonym::of(Place::Call, last.text).is_some() || last.text == "der",
+            _ => is_called(last.text) || Synonym::of(Position::Call, last.text).is_some() || last.text == "der",
         };
         let start = if self.before.len() == 1 && self.expects(Rule::name) && [":", "=", "(", "{"].contains(&self.found)
         {

@@ -2,7 +2,7 @@
 
 use super::{Correction, Foreign, holds_quantity, is_name};
 use crate::grammar::Rule;
-use mechc_text::vocabulary::{JointWord, Keyword, Place, Role, Synonym};
+use mechc_text::vocabulary::{JointWord, Keyword, Position, Role, Synonym};
 
 impl Foreign<'_> {
     /// `a = 30 mm`, `j: revolute(…)`, `revolute j: (…)`, where a declaration begins.
@@ -32,7 +32,7 @@ impl Foreign<'_> {
                 Some(Foreign::change(format!("a body is declared by `body {name} {{`"), vec![edit]))
             }
             [_, _] => {
-                let synonym = Synonym::of(Place::Declaration, self.found)?;
+                let synonym = Synonym::of(Position::Declaration, self.found)?;
                 synonym.means.is_empty().then(|| Correction::Words(synonym.say(&[])))
             }
             _ => None,
@@ -111,10 +111,10 @@ impl Foreign<'_> {
 }
 
 fn is_joint(word: &str) -> bool {
-    JointWord::named(word).is_some() || Synonym::of(Place::Joint, word).is_some()
+    JointWord::named(word).is_some() || Synonym::of(Position::Joint, word).is_some()
 }
 
 /// Returns the language's name for a kind of joint.
 fn kind_of_joint(word: &str) -> &str {
-    Synonym::of(Place::Joint, word).and_then(|synonym| synonym.means.first().copied()).unwrap_or(word)
+    Synonym::of(Position::Joint, word).and_then(|synonym| synonym.means.first().copied()).unwrap_or(word)
 }

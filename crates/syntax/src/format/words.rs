@@ -2,7 +2,7 @@
 
 use super::lexemes::{Lexeme, Shape};
 use crate::tokens::may_begin_a_bound;
-use mechc_text::vocabulary::{Constant, Keyword, Place, Role, Synonym, Unit, declares_name};
+use mechc_text::vocabulary::{Constant, Keyword, Position, Role, Synonym, Unit, declares_name};
 use rustc_hash::FxHashSet;
 use std::ops::Range;
 
@@ -312,7 +312,7 @@ impl<'a> Classifier<'a> {
     fn is_a_unit_behind(&self, k: usize) -> bool {
         let mut behind = self.lexemes[k + 1..self.range.end].iter().filter(|lexeme| !lexeme.is_comment());
         // `min` is no unit, but its author means one; `t` is the time
-        let is_synonym = |text: &str| Synonym::of(Place::Unit, text).is_some() && Constant::named(text).is_none();
+        let is_synonym = |text: &str| Synonym::of(Position::Unit, text).is_some() && Constant::named(text).is_none();
         let names_one = |text: &str| Unit::named(text).is_some() || is_synonym(text);
         let is_unit = |lexeme: &Lexeme<'_>| names_one(lexeme.text) && !self.names.contains(lexeme.text);
         behind.next().is_some_and(is_unit)

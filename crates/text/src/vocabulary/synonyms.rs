@@ -4,7 +4,7 @@
 #[derive(Debug)]
 pub struct Synonym {
     /// Position in a text.
-    pub place: Place,
+    pub position: Position,
     /// Words in lower case.
     pub names: &'static [&'static str],
     /// Equivalent words of the language.
@@ -18,7 +18,7 @@ pub struct Synonym {
 
 /// Position of a word in a text.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Place {
+pub enum Position {
     /// Beginning of a declaration.
     Declaration,
     /// Kind of a joint.
@@ -34,22 +34,22 @@ pub enum Place {
 /// Returns whether a foreign word means the ground.
 #[must_use]
 pub fn is_ground(word: &str) -> bool {
-    Synonym::of(Place::Declaration, word).is_some_and(|synonym| synonym.means == ["ground"])
+    Synonym::of(Position::Declaration, word).is_some_and(|synonym| synonym.means == ["ground"])
 }
 
 impl Synonym {
     /// Returns the synonym for a word in a position, in upper or lower case; `prismatic_joint` is `prismatic`.
     #[must_use]
-    pub fn of(place: Place, word: &str) -> Option<&'static Synonym> {
-        Synonym::all_of(word).find(|synonym| synonym.place == place)
+    pub fn of(position: Position, word: &str) -> Option<&'static Synonym> {
+        Synonym::all_of(word).find(|synonym| synonym.position == position)
     }
 
     /// Returns the synonyms for a word in any position.
     pub fn all_of(word: &str) -> impl Iterator<Item = &'static Synonym> {
         let word = word.to_lowercase();
         SYNONYMS.iter().filter(move |synonym| {
-            let word = match synonym.place {
-                Place::Joint => word.strip_suffix("joint").map_or(word.as_str(), |stem| stem.trim_end_matches('_')),
+            let word = match synonym.position {
+                Position::Joint => word.strip_suffix("joint").map_or(word.as_str(), |stem| stem.trim_end_matches('_')),
                 _ => word.as_str(),
             };
             synonym.names.contains(&word)
@@ -106,12 +106,12 @@ fn fill(gap: &str, arguments: &[&str]) -> String {
 }
 
 const fn synonym(
-    place: Place,
+    position: Position,
     names: &'static [&'static str],
     means: &'static [&'static str],
     say: &'static str,
 ) -> Synonym {
-    Synonym { place, names, means, is_same: true, say }
+    Synonym { position, names, means, is_same: true, say }
 }
 
 impl Synonym {
@@ -123,23 +123,23 @@ impl Synonym {
 
 /// Creates a synonym for a call in a formula.
 const fn call(names: &'static [&'static str], means: &'static [&'static str], say: &'static str) -> Synonym {
-    synonym(Place::Call, names, means, say)
+    synonym(Position::Call, names, means, say)
 }
 
 const fn joint(names: &'static [&'static str], means: &'static [&'static str], say: &'static str) -> Synonym {
-    synonym(Place::Joint, names, means, say)
+    synonym(Position::Joint, names, means, say)
 }
 
 const fn unit(names: &'static [&'static str], means: &'static [&'static str], say: &'static str) -> Synonym {
-    synonym(Place::Unit, names, means, say)
+    synonym(Position::Unit, names, means, say)
 }
 
 const fn number(names: &'static [&'static str], means: &'static [&'static str], say: &'static str) -> Synonym {
-    synonym(Place::Number, names, means, say)
+    synonym(Position::Number, names, means, say)
 }
 
 const fn declaration(names: &'static [&'static str], means: &'static [&'static str], say: &'static str) -> Synonym {
-    synonym(Place::Declaration, names, means, say)
+    synonym(Position::Declaration, names, means, say)
 }
 
 /// All synonyms.
@@ -547,11 +547,11 @@ pub static SYNONYMS: &[Synonym] = &[
 
 #[cfg(test)]
 mod tests {
-    use super::{Place, Synonym};
+    use super::{Position, Synonym};
 
     #[test]
     fn synonym_arguments_keep_their_spelling() {
-        let say = |word: &str, arguments: &[&str]| Synonym::of(Place::Call, word).unwrap().say(arguments);
+        let say = |word: &str, arguments: &[&str]| Synonym::of(Position::Call, word).unwrap().say(arguments);
         assert!(say("sind", &["30"]).ends_with("`sin(30 deg)`"));
         assert!(say("sind", &["2 * t"]).ends_with("`sin((2 * t) * 1 deg)`"));
         assert!(say("sqr", &["a + b"]).ends_with("`(a + b)^2`"));
@@ -562,7 +562,7 @@ mod tests {
 
     #[test]
     fn a_joint_may_say_that_it_is_one() {
-        let means = |word: &str| Synonym::of(Place::Joint, word).map(|synonym| synonym.means[0]);
+        let means = |word: &str| Synonym::of(Position::Joint, word).map(|synonym| synonym.means[0]);
         assert_eq!(means("Prismatic_Joint"), Some("translational"));
         assert_eq!(means("PinJoint"), Some("revolute"));
         assert_eq!(means("revolute"), None);

@@ -5,7 +5,9 @@ use crate::check::suggest::edits::suggest_rename;
 use mechc_syntax::ast::Name;
 use mechc_text::diag::{Applicability, Code, Diagnostic, Fix};
 use mechc_text::source::Span;
-use mechc_text::vocabulary::{Constant, FUNCTIONS, JOINTS, JointWord, Place, QUANTITIES, QuantityWord, Synonym, Unit};
+use mechc_text::vocabulary::{
+    Constant, FUNCTIONS, JOINTS, JointWord, Position, QUANTITIES, QuantityWord, Synonym, Unit,
+};
 
 pub fn unknown(what: &str, name: &Name, candidates: &[&str]) -> Diagnostic {
     Diagnostic::new(Code::E0201, format!("there is no {what} `{}`", name.text))
@@ -28,13 +30,13 @@ pub fn unknown_number(what: &str, name: &Name, candidates: &[&str]) -> Diagnosti
     if let (Some(power), true) = (power_of_a_unit(&name.text), diagnostic.help.is_empty()) {
         return diagnostic.instead(Fix::suggest(name.span, &power));
     }
-    if let Some(synonym) = Synonym::of(Place::Number, &name.text) {
+    if let Some(synonym) = Synonym::of(Position::Number, &name.text) {
         return match synonym.means {
             [only] if synonym.is_same => diagnostic.instead(Fix::suggest(name.span, only)),
             _ => diagnostic.help(synonym.say(&[])),
         };
     }
-    match Synonym::of(Place::Unit, &name.text).filter(|_| name.text.len() > 1 && diagnostic.help.is_empty()) {
+    match Synonym::of(Position::Unit, &name.text).filter(|_| name.text.len() > 1 && diagnostic.help.is_empty()) {
         Some(synonym) => match synonym.means {
             // `turn` is more likely an undeclared input than a unit.
             [unit @ "rev"] => diagnostic
@@ -68,7 +70,7 @@ pub fn names_in_formula(name: &Name) -> Diagnostic {
     let diagnostic =
         Diagnostic::new(Code::E0706, format!("a formula from outside the file cannot name `{}`", name.text))
             .at(name.span, "not known here");
-    let synonym = Synonym::of(Place::Unit, &name.text).filter(|_| name.text.len() > 1);
+    let synonym = Synonym::of(Position::Unit, &name.text).filter(|_| name.text.len() > 1);
     if let Some(power) = power_of_a_unit(&name.text) {
         return diagnostic.fix(Fix::suggest(name.span, &power));
     }
@@ -107,7 +109,7 @@ pub fn unknown_function(name: &Name, local_names: &[&str], arguments: &[&str]) -
 
 /// Suggests how to write an entity that is called like a function.
 fn suggest_other_form(name: &str, arguments: &[&str]) -> Option<String> {
-    if let Some(synonym) = Synonym::of(Place::Call, name) {
+    if let Some(synonym) = Synonym::of(Position::Call, name) {
         return Some(synonym.say(arguments));
     }
     if let Some(joint) = JointWord::named(name) {
@@ -124,7 +126,7 @@ pub fn unknown_joint(kind: &Name, arguments: &[&str]) -> Diagnostic {
     let candidates: Vec<&str> = JOINTS.iter().map(|joint| joint.word.name).collect();
     let diagnostic = Diagnostic::new(Code::E0201, format!("there is no kind of joint `{}`", kind.text))
         .at(kind.span, "not declared");
-    match (Synonym::of(Place::Joint, &kind.text), nearest_name(kind, &candidates)) {
+    match (Synonym::of(Position::Joint, &kind.text), nearest_name(kind, &candidates)) {
         (Some(synonym), _) => diagnostic.help(synonym.say(arguments)),
         (None, Some(fix)) => diagnostic.fix(fix),
         (None, None) => diagnostic.help(format!("the joints are {}", list(&candidates))),
@@ -139,7 +141,7 @@ pub fn not_a_unit(name: &Name, [number, power]: [&str; 2], is_a_name: bool) -> D
         let words = format!("was `{number} * {}{power}` meant?", name.text);
         let diagnostic = diagnostic.fix(Fix::insert(name.span, "* ", words, Applicability::Probably));
         // A unit in other formulas, and a name here.
-        return match Synonym::of(Place::Unit, &name.text) {
+        return match Synonym::of(Position::Unit, &name.text) {
             Some(synonym) if name.text == "g" => diagnostic.help(synonym.say(&[])),
             _ => diagnostic,
         };
@@ -160,7 +162,7 @@ pub(super) fn suggest_unit(diagnostic: Diagnostic, name: &Name) -> Diagnostic {
         return diagnostic.fix(Fix::suggest(name.span, &power));
     }
     let units: Vec<&str> = Unit::names().collect();
-    match (Synonym::of(Place::Unit, &name.text), Unit::prefixed_value(&name.text), nearest_name(name, &units)) {
+    match (Synonym::of(Position::Unit, &name.text), Unit::prefixed_value(&name.text), nearest_name(name, &units)) {
         (Some(synonym), ..) => diagnostic.help(synonym.say(&[])),
         (None, Some(text), _) => diagnostic.help(format!("`1 {}` is written `{text}`", name.text)),
         (None, None, Some(fix)) => diagnostic.fix(fix),
@@ -211,7 +213,7 @@ pub fn circle(names: &[&Name]) -> Diagnostic {
         _ => format!("definitions go in a circle: {} needs {}", chain[0], chain[1..].join(", which needs ")),
     };
     // `measure power = power(motor)`
-    let synonym = Synonym::of(Place::Call, &first.text).filter(|_| names.len() == 1);
+    let synonym = Synonym::of(Position::Call, &first.text).filter(|_| names.len() == 1);
     names[1..]
         .iter()
         .fold(Diagnostic::new(Code::E0206, message).at(first.span, "needs its own value"), |diagnostic, name| {

@@ -8,7 +8,7 @@ use crate::model::{Dimension, JointKind};
 use mechc_syntax::ast::{Expr, ExprKind, ItemKind, Name};
 use mechc_text::diag::{Applicability, Code, Diagnostic, Diagnostics, Edit, Fix};
 use mechc_text::source::Span;
-use mechc_text::vocabulary::{Place, Synonym, Unit, is_ground};
+use mechc_text::vocabulary::{Position, Synonym, Unit, is_ground};
 use rustc_hash::FxHashMap;
 use std::collections::hash_map::Entry;
 
@@ -43,7 +43,7 @@ impl Checker<'_> {
     ) -> Option<Fix> {
         let [argument] = arguments else { return None };
         let ExprKind::Name(joint) = &argument.bare().kind else { return None };
-        let synonym = Synonym::of(Place::Call, &name.text);
+        let synonym = Synonym::of(Position::Call, &name.text);
         let is_rate = name.text == "speed" || synonym.is_some_and(|synonym| synonym.means.contains(&"der"));
         let quantity = self.quantity_of(joint).filter(|_| is_rate)?;
         if !context.rates {
