@@ -82,7 +82,7 @@ fn last_uses(instructions: &[Instruction], segments: &[Segment], registers: usiz
         let range = segment.range();
         for at in range.clone() {
             for register in instructions[at].reads() {
-                // what comes from before a loop is needed again in its next round
+                // a value from before a loop is needed again in its next round
                 let is_from_before = !segment.tears().is_empty() && written[register as usize] < range.start;
                 let until = if is_from_before { range.end - 1 } else { at };
                 last[register as usize] = last[register as usize].max(until);

@@ -167,7 +167,7 @@ impl Equations<'_> {
         if self.is_input_driven {
             deps.file("input_list");
         }
-        // it hands all on, and parameters where there are any
+        // the function passes all arguments on, parameters only if there are any
         let reads_params = !self.names.params.is_empty() || (self.is_input_driven && spec.has_time);
         let marked = |name: &'static str| if name == "p" && !reads_params { "_p" } else { name };
         let types: Vec<(&str, &str)> = arguments.iter().map(|(name, of)| (marked(name), of.as_str())).collect();

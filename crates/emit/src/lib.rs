@@ -18,7 +18,7 @@ mod package;
 mod params;
 mod print;
 #[cfg(test)]
-// it is written for crates whose lints are the usual ones; only generic types copy themselves by hand
+// emitted code follows the default lints; only its generic types implement `Clone` by hand
 #[allow(clippy::expl_impl_clone_on_copy, clippy::needless_for_each)]
 mod runtime;
 mod runtime_files;

@@ -68,7 +68,7 @@ impl Names {
             variables.snake(array);
         }
         let mut variable = |wanted: String, short: String| {
-            // what looks like a numbered one could be mistaken for it
+            // a name that looks like a numbered one could be mistaken for it
             let is_plain = wanted.len() <= LONGEST_VARIABLE && Names::is_telling(&wanted);
             variables.snake(if is_plain { &wanted } else { &short })
         };
@@ -117,9 +117,9 @@ pub(super) enum Case {
 }
 
 impl Case {
-    /// Returns names that live in one space, in the order of their sources. Where two meet, the one that is less of a path keeps its name
-    /// (`pen_x` before `pen.x`, `leg_0.x` before `leg[0].x`), and of such that are alike the first; the other gets a number that makes
-    /// it no third one's. So what is declared behind others takes a name only from a path that it spells.
+    /// Returns unique names, in the order of their sources. Of colliding names the one with fewer path separators stays (`pen_x` before
+    /// `pen.x`, `leg_0.x` before `leg[0].x`), and among equals the first; the others get numbers that collide with no third name. So a
+    /// later declaration takes a name only from a path that spells it.
     pub fn names<'s>(self, sources: impl IntoIterator<Item = &'s str>) -> Vec<String> {
         let sources: Vec<&str> = sources.into_iter().collect();
         let mut order: Vec<usize> = (0..sources.len()).collect();
@@ -157,8 +157,8 @@ impl Case {
         }
     }
 
-    /// Returns names of inputs, and of time where it is one of them, behind all others. The name `t` is that of time, whether formulas hold it
-    /// or not, so that one which holds it changes no name of an input.
+    /// Returns the names of inputs; time comes last if it is an input. The name `t` is reserved for time even if no formula contains
+    /// it, so that a formula with time changes no name of an input.
     pub fn names_of_inputs(self, inputs: &[Input]) -> Vec<String> {
         let named = inputs.iter().filter(|input| !input.is_time()).map(|input| input.name.as_str());
         let mut names = self.names(std::iter::once(TIME).chain(named));
@@ -227,7 +227,7 @@ fn words(source: &str) -> String {
             text += &format!("u{:04x}", u32::from(c));
         }
     }
-    // what is reached by a path would not be told apart
+    // cut paths could not be distinguished
     let longest = if source.contains(['.', '[']) { usize::MAX } else { LONGEST };
     let cut = text.char_indices().nth(longest).map_or(text.len(), |(at, _)| at);
     let text = text[..cut].trim_end_matches('_');

@@ -56,8 +56,8 @@ pub struct Reference {
     pub stopped: Option<String>,
 }
 
-/// Returns the files of a crate, for a unit with its motion. It has the name of its folder, as cargo's own have; where that cannot be a
-/// crate's, the next to it that can.
+/// Returns the files of a crate for a unit with its motion. The crate is named after its folder as with cargo, or by the closest valid
+/// name.
 #[must_use]
 pub fn package(unit: &TranslationUnit<'_>, reference: &Reference, folder: &str) -> Vec<CrateFile> {
     let module = rust::module(unit);
@@ -475,7 +475,7 @@ impl Writer<'_> {
         if measures.is_empty() {
             return String::new();
         }
-        // those of each module, by measure
+        // indices in a module, for each measure
         let indices = |module: &str, has: fn(&Measure) -> bool| {
             let mut names =
                 Case::Constant.names(measures.iter().filter(|of| has(of)).map(|of| of.name.as_str())).into_iter();

@@ -78,7 +78,7 @@ impl Page {
         self.indent += INDENT;
         body(self);
         self.indent -= INDENT;
-        // nothing blank stands before a brace
+        // no blank line precedes a closing brace
         if self.text.ends_with("\n\n") {
             self.text.pop();
         }

@@ -216,7 +216,7 @@ impl RuntimeDeps {
     /// Prints the required files as a module, if there are any.
     pub fn print_runtime(&self, page: &mut Page) {
         let (mut wanted, mut limits) = (self.files.clone(), self.limits.clone());
-        // those that are needed stand before those that need them
+        // dependencies precede the files that need them
         for file in FILES.iter().rev() {
             if wanted.contains(file.name) {
                 wanted.extend(file.needs);
@@ -276,7 +276,7 @@ mod tests {
             let declared: BTreeSet<String> = file.needs.iter().map(|name| (*name).to_owned()).collect();
             let is_before = |name: &&str| FILES[..number].iter().any(|before| before.name == *name);
             assert!(file.needs.iter().all(is_before), "{} stands too early", file.name);
-            // what extends a type is not named
+            // files that only extend a type are not named
             assert!(
                 needs.is_subset(&declared) && declared.difference(&needs).all(|name| name == "pivots"),
                 "{}: {needs:?}",

@@ -142,7 +142,7 @@ impl Reader<'_> {
         Ok(File { uses, mechanisms })
     }
 
-    /// `use "FILE.mech" as PREFIX`
+    /// Builds `use "FILE.mech" as PREFIX`.
     pub(super) fn use_file(&self, pair: Pair<'_, Rule>) -> Built<UsedFile> {
         let span = self.span(&pair);
         let (mut path, mut prefix) = (None, None);
@@ -479,7 +479,7 @@ impl Reader<'_> {
         Ok(Feature { docs, span, name, kind })
     }
 
-    /// `mass M at (x, y) inertia I`
+    /// Builds `mass M at (x, y) inertia I`.
     fn mass(&self, pair: Pair<'_, Rule>, docs: Vec<String>) -> Built<Feature> {
         let span = self.span(&pair);
         let has_place = pair.clone().into_inner().any(|part| part.as_rule() == Rule::at);

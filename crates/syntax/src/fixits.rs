@@ -154,7 +154,7 @@ impl Fault<'_> {
             }
             return Some(FixIt::Words(synonym.say(&[])));
         }
-        // what joins the parts of a declaration is no factor
+        // a separator within a declaration is no factor
         let joins = Keyword::named(self.found).is_some_and(|keyword| keyword.role == Role::Separator);
         let starts_operand = !joins && self.found.starts_with(|c: char| c.is_alphanumeric() || c == '(' || c == '_');
         if !self.expects(Rule::infix) || !starts_operand || self.is_on_new_line() || !connecting.is_empty() {
@@ -217,7 +217,7 @@ impl Fault<'_> {
         let end = if is_number && is_unit { self.text.len() - rest.len() } else { self.here().end };
         let argument = &self.text[self.at..end];
         let words = format!("what a function is of stands in parentheses: `{}({argument})`", self.word_before());
-        // it goes on: a call, a member, the rest of a number
+        // the argument goes on: a call, a member, the rest of a number
         if self.found == "(" || behind.trim_start().starts_with(['(', '.']) {
             return FixIt::Words(words);
         }

@@ -29,7 +29,7 @@ pub(super) fn parse_parallel(source: &Source, file: FileId) -> Option<File> {
     let piece = |range: &Range<usize>| Piece { source, file, range: range.clone() };
     let Head { name, .. } = piece(&cuts.head).read(Rule::mechanism_head, |reader, pair| reader.head(pair)).ok()?;
     let read = |pieces: Range<usize>| {
-        // what the first thread reads takes in what the others do
+        // the share of the first thread also receives those of the others
         let many = if pieces.start == 0 { &cuts.pieces[..] } else { &cuts.pieces[pieces.clone()] };
         let mut share =
             Share { features: Vec::new(), items: Vec::with_capacity(many.iter().map(|cut| cut.most_items).sum()) };

@@ -141,7 +141,7 @@ mod tests {
             let mut sources = Sources::default();
             let file = sources.add("text.mech", text.as_str());
             let (_, faults) = super::by_declarations(sources.get(file), file, None);
-            // what the grammar lets pass may still be no formula
+            // a text that follows the grammar may still be no formula
             let is_let_pass = faults
                 .iter()
                 .all(|f| f.code == Code::E0309 || f.message.contains("unit") && !f.message.starts_with("expected"));

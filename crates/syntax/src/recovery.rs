@@ -258,7 +258,7 @@ impl Recovery<'_> {
                     return features;
                 }
                 _ if self.sync.begins_large_declaration(self.at) => {
-                    // as many braces are closed as are open here: none is missing
+                    // all open braces are closed, so no brace is missing
                     let is_misplaced = self.sync.braces_from(self.at) <= -2;
                     let fault = self.fault_of(Rule::feature_or_close);
                     if !is_misplaced {

@@ -56,7 +56,7 @@ impl<'a> PreviousTree<'a> {
         }
         let mut item = Item { docs: Vec::new(), ..item.clone() };
         moved.item(&mut item);
-        // of a text that ends in the middle of a declaration the beginning is the same as well
+        // a declaration that ends beyond the stretch may be cut off in the text
         (item.span.end as usize <= stretch.end).then_some(item)
     }
 

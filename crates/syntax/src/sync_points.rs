@@ -155,7 +155,7 @@ impl<'a> SyncPoints<'a> {
     /// Returns the names that the declaration at a token would define: the word behind its keyword, or the first of two words.
     pub fn names_of(&self, k: usize, end: usize) -> impl Iterator<Item = Token<'a>> {
         let is_name = |token: &&Token<'a>| token.text.starts_with(|c: char| c.is_alphabetic() || c == '_');
-        // what is no keyword may be a name without one, `r = 3`, or a misspelt keyword before one
+        // a word that is no keyword may be a name without one, `r = 3`, or a misspelt keyword before one
         let whole = |token: Token<'a>| Token { text: self.hyphenated_name(&token).unwrap_or(token.text), ..token };
         let head = (k..end.min(k + 2).min(self.tokens.len())).filter(|&k| !self.is_declaration(k));
         head.map(|k| self.tokens[k]).filter(move |token| is_name(&token)).map(whole)
@@ -253,7 +253,7 @@ impl<'a> SyncPoints<'a> {
     /// Returns whether a token is a keyword that was used as a name, or stands right behind one.
     pub fn uses_bad_name(&self, byte: usize, bad_names: &FxHashSet<&str>) -> bool {
         let k = self.index_at(byte);
-        // where it begins a declaration it is no name
+        // a word that begins a declaration is no name
         let is_used = |k: usize| bad_names.contains(self.word(k)) && (self.is_inside(k) || !self.is_keyword(k));
         [k, k.saturating_sub(1)].iter().any(|&k| !self.is_behind_the_last(k) && is_used(k))
     }

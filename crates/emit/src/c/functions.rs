@@ -6,9 +6,9 @@ use crate::names::Case;
 use crate::print::{Head, Page};
 use crate::text::unit;
 
-/// Kind of an argument.
+/// Type of an argument.
 #[derive(Clone, Copy, PartialEq, Eq)]
-pub(super) enum Argument {
+pub(super) enum Type {
     State,
     StateToWrite,
     Params,
@@ -22,9 +22,9 @@ pub(super) enum Argument {
     Code,
 }
 
-/// Kind of a result.
+/// Type of a result.
 #[derive(Clone, Copy, PartialEq, Eq)]
-pub(super) enum ResultType {
+pub(super) enum Return {
     Code,
     Message,
     Params,
@@ -35,54 +35,54 @@ pub(super) enum ResultType {
 pub(super) struct Function {
     pub name: &'static str,
     pub docs: &'static str,
-    pub arguments: Vec<(&'static str, Argument)>,
-    pub result: ResultType,
+    pub arguments: Vec<(&'static str, Type)>,
+    pub result: Return,
     /// Body as a Rust expression, of type `Result<(), Status>` if the function returns a code.
     pub body: &'static str,
 }
 
-impl Argument {
+impl Type {
     fn in_rust(self) -> &'static str {
         match self {
-            Argument::State => "*const Memory",
-            Argument::StateToWrite => "*mut Memory",
-            Argument::Params => "*const Params",
-            Argument::Inputs => "*const Inputs",
-            Argument::InputsToWrite => "*mut Inputs",
-            Argument::Number => "f64",
-            Argument::Numbers => "*const f64",
-            Argument::NumbersToWrite => "*mut f64",
-            Argument::WholeToWrite => "*mut i32",
-            Argument::Count => "usize",
-            Argument::Code => "i32",
+            Type::State => "*const Memory",
+            Type::StateToWrite => "*mut Memory",
+            Type::Params => "*const Params",
+            Type::Inputs => "*const Inputs",
+            Type::InputsToWrite => "*mut Inputs",
+            Type::Number => "f64",
+            Type::Numbers => "*const f64",
+            Type::NumbersToWrite => "*mut f64",
+            Type::WholeToWrite => "*mut i32",
+            Type::Count => "usize",
+            Type::Code => "i32",
         }
     }
 
     /// Returns the declaration of an argument in C.
     pub fn in_c(self, name: &str, prefix: &str) -> String {
         match self {
-            Argument::State => format!("const {prefix}_state *{name}"),
-            Argument::StateToWrite => format!("{prefix}_state *{name}"),
-            Argument::Params => format!("const {prefix}_params *{name}"),
-            Argument::Inputs => format!("const {prefix}_inputs *{name}"),
-            Argument::InputsToWrite => format!("{prefix}_inputs *{name}"),
-            Argument::Number => format!("double {name}"),
-            Argument::Numbers => format!("const double *{name}"),
-            Argument::NumbersToWrite => format!("double *{name}"),
-            Argument::WholeToWrite => format!("int32_t *{name}"),
-            Argument::Count => format!("size_t {name}"),
-            Argument::Code => format!("int32_t {name}"),
+            Type::State => format!("const {prefix}_state *{name}"),
+            Type::StateToWrite => format!("{prefix}_state *{name}"),
+            Type::Params => format!("const {prefix}_params *{name}"),
+            Type::Inputs => format!("const {prefix}_inputs *{name}"),
+            Type::InputsToWrite => format!("{prefix}_inputs *{name}"),
+            Type::Number => format!("double {name}"),
+            Type::Numbers => format!("const double *{name}"),
+            Type::NumbersToWrite => format!("double *{name}"),
+            Type::WholeToWrite => format!("int32_t *{name}"),
+            Type::Count => format!("size_t {name}"),
+            Type::Code => format!("int32_t {name}"),
         }
     }
 }
 
-impl ResultType {
+impl Return {
     fn in_rust(self) -> &'static str {
         match self {
-            ResultType::Code => "i32",
-            ResultType::Message => "*const c_char",
-            ResultType::Params => "Params",
-            ResultType::Count => "usize",
+            Return::Code => "i32",
+            Return::Message => "*const c_char",
+            Return::Params => "Params",
+            Return::Count => "usize",
         }
     }
 }
@@ -131,37 +131,33 @@ close to a singular position. The length of the list is FORCES.";
 fn function(
     name: &'static str,
     docs: &'static str,
-    arguments: &[(&'static str, Argument)],
+    arguments: &[(&'static str, Type)],
     body: &'static str,
 ) -> Function {
-    Function { name, docs, arguments: arguments.to_vec(), result: ResultType::Code, body }
+    Function { name, docs, arguments: arguments.to_vec(), result: Return::Code, body }
 }
 
 impl Interface<'_> {
     /// Returns all functions.
     pub(super) fn all(&self) -> Vec<Function> {
-        let (state, to_write) = (("state", Argument::State), ("state", Argument::StateToWrite));
-        let (params, inputs) = (("params", Argument::Params), ("inputs", Argument::Inputs));
-        let (t, most, list, length) = (
-            ("t", Argument::Number),
-            ("most", Argument::Count),
-            ("list", Argument::NumbersToWrite),
-            ("length", Argument::Count),
-        );
+        let (state, to_write) = (("state", Type::State), ("state", Type::StateToWrite));
+        let (params, inputs) = (("params", Type::Params), ("inputs", Type::Inputs));
+        let (t, most, list, length) =
+            (("t", Type::Number), ("most", Type::Count), ("list", Type::NumbersToWrite), ("length", Type::Count));
         let mut all = vec![Function {
-            result: ResultType::Message,
-            ..function("message", MESSAGE, &[("code", Argument::Code)], "message(code).as_ptr()")
+            result: Return::Message,
+            ..function("message", MESSAGE, &[("code", Type::Code)], "message(code).as_ptr()")
         }];
         if self.has_params() {
             let default = function("params_default", PARAMS_DEFAULT, &[], "Params::default()");
-            all.push(Function { result: ResultType::Params, ..default });
+            all.push(Function { result: Return::Params, ..default });
             let body = "let params = given(params)?; given_to_write(state)?.hold(|| Ok(assemble(params)?))";
             all.push(function("assemble", ASSEMBLE, &[to_write, params], body));
         } else {
             let body = "given_to_write(state)?.hold(|| Ok(assemble(&Params)?))";
             all.push(function("assemble", ASSEMBLE, &[to_write], body));
         }
-        let assembly = [state, ("assembly", Argument::WholeToWrite)];
+        let assembly = [state, ("assembly", Type::WholeToWrite)];
         all.push(function(
             "assembly",
             ASSEMBLY,
@@ -169,7 +165,7 @@ impl Interface<'_> {
             "write_whole(assembly, state_of(state)?.assembly() as i32)",
         ));
         let most_work = function("most_work", MOST_WORK, &[most], "most_work(most)");
-        all.push(Function { result: ResultType::Count, ..most_work });
+        all.push(Function { result: Return::Count, ..most_work });
         let body = "Ok(step(t, state_to_write(state)?)?)";
         all.push(function("step", STEP, &[to_write, t], body));
         let body = "reached(step_within(t, state_to_write(state)?, most)?)";
@@ -177,14 +173,9 @@ impl Interface<'_> {
         let body = "write(list, length, &state_of(state)?.row())";
         all.push(function("row", ROW, &[state, list, length], body));
         let body = "write(value, 1, &[*state_of(state)?.row().get(column).ok_or(NO_SUCH_COLUMN)?])";
-        all.push(function(
-            "value",
-            VALUE,
-            &[state, ("column", Argument::Count), ("value", Argument::NumbersToWrite)],
-            body,
-        ));
+        all.push(function("value", VALUE, &[state, ("column", Type::Count), ("value", Type::NumbersToWrite)], body));
         if self.has_inputs() {
-            let to_inputs = ("inputs", Argument::InputsToWrite);
+            let to_inputs = ("inputs", Type::InputsToWrite);
             let (given, body) = if self.has_params() {
                 (vec![t, params, to_inputs], "say(inputs, || Ok(Inputs::at(number(t)?, given(params)?)))")
             } else {
@@ -198,7 +189,7 @@ impl Interface<'_> {
             let body = "reached(follow_within(given(inputs)?, state_to_write(state)?, most)?)";
             all.push(function("follow_within", FOLLOW_WITHIN, &[to_write, inputs, most], body));
             let body = "read(list, length, |all| state_to_write(state).map(|state| state.set_largest_change(all)))";
-            let arguments = [to_write, ("list", Argument::Numbers), ("length", Argument::Count)];
+            let arguments = [to_write, ("list", Type::Numbers), ("length", Type::Count)];
             all.push(function("set_largest_change", SET_LARGEST_CHANGE, &arguments, body));
             let body = "write(list, length, influence(state_of(state)?)?.as_flattened())";
             all.push(function("influence", INFLUENCE, &[state, list, length], body));
@@ -230,7 +221,7 @@ impl Interface<'_> {
         if self.unit.has_forces() {
             used.push("forces");
         }
-        // as a formatter orders them: what is a type comes first
+        // rustfmt sorts types before functions
         used.sort_by_key(|name| (name.starts_with(|c: char| c.is_ascii_lowercase()), *name));
         used
     }
@@ -282,7 +273,7 @@ impl Interface<'_> {
         let name = format!("{}_{}", self.prefix, function.name);
         let head = Head { kind, name: &name, arguments: &arguments, result: function.result.in_rust() };
         page.function(&head, |page| match function.result {
-            ResultType::Code => {
+            Return::Code => {
                 page.line("// SAFETY: pointers are what the header asks for; null ones are refused");
                 page.line(&format!("answer(|| unsafe {{ {} }})", function.body));
             }

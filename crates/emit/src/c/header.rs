@@ -1,8 +1,8 @@
 //! The C and C++ header: constants, structures and functions.
 
-use super::functions::{Function, ResultType};
+use super::functions::{Function, Return};
 use super::names::{comment, field};
-use super::{Interface, codes, constant_case};
+use super::{Interface, codes, constant};
 use crate::names::Case;
 use crate::params::{FieldType, Params};
 use crate::print::Page;
@@ -169,7 +169,7 @@ impl Interface<'_> {
     /// Prints the structures of the parameters, nested ones first.
     fn params(&self, page: &mut Page) {
         let params = Params::new(self.unit.system);
-        let called = |name: &str| constant_case(name).to_lowercase();
+        let called = |name: &str| constant(name).to_lowercase();
         for of in params.types.iter().rev() {
             page.line(&comment(&if of.source.is_empty() {
                 "The parameters, in SI.".to_owned()
@@ -203,10 +203,10 @@ impl Interface<'_> {
         let arguments: Vec<String> = function.arguments.iter().map(|(name, of)| of.in_c(name, prefix)).collect();
         let arguments = if arguments.is_empty() { "void".to_owned() } else { arguments.join(", ") };
         let result = match function.result {
-            ResultType::Code => "int32_t ".to_owned(),
-            ResultType::Message => "const char *".to_owned(),
-            ResultType::Params => format!("{prefix}_params "),
-            ResultType::Count => "size_t ".to_owned(),
+            Return::Code => "int32_t ".to_owned(),
+            Return::Message => "const char *".to_owned(),
+            Return::Params => format!("{prefix}_params "),
+            Return::Count => "size_t ".to_owned(),
         };
         page.line(&format!("{result}{prefix}_{}({arguments});", function.name));
         page.blank();

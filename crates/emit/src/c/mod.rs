@@ -60,11 +60,8 @@ const C_ERRORS: [(&str, &str); 4] = [
 /// Returns all codes with their numbers, including 0 and the status that is no error.
 fn codes() -> Vec<(i32, Code)> {
     let fine = Code { name: "OK".to_owned(), message: "all went well", error: None };
-    let errors = ERRORS.iter().map(|error| Code {
-        name: constant_case(error.name),
-        message: error.message,
-        error: Some(error.name),
-    });
+    let errors =
+        ERRORS.iter().map(|error| Code { name: constant(error.name), message: error.message, error: Some(error.name) });
     let c_errors = C_ERRORS.iter().map(|(name, message)| Code { name: (*name).to_owned(), message, error: None });
     let numbers = (0..).take(ERRORS.len() + 1).chain(FIRST_C_CODE..);
     let in_progress = Code { name: "ON_THE_WAY".to_owned(), message: IN_PROGRESS, error: None };
@@ -73,7 +70,7 @@ fn codes() -> Vec<(i32, Code)> {
 }
 
 /// Converts `NotANumber` to `NOT_A_NUMBER`.
-fn constant_case(name: &str) -> String {
+fn constant(name: &str) -> String {
     let mut text = String::new();
     for c in name.chars() {
         if c.is_ascii_uppercase() && !text.is_empty() {

@@ -87,7 +87,7 @@ impl<S: CodeContext> Printer<'_, S> {
         let value = self.operand(a);
         if let Some(line) = self.context.store(column, &value) {
             self.used.extend(value.arguments());
-            // what is worked out, and what comes of it
+            // a blank line separates computations from results
             if std::mem::take(&mut self.is_set_off) && !text.is_empty() {
                 text.push('\n');
             }

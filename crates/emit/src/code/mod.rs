@@ -279,7 +279,7 @@ impl<'p, S: CodeContext> Printer<'p, S> {
             Out::Given { begin, .. } => (format!("    {begin}\n{terms}{calls}"), ""),
             Out::List { of, first } => (format!("    let mut out = {first};\n{terms}{calls}    out\n"), of),
         };
-        // it hands all on
+        // the function passes all arguments on
         let head = head(function, result, &|_| !calls.is_empty());
         head + &body + "}\n\n" + &written.text
     }
@@ -313,7 +313,7 @@ impl<'p, S: CodeContext> Printer<'p, S> {
         }
         let mut bindings = std::mem::take(&mut self.bindings);
         if !bindings.is_empty() && !text.is_empty() {
-            // what is given, and what is made of it
+            // a blank line separates bindings from computations
             bindings.push('\n');
         }
         (bindings + &text, std::mem::take(&mut self.used))

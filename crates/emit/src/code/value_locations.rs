@@ -72,7 +72,7 @@ impl<'p, S: CodeContext> ValueLocations<'p, S> {
                         let of_loop = if piece.tears.is_some() { loops } else { STRAIGHT };
                         self.settle_in(piece.range.clone(), function, of_loop);
                         for tear in piece.tears.unwrap_or(&[]) {
-                            // in lanes loops beside its own have the corrections too
+                            // with lanes, other loops use the corrections too
                             let reader = if self.context.has_lanes() { OTHERS } else { function };
                             self.read(tear.x, function, STRAIGHT);
                             self.read(tear.delta, reader, STRAIGHT);

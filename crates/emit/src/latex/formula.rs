@@ -211,7 +211,7 @@ impl<'s> Formulas<'s> {
 
     fn symbol(&mut self, id: ExprId, symbol: Symbol) -> Piece {
         match symbol {
-            // what is typeset has inputs as formulas of time
+            // the typeset system has formulas of time instead of signals
             Symbol::Time | Symbol::Signal { .. } => Piece::new("t", 0.45, Level::Atom),
             Symbol::Param(k) => {
                 let name = param(self.system, k as usize);

@@ -116,7 +116,7 @@ pub(super) fn quotient(above: Vec<Factor>, below: Vec<Factor>) -> Piece {
     }
     let whole = row(above.clone());
     let fits = whole.width <= WIDEST_FRACTION && whole.tall <= 1;
-    // what is wide stands beside the line, but for its numbers
+    // wide factors stand next to the fraction, except numbers
     let (numbers, rest) = if fits { (Vec::new(), Vec::new()) } else { above.into_iter().partition(is_number) };
     let mut top = if fits { whole } else { row(numbers) };
     let is_negative = std::mem::take(&mut top.is_negative);

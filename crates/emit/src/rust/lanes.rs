@@ -11,7 +11,7 @@ impl Writer<'_> {
         let Some(lanes) = self.unit.lanes.filter(|_| self.equations.pool.is_none()) else {
             return;
         };
-        // what lanes use they name themselves
+        // the module of lanes has its own `use` items
         let of_one = self.equations.deps.take();
         let mut body = Page::of_module();
         self.inside(solution, lanes, &mut body);

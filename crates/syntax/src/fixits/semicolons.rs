@@ -30,7 +30,7 @@ impl Fault<'_> {
         }
     }
 
-    /// `param a = 3; param b = 4;`
+    /// Corrects `param a = 3; param b = 4;`.
     fn terminator(&self) -> FixIt {
         let behind = self.behind().trim_start_matches([' ', '\t']);
         let gap = self.here().end..self.text.len() - behind.len();
@@ -47,7 +47,7 @@ impl Fault<'_> {
         self.replaced(self.at..gap.end, &text, TERMINATOR, Applicability::Always)
     }
 
-    /// `weld(a.P; b.Q` at the end of a line
+    /// Corrects `weld(a.P; b.Q` at the end of a line.
     fn unclosed_parenthesis(&self) -> FixIt {
         let line = self.behind().lines().next().unwrap_or_default();
         let rest = tokens(line);

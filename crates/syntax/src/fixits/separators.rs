@@ -30,7 +30,7 @@ impl Fault<'_> {
         Some(Fix::replace(self.span(place..place), text, words, applies))
     }
 
-    /// `param a: 3`, `joint j = …`, `param a := 3`
+    /// Corrects `param a: 3`, `joint j = …`, `param a := 3`.
     fn other_separator(&self, separator: &str) -> Fix {
         let is_both = self.found == ":" && self.behind().starts_with('=');
         let end = self.here().end + usize::from(is_both);

@@ -156,7 +156,7 @@ impl<'a> Formatted<'a> {
         }
     }
 
-    /// The whole text, formatted.
+    /// Returns the whole text, formatted.
     pub fn text(&self, text: &str) -> String {
         let (mut out, mut at) = (String::with_capacity(text.len() + text.len() / 8), 0);
         self.each_change(

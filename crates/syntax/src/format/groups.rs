@@ -101,7 +101,7 @@ impl Grouping<'_> {
                 return;
             }
             Class::Close => return self.close(k),
-            // as if it were not there
+            // a comma that is left out ends its part only
             Class::Comma if words[k].is_last_comma => return self.end_part(k),
             Class::Comma => {
                 self.end_part(k);
@@ -246,7 +246,7 @@ impl Grouping<'_> {
 /// The text before the last column of a declaration breaks only if it is wider than this.
 const WIDEST_HEAD: usize = 60;
 
-/// The first lexeme before which a line may end.
+/// Returns the first lexeme before which a line may end.
 fn breakable(words: &[Word], lexemes: &[Lexeme<'_>], keyword: &str) -> usize {
     if matches!(keyword, "body" | "ground" | "mechanism") {
         return words.len();
@@ -255,7 +255,7 @@ fn breakable(words: &[Word], lexemes: &[Lexeme<'_>], keyword: &str) -> usize {
     if super::words::width(&words[..head], &lexemes[..head]) > WIDEST_HEAD { 0 } else { head }
 }
 
-/// The nodes of a declaration; `spaces` are those before each of its lexemes, the first one's not counted.
+/// Returns the nodes of a declaration; `spaces` are those before each of its lexemes, the first one's not counted.
 pub(super) fn grouped(words: &[Word], lexemes: &[Lexeme<'_>], spaces: &[usize]) -> Grouped {
     let mut groups = groups(words);
     let breakable = breakable(words, lexemes, lexemes.first().map_or("", |lexeme| lexeme.text));

@@ -107,12 +107,12 @@ impl Measures {
         }
     }
 
-    /// The columns from before one node to before another, if no line ends between.
+    /// Returns the columns from before one node to before another, if no line ends between.
     fn width(&self, from: usize, to: usize) -> Option<usize> {
         (self.lines[from] == self.lines[to]).then(|| self.columns[to] - self.columns[from])
     }
 
-    /// The columns of a group with all that cannot be on another line, if no line ends in it.
+    /// Returns the columns of a group with all that cannot be on another line, if no line ends in it.
     fn width_of_group(&self, open: usize) -> Option<usize> {
         let close = self.closes[open];
         let behind = self.next_end.get(close).copied().unwrap_or(close);
@@ -133,14 +133,14 @@ struct Group {
 }
 
 impl Group {
-    /// The indentation of a line that begins with a node.
+    /// Returns the indentation of a line that begins with a node.
     fn begin_line(&mut self, with: Option<&Node>) -> usize {
         self.has_lines = true;
         let is_end_of_list = self.style == Style::Listed && with == Some(&Node::Close);
         if is_end_of_list { self.base } else { self.indent }
     }
 
-    /// The indentation of what stands in it now.
+    /// Returns the current indentation.
     fn now(&self) -> usize {
         if self.has_lines { self.indent } else { self.base }
     }
@@ -201,7 +201,7 @@ impl Laid {
 mod tests {
     use super::{INDENT, Node, Style, WIDTH, lay_out};
 
-    /// Each node as a character, lines as they come out.
+    /// Lays out nodes and returns the length of each line.
     fn shown(nodes: &[Node]) -> Vec<usize> {
         let laid = lay_out(nodes, 0);
         let mut widths = vec![0];

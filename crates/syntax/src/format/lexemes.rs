@@ -40,7 +40,7 @@ impl Lexeme<'_> {
 /// Signs of more than one character, the longer ones first.
 const LONG_SIGNS: [&str; 6] = ["..=", "..", "==", "<=", ">=", "!="];
 
-/// All lexemes of a text, in order. Words and numbers end where the grammar ends them; a text that does not follow it has lexemes too.
+/// Returns all lexemes of a text, in order. Words and numbers end as in the grammar; invalid texts have lexemes too.
 pub(super) fn lexemes(text: &str) -> Vec<Lexeme<'_>> {
     let (mut found, mut end) = (Vec::new(), 0);
     loop {
@@ -52,7 +52,7 @@ pub(super) fn lexemes(text: &str) -> Vec<Lexeme<'_>> {
     }
 }
 
-/// The shape and the length of what a text begins with.
+/// Returns the shape and the length of the first lexeme of a text.
 fn first(text: &str) -> Option<(Shape, usize)> {
     let first = text.chars().next()?;
     if text.starts_with("//") {
@@ -83,7 +83,7 @@ fn is_of_a_word(c: char) -> bool {
     c.is_ascii_alphanumeric() || c == '_' || !c.is_ascii() && !c.is_whitespace()
 }
 
-/// The length of the number that a text begins with: `12`, `1.5`, `.5e-3`. In `0..3` the number is `0`.
+/// Returns the length of the number that a text begins with: `12`, `1.5`, `.5e-3`. In `0..3` the number is `0`.
 fn number(text: &str) -> Option<usize> {
     let digits = |from: &str| from.len() - skip_digits(from.chars()).as_str().len();
     let whole = digits(text);

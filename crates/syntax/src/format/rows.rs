@@ -84,7 +84,7 @@ impl Group {
     }
 }
 
-/// The rows of a text. `faults` are the bytes at which something is wrong with it, in order.
+/// Returns the rows of a text. `faults` are the bytes of its syntax errors, in order.
 pub(super) fn rows(file: &File, lexemes: &[Lexeme<'_>], names: &FxHashSet<&str>, faults: &[usize]) -> Vec<Row> {
     let mut rows = Rows { lexemes, names, faults, at: 0, made: Vec::new() };
     let mut mechanisms = file.mechanisms.iter().peekable();
@@ -113,7 +113,7 @@ impl Rows<'_> {
         self.lexemes.get(self.at).is_some_and(|lexeme| lexeme.start < byte)
     }
 
-    /// The first lexeme at or behind a byte, from the next one on.
+    /// Returns the first lexeme at or behind a byte, from the next one on.
     fn index_at(&self, byte: usize) -> usize {
         self.at + self.lexemes[self.at..].partition_point(|lexeme| lexeme.start < byte)
     }
@@ -292,7 +292,7 @@ impl Rows<'_> {
     }
 }
 
-/// The byte at which the unit behind `in` begins.
+/// Returns the byte at which the unit behind `in` begins.
 fn printed(kind: &ItemKind) -> Option<usize> {
     match kind {
         ItemKind::Measure { unit, .. } | ItemKind::Trace { unit, .. } | ItemKind::Result { unit, .. } => {

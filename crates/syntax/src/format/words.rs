@@ -84,7 +84,7 @@ pub(super) struct Word {
 /// Spaces between declarations that share a line.
 const BETWEEN_FEATURES: usize = 2;
 
-/// The words that a text declares as names anywhere: in a formula they do not denote units.
+/// Returns the words that a text declares as names anywhere: in a formula they do not denote units.
 pub(super) fn declared<'a>(lexemes: &[Lexeme<'a>]) -> FxHashSet<&'a str> {
     let is_keyword =
         |lexeme: &Lexeme<'_>| declares_name(lexeme.text) && Keyword::named(lexeme.text).is_some_and(|k| begins(k.role));
@@ -98,7 +98,7 @@ fn begins(role: Role) -> bool {
     matches!(role, Role::Declaration | Role::Feature) || role.is_opener()
 }
 
-/// The words of a declaration, or of a block on one line. `printed` is the byte at which the unit behind `in` begins.
+/// Returns the words of a declaration, or of a block on one line. `printed` is the byte at which the unit behind `in` begins.
 pub(super) fn words(
     lexemes: &[Lexeme<'_>],
     names: &FxHashSet<&str>,
@@ -121,7 +121,7 @@ pub(super) fn words(
     range.map(|k| reading.word(k)).collect()
 }
 
-/// The columns of a declaration on one line.
+/// Returns the columns of a declaration on one line.
 pub(super) fn width(words: &[Word], lexemes: &[Lexeme<'_>]) -> usize {
     let shown = words.iter().zip(lexemes).enumerate().filter(|(_, (word, _))| !word.is_last_comma);
     shown.map(|(k, (word, lexeme))| usize::from(k > 0) * word.spaces + super::width(lexeme.text)).sum()
@@ -194,7 +194,7 @@ impl<'a> Classifier<'a> {
         Word { class, spaces, begins_cell, is_last_comma }
     }
 
-    /// The lexeme behind one, comments aside.
+    /// Returns the lexeme behind one, comments aside.
     fn behind(&self, k: usize) -> Option<&Lexeme<'a>> {
         self.lexemes[k + 1..self.range.end].iter().find(|lexeme| !lexeme.is_comment())
     }
@@ -263,7 +263,7 @@ impl<'a> Classifier<'a> {
         let is_first = self.before.is_none();
         self.keyword = keyword;
         self.takes_name = declares_name(keyword) && keyword != "use";
-        // what stands in a block on one line has no columns
+        // declarations in a block on one line have no columns
         if is_first {
             let has_cells = !matches!(keyword, "ground" | "analysis" | "gravity" | "mechanism");
             self.cells = if has_cells { Cells::Next } else { Cells::None };
