@@ -312,7 +312,7 @@ const VALUES: &[(&str, &[&str], f64)] = &[
 #[test]
 fn synonym_suggestions_have_the_right_value() {
     for &(word, arguments, value) in VALUES {
-        let messages = Synonym::of(Position::Call, word).unwrap_or_else(|| panic!("{word}")).say(arguments);
+        let messages = Synonym::of(Position::Call, word).unwrap_or_else(|| panic!("{word}")).message(arguments);
         let formula = *code_in(&messages).last().expect("a formula");
         let outcome = run(word, &with(&format!("measure v = {formula}")), Span::default()).expect_success();
         let found = outcome.column("v")[0];
@@ -333,7 +333,7 @@ fn only_existing_names_are_suggested() {
         for word in synonym.means {
             assert!(vocabulary::page(word).is_some(), "{:?} mean `{word}`, which is no word", synonym.names);
         }
-        let messages = synonym.say(&[]);
+        let messages = synonym.message(&[]);
         assert!(!messages.ends_with('.') && !messages.contains(['{', '}']), "{messages}");
         assert_eq!(code_in(&messages).len() * 2, messages.matches('`').count(), "{messages}");
         for name in synonym.names {
@@ -368,7 +368,7 @@ fn only_existing_names_are_suggested() {
         if synonym.position == Position::Call && !messages.ends_with('?') {
             for k in 0..code_in(&messages).len() {
                 let works = of_kinds.iter().any(|arguments| {
-                    let messages = synonym.say(arguments);
+                    let messages = synonym.message(arguments);
                     let code = code_in(&messages)[k]
                         .replace("joint)", "joint_b)")
                         .replace("(u, u0, v0, u1, v1)", "(t, 0, 0, 1, 1)");

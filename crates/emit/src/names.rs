@@ -69,7 +69,7 @@ impl Names {
         }
         let mut variable = |wanted: String, short: String| {
             // a name that looks like a numbered one could be mistaken for it
-            let is_plain = wanted.len() <= LONGEST_VARIABLE && Names::is_telling(&wanted);
+            let is_plain = wanted.len() <= LONGEST_VARIABLE && Names::is_descriptive(&wanted);
             variables.snake(if is_plain { &wanted } else { &short })
         };
         let param_variables =
@@ -99,7 +99,7 @@ impl Names {
     }
 
     /// Returns whether a name is more than lower-case letters with a number.
-    pub fn is_telling(name: &str) -> bool {
+    pub fn is_descriptive(name: &str) -> bool {
         let number = name.trim_start_matches(|c: char| c.is_ascii_lowercase());
         number.is_empty() || !number.chars().all(|c| c.is_ascii_digit()) || name.len() - number.len() > 4
     }
@@ -126,14 +126,14 @@ impl Case {
         let is_path = |c: &char| ".[ ".contains(*c);
         order.sort_by_key(|&k| sources[k].chars().filter(is_path).count());
         let (mut namer, mut names) = (Namer::default(), vec![String::new(); sources.len()]);
-        let mut met = Vec::new();
+        let mut colliding = Vec::new();
         for k in order {
             names[k] = self.name(sources[k]);
             if !namer.taken.insert(names[k].clone()) {
-                met.push(k);
+                colliding.push(k);
             }
         }
-        for k in met {
+        for k in colliding {
             names[k] = namer.name(self, sources[k]);
         }
         names

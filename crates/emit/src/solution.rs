@@ -407,7 +407,7 @@ impl CodeContext for SolverContext<'_> {
         let names: &Names = self.solution.equations.names;
         match self.solution.holds(column) {
             ColumnContent::Coordinate { index, order } if order < 3 => {
-                Some(names.coordinate(order, index)).filter(|name| Names::is_telling(name))
+                Some(names.coordinate(order, index)).filter(|name| Names::is_descriptive(name))
             }
             _ => None,
         }

@@ -152,7 +152,7 @@ impl Fault<'_> {
             if let ([only], true) = (synonym.means, synonym.is_same) {
                 return Some(FixIt::Fix(Fix::suggest(self.span(self.here()), only)));
             }
-            return Some(FixIt::Words(synonym.say(&[])));
+            return Some(FixIt::Words(synonym.message(&[])));
         }
         // a separator within a declaration is no factor
         let joins = Keyword::named(self.found).is_some_and(|keyword| keyword.role == Role::Separator);
@@ -167,7 +167,7 @@ impl Fault<'_> {
             return Some(self.argument());
         }
         if let Some(synonym) = Synonym::of(Position::Call, self.word_before()) {
-            return Some(FixIt::Words(synonym.say(&[self.found])));
+            return Some(FixIt::Words(synonym.message(&[self.found])));
         }
         // within parentheses it may as well be a comma
         let is_listed = self.expects(Rule::comma) && self.opened().last().is_some_and(|(_, token)| *token == "(");

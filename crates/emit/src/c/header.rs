@@ -125,12 +125,12 @@ impl Interface<'_> {
     }
 
     /// Prints named indices and their count.
-    fn places(&self, page: &mut Page, one: &str, all: &str, says: &str, named: &[(String, String)]) {
+    fn places(&self, page: &mut Page, one: &str, all: &str, docs: &str, named: &[(String, String)]) {
         let constants = self.constants();
-        page.line(&comment(says));
+        page.line(&comment(docs));
         page.block("enum", |page| {
-            for (k, (name, says)) in named.iter().enumerate() {
-                page.line(&format!("{constants}_{one}_{name} = {k}, {}", comment(says)));
+            for (k, (name, docs)) in named.iter().enumerate() {
+                page.line(&format!("{constants}_{one}_{name} = {k}, {}", comment(docs)));
             }
             page.line(&format!("{constants}_{all} = {} /* how many they are */", named.len()));
         });
@@ -147,9 +147,9 @@ impl Interface<'_> {
             self.structure(page, "signal", |page| page.line("double value, rate, acceleration;"));
             page.line("/* What comes from outside, in SI. */");
             self.structure(page, "inputs", |page| {
-                for (name, says, is_time) in self.fields_of_inputs() {
+                for (name, docs, is_time) in self.fields_of_inputs() {
                     let of = if is_time { "double".to_owned() } else { format!("{prefix}_signal") };
-                    page.line(&format!("{of} {name}; {}", comment(&says)));
+                    page.line(&format!("{of} {name}; {}", comment(&docs)));
                 }
             });
         }
@@ -180,7 +180,7 @@ impl Interface<'_> {
                 for member in &of.fields {
                     let name = field(&member.name);
                     let inner = |part: usize| format!("{}_{}", self.prefix, called(&params.types[part].name));
-                    let (declared, says) = match &member.kind {
+                    let (declared, docs) = match &member.kind {
                         FieldType::Number(param) => {
                             let of = self.unit.system.params()[*param].unit();
                             (format!("double {name}"), format!("{} ({})", member.source, unit(&of)))
@@ -191,7 +191,7 @@ impl Interface<'_> {
                             (format!("{} {name}{}", inner(*part), lengths.concat()), member.source.clone())
                         }
                     };
-                    page.line(&format!("{declared}; {}", comment(&says)));
+                    page.line(&format!("{declared}; {}", comment(&docs)));
                 }
             });
         }

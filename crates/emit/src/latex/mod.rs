@@ -68,7 +68,7 @@ pub fn latex(system: &ConstraintSystem, mechanics: Option<&Mechanics>, is_determ
 }
 
 /// Returns a measure's formula, without the condition under which it has a value: a reader sees from a table where that ends.
-fn where_it_has_a_value(system: &ConstraintSystem, measure: ExprId) -> ExprId {
+fn without_condition(system: &ConstraintSystem, measure: ExprId) -> ExprId {
     let is_none =
         |id: ExprId| system.graph().dependence(id).is_constant() && !system.graph().value(id, |_| 0.0).is_finite();
     match system.graph().node(measure) {
@@ -84,7 +84,7 @@ fn roots(system: &ConstraintSystem, mechanics: Option<&Mechanics>) -> Vec<ExprId
     roots.extend(system.nu().iter().chain(system.gamma()));
     roots.extend(system.inputs().iter().map(|input| input.formulas[0]));
     let measures = system.measures().iter().filter(|measure| not_written(system, measure.value).is_none());
-    roots.extend(measures.map(|measure| where_it_has_a_value(system, measure.value)));
+    roots.extend(measures.map(|measure| without_condition(system, measure.value)));
     if let Some(Mechanics { mass_matrix, applied }) = mechanics {
         roots.extend(mass_matrix.entries().iter().map(|&(_, id)| id).chain(applied.iter().copied()));
         roots.extend(system.reactions().iter().map(|of| of.value));
@@ -352,7 +352,7 @@ impl Writer<'_> {
                 self.entry(&name, &format!("\\text{{{reason}}}"));
                 continue;
             }
-            let text = self.formulas.text(where_it_has_a_value(self.system, measure.value));
+            let text = self.formulas.text(without_condition(self.system, measure.value));
             self.entry(&name, &text);
             self.terms();
         }

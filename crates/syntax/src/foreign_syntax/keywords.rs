@@ -33,7 +33,7 @@ impl Foreign<'_> {
             }
             [_, _] => {
                 let synonym = Synonym::of(Position::Declaration, self.found)?;
-                synonym.means.is_empty().then(|| Correction::Words(synonym.say(&[])))
+                synonym.means.is_empty().then(|| Correction::Words(synonym.message(&[])))
             }
             _ => None,
         }

@@ -13,7 +13,7 @@ pub struct Synonym {
     pub is_same: bool,
     /// Message with the equivalent. `{0 a}` is the first argument as written, or `a` if there is none; `{0 (a)}` is the argument as an
     /// operand, with parentheses where necessary, `{0 deg}` a number of degrees, and `{2 ?}` one more argument, if it exists.
-    say: &'static str,
+    message: &'static str,
 }
 
 /// Position of a word in a text.
@@ -67,12 +67,12 @@ impl Synonym {
 
     /// Returns the message for arguments as written.
     #[must_use]
-    pub fn say(&self, arguments: &[&str]) -> String {
+    pub fn message(&self, arguments: &[&str]) -> String {
         // long arguments would hide the message
         let is_short = arguments.iter().all(|text| text.chars().count() <= LONGEST_ARGUMENT && !text.contains('\n'));
         let arguments = if is_short { arguments } else { &[] };
         let mut text = String::new();
-        let mut rest = self.say;
+        let mut rest = self.message;
         while let Some((before, after)) = rest.split_once('{') {
             let (gap, after_gap) = after.split_once('}').unwrap_or((after, ""));
             text += before;
@@ -109,9 +109,9 @@ const fn synonym(
     position: Position,
     names: &'static [&'static str],
     means: &'static [&'static str],
-    say: &'static str,
+    message: &'static str,
 ) -> Synonym {
-    Synonym { position, names, means, is_same: true, say }
+    Synonym { position, names, means, is_same: true, message }
 }
 
 impl Synonym {
@@ -122,24 +122,24 @@ impl Synonym {
 }
 
 /// Creates a synonym for a call in a formula.
-const fn call(names: &'static [&'static str], means: &'static [&'static str], say: &'static str) -> Synonym {
-    synonym(Position::Call, names, means, say)
+const fn call(names: &'static [&'static str], means: &'static [&'static str], message: &'static str) -> Synonym {
+    synonym(Position::Call, names, means, message)
 }
 
-const fn joint(names: &'static [&'static str], means: &'static [&'static str], say: &'static str) -> Synonym {
-    synonym(Position::Joint, names, means, say)
+const fn joint(names: &'static [&'static str], means: &'static [&'static str], message: &'static str) -> Synonym {
+    synonym(Position::Joint, names, means, message)
 }
 
-const fn unit(names: &'static [&'static str], means: &'static [&'static str], say: &'static str) -> Synonym {
-    synonym(Position::Unit, names, means, say)
+const fn unit(names: &'static [&'static str], means: &'static [&'static str], message: &'static str) -> Synonym {
+    synonym(Position::Unit, names, means, message)
 }
 
-const fn number(names: &'static [&'static str], means: &'static [&'static str], say: &'static str) -> Synonym {
-    synonym(Position::Number, names, means, say)
+const fn number(names: &'static [&'static str], means: &'static [&'static str], message: &'static str) -> Synonym {
+    synonym(Position::Number, names, means, message)
 }
 
-const fn declaration(names: &'static [&'static str], means: &'static [&'static str], say: &'static str) -> Synonym {
-    synonym(Position::Declaration, names, means, say)
+const fn declaration(names: &'static [&'static str], means: &'static [&'static str], message: &'static str) -> Synonym {
+    synonym(Position::Declaration, names, means, message)
 }
 
 /// All synonyms.
@@ -551,13 +551,13 @@ mod tests {
 
     #[test]
     fn synonym_arguments_keep_their_spelling() {
-        let say = |word: &str, arguments: &[&str]| Synonym::of(Position::Call, word).unwrap().say(arguments);
-        assert!(say("sind", &["30"]).ends_with("`sin(30 deg)`"));
-        assert!(say("sind", &["2 * t"]).ends_with("`sin((2 * t) * 1 deg)`"));
-        assert!(say("sqr", &["a + b"]).ends_with("`(a + b)^2`"));
-        assert!(say("SQR", &["a"]).ends_with("`a^2`"));
-        assert!(say("floor", &[]).ends_with("`a - mod(a, 1)`"));
-        assert!(say("floor", &["a_very_long_name_of_something + another_one"]).ends_with("`a - mod(a, 1)`"));
+        let message = |word: &str, arguments: &[&str]| Synonym::of(Position::Call, word).unwrap().message(arguments);
+        assert!(message("sind", &["30"]).ends_with("`sin(30 deg)`"));
+        assert!(message("sind", &["2 * t"]).ends_with("`sin((2 * t) * 1 deg)`"));
+        assert!(message("sqr", &["a + b"]).ends_with("`(a + b)^2`"));
+        assert!(message("SQR", &["a"]).ends_with("`a^2`"));
+        assert!(message("floor", &[]).ends_with("`a - mod(a, 1)`"));
+        assert!(message("floor", &["a_very_long_name_of_something + another_one"]).ends_with("`a - mod(a, 1)`"));
     }
 
     #[test]

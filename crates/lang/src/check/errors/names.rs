@@ -33,7 +33,7 @@ pub fn unknown_number(what: &str, name: &Name, candidates: &[&str]) -> Diagnosti
     if let Some(synonym) = Synonym::of(Position::Number, &name.text) {
         return match synonym.means {
             [only] if synonym.is_same => diagnostic.instead(Fix::suggest(name.span, only)),
-            _ => diagnostic.help(synonym.say(&[])),
+            _ => diagnostic.help(synonym.message(&[])),
         };
     }
     match Synonym::of(Position::Unit, &name.text).filter(|_| name.text.len() > 1 && diagnostic.help.is_empty()) {
@@ -41,7 +41,7 @@ pub fn unknown_number(what: &str, name: &Name, candidates: &[&str]) -> Diagnosti
             // `turn` is more likely an undeclared input than a unit.
             [unit @ "rev"] => diagnostic
                 .help(format!("the unit is `{unit}`; a number of that name is declared: `param {} = …`", name.text)),
-            _ => diagnostic.help(synonym.say(&[])),
+            _ => diagnostic.help(synonym.message(&[])),
         },
         None => diagnostic,
     }
@@ -75,7 +75,7 @@ pub fn names_in_formula(name: &Name) -> Diagnostic {
         return diagnostic.fix(Fix::suggest(name.span, &power));
     }
     match (nearest, synonym) {
-        (_, Some(synonym)) => diagnostic.help(synonym.say(&[])),
+        (_, Some(synonym)) => diagnostic.help(synonym.message(&[])),
         (Some(fix), None) => diagnostic.fix(fix),
         (None, None) => diagnostic.help("it is a formula of the time `t`; `pi`, `tau` and the units may stand in it"),
     }
@@ -110,7 +110,7 @@ pub fn unknown_function(name: &Name, local_names: &[&str], arguments: &[&str]) -
 /// Suggests how to write an entity that is called like a function.
 fn suggest_other_form(name: &str, arguments: &[&str]) -> Option<String> {
     if let Some(synonym) = Synonym::of(Position::Call, name) {
-        return Some(synonym.say(arguments));
+        return Some(synonym.message(arguments));
     }
     if let Some(joint) = JointWord::named(name) {
         let form = joint.word.forms.first().copied().unwrap_or(name);
@@ -127,7 +127,7 @@ pub fn unknown_joint(kind: &Name, arguments: &[&str]) -> Diagnostic {
     let diagnostic = Diagnostic::new(Code::E0201, format!("there is no kind of joint `{}`", kind.text))
         .at(kind.span, "not declared");
     match (Synonym::of(Position::Joint, &kind.text), nearest_name(kind, &candidates)) {
-        (Some(synonym), _) => diagnostic.help(synonym.say(arguments)),
+        (Some(synonym), _) => diagnostic.help(synonym.message(arguments)),
         (None, Some(fix)) => diagnostic.fix(fix),
         (None, None) => diagnostic.help(format!("the joints are {}", list(&candidates))),
     }
@@ -142,7 +142,7 @@ pub fn not_a_unit(name: &Name, [number, power]: [&str; 2], is_a_name: bool) -> D
         let diagnostic = diagnostic.fix(Fix::insert(name.span, "* ", words, Applicability::Probably));
         // A unit in other formulas, and a name here.
         return match Synonym::of(Position::Unit, &name.text) {
-            Some(synonym) if name.text == "g" => diagnostic.help(synonym.say(&[])),
+            Some(synonym) if name.text == "g" => diagnostic.help(synonym.message(&[])),
             _ => diagnostic,
         };
     }
@@ -163,7 +163,7 @@ pub(super) fn suggest_unit(diagnostic: Diagnostic, name: &Name) -> Diagnostic {
     }
     let units: Vec<&str> = Unit::names().collect();
     match (Synonym::of(Position::Unit, &name.text), Unit::prefixed_value(&name.text), nearest_name(name, &units)) {
-        (Some(synonym), ..) => diagnostic.help(synonym.say(&[])),
+        (Some(synonym), ..) => diagnostic.help(synonym.message(&[])),
         (None, Some(text), _) => diagnostic.help(format!("`1 {}` is written `{text}`", name.text)),
         (None, None, Some(fix)) => diagnostic.fix(fix),
         (None, None, None) => diagnostic.help(format!("the units are {}", units.join(" "))),
@@ -219,7 +219,7 @@ pub fn circle(names: &[&Name]) -> Diagnostic {
         .fold(Diagnostic::new(Code::E0206, message).at(first.span, "needs its own value"), |diagnostic, name| {
             diagnostic.also(name.span, "on the circle")
         })
-        .help_if(synonym.map(|synonym| synonym.say(&[])))
+        .help_if(synonym.map(|synonym| synonym.message(&[])))
 }
 
 pub fn hidden_name(argument: &Name, declared: Span, free: Option<&str>, uses: &[Span]) -> Diagnostic {

@@ -50,7 +50,7 @@ impl Checker<'_> {
             return Some(self.replace_in_equation(e.span, &quantity));
         }
         let synonym = synonym?;
-        let example = synonym.say(&[]);
+        let example = synonym.message(&[]);
         let order = (1..=3).rev().find(|&order| example.contains(&"der(".repeat(order))).unwrap_or(1);
         let written = format!("{}{quantity}{}", "der(".repeat(order), ")".repeat(order));
         Some(Fix::replace(e.span, &written, format!("of a joint it is `{written}`"), Applicability::Probably))
