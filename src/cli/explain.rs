@@ -32,12 +32,16 @@ fn list() -> String {
 
 fn unknown(name: &str) -> Diagnostic {
     let diagnostic = unusable(format!("there is no code and no word `{name}`"));
-    let mut synonyms = Synonym::all_of(name).map(|synonym| (synonym.say(&[]), synonym.means)).peekable();
+    let mut synonyms = Synonym::all_of(name).map(|synonym| (synonym.message(&[]), synonym.means)).peekable();
     if synonyms.peek().is_some() {
-        return synonyms.fold(diagnostic, |diagnostic, (say, means)| {
+        return synonyms.fold(diagnostic, |diagnostic, (message, means)| {
             let pages: Vec<String> = means.iter().map(|word| format!("`mechc explain {word}`")).collect();
-            let end = if say.ends_with('?') { "" } else { ";" };
-            diagnostic.help(if pages.is_empty() { say } else { format!("{say}{end} see {}", pages.join(" and ")) })
+            let end = if message.ends_with('?') { "" } else { ";" };
+            diagnostic.help(if pages.is_empty() {
+                message
+            } else {
+                format!("{message}{end} see {}", pages.join(" and "))
+            })
         });
     }
     let words = vocabulary::words().map(|word| word.name).chain(OVERVIEWS.iter().copied()).chain(topics());

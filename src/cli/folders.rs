@@ -49,7 +49,7 @@ fn collect(folder: &Path, files: &mut Vec<PathBuf>) -> Result<(), (PathBuf, io::
         let kind = entry.file_type().map_err(failed)?;
         let name = entry.file_name();
         let name = name.to_string_lossy();
-        if !world::is_own(&name) {
+        if !world::is_source_entry(&name) {
             continue;
         }
         if kind.is_dir() {

@@ -1,4 +1,4 @@
-//! From a file and options to a determined mechanism, as most commands begin.
+//! Reads a file and options into a determined mechanism, the first step of most commands.
 
 use super::arguments::{Input, Interval};
 use super::failure::{Failure, unusable};

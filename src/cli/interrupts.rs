@@ -62,7 +62,7 @@ pub(super) fn watch() {
     }
 }
 
-/// Does nothing: interruptions are handled on Unix only.
+/// Does nothing: only Unix has signals.
 #[cfg(not(unix))]
 pub(super) fn watch() {}
 
@@ -90,7 +90,7 @@ fn abandon(signal: i32) {
 pub(super) fn remove(unfinished: &mut Vec<PathBuf>) {
     for path in unfinished.drain(..).rev() {
         if fs::remove_file(&path).is_err() {
-            // it is a folder, which stays if it is not empty
+            // the path is a folder, which stays if it is not empty
             let _ = fs::remove_dir(&path);
         }
     }

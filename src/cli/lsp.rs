@@ -9,7 +9,7 @@ use std::fs::File;
 use std::io::{BufWriter, IsTerminal};
 use std::sync::Arc;
 
-/// The explanation for a user who starts it without an editor.
+/// Explanation for users who start the server without an editor.
 const FOR_EDITORS: &str = "`mechc lsp` is the language server: an editor starts it and speaks the language server protocol with it, over\n\
     standard input and output. How editors are set up is in the folder `editors` of the project.\n";
 

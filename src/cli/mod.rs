@@ -16,7 +16,6 @@ mod formula;
 mod import;
 mod input;
 mod interrupts;
-mod licenses;
 #[cfg(feature = "lsp")]
 mod lsp;
 mod output_format;
@@ -36,8 +35,12 @@ mod view;
 use arguments::{Arguments, Command, Messages};
 use clap::Parser;
 use failure::Failure;
+use mechc_draw::view::page;
 use report::Reporter;
 use std::process::ExitCode;
+
+/// Licences of the crates (`tests/program/licenses.rs` writes the file).
+const CRATE_LICENSES: &str = include_str!("licenses.txt");
 
 /// Runs the command that the process was called with.
 #[must_use]
@@ -46,7 +49,7 @@ pub fn main() -> ExitCode {
     let arguments = Arguments::try_parse().unwrap_or_else(|error| usage::with_tip(error).exit());
     // without a command the only option is `--licenses`
     let Some(command) = arguments.command else {
-        return ExitCode::from(run_command(&Messages::default(), |_| licenses::print()));
+        return ExitCode::from(run_command(&Messages::default(), |_| print_licenses()));
     };
     ExitCode::from(match command {
         Command::Check(check) => run_command(&check.input.messages, |reporter| check::check(&check, reporter)),
@@ -83,4 +86,14 @@ fn run_command(messages: &Messages, work: impl FnOnce(&mut Reporter) -> Result<(
     let mut reporter = Reporter::new(messages);
     let result = work(&mut reporter);
     reporter.finish(result)
+}
+
+/// Prints the notices that the licences of dependencies require.
+fn print_licenses() -> Result<(), Failure> {
+    let program = concat!("mechc ", env!("CARGO_PKG_VERSION"), ": ", env!("CARGO_PKG_LICENSE"));
+    let pages = page::NOTICES.trim_end();
+    let library = "It is built with the standard library of Rust: MIT OR Apache-2.0, https://github.com/rust-lang/rust";
+    files::print(&format!(
+        "{program}\n{library}\n\n\nIn the pages that `mechc view` writes\n\n{pages}\n\n\n{CRATE_LICENSES}"
+    ))
 }

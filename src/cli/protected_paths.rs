@@ -105,7 +105,7 @@ pub(super) fn resolve_links(path: &Path) -> io::Result<PathBuf> {
     for _ in 0..40 {
         match fs::read_link(&path) {
             Ok(target) => path = path.parent().unwrap_or(Path::new("")).join(target),
-            // it is not a link
+            // the path is no link
             Err(_) => return Ok(path),
         }
     }

@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 /// The variants that were written.
 #[derive(Default)]
 pub(super) struct Summary {
-    /// For each status, the number of variants and the first of them.
+    /// Number of variants with each status, and the first of them.
     counts: BTreeMap<&'static str, (u64, u64)>,
     completed: u64,
     rows: u64,

@@ -246,7 +246,7 @@ struct EncodedBlock {
     first: u64,
     statuses: Vec<Status>,
     rows: usize,
-    /// For each result, the number of completed variants without a value, and the first of them.
+    /// Number of completed variants without a value for each result, and the first of them.
     without_value: Vec<(u64, u64)>,
 }
 

@@ -103,7 +103,7 @@ fn results_of_plain_variants_are_found_side_by_side() {
 }
 
 #[test]
-fn results_of_linkages_of_all_shapes_are_those_alone() {
+fn linkage_results_match_single_runs() {
     let ranges = ["base=2..5", "arm=0.3..2", "rod=1.5..5", "lever=1.5..5", "pen_x=-2..4", "start=0..6", "speed=-4..4"];
     let mut all = 0;
     for kinds in KINDS.chunks(3) {
@@ -115,7 +115,7 @@ fn results_of_linkages_of_all_shapes_are_those_alone() {
 }
 
 #[test]
-fn results_of_sliders_are_those_alone() {
+fn slider_results_match_single_runs() {
     let kinds =
         ["far = max(x(block.P))", "near = min(x(block.P))", "when = argmin(x(block.P))", "v = max(der(x(block.P)))"];
     let subject = of(SLIDER, &kinds);
@@ -153,7 +153,7 @@ fn extrema_in_doubt_are_found_alone() {
 
 /// Where the branch is in doubt, or the motion stops, results are those alone.
 #[test]
-fn next_to_change_points_and_dead_points_results_are_those_alone() {
+fn results_near_singularities_match_single_runs() {
     let subject = of(FOUR_BAR, &KINDS[..4]);
     let off = [0.0, 1e-12, 1e-9, 1e-6, 1e-4, 1e-2, 0.1];
     for (name, value) in [("lever", 1.5), ("rod", 6.0), ("arm", 2.5)] {
@@ -170,7 +170,7 @@ fn next_to_change_points_and_dead_points_results_are_those_alone() {
 /// A length has a kink where it is zero: there a variant is in doubt. Curves with a cusp, a point that rests or comes to the centre, in many
 /// variants beside those.
 #[test]
-fn lengths_are_those_alone_also_beside_zero() {
+fn lengths_near_zero_match_single_runs() {
     let kinds = [
         "least = min(hypot(x(crank.C) - x(crank.A), y(crank.C)))",
         "slowest = min(hypot(der(x(coupler.pen)), der(y(coupler.pen))))",
@@ -224,7 +224,7 @@ fn distances_and_magnitudes_are_found_side_by_side() {
 
 /// What rests has its largest value and its least one at both ends, and nothing tells it from one that moves a little but how much.
 #[test]
-fn what_rests_is_found_side_by_side() {
+fn rests_are_found_in_batches() {
     let kinds = [
         "pace = max(speed(crank.C))",
         "slowest = min(speed(crank.C))",
@@ -252,7 +252,7 @@ fn what_rests_is_found_side_by_side() {
 
 /// What is not smooth, is nested, or has a window goes alone; beside rows as without them.
 #[test]
-fn other_results_go_alone() {
+fn ineligible_results_run_alone() {
     let requested = sampled(&["rod=3.4..3.6", "lever=2.9..3.1"], 6);
     for other in [
         "far = max(abs(x(coupler.pen)) + y(coupler.pen))",

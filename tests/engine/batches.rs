@@ -53,7 +53,7 @@ fn compare(subject: &Subject, requested: &VaryOptions) -> (Vec<(Status, usize)>,
 
 /// What this way is for: if all variants went alone nobody would notice.
 #[test]
-fn plain_variants_go_side_by_side() {
+fn plain_variants_are_batched() {
     let ranges = ["rod=3.4..3.6", "lever=2.9..3.1", "base=3.9..4.1", "speed=1..3", "pen_x=-1..2"];
     for every in ["0.05", "1.575"] {
         let subject = subject(&four_bar(TURNS, every), Choice::default());
@@ -65,7 +65,7 @@ fn plain_variants_go_side_by_side() {
 }
 
 #[test]
-fn linkages_of_all_shapes_are_what_they_are_alone() {
+fn batched_linkages_match_single_runs() {
     let ranges = ["base=2..5", "arm=0.3..2", "rod=1.5..5", "lever=1.5..5", "speed=-2..2"];
     let mut all = 0;
     for every in ["0.15", "1.05"] {
@@ -99,7 +99,7 @@ fn at_change_points_no_branch_is_guessed() {
 
 /// The rocker is driven: there are two dead points, and what is asked for ends just before one, at it, or beyond.
 #[test]
-fn next_to_dead_points_variants_stop_where_they_stop_alone() {
+fn batches_stop_at_dead_points_as_single_runs_do() {
     let text = four_bar(TURNS, "0.315").replace("revolute(ground.B, rocker.B)", "revolute(rocker.B, ground.B)");
     let text = text.replace("rotation(main) = 0.5 + speed * t", "rotation(pivot) = -1.85 + speed * t / 10");
     let subject = subject(&text, Choice::default());
@@ -119,7 +119,7 @@ fn next_to_dead_points_variants_stop_where_they_stop_alone() {
 
 /// Where it can just be assembled, and where it just cannot.
 #[test]
-fn at_the_end_of_their_reach_variants_are_assembled_as_alone() {
+fn batches_assemble_at_the_end_of_reach() {
     let subject = subject(&four_bar(TURNS, "0.5"), Choice::default());
     // at the start the crank's pin is so far from the base
     let (sin, cos) = mechc_expr::math::sin_cos(0.5);
@@ -132,7 +132,7 @@ fn at_the_end_of_their_reach_variants_are_assembled_as_alone() {
 
 /// Rows are known to be there without being followed once more; what is asked of the whole motion is as it is alone.
 #[test]
-fn results_beside_a_lane_are_those_alone() {
+fn lane_results_match_single_runs() {
     let results = ["top = max(height)", "when = argmax(height)", "mean_reach = mean(reach)", "late = at(height, 3)"];
     let results = results.iter().map(|&result| result.to_owned()).collect();
     let subject = subject(&four_bar(TURNS, "0.45"), Choice { results, ..Choice::default() });
@@ -151,7 +151,7 @@ fn results_beside_a_lane_are_those_alone() {
 
 /// One that stops, or is not even a mechanism, beside others: they do not feel it.
 #[test]
-fn who_leaves_a_lane_leaves_the_others_alone() {
+fn leaving_a_lane_does_not_affect_others() {
     let subject = subject(&four_bar(TURNS, "0.315"), Choice::default());
     let rods = ["3.5", "0", "-3.4", "9", "1.9", "3.6", "1e300", "3.45", "2.2", "0.1"];
     let requested = [format!("rod={}", rods.join(",")), "lever=3,0,2.95".to_owned()];
@@ -233,7 +233,7 @@ fn memory_that_held_other_variants_holds_these() {
 /// What is the same for all variants is learned from those that come first, of which none gets to its end, or not all; where a crank's length or
 /// its speed varies, its place or its turn is not the same.
 #[test]
-fn what_is_the_same_for_all_is_theirs_alone() {
+fn shared_values_match_single_runs() {
     let subject = subject(&four_bar(TURNS, "0.045"), Choice::default());
     let locking = (0..36).map(|k| 1.5 + 0.0125 * f64::from(k));
     let turning = (0..40).map(|k| 3.4 + 0.005 * f64::from(k));
@@ -248,7 +248,7 @@ fn what_is_the_same_for_all_is_theirs_alone() {
 
 /// Of so many numbers none is kept but the times.
 #[test]
-fn long_motions_are_those_alone() {
+fn long_motions_match_single_runs() {
     let subject = subject(&four_bar(TURNS, "0.00008"), Choice::default());
     assert!(subject.all_columns().columns.expect("all").len() * 39_375 > 1 << 20);
     let (found, abreast) = compare(&subject, &vary(&["rod=3.4,3.5,3.6"]));
@@ -258,7 +258,7 @@ fn long_motions_are_those_alone() {
 /// Rows that are near to each other are led on by velocities alone: they are the same ones, also where variants are much faster than the file's own
 /// values have it, lock up, or come by where branches meet.
 #[test]
-fn near_rows_are_those_alone() {
+fn close_rows_match_single_runs() {
     let driven = four_bar(TURNS, "0.015").replace("revolute(ground.B, rocker.B)", "revolute(rocker.B, ground.B)");
     let driven = driven.replace("rotation(main) = 0.5 + speed * t", "rotation(pivot) = -1.85 + speed * t / 10");
     let shapes = ["base=2..5", "arm=0.3..2", "rod=1.5..5", "lever=1.5..5", "speed=-20..20"];
@@ -290,7 +290,7 @@ fn near_rows_are_those_alone() {
 /// Of a zero the text's check decides other things than of other values; times may be a list that begins later than the motion; and a text
 /// may say nothing but values.
 #[test]
-fn zeros_and_times_of_their_own_are_as_alone() {
+fn individual_zeros_and_times_match_single_runs() {
     let text = four_bar(TURNS, "0.5").replace("param rise", "param P = (0.4, 0.3) param rise");
     let text = text.replace("point pen = (pen_x, rise / 2)", "point pen = P + (pen_x, 0)");
     let subject = subject(&text, Choice::default());
@@ -315,7 +315,7 @@ fn zeros_and_times_of_their_own_are_as_alone() {
 
 /// On the way to its params a mechanism may come over an edge, or to an end, that it does not meet at either of its ends.
 #[test]
-fn what_happens_on_the_way_is_seen_as_alone() {
+fn events_in_batches_match_single_runs() {
     for (from, to) in [
         ("(arm, 0)", "(arm - mod(arm, 1) + mod(arm, 1), 0)"),
         ("(arm, 0)", "(abs(arm - 1.2) + 0.8, 0)"),
@@ -331,7 +331,7 @@ fn what_happens_on_the_way_is_seen_as_alone() {
 
 /// What this way does not look at goes alone.
 #[test]
-fn what_is_not_plain_goes_alone() {
+fn complex_variants_run_alone() {
     let plain = four_bar(TURNS, "0.5");
     let requested = vary(&["rod=3.45,3.55", "speed=1.5"]);
     let of = |text: &str| compare(&subject(text, Choice::default()), &requested).1;

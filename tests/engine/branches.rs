@@ -48,7 +48,7 @@ fn no_sampling_changes_the_branch() {
 }
 
 #[test]
-fn elbow_up_and_elbow_down_are_told_apart_by_the_estimates() {
+fn estimates_select_the_elbow_branch() {
     let arm = |elbow: f64| {
         let text = format!(
             "mechanism arm {{
@@ -90,7 +90,7 @@ fn slider_crank(rod: f64, every: f64) -> support::Outcome {
 }
 
 #[test]
-fn a_near_miss_of_a_dead_point_is_passed_whatever_the_output_step() {
+fn near_dead_points_are_passed_at_any_output_step() {
     let rod = 1.000_001;
     for every in [0.1, 0.01, 0.001] {
         let rows = slider_crank(rod, every).expect_success();
@@ -104,7 +104,7 @@ fn a_near_miss_of_a_dead_point_is_passed_whatever_the_output_step() {
 }
 
 #[test]
-fn a_dead_point_is_found_whatever_the_output_step() {
+fn dead_points_are_found_at_any_output_step() {
     // the rod is in line with the guide's normal at sin φ = 0.8
     let dead_point = mechc_expr::math::asin(0.8) - 0.3;
     for every in [3.0, 0.1, 0.001] {
@@ -116,7 +116,7 @@ fn a_dead_point_is_found_whatever_the_output_step() {
 }
 
 #[test]
-fn a_start_may_be_far_from_the_estimates_in_what_a_driver_fixes() {
+fn driven_coordinates_may_start_far_from_estimates() {
     let text = fs::read_to_string("tests/cases/slider_crank.mech").expect("a text");
     let late = text.replace("from 0 s to 1 s", "from 100000 s to 100001 s");
     let early = run("slider_crank", &text, Span::default()).expect_success();
@@ -128,7 +128,7 @@ fn a_start_may_be_far_from_the_estimates_in_what_a_driver_fixes() {
 }
 
 #[test]
-fn a_driver_in_step_with_the_output_hides_nothing() {
+fn drivers_in_step_with_the_output_are_resolved() {
     // it swings into the dead point and back between any two of these times
     let text = fs::read_to_string("tests/ui/run/four_bar_into_lock_up.mech").expect("a text");
     let text = text.replace("60 deg + 90 deg/s * t", "60 deg + 60 deg * sin(360 deg * t / 1 s)^4");
@@ -159,7 +159,7 @@ fn passing(analysis: &str) -> (Vec<String>, Vec<Vec<f64>>, Vec<f64>) {
 }
 
 #[test]
-fn a_parallelogram_goes_through_its_change_points() {
+fn parallelograms_pass_change_points() {
     for analysis in ["analysis from 0 s to 20 s every 10 ms", "analysis from 0 s to 20 s every 1 s"] {
         let (columns, rows, passed) = passing(analysis);
         let at = |name: &str| columns.iter().position(|column| column == name).expect("a column");
@@ -181,7 +181,7 @@ fn a_parallelogram_goes_through_its_change_points() {
 }
 
 #[test]
-fn a_quotient_whose_slope_grows_is_followed_whatever_the_output_step() {
+fn steep_quotients_are_followed_at_any_output_step() {
     let text = "mechanism pointer {
         ground { point O = (0, 0) }
         body b at (0, 0, 45 deg) { point O = (0, 0) point P = (1, 0) }
@@ -268,7 +268,7 @@ fn a_change_point_that_rounded_lengths_miss_is_reported() {
 }
 
 #[test]
-fn who_is_clear_of_change_points_is_told_nothing() {
+fn no_reports_away_from_change_points() {
     let mut random = Random::new(4);
     for _ in 0..12 {
         let crank = random.between(40.0, 120.0);
@@ -300,7 +300,7 @@ fn wavy_cam(base: f64) -> String {
 }
 
 #[test]
-fn an_undercut_cam_is_told_and_never_passed() {
+fn undercut_cams_are_reported() {
     let mut random = Random::new(5);
     for _ in 0..6 {
         let base = random.between(15.0, 27.9);

@@ -175,7 +175,7 @@ fn measures_agree_with_the_bodies_on_every_row_of_all_cases() {
 }
 
 #[test]
-fn rows_over_change_points_have_the_motion_of_their_closed_form() {
+fn rows_across_change_points_match_closed_forms() {
     let mut random = Random::new(7);
     for number in 0..24 {
         let (length, start) = (random.between(0.3, 3.0), random.between(1.2, 1.45));
@@ -215,7 +215,7 @@ fn rows_over_change_points_have_the_motion_of_their_closed_form() {
 }
 
 #[test]
-fn an_overshoot_beyond_a_dead_point_is_a_lock_up_at_its_time() {
+fn overshoots_of_a_dead_point_lock_up() {
     let mut random = Random::new(11);
     for _ in 0..12 {
         let (rod, stroke) = (random.between(1.3, 4.0), random.between(0.1, 0.5));
@@ -241,7 +241,7 @@ fn an_overshoot_beyond_a_dead_point_is_a_lock_up_at_its_time() {
 }
 
 #[test]
-fn a_rod_that_is_ever_so_little_shorter_than_its_crank_is_a_lock_up_and_no_bifurcation() {
+fn slightly_short_rods_lock_up() {
     let mut random = Random::new(19);
     for short in [1e-4, 1e-6, 1e-8, 1e-9, 1e-10] {
         let (length, short) = (random.between(0.5, 2.0), short * random.between(1.0, 3.0));
@@ -263,7 +263,7 @@ fn a_rod_that_is_ever_so_little_shorter_than_its_crank_is_a_lock_up_and_no_bifur
 }
 
 #[test]
-fn what_comes_after_the_last_time_keeps_no_row_back() {
+fn later_events_keep_no_row_back() {
     let mut random = Random::new(13);
     for _ in 0..10 {
         let (rod, stroke) = (random.between(1.3, 4.0), random.between(0.2, 0.6));
@@ -285,7 +285,7 @@ fn what_comes_after_the_last_time_keeps_no_row_back() {
 }
 
 #[test]
-fn all_rows_are_printed_with_passing_that_are_printed_without_it() {
+fn passing_bifurcations_keeps_all_rows() {
     let mut random = Random::new(17);
     for number in 0..30 {
         let (length, start) = (random.between(0.5, 2.0), random.between(1.2, 1.5));

@@ -115,7 +115,7 @@ fn the_start_is_on_the_branch_of_the_file() {
 }
 
 #[test]
-fn samples_lead_to_where_they_begin() {
+fn samples_begin_by_continuation() {
     let text = |declarations: &str, driver: &str| four_bar(&CRANK_ROCKER[1], declarations, driver);
     let samples = "t,turn [deg]\n0,250\n1,300\n2,310\n";
     let sampled = compiled(&text(TURN, "turn"), &[], Some(samples));
@@ -127,7 +127,7 @@ fn samples_lead_to_where_they_begin() {
 }
 
 #[test]
-fn time_goes_along_with_the_inputs() {
+fn time_changes_with_the_inputs() {
     let text = |declarations: &str, driver: &str| four_bar(&CRANK_ROCKER[1], declarations, driver);
     let both = text("input turn = 30 deg + 5 deg/s * t\n fn more(u) = 20 deg/s * u", "turn + more(t)");
     // 30 deg at 0 s by its own input, 300 deg - 100 deg at 5 s by the other
@@ -139,7 +139,7 @@ fn time_goes_along_with_the_inputs() {
 }
 
 #[test]
-fn who_is_told_what_is_so_anyway_gets_the_same_rows() {
+fn setting_an_input_to_its_formula_changes_no_row() {
     let text = four_bar(&CRANK_ROCKER[1], "input turn = 30 deg + 90 deg/s * t", "turn");
     let times = Times::grid(0.0, 1.0, 0.01).expect("a grid");
     let (own, messages) = run(&compiled(&text, &[], None), &times);
@@ -154,7 +154,7 @@ fn rocking(declarations: &str, driver: &str) -> String {
 }
 
 #[test]
-fn a_dead_point_on_the_way_is_told_and_the_estimates_alone_are_tried() {
+fn dead_points_on_the_path_fall_back_to_estimates() {
     // -30 deg is there, and so is 330 deg, but not on the way round
     let text = rocking(TURN, "turn");
     assert!(run(&compiled(&text, &["turn=-30 deg"], None), &Times::listed(0.0, vec![0.0])).1.is_empty());
@@ -188,7 +188,7 @@ fn a_kink_on_the_way_is_passed_and_a_jump_is_not() {
 }
 
 #[test]
-fn a_file_that_does_not_stand_alone_begins_from_its_estimates() {
+fn incomplete_files_start_from_estimates() {
     // its own input has no value, or no position
     for own in ["1 / (1 - 1) * 1 deg", "sqrt(-1 - 0 * t / 1 s)", "120 deg"] {
         let text = rocking(&format!("input turn = {own}"), "turn");
@@ -204,7 +204,7 @@ fn a_file_that_does_not_stand_alone_begins_from_its_estimates() {
 }
 
 #[test]
-fn estimates_that_are_far_off_are_told_of_the_file_s_own_start() {
+fn far_estimates_are_reported_at_the_nominal_start() {
     let text = four_bar(&Links { angles: [40.0, -100.0], ..CRANK_ROCKER[0] }, TURN, "turn");
     let (rows, messages) = run(&compiled(&text, &["turn=100 deg"], None), &Times::listed(3.0, vec![3.0]));
     assert_eq!((rows.len(), codes(&messages)), (1, vec!["N0601"]));
@@ -212,7 +212,7 @@ fn estimates_that_are_far_off_are_told_of_the_file_s_own_start() {
 }
 
 #[test]
-fn code_begins_where_a_run_does() {
+fn emitted_code_starts_as_a_run() {
     let text = four_bar(&DRAG_LINK[1], TURN, "turn");
     let led = compiled(&text, &["turn=250 deg + 0 rad/s * t"], None);
     let (code, messages) = led.rust(&mechc::RustOptions::new("four_bar"));
@@ -225,7 +225,7 @@ fn code_begins_where_a_run_does() {
 }
 
 #[test]
-fn an_input_is_led_to_a_number_too() {
+fn inputs_are_continued_to_numbers() {
     let text = four_bar(&DRAG_LINK[1], "input turn = 30 deg\n input more = 20 deg/s * t", "turn + more + 1 deg/s * t");
     let mut sources = Sources::default();
     let file = sources.add("four_bar.mech", text);
@@ -252,7 +252,7 @@ fn an_input_is_led_to_a_number_too() {
 }
 
 #[test]
-fn what_is_cancelled_says_nothing() {
+fn cancelled_runs_report_nothing() {
     let cancel = Cancel::default();
     let led = compiled(&rocking(TURN, "turn"), &["turn=330 deg"], None);
     cancel.cancel();
@@ -315,7 +315,7 @@ fn bifurcations_that_are_passed_on_the_way_are_reported() {
 }
 
 #[test]
-fn a_part_tells_what_it_passed_on_its_way_and_where_it_is_used() {
+fn parts_report_passed_bifurcations_and_their_use() {
     let text = format!(
         "mechanism whole {{
             part near: linkage(turn = 100 deg) at (0, 0, 0)
@@ -357,7 +357,7 @@ fn led_over(text: &str, set: &[&str]) -> Compiled {
 const START: &str = "param start = 30 deg";
 
 #[test]
-fn params_that_are_set_are_gone_over_to_along_the_branch() {
+fn set_params_are_continued_along_the_branch() {
     for links in CRANK_ROCKER.iter().chain(&DRAG_LINK) {
         let text = |declarations: &str, driver: &str| four_bar(links, declarations, driver);
         for target in [31.0, 180.0, 359.0, -75.0, -500.0] {
@@ -374,7 +374,7 @@ fn params_that_are_set_are_gone_over_to_along_the_branch() {
 }
 
 #[test]
-fn inputs_go_where_params_have_gone() {
+fn inputs_are_continued_after_params() {
     for links in CRANK_ROCKER.iter().chain(&DRAG_LINK) {
         let text = |declarations: &str, driver: &str| four_bar(links, declarations, driver);
         let (set, inputs) = (vec!["start=-100 deg".to_owned()], vec!["turn=310 deg".to_owned()]);
@@ -387,7 +387,7 @@ fn inputs_go_where_params_have_gone() {
 }
 
 #[test]
-fn lengths_and_points_lead_as_well() {
+fn lengths_and_points_are_continued() {
     let text = "mechanism m {
         param A = (30 mm, 0)
         param coupler_length = 90 mm

@@ -168,7 +168,7 @@ fn tables_are_interpolated_smoothly() {
 }
 
 #[test]
-fn branches_that_do_not_count_do_not_matter() {
+fn inactive_branches_have_no_effect() {
     // left of zero the root and the logarithm of the other branch have no value
     for range in [[0.4, 2.5], [-2.5, -0.4]] {
         check_function(&format!("if on {range:?}"), range, |g, u, v| {
@@ -359,7 +359,7 @@ const SMOOTH: &[&str] = &[
 ];
 
 #[test]
-fn velocities_and_accelerations_are_those_of_the_motion() {
+fn velocities_and_accelerations_match_differences() {
     for name in SMOOTH {
         let text = fs::read_to_string(format!("tests/cases/{name}.mech")).expect("a text");
         let times = run(name, &text, Span::default()).expect_success().column("t");

@@ -40,7 +40,7 @@ fn at(outcome: &Outcome, column: &str, t: f64) -> f64 {
 }
 
 #[test]
-fn a_position_that_jumps_is_told_with_its_time() {
+fn position_jumps_are_reported_with_their_time() {
     for (formula, t) in [
         ("if t < 0.55 then 0 else 1", 0.55),
         ("if t <= 0.55 then 0 else 1", 0.55),
@@ -119,7 +119,7 @@ fn a_pulse_between_output_times_is_met() {
 }
 
 #[test]
-fn what_holds_at_a_single_time_is_no_edge() {
+fn single_times_are_no_edges() {
     let outcome = slide("", "if t == 1 then 5 else t").expect_success();
     assert!(outcome.diagnostics.is_empty());
     assert_eq!(at(&outcome, "block.x", 1.0), 1.0);
@@ -128,7 +128,7 @@ fn what_holds_at_a_single_time_is_no_edge() {
 }
 
 #[test]
-fn a_measure_takes_the_branch_it_is_on() {
+fn measures_take_the_current_branch() {
     let outcome = slide("measure late = if t <= 1 then 1 else 2 measure saw = mod(displacement(guide), 0.3)", "t");
     assert!(outcome.diagnostics.is_empty(), "{}", outcome.text());
     assert_eq!([at(&outcome, "late", 1.0), at(&outcome, "late", 1.1)], [1.0, 2.0]);
@@ -201,7 +201,7 @@ fn output_times_do_not_move_edges() {
 }
 
 #[test]
-fn edges_are_where_their_guards_are_zero() {
+fn edges_are_zeros_of_their_guards() {
     // guards whose last digits go back and forth around their zero
     for (formula, t) in [
         ("harmonic(5.49 * t - t, 0.96, 0, 1.96, 1)", 0.96 / 4.49),
@@ -219,7 +219,7 @@ fn edges_are_where_their_guards_are_zero() {
 }
 
 #[test]
-fn random_guards_are_met_where_they_are_zero() {
+fn edges_are_zeros_of_random_guards() {
     let mut numbers = Random::new(7);
     let mut random = || numbers.part();
     for _ in 0..60 {
@@ -262,7 +262,7 @@ fn branches_that_agree_are_no_edges() {
 }
 
 #[test]
-fn what_is_smooth_gets_no_warning() {
+fn smooth_formulas_get_no_warning() {
     for formula in [
         "step7(t, 1.1, 0.47, 1.101, 0.48)",
         "step5(t, 1.1, 0, 1.1001, 0.01)",

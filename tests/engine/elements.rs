@@ -574,7 +574,7 @@ fn everywhere(x: f64, y: f64, angle: f64) -> Outcome {
 }
 
 #[test]
-fn where_a_mechanism_stands_means_nothing_to_its_parts() {
+fn parts_do_not_depend_on_location() {
     let want = everywhere(0.0, 0.0, 0.0);
     for (x, y, angle) in [(0.3, -0.2, 0.0), (0.0, 0.0, 2.0), (-0.1, 0.4, -0.7), (0.2, 0.1, PI)] {
         let got = everywhere(x, y, angle);

@@ -181,7 +181,7 @@ fn to_follow_the_texts_inputs_is_to_step() {
 }
 
 #[test]
-fn what_is_written_as_numbers_follows_as_well() {
+fn encoded_operations_follow_inputs() {
     goes_where_step_goes("platform", "crank_1", "CRANK_1", 0);
     goes_where_step_goes("slider_crank", "turn", "TURN", 0);
 }
@@ -219,7 +219,7 @@ fn ways(text: &str, first: &str, ways: &str) -> Vec<String> {
 }
 
 #[test]
-fn beyond_a_dead_point_it_locks_up_and_stays_where_it_was() {
+fn lock_ups_keep_the_state() {
     // a crank that cannot turn round: the rod and the rocker come into line
     let text = driven("1.5 m", "turn");
     let found = ways(&text, "0.6", "[2.5, -2.5, 0.7, 100.0, 0.6 + 1e-7, 1e12, -1e300]");
@@ -228,7 +228,7 @@ fn beyond_a_dead_point_it_locks_up_and_stays_where_it_was() {
 }
 
 #[test]
-fn a_jump_is_told_and_a_kink_is_passed() {
+fn jumps_are_reported_and_kinks_passed() {
     let [jump, ok, far] = ["Err(NotSmooth) true true", "Ok(()) false true", "Err(TooFar) true true"];
     let text = driven("3.5 m", "if turn < 1 then turn else turn + 0.3");
     assert_eq!(ways(&text, "0.6", "[0.9, 1.5, 0.999, 1.0, 3.0, 1e12]"), [ok, jump, ok, jump, jump, far]);
@@ -243,14 +243,14 @@ fn a_jump_is_told_and_a_kink_is_passed() {
 }
 
 #[test]
-fn where_there_is_no_number_there_is_no_way() {
+fn paths_without_values_are_refused() {
     let text = driven("3.5 m", "1.2 * sqrt(turn)");
     let [none, ok] = ["Err(NotANumber) true true", "Ok(()) false true"];
     assert_eq!(ways(&text, "0.6", "[0.2, -0.5, f64::NAN, f64::INFINITY, 1.0]"), [ok, none, none, none, ok]);
 }
 
 #[test]
-fn so_many_steps_are_kept_and_the_same_call_goes_on() {
+fn step_limits_allow_resumption() {
     let lines = printed(
         &emitted(&text_of("four_bar")).text(None),
         r#"
@@ -301,7 +301,7 @@ fn main() {
 }
 
 #[test]
-fn a_way_that_is_long_is_too_far_and_nothing_else() {
+fn long_paths_are_too_far() {
     let lines = printed(
         &emitted(&text_of("four_bar")).text(None),
         r#"
@@ -381,7 +381,7 @@ fn main() {
 "#;
 
 #[test]
-fn parameters_that_no_short_way_leads_to_are_assembled_as_the_file_draws_them() {
+fn distant_parameters_are_assembled_as_drawn() {
     let text = fs::read_to_string("tests/emitted/four.mech").expect("a text");
     let lines = printed(&emitted(&text).text(None), &with_random(FAR));
     let [continued, drawn, refused] = numbers(&lines[1])[..] else { panic!("{lines:?}") };
@@ -506,7 +506,7 @@ fn main() {
 "#;
 
 #[test]
-fn no_call_does_more_work_than_it_says_and_none_that_is_refused_leaves_a_trace() {
+fn calls_keep_their_work_bounds() {
     let fields = |names: &[&str]| {
         let field = |name: &&str| format!("wanted.{name} = signal(&mut random, now.{name});");
         names.iter().map(field).collect::<Vec<String>>().join("\n")
@@ -534,7 +534,7 @@ fn no_call_does_more_work_than_it_says_and_none_that_is_refused_leaves_a_trace()
 }
 
 #[test]
-fn however_few_the_steps_are_a_dead_point_is_told_as_one_and_what_lies_before_it_is_reached() {
+fn dead_points_are_reported_at_any_step_limit() {
     // a piston that leads its crank: dead points at 100 and 200 mm
     let text = "mechanism machine {
     ground { point O = (0, 0)  axis way = (0, 0) along (1, 0) }
@@ -579,7 +579,7 @@ fn main() {
 }
 
 #[test]
-fn where_an_equation_that_was_left_out_would_be_needed_a_module_says_so() {
+fn modules_report_needed_left_out_equations() {
     // wheels whose rods on both sides are a quarter turn apart: at a dead centre of one side the other decides
     let text = "mechanism machine {
     ground { point A = (0, 0)  point B = (2 m, 0) }
@@ -620,7 +620,7 @@ fn main() {
 }
 
 #[test]
-fn inputs_whose_names_meet_that_of_time_give_way() {
+fn input_names_yield_to_time() {
     let text = "mechanism machine {
     input T   = 3 * t / 1 s
     input t_  = 5 * t / 1 s
@@ -749,7 +749,7 @@ const TAKEN: [&str; 82] = [
 ];
 
 #[test]
-fn names_that_emitted_code_has_itself_can_be_declared() {
+fn names_of_emitted_code_can_be_declared() {
     let (mut all, mut sums) = (String::new(), [String::from("0"), String::from("0")]);
     for (k, name) in TAKEN.iter().enumerate() {
         let input = name[..1].to_uppercase() + &name[1..];
@@ -820,7 +820,7 @@ fn main() {
 }
 
 #[test]
-fn lanes_follow_as_each_alone() {
+fn lanes_follow_as_single_states() {
     let lines = printed(
         &emitted(&text_of("slider_crank")).text(Some(3)),
         r#"
@@ -904,7 +904,7 @@ fn main() {
 }
 
 #[test]
-fn sensitivities_are_what_differences_say() {
+fn sensitivities_match_differences() {
     let by_speed = text_of("four_bar")
         .replace("param crank_length", "param sway = 1.5\n    param crank_length")
         .replace("1.5 rad", "sway * 1 rad");
@@ -932,7 +932,7 @@ fn sensitivities_are_what_differences_say() {
 }
 
 #[test]
-fn without_parameters_there_is_nothing_to_be_sensitive_to() {
+fn no_parameters_no_sensitivities() {
     let text = text_of("slider_crank");
     let without = text.replace("    param crank_length = 50 mm\n    param rod_length   = 150 mm\n", "");
     let without = without.replace("crank_length", "50 mm").replace("rod_length", "150 mm");
@@ -1058,7 +1058,7 @@ fn a_new_declaration_changes_no_name_of_another() {
 }
 
 #[test]
-fn without_inputs_there_is_nothing_to_follow() {
+fn no_inputs_no_following() {
     let text = text_of("four_bar");
     let formula = "30 deg + 1.5 rad * sin(2 rad/s * t)";
     let plain = text.replace(&format!("    input turn = {formula}\n"), "").replace("= turn", &format!("= {formula}"));

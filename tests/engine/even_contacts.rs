@@ -68,7 +68,7 @@ fn expect_stop(text: &str, every: f64, code: &str, at: f64) {
 }
 
 #[test]
-fn a_driver_that_turns_back_gently_in_its_dead_point_is_told_whatever_the_phase() {
+fn gentle_reversals_in_dead_points_are_reported() {
     for at in [0.5, 0.7391, 1.0, 1.2, 1.2345, 1.3] {
         for every in STEPS {
             expect_stop(&push(at, 0.0), every, "E0602", at);
@@ -77,7 +77,7 @@ fn a_driver_that_turns_back_gently_in_its_dead_point_is_told_whatever_the_phase(
 }
 
 #[test]
-fn such_a_dead_point_is_passed_where_that_is_wanted() {
+fn even_dead_points_are_passed_on_request() {
     for at in [0.88, 1.12] {
         for every in [2.5, 0.5, 0.25] {
             let (outcome, passed) = passing(&push(at, 0.0), Some(every));
@@ -90,7 +90,7 @@ fn such_a_dead_point_is_passed_where_that_is_wanted() {
 }
 
 #[test]
-fn a_near_miss_of_such_a_dead_point_is_passed_whatever_the_output_step() {
+fn near_even_dead_points_are_passed() {
     // the crank comes within 1e-3 of being in line, and within 1e-2
     for gap in [0.75e-6, 0.75e-4] {
         for every in STEPS {
@@ -105,7 +105,7 @@ fn a_near_miss_of_such_a_dead_point_is_passed_whatever_the_output_step() {
 }
 
 #[test]
-fn change_points_that_coincide_in_one_block_are_told_whatever_the_phase() {
+fn coincident_change_points_of_a_block_are_reported() {
     for rate in [0.9, 1.0, 1.1, 1.234] {
         let text = coupled(1.0, rate);
         let (determined, _) = compiled("text", &text).inside();
@@ -117,7 +117,7 @@ fn change_points_that_coincide_in_one_block_are_told_whatever_the_phase() {
 }
 
 #[test]
-fn change_points_that_coincide_are_passed_where_that_is_wanted() {
+fn coincident_change_points_are_passed_on_request() {
     for every in [2.5, 0.1, 0.01] {
         let (outcome, passed) = passing(&coupled(1.0, 1.1), Some(every));
         assert!(passed.len() == 1 && (passed[0] - (PI - TAU / 6.0) / 1.1).abs() < 1e-9, "every {every}: {passed:?}");
@@ -130,7 +130,7 @@ fn change_points_that_coincide_are_passed_where_that_is_wanted() {
 }
 
 #[test]
-fn levers_that_nearly_are_parallelograms_go_through() {
+fn near_parallelograms_are_followed() {
     let rows = |every: f64| run("text", &coupled(0.999, 1.0), Span { every: Some(every), to: None }).expect_success();
     let (coarse, fine) = (rows(0.5), rows(0.01));
     for (k, row) in coarse.rows.iter().enumerate() {
@@ -141,7 +141,7 @@ fn levers_that_nearly_are_parallelograms_go_through() {
 }
 
 #[test]
-fn rows_beside_a_near_miss_are_those_of_their_times_though_bifurcations_are_passed() {
+fn rows_near_misses_keep_their_times() {
     let (outcome, passed) = passing(&push(1.2345, 0.75e-4), Some(0.01));
     assert!(passed.is_empty(), "{passed:?}");
     for (k, (t, phi)) in outcome.column("t").into_iter().zip(outcome.column("crank.phi")).enumerate() {

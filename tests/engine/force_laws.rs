@@ -113,7 +113,7 @@ fn balance(bodies: &[(Vec<Wrench>, Wrench)], is_held: impl Fn(usize) -> bool, ab
 }
 
 #[test]
-fn each_body_obeys_newton_and_euler_wherever_the_mechanism_stands() {
+fn bodies_obey_newton_and_euler() {
     each(|skeleton, forces, random, about| {
         for (number, seat) in seats(random).into_iter().enumerate() {
             let table = Table::of(&Text { seat, ..Text::of(skeleton, forces) }.written(), &[]);
@@ -128,7 +128,7 @@ fn each_body_obeys_newton_and_euler_wherever_the_mechanism_stands() {
 }
 
 #[test]
-fn power_goes_into_energy() {
+fn power_balances_energy() {
     each(|skeleton, forces, _, about| {
         let table = Table::of(&Text::of(skeleton, forces).written(), &[]);
         for row in table.rows() {
@@ -200,7 +200,7 @@ fn the_order_of_declarations_changes_no_force() {
 }
 
 #[test]
-fn a_part_at_rest_has_the_forces_that_it_has_alone() {
+fn resting_parts_keep_their_forces() {
     each(|skeleton, forces, random, about| {
         let alone = Table::of(&Text::of(skeleton, forces).written(), &[]);
         for is_mirrored in [false, true] {
@@ -258,7 +258,7 @@ fn with_params(text: &str, forces: &Forces, skeleton: &Skeleton) -> (String, Vec
 }
 
 #[test]
-fn forces_change_by_params_as_differences_tell() {
+fn force_derivatives_match_differences() {
     for skeleton in ALL {
         let forces = Forces::random(skeleton, &mut Random::new(3));
         let (text, params) = with_params(&Text::of(skeleton, &forces).written(), &forces, skeleton);

@@ -427,7 +427,7 @@ fn a_driver_taken_away() {
 }
 
 #[test]
-fn a_driver_said_twice() {
+fn duplicate_driver() {
     broken(ALL, |draft, plan| {
         let twin = draft.equations[plan.which.index(draft.equations.len())].clone();
         let name = draft.name();
@@ -460,7 +460,7 @@ fn two_drivers_of_unlike_starts() {
 }
 
 #[test]
-fn a_joint_said_twice() {
+fn duplicate_joint() {
     broken(ALL, |draft, plan| {
         let twin = draft.joints[plan.which.index(draft.joints.len())].clone();
         let name = draft.name();
@@ -640,7 +640,7 @@ fn a_time_for_an_angle() {
 }
 
 #[test]
-fn a_joint_of_a_body_with_itself() {
+fn joint_within_one_body() {
     broken(ALL, |draft, plan| {
         let Joint { name, sides, .. } = &mut draft.joints[plan.which.index(plan.joints())];
         let side = plan.other.index(2);
@@ -710,7 +710,7 @@ fn a_point_declared_twice() {
 }
 
 #[test]
-fn a_driver_of_nothing() {
+fn driver_without_quantity() {
     broken(ALL, |draft, plan| {
         let Equation { name, left, .. } = &mut draft.equations[plan.which.index(plan.drivers())];
         "30 deg".clone_into(left);
@@ -747,7 +747,7 @@ fn a_driver_whose_formula_ends() {
 
 /// Loops that have nothing to do with each other, one of which cannot close: so many that they are assembled one by one.
 #[test]
-fn one_of_many_loops_is_told_as_it_is_alone() {
+fn one_faulty_loop_of_many_is_reported_as_alone() {
     let four_bar = |k: usize, rod: f64| {
         let x = 10.0 * k as f64;
         format!(

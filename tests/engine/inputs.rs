@@ -69,12 +69,12 @@ fn is_the_same_as(inputs: &[&str], samples: Option<&str>, definitions: &str, wri
 }
 
 #[test]
-fn an_input_that_nobody_tells_anything_is_its_formula() {
+fn unset_inputs_use_their_formula() {
     is_the_same_as(&[], None, "", ["30 deg + 1 rev/s * t", "10 mm + 5 mm/s * t"]);
 }
 
 #[test]
-fn an_input_is_the_formula_that_it_is_told_to_be() {
+fn inputs_use_the_given_formula() {
     let formulas = ["turn=double(t / 1 s) - 0.5", " feed = 0.02 * t"];
     is_the_same_as(&formulas, None, "", ["double(t / 1 s) - 0.5", "20 mm/s * t"]);
 }
@@ -108,7 +108,7 @@ fn lines_may_end_in_carriage_returns() {
 }
 
 #[test]
-fn headers_of_samples_say_what_is_missing() {
+fn sample_headers_report_missing_columns() {
     let of = |header: &str| {
         // a column that is none of an input's may hold anything
         let (choice, world) = reported(&[], Some(&format!("{header}\n0,zero\n1,one\n")));
@@ -147,7 +147,7 @@ fn a_formula_from_outside_names_no_part() {
 }
 
 #[test]
-fn what_cannot_be_is_reported() {
+fn impossible_inputs_are_reported() {
     let of = |inputs: &[&str], samples: Option<&str>| {
         let (choice, world) = reported(inputs, samples);
         rows(&machine(INPUTS, ["turn", "feed"]), &choice, &world).expect_err("a fault")
@@ -169,7 +169,7 @@ fn what_cannot_be_is_reported() {
 }
 
 #[test]
-fn inputs_stand_where_time_may() {
+fn inputs_are_allowed_where_time_is() {
     let codes = |change: (&str, &str)| {
         let text = machine(INPUTS, ["turn", "feed"]);
         assert!(text.contains(change.0));
@@ -208,7 +208,7 @@ fn last_angles(inputs: &[&str], samples: Option<&str>) -> Result<[f64; 2], Vec<&
 }
 
 #[test]
-fn repeated_inputs_are_told_all_or_one() {
+fn repeated_inputs_are_set_together_or_singly() {
     assert_eq!(last_angles(&[], None), Ok([1.0, 1.0]));
     assert_eq!(last_angles(&["turn=5*t"], None), Ok([5.0, 5.0]));
     assert_eq!(last_angles(&["turn[1]=5*t"], None), Ok([1.0, 5.0]));
@@ -220,7 +220,7 @@ fn repeated_inputs_are_told_all_or_one() {
 }
 
 #[test]
-fn what_decides_how_many_there_are_is_no_parameter_of_emitted_code() {
+fn counts_are_no_parameters_of_emitted_code() {
     let parsed = Parsed::new("cranks.mech", CRANKS);
     let (compiled, _) = parsed
         .check(&Choice { set: vec!["n=3".to_owned()], ..Choice::default() }, &Memory::default())

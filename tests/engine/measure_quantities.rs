@@ -206,7 +206,7 @@ fn a_flat_face_on_an_eccentric() {
 }
 
 #[test]
-fn what_does_not_exist_has_an_empty_cell_and_spoils_nothing() {
+fn missing_values_are_empty_cells() {
     let text = "mechanism m {
     ground { point O = (0, 0) axis way = O along (1, 0) }
     body slide { point P = (20 mm, 0) point Q = (60 mm, 0) axis way = (0, 0) along (1, 0) }
@@ -302,7 +302,7 @@ fn pair(random: &mut Random, declarations: &str) -> Outcome {
 }
 
 #[test]
-fn what_rests_relative_to_a_body_that_moves_has_no_pole() {
+fn relative_rest_has_no_pole() {
     let mut random = Random::new(7);
     for _ in 0..12 {
         let far = random.between(0.0, 0.1);
@@ -325,7 +325,7 @@ fn what_rests_relative_to_a_body_that_moves_has_no_pole() {
 }
 
 #[test]
-fn what_turns_slowly_has_a_pole() {
+fn slow_rotation_has_a_pole() {
     let mut random = Random::new(8);
     for pace in [1e-3, 1e-6, 1e-9] {
         for _ in 0..4 {

@@ -33,7 +33,7 @@ fn missing(outcome: &Outcome, name: &str) -> Vec<usize> {
 }
 
 #[test]
-fn each_measure_is_told_once_and_nothing_else_suffers() {
+fn missing_measures_are_reported_once() {
     let table = "table bend = spline [(0, 0), (0.5, 1), (0.95, 0)]";
     let with = crank(&format!(
         "{table} measure pole = 1 / (t - 0.5) measure root = sqrt(1.25 - t) measure edge = sqrt(abs(t - 0.3)) measure left = bend(t)

@@ -127,7 +127,7 @@ fn sets(t: f64, random: &mut Random) -> Vec<Times> {
 }
 
 #[test]
-fn rows_shortly_before_a_change_point_are_right_whatever_else_is_printed() {
+fn rows_before_a_change_point_ignore_other_rows() {
     let mut random = Random::new(31);
     for distance in DISTANCES {
         for is_slider in [false, true] {
@@ -145,7 +145,7 @@ fn rows_shortly_before_a_change_point_are_right_whatever_else_is_printed() {
 }
 
 #[test]
-fn rows_of_a_crank_that_turns_back_beside_a_change_point_are_right_or_refused() {
+fn reversals_near_a_change_point_are_right_or_refused() {
     let mut random = Random::new(37);
     for over in [1e-2, 1e-3, 1e-4, 1e-5, -1e-5, -1e-4, -1e-3, -1e-2] {
         for is_slider in [false, true] {
@@ -166,7 +166,7 @@ fn rows_of_a_crank_that_turns_back_beside_a_change_point_are_right_or_refused() 
 }
 
 #[test]
-fn a_crank_that_turns_back_beyond_a_change_point_is_told_to_come_to_it_twice() {
+fn reversals_beyond_a_change_point_are_reported() {
     for over in [3e-4, 1e-4, 1e-5, 1e-6, 1e-7] {
         for is_slider in [false, true] {
             let start = if is_slider { 1.4 } else { 1.0 };
@@ -198,7 +198,7 @@ fn a_crank_that_turns_back_beyond_a_change_point_is_told_to_come_to_it_twice() {
 }
 
 #[test]
-fn a_change_point_that_is_beside_the_start_is_passed_at_its_time() {
+fn change_points_near_the_start_are_passed() {
     for distance in [0.02, 0.01, 3e-3, 1e-3, 1e-4] {
         for is_slider in [false, true] {
             let level = if is_slider { FRAC_PI_2 } else { PI };

@@ -87,12 +87,12 @@ fn with_unit(reported: &str) -> String {
 }
 
 #[test]
-fn nested_params_are_set_as_run_sets_them() {
+fn nested_params_match_run() {
     holds(&SET, mechc::LARGEST_STRAIGHT);
     holds(&SET, 0);
 }
 
 #[test]
-fn by_default_they_are_those_of_the_text() {
+fn default_params_match_the_text() {
     holds(&[], mechc::LARGEST_STRAIGHT);
 }

@@ -96,7 +96,7 @@ proptest! {
     #![proptest_config(Config { cases: 200, rng_seed: RngSeed::Fixed(7), failure_persistence: None, ..Config::default() })]
 
     #[test]
-    fn a_line_needs_only_lines_before_it(text in chains()) {
+    fn lines_depend_only_on_earlier_lines(text in chains()) {
         holds(&determined(&text))?;
     }
 }
@@ -120,7 +120,7 @@ fn order(text: &str) -> Vec<String> {
 }
 
 #[test]
-fn what_follows_from_a_later_body_comes_after_it() {
+fn dependents_follow_their_bodies() {
     let text = "mechanism m { ground { point A = (0, 0) } body late at (0, 0, 30 deg) { point A = (0, 0) }
         body early at (200 mm, 0, 0) { point C = (0, 0) } joint d1: revolute(ground.A, late.A)
         constraint k: angle(late) = 2 * angle(early) driver dx: x(early.C) = 200 mm + 10 mm/s * t

@@ -17,7 +17,7 @@ const PATIENCE: Duration = Duration::from_secs(300);
 const WHILE: Duration = Duration::from_millis(50);
 
 #[test]
-fn pieces_come_in_order_whatever_they_take() {
+fn pieces_arrive_in_order() {
     for jobs in [1, 2, 7] {
         let work = |piece: u64| {
             // later pieces are done sooner
@@ -32,7 +32,7 @@ fn pieces_come_in_order_whatever_they_take() {
 }
 
 #[test]
-fn nothing_comes_behind_what_was_not_made() {
+fn failed_pieces_end_the_output() {
     for jobs in [1, 3] {
         let mut crew = ParallelMap::new(jobs, 0..100, || |piece| (piece < 20).then_some(piece));
         assert_eq!(crew.by_ref().count(), 20);
@@ -98,7 +98,7 @@ impl Held {
 }
 
 #[test]
-fn who_asks_works_where_it_would_wait() {
+fn consumers_work_instead_of_waiting() {
     let go: Arc<Mutex<Option<Sender<()>>>> = Arc::default();
     let let_go = Arc::clone(&go);
     let held = Held::new(2, move |piece| {
@@ -110,7 +110,7 @@ fn who_asks_works_where_it_would_wait() {
 }
 
 #[test]
-fn each_thread_has_memory_of_its_own() {
+fn threads_have_separate_memory() {
     for jobs in [1, 3] {
         let (begun, present) = (Arc::new(AtomicUsize::new(0)), Arc::new(AtomicUsize::new(0)));
         let start = move || {
@@ -157,7 +157,7 @@ fn panic_message<T>(what: impl FnOnce() -> T) -> Option<String> {
 }
 
 #[test]
-fn behind_a_piece_of_which_nothing_is_made_none_is_begun() {
+fn no_piece_starts_after_a_failed_one() {
     let (reported, has_none) = channel();
     let Held { mut crew, go, begun } = Held::new(100, move |piece| {
         // no other piece than the next one
@@ -176,7 +176,7 @@ fn behind_a_piece_of_which_nothing_is_made_none_is_begun() {
 }
 
 #[test]
-fn what_has_ended_begins_nothing() {
+fn ended_maps_start_nothing() {
     let Held { mut crew, go, begun } = Held::new(100, Some);
     crew.end();
     assert!(go.send(()).is_ok());
@@ -185,7 +185,7 @@ fn what_has_ended_begins_nothing() {
 }
 
 #[test]
-fn that_another_thread_breaks_down_is_passed_on_where_its_piece_would_come() {
+fn panics_surface_at_their_piece() {
     let (asker, (reported, begun), (go, wait)) = (thread::current().id(), channel(), channel::<()>());
     let wait = Arc::new(Mutex::new(wait));
     let start = move || {
@@ -211,7 +211,7 @@ fn that_another_thread_breaks_down_is_passed_on_where_its_piece_would_come() {
 }
 
 #[test]
-fn who_asks_may_break_down_and_ask_again() {
+fn consumers_may_panic_and_resume() {
     let Held { mut crew, go, .. } = Held::new(100, |_| panic!("broken here"));
     assert_eq!(panic_message(|| crew.next()), Some("broken here".to_owned()));
     drop(go);

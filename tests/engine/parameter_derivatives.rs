@@ -67,7 +67,7 @@ fn is(outcome: &Outcome, column: &str, wanted: f64) {
 
 /// Derivatives of forces beside a load with a third time derivative would take the derivative of that.
 #[test]
-fn forces_beside_a_jerk_have_no_columns_of_derivatives() {
+fn forces_with_jerk_have_no_derivative_columns() {
     let text = |order: &str| {
         arm(
             &format!("param reach = 2 m load drag: 1 N*m * {order} on rotation(main) measure e = effort(motor)"),
@@ -82,7 +82,7 @@ fn forces_beside_a_jerk_have_no_columns_of_derivatives() {
 }
 
 #[test]
-fn by_an_input_its_rates_are_held() {
+fn input_derivatives_hold_rates() {
     let declarations = "param reach = 2 m
         input turn = 0.3 + 2 * t + t^2
         measure height = y(arm.tip)
@@ -102,7 +102,7 @@ fn by_an_input_its_rates_are_held() {
 }
 
 #[test]
-fn by_a_param_it_runs_through_what_is_made_of_it_and_by_that_it_alone_varies() {
+fn param_derivatives_include_dependent_params() {
     let declarations = "param half = 1 m
         param reach = 2 * half
         param more = reach + half
@@ -124,7 +124,7 @@ fn by_a_param_it_runs_through_what_is_made_of_it_and_by_that_it_alone_varies() {
 }
 
 #[test]
-fn a_point_stands_for_its_coordinates_and_a_repeated_input_for_its_copies() {
+fn points_and_repeated_inputs_expand() {
     let text = "mechanism m {
         param A = (1 m, 0)
         input turn[k in 0..2] = (k + 1) * t
@@ -167,7 +167,7 @@ fn samples_and_formulas_from_outside_are_shifted_too() {
 }
 
 #[test]
-fn the_shift_of_a_switch_counts_nothing_and_at_an_edge_the_later_side_does() {
+fn shifts_of_switches_do_not_count() {
     let declarations = "param reach = 1 m
         param from = 1
         input turn = t
@@ -196,7 +196,7 @@ const ASKED_OF_PARALLELOGRAM: &str = "measure both = der(der(angle(rocker), cran
     analysis from 0 s to 3 s every 10 ms";
 
 #[test]
-fn beside_a_change_point_numbers_are_those_of_the_closed_form_or_missing() {
+fn derivatives_near_change_points_are_right_or_missing() {
     let options = RunOptions { pass_bifurcations: true, ..RunOptions::default() };
     let away = [0.7, 0.2, 0.05, 0.01, 6e-3, 4e-3, 3e-3, 2e-3, 1.5e-3, 1e-3, 5e-4, 1e-4, 1e-5, 1e-6, 0.0];
     let mut times: Vec<f64> = away.iter().map(|away| 1.5 - away).collect();
@@ -234,7 +234,7 @@ fn beside_a_change_point_numbers_are_those_of_the_closed_form_or_missing() {
 }
 
 #[test]
-fn what_would_break_an_equation_that_was_left_out_has_no_derivative() {
+fn breaking_a_left_out_equation_leaves_no_derivative() {
     let text = parallelogram_of_names(ASKED_OF_PARALLELOGRAM)
         .replace(
             "point A = (0, 0)  point B = (2 m, 0) }\n    body crank",
@@ -254,7 +254,7 @@ fn what_would_break_an_equation_that_was_left_out_has_no_derivative() {
 
 /// The same rows, to the bit, but for the columns of derivatives.
 #[test]
-fn columns_that_are_asked_for_change_no_bit_of_the_others() {
+fn derivative_columns_change_no_other_bit() {
     for name in [
         "jansen",
         "gear_train",
@@ -321,7 +321,7 @@ fn shifts_change_no_bit() {
 }
 
 #[test]
-fn a_row_has_the_same_derivatives_whichever_others_are_asked_for() {
+fn derivatives_do_not_depend_on_other_rows() {
     let text = fs::read_to_string("tests/cases/sensitivities.mech").expect("a text");
     let (compiled, _) = compile(&text, &by(&["turn", "base"]), Redundant::Refused);
     let times = compiled.times().expect("times");
@@ -480,7 +480,7 @@ fn results_hold_derivatives_of_forces() {
 }
 
 #[test]
-fn forces_beside_equations_that_were_left_out_keep_their_own() {
+fn left_out_equations_keep_force_derivatives() {
     let text = |reach: &str| {
         format!(
             "mechanism m {{

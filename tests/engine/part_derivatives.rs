@@ -83,7 +83,7 @@ fn is_as_alone(table: &Table, angle: &str) {
 }
 
 #[test]
-fn where_the_whole_decides_what_its_input_is_a_part_is_as_it_is_alone() {
+fn bound_inputs_leave_part_derivatives_unchanged() {
     let text = lifted(
         "part p: lever(turn = 2 * angle(link)) at (0, 0, 0)",
         "measure angle_of_arm = angle(p.arm)
@@ -115,7 +115,7 @@ fn where_the_whole_decides_what_its_input_is_a_part_is_as_it_is_alone() {
 }
 
 #[test]
-fn on_a_body_that_its_own_tip_carries_it_is_seen_from_its_own_ground() {
+fn mounted_parts_use_their_own_ground() {
     // the mount slides as the tip asks, which stays at its height
     let text = format!(
         "mechanism whole {{
@@ -132,7 +132,7 @@ fn on_a_body_that_its_own_tip_carries_it_is_seen_from_its_own_ground() {
 }
 
 #[test]
-fn an_input_that_follows_the_part_itself_is_held() {
+fn feedback_inputs_are_held() {
     let text = format!(
         "mechanism whole {{
     part p: lever(turn = 0.5 * angle(p.arm) + 0.3 + 0.1 * t) at (0, 0, 0)
@@ -146,7 +146,7 @@ fn an_input_that_follows_the_part_itself_is_held() {
 }
 
 #[test]
-fn a_part_within_a_part_has_its_own() {
+fn nested_parts_have_separate_derivatives() {
     let text = format!(
         "mechanism whole {{
     ground {{ point O = (0, 0) }}
@@ -175,7 +175,7 @@ mechanism outer {{
 }
 
 #[test]
-fn what_is_not_coupled_is_the_same_to_the_bit() {
+fn uncoupled_parts_keep_their_bits() {
     let around = |requested: &str| {
         format!(
             "mechanism whole {{
@@ -191,7 +191,7 @@ fn what_is_not_coupled_is_the_same_to_the_bit() {
 
 /// A rod that a slider's way turns, seen from the rod: with the way held there is a dead point where the rod lies along it.
 #[test]
-fn where_the_part_alone_is_in_a_dead_point_there_is_no_number() {
+fn dead_points_of_parts_leave_no_value() {
     let text = "mechanism whole {
     ground { point O = (0, 0) axis way = (0, 3 m) along (1, 0) }
     body follower at (0.8 m, 3 m, 0) { axis way = (0, 0) along (1, 0)  point P = (0, 0) }
@@ -226,7 +226,7 @@ mechanism push {
 }
 
 #[test]
-fn a_part_that_is_not_determined_alone_is_told_with_its_place_and_its_use() {
+fn undetermined_parts_are_reported_at_both_places() {
     let text = format!(
         "mechanism whole {{
     part p: loose() at (0, 0, 0)

@@ -48,7 +48,7 @@ fn is_near(found: &[f64], wanted: &[f64], what: &str) {
 const TWO_POINTS: &str = "param A = (20 mm, 10 mm) param B = (-40 mm, 90 mm) param k = 3 param r = 25 mm";
 
 #[test]
-fn every_operation_has_the_value_of_its_coordinates() {
+fn point_operations_match_coordinates() {
     let cases: &[(&str, [f64; 2])] = &[
         ("A", [20.0, 10.0]),
         ("(A)", [20.0, 10.0]),
@@ -76,7 +76,7 @@ fn every_operation_has_the_value_of_its_coordinates() {
 }
 
 #[test]
-fn length_and_direction_are_those_of_the_way() {
+fn length_and_direction_match_the_difference() {
     let found = values(
         TWO_POINTS,
         "",
@@ -122,7 +122,7 @@ fn points_stand_in_functions_and_tables() {
 }
 
 #[test]
-fn a_name_means_the_own_point_before_the_mechanisms() {
+fn points_of_the_body_shadow_those_of_the_mechanism() {
     let of = |features: &str, point: &str| -> [f64; 2] {
         let (x, y) = (format!("x(ground.{point})"), format!("y(ground.{point})"));
         let found = values(
@@ -178,7 +178,7 @@ fn words_of_points_are_names_elsewhere() {
 }
 
 #[test]
-fn a_param_stands_for_itself_beside_the_function_of_its_name() {
+fn params_may_share_names_with_functions() {
     let declared = "param A = (30 mm, 40 mm) param length = length((0, 0), A) param twice = 2 * length";
     is_near(&values(declared, "", &["twice", "length"]), &[0.1, 0.05], "a param `length`");
 }
@@ -222,7 +222,7 @@ fn a_body_is_drawn_at_a_point_with_an_angle_or_toward_another() {
 }
 
 #[test]
-fn poses_follow_from_those_that_stand_below() {
+fn poses_may_depend_on_later_ones() {
     let found = poses(
         "mechanism m { body a at (b.P, 1) { point P = (0, 0) } body b at (c.P, 0) { point P = (1, 0) }
             body c at (5, 6, 0) { point P = (1, 1) } }",
@@ -232,7 +232,7 @@ fn poses_follow_from_those_that_stand_below() {
 
 /// A four-bar as it is drawn, and the same with its numbers written out.
 #[test]
-fn a_drawn_four_bar_is_that_of_its_numbers() {
+fn drawn_four_bar_matches_its_numbers() {
     const REST: &str = "joint main: revolute(ground.A, crank.A) joint pin: revolute(crank.B, coupler.B)
         joint knee: revolute(coupler.C, rocker.C) joint pivot: revolute(ground.D, rocker.D)
         driver motor: rotation(main) = 1 rev/s * t measure px = x(coupler.P) measure py = y(coupler.P)
@@ -258,7 +258,7 @@ fn a_drawn_four_bar_is_that_of_its_numbers() {
 }
 
 #[test]
-fn a_body_that_is_placed_moves_as_one_that_is_drawn_in_place() {
+fn placed_bodies_move_as_drawn_ones() {
     let text = fs::read_to_string("tests/cases/drawn_four_bar.mech").expect("a text");
     let numbers = [
         ("at A toward B", "at (20 mm, 10 mm, atan2(30, 10))"),
@@ -327,7 +327,7 @@ fn with_settings(text: &str, set: &[&str]) -> Result<f64, String> {
 }
 
 #[test]
-fn points_are_set_as_a_whole_or_by_a_coordinate() {
+fn points_are_set_whole_or_by_coordinate() {
     let text = "mechanism m { param A = (10 mm, 2 mm) param p = (1 m, 2 m) param r = 3 mm body b { point P = A point Q = p } driver d: x(b.P) = t }";
     // x in micrometres and thousands, y in millimetres: 10 mm and 2 mm are 10002
     let cases: &[(&[&str], f64)] = &[
@@ -379,7 +379,7 @@ fn coordinates_are_parameters_of_emitted_code() {
 }
 
 #[test]
-fn what_is_formatted_is_the_same_point() {
+fn formatting_keeps_points() {
     let text = "mechanism m {
     param A = (20 mm, 10 mm)
     param B = A + polar(3 mm, 90 deg)

@@ -565,7 +565,7 @@ fn shuffled(mechanism: ast::Mechanism) -> impl Strategy<Value = ast::Mechanism> 
 }
 
 #[test]
-fn the_order_of_declarations_means_nothing() {
+fn order_of_declarations_has_no_effect() {
     let mut tried = 0;
     for path in [files("examples", "mech"), files("tests/cases", "mech")].concat() {
         let (name, text) = (stem(&path), fs::read_to_string(&path).expect("a text"));
@@ -829,12 +829,12 @@ proptest! {
     #![proptest_config(config(64))]
 
     #[test]
-    fn a_four_bar_moves_with_its_place(four_bar in four_bars(), place in places()) {
+    fn four_bar_motion_is_frame_invariant(four_bar in four_bars(), place in places()) {
         moved(&["crank", "coupler", "rocker"], |place| four_bar.text(place), place)?;
     }
 
     #[test]
-    fn a_slider_crank_moves_with_its_place(slider_crank in slider_cranks(), place in places()) {
+    fn slider_crank_motion_is_frame_invariant(slider_crank in slider_cranks(), place in places()) {
         moved(&["crank", "rod", "slider"], |place| slider_crank.text(place), place)?;
     }
 

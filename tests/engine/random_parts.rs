@@ -26,19 +26,19 @@ fn bytes(seed: u64) -> Vec<u8> {
 }
 
 #[test]
-fn what_is_repeated_is_what_is_written_out_by_hand() {
+fn repetitions_match_copies_by_hand() {
     let compared = (0..TEXTS).map(|seed| composed(&bytes(seed))).filter(repetition_is_what_is_written_out).count();
     assert!(compared > 25, "only {compared} have rows");
 }
 
 #[test]
-fn parts_are_what_they_are_alone() {
+fn parts_match_single_mechanisms() {
     let compared = (0..TEXTS).map(|seed| composed(&bytes(seed)).part).filter(a_part_is_what_it_is_alone).count();
     assert!(compared > 20, "only {compared} have rows");
 }
 
 #[test]
-fn composed_texts_are_formatted_to_what_they_mean() {
+fn formatting_keeps_the_meaning_of_composed_texts() {
     for seed in 0..TEXTS {
         let text = composed(&bytes(seed)).text;
         let parsed = Parsed::new("text", &text);
@@ -62,7 +62,7 @@ fn too_large(text: &str) {
 }
 
 #[test]
-fn what_is_too_large_is_told_soon_and_alone() {
+fn excessive_sizes_are_reported_early() {
     let leaf = |copies: &str| {
         format!(
             "mechanism leaf {{ param n = 1 body b[k in 0..{copies}] {{ point O = (0, 0) }} driver d[k in 0..{copies}]: angle(b[k]) = t }}\n"

@@ -393,7 +393,7 @@ fn codes(outcome: &Outcome) -> Vec<&'static str> {
 }
 
 #[test]
-fn forces_are_told_where_the_rank_of_all_equations_determines_them_and_nowhere_else() {
+fn forces_need_full_rank_of_all_equations() {
     let (mut reported, mut refused) = (0, 0);
     for seed in 0..MECHANISMS {
         let mut drawn = Mechanism::drawn(seed);
@@ -488,7 +488,7 @@ fn locomotive(wheels: usize, cranks: &[f64], start: f64, every: f64) -> String {
 }
 
 #[test]
-fn coupled_wheels_go_through_their_dead_centres() {
+fn coupled_wheels_pass_dead_centres() {
     let quartered: &[f64] = &[0.0, 90.0];
     for (wheels, cranks) in [(2, quartered), (2, &[0.0, 120.0, 240.0]), (3, &[0.0, 73.0]), (3, &[0.0, 180.0, 90.0])] {
         for start in [0.0, 20.0, 0.1] {
@@ -507,7 +507,7 @@ fn coupled_wheels_go_through_their_dead_centres() {
 }
 
 #[test]
-fn results_go_through_dead_centres_too() {
+fn results_span_dead_centres() {
     let (compiled, outcome) = compile_without_redundant("coupled.mech", &locomotive(2, &[0.0, 90.0], 20.0, 0.1));
     let compiled = compiled.unwrap_or_else(|| panic!("{}", outcome.text()));
     let times = compiled.times().expect("times");
@@ -518,7 +518,7 @@ fn results_go_through_dead_centres_too() {
 }
 
 #[test]
-fn rows_do_not_depend_on_which_others_are_asked_for() {
+fn redundant_rows_do_not_depend_on_other_rows() {
     let rows = |every: f64| {
         let text = locomotive(3, &[0.0, 90.0], 20.0, every);
         analyse(compile_without_redundant("coupled.mech", &text), Span::default())
@@ -570,7 +570,7 @@ fn coupled_cranks(random: &mut Random, drawn: f64, start: f64) -> (String, f64) 
 }
 
 #[test]
-fn coupled_cranks_begin_as_they_are_drawn_wherever_their_driver_begins() {
+fn coupled_cranks_start_as_drawn() {
     let mut random = Random(ChaCha8Rng::seed_from_u64(8));
     for number in 0..24 {
         let [drawn, start] = [random.within(-PI, PI), random.within(-9.0, 9.0)];

@@ -75,7 +75,7 @@ fn four_bar(declarations: &str) -> String {
 }
 
 #[test]
-fn each_reduction_is_its_closed_form() {
+fn reductions_match_closed_forms() {
     // x = r cos u, so x_u = −r sin u, x_r = cos u
     let text = arm(
         "measure width = x(arm.tip)
@@ -108,7 +108,7 @@ fn each_reduction_is_its_closed_form() {
 }
 
 #[test]
-fn nested_ones_and_those_of_velocities_and_accelerations_are_reduced() {
+fn nested_derivatives_and_rates_are_reduced() {
     let text = arm("result a = max(der(der(x(arm.tip)), reach)) result b = argmax(der(der(x(arm.tip)), reach))
          result c = min(der(der(der(x(arm.tip)), turn))) result d = mean(der(der(der(x(arm.tip))), reach))
          result e = max(der(der(x(arm.tip), turn), reach)) result f = argmin(der(der(x(arm.tip), turn), turn))
@@ -147,7 +147,7 @@ const MEASURED: [&str; 6] = [
 ];
 
 #[test]
-fn no_row_goes_beyond_and_the_row_at_that_time_has_the_value() {
+fn rows_stay_within_extrema_and_attain_them() {
     let mut declarations = "measure lean = rotation(pivot)\n".to_owned();
     for (k, formula) in MEASURED.iter().enumerate() {
         declarations += &format!(
@@ -182,7 +182,7 @@ fn no_row_goes_beyond_and_the_row_at_that_time_has_the_value() {
 }
 
 #[test]
-fn what_is_always_the_same_is_that_number() {
+fn constants_reduce_to_themselves() {
     let text = four_bar("result a = max(der(angle(crank), turn)) result b = min(der(angle(crank), turn)) result c = argmax(der(turn, turn))")
         .replace("far = 80 mm", "far = 70 mm").replace("60 mm", "crank_length").replace("88 deg", "40 deg").replace("33 deg", "0 deg");
     let more = "result d = max(der(angle(rocker), turn)) result e = mean(der(rotation(pivot), turn)) result f = max(der(angle(coupler), turn))\n}";
@@ -197,7 +197,7 @@ fn what_is_always_the_same_is_that_number() {
 }
 
 #[test]
-fn asking_for_them_changes_no_bit_of_a_row() {
+fn requested_derivatives_change_no_bit_of_a_row() {
     let asking = "result a = max(der(x(coupler.P), far)) result b = mean(der(der(rotation(pivot)), turn))";
     let bits = |more: &str| {
         let text = four_bar(&format!("measure lean = rotation(pivot) measure slope = der(lean, crank_length) {more}"));
@@ -260,7 +260,7 @@ mechanism m {
 }
 
 #[test]
-fn at_an_edge_both_sides_count_and_the_later_one_is_its_value() {
+fn edges_count_on_both_sides() {
     // the slope of the driver by its input jumps at 1 s
     let text = arm("fn kink(u) = if u < 1.8 then u else u + 2 * (u - 1.8)^2 + (u - 1.8)^3
          measure gain = der(der(angle(arm), turn), turn)
@@ -284,7 +284,7 @@ const ASKED_OF_PARALLELOGRAM: &str = "result pole = max(der(angle(rocker), crank
     result place = max(y(coupler.C))";
 
 #[test]
-fn over_a_pole_there_is_no_number() {
+fn poles_leave_no_value() {
     let options = RunOptions { pass_bifurcations: true, ..RunOptions::default() };
     let compiled = compile(&parallelogram_of_names(ASKED_OF_PARALLELOGRAM), Redundant::Refused);
     let found = answers_of(&compiled, [2.0, 0.1], &options);
@@ -314,7 +314,7 @@ fn over_a_pole_there_is_no_number() {
 }
 
 #[test]
-fn what_would_break_an_equation_that_was_left_out_has_no_number() {
+fn breaking_a_left_out_equation_leaves_no_value() {
     let text = parallelogram_of_names(ASKED_OF_PARALLELOGRAM)
         .replace("point B = (2 m, 0) }\n    body crank", "point B = (2 m, 0)  point E = (1 m, 0) }\n    body crank")
         .replace("point D = (2 m, 0) }", "point D = (2 m, 0)  point F = (1 m, 0) }")
@@ -328,14 +328,14 @@ fn what_would_break_an_equation_that_was_left_out_has_no_number() {
 }
 
 #[test]
-fn a_single_time_has_its_value() {
+fn single_times_have_values() {
     let found =
         answers(&arm("result a = max(der(x(arm.tip), turn)) result b = mean(der(x(arm.tip), reach))"), [0.0, 0.1]);
     assert_eq!(found.values, [Some(-2.0 * sin(0.3)), Some(cos(0.3))]);
 }
 
 #[test]
-fn emitted_code_does_without_them() {
+fn emitted_code_omits_result_derivatives() {
     let compiled = compile(&arm("result a = max(der(x(arm.tip), reach))"), Redundant::Refused);
     let plain = compile(&arm("result a = max(x(arm.tip))"), Redundant::Refused);
     let rust = |compiled: &Compiled| compiled.rust(&RustOptions::new("m.mech")).0;

@@ -82,7 +82,7 @@ fn cos(x: f64) -> f64 {
 }
 
 #[test]
-fn each_reduction_of_a_turning_arm_is_its_closed_form() {
+fn reductions_of_a_turning_arm_match_closed_forms() {
     let text = arm(
         "1 rad/s * t + 1",
         "result a = max(x(arm.tip)) result b = min(x(arm.tip)) result c = argmax(x(arm.tip)) result d = argmin(x(arm.tip))
@@ -206,7 +206,7 @@ fn peaks_that_no_step_shows_are_found() {
 
 /// A driven body is where it was after a whole turn, and so is all that hangs on it: steps of whole turns would see nothing move.
 #[test]
-fn bodies_that_turn_many_times_hide_nothing() {
+fn many_turns_are_resolved() {
     for turns in [1.0, 42.63, 60.0, 64.0, 128.0] {
         let text = format!(
             "mechanism m {{
@@ -250,7 +250,7 @@ fn newton(mut t: f64, slope: impl Fn(f64) -> (f64, f64)) -> f64 {
 }
 
 #[test]
-fn of_ties_the_first_counts_and_of_a_rest_its_beginning() {
+fn ties_resolve_to_the_first_time() {
     // rises in the first second, rests for one, and comes back
     let turn = "if t < 1 s then step5(t, 0 s, 0, 1 s, 1) else if t < 2 s then 1 else step5(t, 2 s, 1, 3 s, 0)";
     let text = arm(
@@ -332,7 +332,7 @@ fn ram(loads: &str, requested: &str) -> String {
 }
 
 #[test]
-fn loads_that_come_and_go_between_two_steps_are_found() {
+fn short_loads_are_found() {
     let requested = "result a = max(effort(feed)) result b = integral(effort(feed)) result c = argmax(effort(feed))";
     // in a millimetre of two metres
     let text = ram(
@@ -361,7 +361,7 @@ fn loads_that_come_and_go_between_two_steps_are_found() {
 
 /// What goes to infinity has an integral, or none, by how fast it does so; whatever is added to it.
 #[test]
-fn integrals_beside_poles_are_known_or_have_no_end() {
+fn integrals_near_poles_converge_or_diverge() {
     let (a, b): (f64, f64) = (0.3, 1.7);
     let root = 2.0 * (a.sqrt() + b.sqrt());
     let text = arm(
@@ -415,7 +415,7 @@ fn integrals_over_many_turns_are_found() {
 
 /// What touches a threshold, or a pole, without a change of sign.
 #[test]
-fn what_is_touched_is_met() {
+fn touched_values_are_found() {
     let text = arm(
         "2 rad/s * t",
         "result cusp = min(sqrt(x(arm.tip) / 1 m + 1) + 1)
@@ -434,7 +434,7 @@ fn what_is_touched_is_met() {
 /// Values that rounding makes very large, or hides for a moment, are what they are: sin(w)/w has one where both are zero, and a ratio of two
 /// velocities where the arm turns round.
 #[test]
-fn rounding_is_told_from_poles() {
+fn rounding_differs_from_poles() {
     let text = arm(
         "0.5 rad * sin(2 * t / 1 s) + 0.4",
         "result high = max(1 / ((x(arm.tip) / 1 m - 0.7)^2 + 1e-18)) / 1e18
@@ -451,7 +451,7 @@ fn rounding_is_told_from_poles() {
 
 /// Of two zeros that are close the first counts, and beyond where it ends a formula counts nowhere. The mean is by quadrature of the closed form.
 #[test]
-fn kinks_beside_each_other_and_ends_are_reported() {
+fn adjacent_kinks_and_ends_are_reported() {
     let text = arm(
         "0.09 rad/s * t",
         "measure peak = abs(1 - exp(-((t - 0.67 s) / 0.14 ms)^2) - 0.01 * t / 1 s)
@@ -609,7 +609,7 @@ fn a_load_holds_a_jerk() {
 }
 
 #[test]
-fn a_force_that_is_nothing_has_no_rates() {
+fn zero_forces_have_no_rates() {
     let text = ram("", "measure side = force_x(guide) measure other = force_y(guide)");
     assert!(
         !support::compiled("m", &text).columns().iter().any(|name| name.contains("side.") || name.contains("other."))
@@ -689,7 +689,7 @@ fn a_turn_where_cells_meet_is_found() {
 
 /// A number that rests is that number, and no little more or less.
 #[test]
-fn what_rests_at_a_switch_has_a_side() {
+fn rests_at_switches_have_a_side() {
     let requested = "result a = integral(mod(min(3 * t/1 s, 2), 1)) result b = integral(mod(max(t/1 s, 10), 1))
         result c = integral(sign(min(3 * t/1 s, 2) - 2)) result d = integral(mod(min(3 * rotation(main), 2), 1))";
     check(&arm("t", requested), 2.0, &[(1.0 / 3.0, 1e-9), (0.0, 1e-12), (-2.0 / 3.0, 1e-9), (1.0 / 3.0, 1e-9)]);
@@ -788,7 +788,7 @@ fn after_a_stop_all_are_null() {
 }
 
 #[test]
-fn times_alone_have_no_results_and_a_single_time_has_its_values() {
+fn single_times_have_results() {
     let text = arm(
         "1 rad/s * t + 1",
         "result a = max(x(arm.tip)) result b = argmin(x(arm.tip)) result c = mean(x(arm.tip)) result d = integral(x(arm.tip))
@@ -839,7 +839,7 @@ fn angles_at_a_point_are_reduced_in_all_quadrants() {
 }
 
 #[test]
-fn a_driver_in_quick_ripples_hides_nothing() {
+fn quick_ripples_are_resolved() {
     // what follows without iteration is stepped over in large steps
     let text = arm(
         "0.3 * sin(800 * t) + t",
@@ -862,7 +862,7 @@ fn a_driver_in_quick_ripples_hides_nothing() {
 }
 
 #[test]
-fn a_speed_that_comes_to_rest_has_its_mean_and_its_least_value() {
+fn speeds_that_come_to_rest_have_mean_and_minimum() {
     // a point of a wheel that rolls on the ground: its speed is 2 |sin(t/2)|
     let text = "mechanism m {
     ground { point O = (0, 0) axis way = (0, 1 m) along (1, 0) }
@@ -913,7 +913,7 @@ fn a_long_analysis_is_as_good_as_a_short_one() {
 }
 
 #[test]
-fn a_bifurcation_that_is_passed_is_looked_over() {
+fn results_span_passed_bifurcations() {
     let text = "mechanism m {
     ground { point A = (0, 0) point D = (1 m, 0) }
     body crank at (0, 0, 60 deg) { point A = (0, 0) point B = (0.4 m, 0) }
@@ -956,7 +956,7 @@ fn nearly_straight(short: f64) -> String {
 }
 
 #[test]
-fn what_is_found_where_a_row_would_be_refused_is_null() {
+fn values_at_refused_rows_are_null() {
     // at the turn the acceleration is 2 / sin of the angle, whose cosine is 1 − short
     for (short, is_refused) in [(1e-4, false), (1e-6, false), (1e-8, true), (1e-10, true), (1e-12, true)] {
         let text = nearly_straight(short);
@@ -991,7 +991,7 @@ fn messages(folder: &std::path::Path, arguments: &[&str]) -> (Option<i32>, Strin
 }
 
 #[test]
-fn the_command_line_tells_results_and_writes_them() {
+fn results_are_printed_and_written() {
     let folder = tempfile::tempdir().expect("a folder");
     let text = arm(
         "1 rad/s * t",
@@ -1078,7 +1078,7 @@ fn leg() {
 
 /// What is left of `to` behind `from`, added to it again, may be a rounding more than `to`.
 #[test]
-fn the_end_is_reached_whatever_rounding_makes_of_the_span() {
+fn the_end_is_reached_despite_rounding() {
     let text =
         arm("t", "result at_end = last(x(arm.tip)) result least = min(x(arm.tip)) result area = integral(y(arm.tip))");
     let compiled = compiled("m", &text);
@@ -1103,7 +1103,7 @@ fn the_end_is_reached_whatever_rounding_makes_of_the_span() {
 
 /// What compares a number that is not there is not there either; unless the other side decides.
 #[test]
-fn conditions_over_what_has_no_value_have_none() {
+fn conditions_of_missing_values_are_missing() {
     let text = arm(
         "t",
         "result gone = sqrt(max(x(arm.tip)) / 1 m - 2)
@@ -1122,7 +1122,7 @@ fn conditions_over_what_has_no_value_have_none() {
 
 /// A driver that comes and goes between two steps, a window about a dead point, a peak of a high power: nothing of that shows at the ends of steps.
 #[test]
-fn what_comes_and_goes_within_a_step_is_met() {
+fn short_events_within_a_step_are_found() {
     let pulse = "if t < 0.2 s then 0 else if t < 0.21 s then 32 * ((t - 0.2 s) / (10 ms))^3 * (1 - (t - 0.2 s) / (10 ms))^3 else 0";
     let text = arm(
         pulse,
@@ -1146,7 +1146,7 @@ fn what_comes_and_goes_within_a_step_is_met() {
 
 /// Of what exists in a short time alone, the largest value is there; and what exists nowhere has no integral.
 #[test]
-fn what_exists_for_a_short_time_is_met_there() {
+fn short_lived_values_are_found() {
     let text = arm(
         "t * 1 rad/s",
         "result a = max(sqrt(1 - ((t / 1 s - 0.12345) / 0.003)^2)) result b = argmax(sqrt(1 - ((t / 1 s - 0.12345) / 0.003)^2))
@@ -1160,7 +1160,7 @@ fn what_exists_for_a_short_time_is_met_there() {
 /// What rounding makes of a quotient near a zero of both is neither its extremum nor a pole; and a pole at an end of the window counts in its own
 /// direction alone.
 #[test]
-fn rounding_beside_zeros_and_poles_at_ends_are_no_extrema() {
+fn rounding_near_zeros_is_no_extremum() {
     let text = arm(
         "2 * pi * t / 1 s",
         "result a = max(atan2(sin(t / 1 s - 0.5), 1 - cos(t / 1 s - 0.5))) result b = max(acos(1 - (t / 1 s - 0.3)^2) / abs(t / 1 s - 0.3))
@@ -1189,7 +1189,7 @@ fn rounding_beside_zeros_and_poles_at_ends_are_no_extrema() {
 
 /// Where a driver turns round, the curvature of a track is a quotient of roundings: it counts in no extremum, nor in the time of one, and is no value.
 #[test]
-fn noise_where_a_driver_turns_round_is_no_value() {
+fn noise_at_reversals_is_no_value() {
     let text = arm(
         "1 rad + 0.8 rad * cos(2 rad/s * t)",
         "result a = argmax(curvature(arm.tip) * t, from 1 s to 1.9 s) result b = max(curvature(arm.tip) * t, from 1 s to 1.9 s)
@@ -1202,7 +1202,7 @@ fn noise_where_a_driver_turns_round_is_no_value() {
 
 /// A coupler that only shifts: its angle and what becomes of it are nothing but rounding of what moves.
 #[test]
-fn what_rests_beside_what_moves_has_no_digits() {
+fn rests_have_no_spurious_digits() {
     let text = "mechanism parallelogram {
         ground { point A = (0, 0) point D = (100 mm, 0) }
         body crank at (0, 0, 90 deg) { point A = (0, 0) point B = (70 mm, 0) }

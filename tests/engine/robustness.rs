@@ -52,7 +52,7 @@ fn broken_chains_of_conditions_are_refused_at_once() {
 }
 
 #[test]
-fn what_is_long_but_not_deep_costs_linear_time() {
+fn long_flat_texts_take_linear_time() {
     let n = 50_000;
     check("", &format!("t{}", " + 1e-6".repeat(n))).expect_success();
     check("", &format!("t{}", " * 1".repeat(n))).expect_success();
@@ -186,7 +186,7 @@ fn ten_thousand_bodies_are_proven_in_no_time() {
 }
 
 #[test]
-fn three_hundred_four_bars_far_apart_are_as_good_as_one() {
+fn many_distant_four_bars_are_as_accurate_as_one() {
     let text = |n: usize| -> String {
         let mut text = "mechanism fleet {\n".to_owned();
         for k in 0..n {
@@ -215,7 +215,7 @@ fn three_hundred_four_bars_far_apart_are_as_good_as_one() {
 }
 
 #[test]
-fn many_mistakes_are_told_quickly() {
+fn many_mistakes_are_reported_quickly() {
     let params: String = (0..3_000).fold(String::new(), |mut params, k| {
         writeln!(params, "param p{k} = q{k}").expect("a string takes everything");
         params
@@ -258,7 +258,7 @@ fn printing_stays_linear_where_parts_are_shared() {
 }
 
 #[test]
-fn a_ring_of_thousands_is_solved_as_one() {
+fn large_rings_are_solved() {
     let n = 4_001;
     let ring: String = (0..n).fold(String::new(), |mut text, k| {
         let next = (k + 1) % n;
@@ -304,7 +304,7 @@ fn a_search_for_a_contact_ends() {
 }
 
 #[test]
-fn a_start_stays_at_its_time_however_long_the_analysis() {
+fn start_time_does_not_depend_on_the_span() {
     // the motion from 1 s to 2 s lies within the first billionth of the analysis
     let text = pendulum("", "step5(t, 1, 0, 2, 1)").replace("to 0.2 every 0.1", "to 1e10 every 1e9");
     let outcome = run("ages", &text, Span::default());
@@ -345,7 +345,7 @@ fn a_contact_that_rests_on_an_edge_does_not_stop_a_fast_motion() {
 }
 
 #[test]
-fn what_rests_on_an_edge_stays_there_in_no_time() {
+fn rests_on_edges_cost_little_time() {
     let text = "
         mechanism made {
         ground {
@@ -384,7 +384,7 @@ fn what_rests_on_an_edge_stays_there_in_no_time() {
 }
 
 #[test]
-fn faults_lie_in_the_text_though_braces_are_put_where_they_are_missing() {
+fn faults_at_missing_braces_stay_in_the_text() {
     for end in ["", "\n", "    "] {
         let text = format!(
             "mechanism press param stroke = 3 mm table lift = spline \"a\" body ram {{ point O = (0, 0) x{end}"

@@ -75,7 +75,7 @@ fn compared(name: &str, system: &ConstraintSystem) -> [usize; 2] {
 }
 
 #[test]
-fn rows_are_in_what_their_formulas_tell() {
+fn row_units_match_their_formulas() {
     let folders = ["examples", "tests/cases", "tests/cases_composed", "tests/stages", "tests/following"];
     let (mut rows, mut reported) = (0, 0);
     for path in folders.map(|folder| files(folder, "mech")).concat() {

@@ -193,7 +193,7 @@ fn measures_that_are_derivatives() {
 }
 
 #[test]
-fn where_the_order_of_elimination_loses_digits_measures_that_are_derivatives_are_found_as_well() {
+fn derivative_measures_survive_poor_pivots() {
     let path = "tests/slopes/asked.mech";
     let compiled = compiled(Path::new(path), &text_of(path), &Choice::default());
     let module = compiled.rust(&RustOptions::new("asked.mech")).0.expect("a module");
@@ -307,7 +307,7 @@ const THIRD_BAR: &str = "mechanism bars {
 }";
 
 #[test]
-fn what_would_break_an_equation_that_was_left_out_has_no_derivative() {
+fn breaking_a_left_out_equation_leaves_no_derivative() {
     for largest_straight in [mechc::LARGEST_STRAIGHT, 0] {
         assert!(holds(("bars.mech", THIRD_BAR), largest_straight) > 300);
     }

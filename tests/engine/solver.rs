@@ -47,7 +47,7 @@ fn four_bars(n: usize) -> String {
 }
 
 #[test]
-fn a_row_has_the_same_bits_whichever_others_are_asked_for() {
+fn rows_do_not_depend_on_other_rows() {
     let case = |name: &str| fs::read_to_string(format!("tests/cases/{name}.mech")).expect("a text");
     let mut texts: Vec<(String, String)> =
         ["four_bar", "andrews", "jansen", "digger", "slots"].map(|name| (name.to_owned(), case(name))).to_vec();
@@ -105,7 +105,7 @@ fn have_equal_bits(name: &str, compiled: &Compiled, count: u32) -> usize {
 }
 
 #[test]
-fn the_rows_of_random_mechanisms_have_the_same_bits_whichever_others_are_asked_for() {
+fn rows_of_random_mechanisms_do_not_depend_on_other_rows() {
     let mut visited = 0;
     for seed in 0..8 {
         let text = made(seed);
@@ -117,7 +117,7 @@ fn the_rows_of_random_mechanisms_have_the_same_bits_whichever_others_are_asked_f
 }
 
 #[test]
-fn rows_that_hold_rounding_of_great_numbers_have_the_same_bits_whichever_others_are_asked_for() {
+fn rows_with_large_rounding_do_not_depend_on_other_rows() {
     let text = fs::read_to_string("tests/bits/gear_under_great_forces.mech").expect("a text");
     let compiled = compiled("gear", &text);
     for count in [20, 10, 2, 100] {
@@ -238,7 +238,7 @@ impl Bench {
 }
 
 #[test]
-fn a_tear_on_a_border_has_the_same_bits_wherever_newton_begins() {
+fn tears_on_borders_do_not_depend_on_the_guess() {
     let bench = Bench::new("four-bar", &four_bars(1));
     let q = bench.started.q();
     let tears = || bench.solver().segments().iter().flat_map(Segment::tears);

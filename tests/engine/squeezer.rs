@@ -90,7 +90,7 @@ fn expect_published(values: impl Fn(&str) -> f64, published: &[(&str, f64)], wor
 }
 
 #[test]
-fn the_torque_that_turned_it_comes_out() {
+fn inverse_dynamics_recovers_the_torque() {
     let torque = squeezer().column("mom");
     assert_eq!(torque.len(), 51);
     let off = torque.iter().fold(0.0, |m: f64, torque| m.max((torque - TORQUE).abs()));
@@ -98,13 +98,13 @@ fn the_torque_that_turned_it_comes_out() {
 }
 
 #[test]
-fn it_starts_as_published() {
+fn start_matches_publication() {
     let outcome = squeezer();
     expect_published(|column| outcome.column(column)[0], START, |_| 1e-9);
 }
 
 #[test]
-fn it_ends_as_published() {
+fn end_matches_publication() {
     let outcome = squeezer();
     expect_published(|column| *outcome.column(column).last().expect("a row"), END, worth);
 }

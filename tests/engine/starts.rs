@@ -219,7 +219,7 @@ fn largest(value: impl Fn(f64) -> f64) -> f64 {
 }
 
 #[test]
-fn cams_start_as_they_are_drawn_wherever_their_drivers_begin() {
+fn cams_start_as_drawn() {
     let mut random = Random::new(7);
     let (mut noted, mut done) = (0, 0);
     while done < 120 {
@@ -304,7 +304,7 @@ fn is_whole_turns(angle: f64) -> bool {
 }
 
 #[test]
-fn linkages_start_as_they_are_drawn_be_the_crank_drawn_or_not() {
+fn linkages_start_as_drawn() {
     let mut random = Random::new(11);
     let mut noted = 0;
     for number in 0..100 {
@@ -328,7 +328,7 @@ fn linkages_start_as_they_are_drawn_be_the_crank_drawn_or_not() {
 }
 
 #[test]
-fn the_first_time_that_is_asked_for_decides_no_branch() {
+fn the_first_requested_time_selects_no_branch() {
     let mut random = Random::new(5);
     for number in 0..200 {
         let from = random.between(-2.0, 3.0);

@@ -33,7 +33,7 @@ const FOUR_BAR: &str = "mechanism four_bar {
 }";
 
 #[test]
-fn each_variant_is_what_it_is_alone() {
+fn variants_match_single_runs() {
     let subject = subject(FOUR_BAR, Choice::default());
     let ranges = ["crank_length=10mm..60mm", "coupler_length=60mm..140mm", "speed=10rpm..100rpm", "share=-1..2"];
     for (method, seed) in [(Method::Sobol, None), (Method::Random, Some(3))] {
@@ -46,7 +46,7 @@ fn each_variant_is_what_it_is_alone() {
 
 /// Variants that are of no use beside each other, and the others do not feel it.
 #[test]
-fn what_is_wrong_with_one_variant_is_its_own() {
+fn errors_of_one_variant_do_not_affect_others() {
     let subject = subject(FOUR_BAR, Choice { set: vec!["speed=30rpm".to_owned()], ..Choice::default() });
     // in order: nothing wrong, cannot close, locks, a pole of a result, a negative length, all collinear once a turn
     let lengths = ["30mm", "400mm", "75mm", "-30mm", "40mm", "60mm"];
@@ -78,7 +78,7 @@ fn threads_and_shares_change_no_bit() {
 }
 
 #[test]
-fn results_alone_are_those_beside_rows() {
+fn results_match_with_and_without_rows() {
     let subject = subject(FOUR_BAR, Choice { results: vec!["top = max(height)".to_owned()], ..Choice::default() });
     assert_eq!(
         subject.compiled.variant_results().iter().map(|(name, unit)| format!("{name} {unit}")).collect::<Vec<_>>(),
@@ -110,7 +110,7 @@ fn digits_of_results_are_reported() {
 
 /// Scales and the order of elimination are those of the file's own values; so with these a variant is the file.
 #[test]
-fn with_its_own_values_a_variant_is_the_file() {
+fn nominal_variant_matches_the_file() {
     let subject = subject(FOUR_BAR, Choice::default());
     let block = subject.sweep(&subject.variants(&vary(&["share=0.5", "speed=60rpm"])), &subject.all_columns());
     let plain = subject.parsed.check(&Choice::default(), &Memory::default());
@@ -126,7 +126,7 @@ fn with_its_own_values_a_variant_is_the_file() {
 
 /// The first and the last param of each example, as the file has them and a little beside: parts, gears, cams, tables, points.
 #[test]
-fn variants_of_the_examples_are_what_they_are_alone() {
+fn variants_of_examples_match_single_runs() {
     let mut found = 0;
     for path in support::files("examples", "mech") {
         let text = std::fs::read_to_string(&path).expect("an example");
@@ -170,7 +170,7 @@ fn a_sweep_ends_at_the_variant_that_is_looked_for() {
 
 /// A condition may ask for what some variants do not have: a time behind their ends, a copy beyond their number.
 #[test]
-fn what_is_looked_for_stops_no_variant() {
+fn until_conditions_change_no_variant() {
     let lift = include_str!("../../examples/scissor_lift.mech");
     for (text, varied, condition) in [
         (FOUR_BAR, "speed=30rpm,120rpm,60rpm", "at(height, 0.9 s) > 1 m"),
@@ -226,7 +226,7 @@ fn tables_of_variants_are_read() {
 
 /// The value that is tried stands in no text; the header does.
 #[test]
-fn what_is_wrong_with_a_column_of_variants_is_said_at_its_header() {
+fn column_errors_are_reported_at_the_header() {
     let text = FOUR_BAR.replacen("param ", "param pen = (1 mm, 2 mm) param ", 1);
     let subject = subject(&text, Choice::default());
     for (header, help) in [
@@ -247,7 +247,7 @@ fn what_is_wrong_with_a_column_of_variants_is_said_at_its_header() {
 }
 
 #[test]
-fn what_cannot_vary_is_refused() {
+fn invalid_variations_are_refused() {
     let subject = subject(FOUR_BAR, Choice { set: vec!["share=1".to_owned()], ..Choice::default() });
     let sampled = |params: &[&str], sample| VaryOptions { sample: Some(sample), ..vary(params) };
     for (requested, wanted) in [

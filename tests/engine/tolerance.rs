@@ -219,7 +219,7 @@ const FOUR_BAR: &str = "mechanism four_bar {
 }";
 
 #[test]
-fn derivatives_are_those_of_differences() {
+fn derivatives_match_differences() {
     let subject = subject(FOUR_BAR, &[]);
     let requested = [
         "ground_length=0.1mm",
@@ -236,7 +236,7 @@ fn derivatives_are_those_of_differences() {
 
 /// Each example by its first param: its measures, its results, and such of its measures.
 #[test]
-fn derivatives_of_the_examples_are_those_of_differences() {
+fn derivatives_of_examples_match_differences() {
     let (mut all, mut known, mut texts) = (0, 0, 0);
     for path in support::files("examples", "mech") {
         let text = std::fs::read_to_string(&path).expect("an example");
@@ -278,7 +278,7 @@ fn near(found: f64, wanted: f64) {
 
 /// `x = r cos b`, so `x_r = cos b` and `x_b = −r sin b`.
 #[test]
-fn sums_are_those_by_hand() {
+fn sums_match_manual_ones() {
     let text =
         arm("result far = first(x(arm.tip)) analysis from 0 to 1 every 0.1").replace("begin = 0", "begin = 60 deg");
     let subject = subject(&text, &[]);
@@ -345,7 +345,7 @@ fn by_p(p: f64, cases: &[(&str, Option<f64>)]) {
 }
 
 #[test]
-fn an_extremum_has_a_derivative_where_it_is_alone_and_nothing_else_goes_with_the_param() {
+fn isolated_extrema_have_derivatives() {
     let two = "if t < 0.5 then p * sin(tau * t)^2 else q * sin(tau * t)^2";
     // two that are alike, one of which goes with p
     by_p(
@@ -387,7 +387,7 @@ fn an_extremum_has_a_derivative_where_it_is_alone_and_nothing_else_goes_with_the
 }
 
 #[test]
-fn an_extremum_at_an_edge_has_a_derivative_where_the_edge_stays() {
+fn extrema_at_fixed_edges_have_derivatives() {
     by_p(
         0.4,
         &[
@@ -413,7 +413,7 @@ fn an_extremum_at_an_edge_has_a_derivative_where_the_edge_stays() {
 
 /// What rests behind an edge has not turned there, and what stands at an edge goes to one side as it does not to the other.
 #[test]
-fn what_stands_at_an_edge_that_goes_with_the_param_has_no_derivative() {
+fn extrema_at_moving_edges_have_no_derivative() {
     by_p(
         1.0,
         &[
@@ -460,7 +460,7 @@ fn a_param_moves_a_switch_through_a_table() {
 }
 
 #[test]
-fn an_integral_has_a_derivative_where_no_jump_goes_with_the_param() {
+fn integrals_without_moving_jumps_have_derivatives() {
     by_p(
         0.4,
         &[
@@ -485,7 +485,7 @@ fn an_integral_has_a_derivative_where_no_jump_goes_with_the_param() {
 }
 
 #[test]
-fn ends_of_the_analysis_may_go_with_a_param() {
+fn analysis_ends_may_depend_on_params() {
     let text = arm("param p = 0.8 analysis from 0.1 * p to p every 0.1
         result a = last(t^2) result b = max(t^2) result c = argmax(t^2) result d = integral(t) result e = mean(t)
         result f = first(t) result g = argmin(t) result h = at(t^2, p / 2) result i = max(t * (1.2 - t)) result j = rms(t)");
@@ -511,7 +511,7 @@ fn ends_of_the_analysis_may_go_with_a_param() {
 }
 
 #[test]
-fn what_needs_too_many_derivatives_has_none() {
+fn derivatives_beyond_the_highest_order_are_missing() {
     let text = arm("measure jerk = der(der(der(x(arm.tip)))) result a = max(jerk) result b = max(der(der(x(arm.tip))))
         analysis from 0 to 1 every 0.1");
     let (_, affected) = subject(&text, &[]).affected(&["reach=1mm"]);
@@ -565,7 +565,7 @@ fn peaks_of_forces_and_accelerations_have_derivatives() {
 
 /// What cannot go with a param makes nothing jump, whatever stands in it.
 #[test]
-fn a_jump_that_stays_leaves_the_mean_of_a_force_its_derivative() {
+fn fixed_jumps_keep_the_derivative_of_a_mean_force() {
     let text = std::fs::read_to_string("examples/compressor.mech").expect("an example");
     let subject = subject(&text, &[]);
     let (_, affected) = subject.affected(&["rod_length=0.1mm"]);
@@ -580,7 +580,7 @@ fn a_jump_that_stays_leaves_the_mean_of_a_force_its_derivative() {
 
 /// A force that jumps where a load does.
 #[test]
-fn what_a_load_makes_jump_elsewhere_has_no_derivative() {
+fn load_jumps_leave_no_derivative() {
     let text = arm("param push = 10 N param from = 0.5 m
         load work: if x(arm.tip) > from then push else 0 on x(arm.tip)
         result peak = max(effort(motor)) result always = integral(effort(motor)) result drop = min(effort(motor))
@@ -596,7 +596,7 @@ fn what_a_load_makes_jump_elsewhere_has_no_derivative() {
 }
 
 #[test]
-fn a_measure_is_told_where_it_deviates_the_most() {
+fn measures_report_their_largest_deviation() {
     let text = arm("measure wide = x(arm.tip) measure flat = 3 measure off = 1 / (y(arm.tip) - 2 m)
         analysis from 0 to 1 every 0.05");
     let subject = subject(&text, &[]);
@@ -616,7 +616,7 @@ fn a_measure_is_told_where_it_deviates_the_most() {
 
 /// One that has a formula goes with what it is made of, unless it may be off itself.
 #[test]
-fn a_param_of_others_is_a_dimension_of_its_own_where_it_may_be_off() {
+fn dependent_params_may_have_tolerances() {
     let text = arm("param half = 1 m result far = first(x(arm.tip)) analysis from 0 to 1 every 0.1")
         .replace("reach = 2 m", "reach = 2 * half");
     let subject = subject(&text, &[]);
@@ -629,7 +629,7 @@ fn a_param_of_others_is_a_dimension_of_its_own_where_it_may_be_off() {
 }
 
 #[test]
-fn points_and_params_of_parts_may_be_off() {
+fn points_and_part_params_may_have_tolerances() {
     let leg = ROCKER.replace("mechanism rocker", "mechanism leg");
     let text = format!(
         "{leg}\nmechanism pair {{
@@ -680,7 +680,7 @@ fn all_corners_of_twelve_are_run_and_of_more_the_worst_with_a_sample() {
 }
 
 #[test]
-fn where_derivatives_are_not_enough_is_seen_by_corners() {
+fn corners_reveal_nonlinearity() {
     let text = arm("result far = first(x(arm.tip)) result up = first(y(arm.tip)) analysis from 0 to 1 every 0.1");
     let (tolerances, affected, verified) = subject(&text, &[]).verified(&["begin=0.3 rad"]);
     let sums: Vec<_> = affected.iter().map(|of| of.deviation(&tolerances, false).expect("known")).collect();
@@ -695,7 +695,7 @@ fn where_derivatives_are_not_enough_is_seen_by_corners() {
 
 /// What is a difference of large numbers is off by their rounding, which no derivative tells.
 #[test]
-fn what_rounding_alone_moves_is_linear() {
+fn rounding_changes_are_linear() {
     let text = arm("measure off = x(arm.tip)^2 / reach + y(arm.tip)^2 / reach - reach analysis from 0 to 1 every 0.07");
     let (tolerances, affected, verified) = subject(&text, &[]).verified(&["reach=0.3m", "begin=0.2 rad"]);
     let deviation = affected[0].deviation(&tolerances, false).expect("known");
@@ -755,7 +755,7 @@ fn a_result_at_a_kink_of_results_has_no_derivative() {
 
 /// With what is set beside the text, the nominal one is that.
 #[test]
-fn what_is_set_is_the_nominal_value() {
+fn set_values_are_nominal() {
     let text = arm("result far = first(x(arm.tip)) analysis from 0 to 1 every 0.1");
     let subject = subject_with(&text, Choice { set: vec!["reach=3m".to_owned()], ..Choice::default() });
     let (tolerances, affected, verified) = subject.verified(&["reach=1mm"]);
@@ -766,7 +766,7 @@ fn what_is_set_is_the_nominal_value() {
 }
 
 #[test]
-fn what_cannot_be_off_is_refused() {
+fn invalid_tolerances_are_refused() {
     let text = arm("param count = 2 param A = (1 m, 2 m) input turn = 3
         measure wide[k in 0..count] = x(arm.tip) * k result far = first(x(arm.tip)) analysis from 0 to 1 every 0.1");
     let subject = subject(&text, &[]);
@@ -858,7 +858,7 @@ fn height(file: &str, more: &[&str]) -> serde_json::Value {
 
 /// A table of `mechc tolerance` against a sample of a hundred thousand variants: no number of it is from the same formulas.
 #[test]
-fn a_table_is_what_a_hundred_thousand_variants_have() {
+fn tables_match_uniform_sampling() {
     let folder = tempfile::tempdir().expect("a folder");
     let file = folder.path().join("a.mech").to_string_lossy().into_owned();
     std::fs::write(&file, ROCKER).unwrap();
@@ -884,7 +884,7 @@ fn a_table_is_what_a_hundred_thousand_variants_have() {
 
 /// What is spread normally, as a table of variants by Box and Muller.
 #[test]
-fn a_table_is_what_variants_have_that_are_spread_normally() {
+fn tables_match_normal_sampling() {
     let folder = tempfile::tempdir().expect("a folder");
     let inside = |name: &str| folder.path().join(name).to_string_lossy().into_owned();
     let (file, variants) = (inside("a.mech"), inside("v.csv"));
@@ -908,7 +908,7 @@ fn a_table_is_what_variants_have_that_are_spread_normally() {
 
 /// A param that moves nothing has a derivative of nothing, whatever rounding leaves of it.
 #[test]
-fn a_param_that_moves_a_result_by_rounding_alone_does_not_move_it() {
+fn rounding_is_no_sensitivity() {
     let text = "mechanism two {
         param gap = 100 mm
         param la = 40 mm
@@ -939,7 +939,7 @@ fn a_param_that_moves_a_result_by_rounding_alone_does_not_move_it() {
 
 /// The direction of an axis has a length, which params alone decide: `T = 2 (1 + ph²) ẍ`.
 #[test]
-fn what_params_alone_decide_is_no_kink_on_the_way() {
+fn param_conditions_are_no_kinks() {
     let text = "mechanism guide {
         param ph = 0.17
         ground { axis w = (0, 0) along (1, ph) }
@@ -957,7 +957,7 @@ fn what_params_alone_decide_is_no_kink_on_the_way() {
 
 /// What rests has all its times in common: each of them may go its own way with a param, and a result of extremes then has no derivative.
 #[test]
-fn what_rests_may_be_set_moving_by_a_param() {
+fn params_may_set_rests_moving() {
     let text = "mechanism rest {
         param la = 100 mm
         param nominal = 100 mm
@@ -999,7 +999,7 @@ fn stepped(measure: &str, a: f64) -> String {
 }
 
 #[test]
-fn a_measure_that_jumps_at_a_time_which_goes_with_a_param_has_no_derivative() {
+fn measures_with_moving_jumps_have_no_derivative() {
     let measures = ["if rotation(main) < a then 1 else 2", "sign(rotation(main) - a)", "mod(rotation(main) - a, 1)"];
     for measure in measures {
         for a in [0.5, 0.35, 0.72] {
@@ -1013,7 +1013,7 @@ fn a_measure_that_jumps_at_a_time_which_goes_with_a_param_has_no_derivative() {
 }
 
 #[test]
-fn a_measure_that_bends_or_jumps_elsewhere_has_its_derivative() {
+fn measures_with_fixed_kinks_have_derivatives() {
     let continuous = "if rotation(main) < a then a * rotation(main) else a * a";
     for (measure, slope) in
         [(continuous, 1.0), ("if rotation(main) < 0.5 then a else 2 * a", 2.0), ("a * sign(t - 0.3)", 1.0)]
@@ -1025,7 +1025,7 @@ fn a_measure_that_bends_or_jumps_elsewhere_has_its_derivative() {
 }
 
 #[test]
-fn what_is_far_away_and_constant_hides_no_derivative_of_an_extremum() {
+fn distant_constants_hide_no_derivative() {
     for (formula, slope) in [("a * sin(3 * rotation(main))", 1.0), ("sin(3 * rotation(main) + a)", 0.0)] {
         for other in ["-2", "-100", "-1e5"] {
             let peak = format!("peak = max(if t < 0.8 then {formula} else {other})");

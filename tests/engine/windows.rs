@@ -129,7 +129,7 @@ fn edges_within_a_window_count() {
 }
 
 #[test]
-fn a_window_may_be_of_a_single_time() {
+fn windows_may_be_single_times() {
     let at = sin(0.2 * PI);
     check(&[
         ("mean(y, from 0.1 s to 0.1 s)", at),
@@ -160,14 +160,14 @@ fn the_time_of_a_value_is_that_of_another_result() {
 }
 
 #[test]
-fn a_time_that_turns_out_to_be_outside_leaves_no_value() {
+fn outside_times_leave_no_value() {
     let found = answers(&["at(x, argmin(y) + 1 s)", "at(x, argmin(y))"]);
     assert!(found.values[0].is_none() && found.values[1].is_some(), "{found:?}");
     assert_eq!(found.notes.len(), 1, "{found:?}");
 }
 
 #[test]
-fn a_window_that_turns_out_to_be_outside_or_to_end_early_has_no_value() {
+fn outside_windows_have_no_value() {
     let formulas = [
         "max(y, from argmax(y) + 2 s)",
         "mean(y, to argmax(y) - 2 s)",
@@ -191,7 +191,7 @@ fn windows_do_not_depend_on_the_output_step() {
 
 /// What variants of a sweep have is what they have alone, to the bit; where a window ends before it begins, that is an error.
 #[test]
-fn a_sweep_has_what_runs_have() {
+fn sweeps_match_single_runs() {
     let declarations = "param late = 0.5 s
     result most = max(y, from 0.3 s to late)
     result level = mean(x, from argmin(y, to late) / 2 to late)
@@ -236,7 +236,7 @@ fn by_p(p: f64, cases: &[(&str, Option<f64>)]) {
 }
 
 #[test]
-fn over_a_window_that_stays_the_formula_is_differentiated() {
+fn fixed_windows_are_differentiated() {
     by_p(
         0.4,
         &[
@@ -259,7 +259,7 @@ fn over_a_window_that_stays_the_formula_is_differentiated() {
 }
 
 #[test]
-fn bounds_that_go_with_a_param_are_differentiated() {
+fn moving_bounds_are_differentiated() {
     by_p(
         0.4,
         &[

@@ -114,7 +114,7 @@ fn formulas_of_numbers_and_time_are_in_si() {
 }
 
 #[test]
-fn bare_numbers_beside_degrees_are_warned_of() {
+fn bare_numbers_with_degrees_warn() {
     for (formula, is_warned) in [
         ("180 - mu", true),
         ("abs(mu) - 2 * 45", true),

@@ -50,7 +50,7 @@ fn assert_close(found: &[f64], wanted: &[f64], what: &str) {
 }
 
 #[test]
-fn a_measure_and_its_derivatives_are_printed_in_its_unit() {
+fn measures_are_printed_in_their_unit() {
     let table = printed(
         &arm("measure si = y(arm.tip)
     measure mm = y(arm.tip) in mm
@@ -92,7 +92,7 @@ fn a_measure_and_its_derivatives_are_printed_in_its_unit() {
 }
 
 #[test]
-fn every_column_has_its_unit() {
+fn columns_have_units() {
     let table = printed(&arm("measure ratio = sin(rotation(main)) trace path = arm.tip in mm"));
     let all: Vec<String> =
         table["units"].as_array().unwrap().iter().map(|unit| unit.as_str().unwrap().to_owned()).collect();
@@ -146,7 +146,7 @@ fn words_that_open_declarations_are_names_elsewhere() {
 }
 
 #[test]
-fn emitted_code_stays_in_si_and_says_so() {
+fn emitted_code_documents_si_units() {
     let compiled = compiled("m", &arm("measure high = y(arm.tip) in mm measure path_x = t trace path = arm.tip"));
     let (code, _) = compiled.rust(&mechc::RustOptions::new("m.mech"));
     let code = code.expect("it assembles");

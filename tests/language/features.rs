@@ -41,7 +41,7 @@ fn joints_take_hold_of_their_second_features() {
 }
 
 #[test]
-fn contacts_take_hold_where_they_touch() {
+fn contacts_are_located_where_they_touch() {
     let (places, ..) = features(
         "mechanism machine {
             ground { point O = (0, 0)  axis up = O along (0, 1) }
@@ -57,7 +57,7 @@ fn contacts_take_hold_where_they_touch() {
 }
 
 #[test]
-fn features_of_a_mirrored_part_are_in_the_frames_of_its_bodies() {
+fn mirrored_features_stay_in_body_frames() {
     let (places, directions, _) = features(
         "mechanism arm {
             ground { point O = (0, 0)  axis up = O along (0, 1) }

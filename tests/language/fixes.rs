@@ -121,7 +121,7 @@ fn cases() -> Vec<Case> {
 }
 
 #[test]
-fn every_fix_mends_and_breaks_nothing() {
+fn fixes_apply_without_new_errors() {
     let (mut count, mut faults) = (0, Vec::new());
     for case in cases() {
         let (of_case, found) = faults_of(&case);
@@ -242,7 +242,7 @@ const OPEN: &[&str] = &[
 ];
 
 #[test]
-fn what_can_only_have_meant_one_thing_is_made_that() {
+fn unambiguous_mistakes_are_fixed() {
     // whatever comes before and behind, and whatever the ends of lines
     for (before, behind) in
         [("", ""), ("param before = 1\n", "\nparam behind = 2"), ("// é\n", "\nanalysis from 0 to 1 every 1")]
@@ -301,7 +301,7 @@ fn without_blanks(text: &str) -> String {
 }
 
 #[test]
-fn a_slip_is_undone_or_left_to_its_writer() {
+fn typos_are_fixed_or_left() {
     let mut undone = vec![0; SLIPS.len()];
     let mut state = 1_u64;
     for path in files("examples", "mech").into_iter().chain(files("tests/cases", "mech")) {

@@ -113,7 +113,7 @@ fn documentation() -> Vec<(String, String)> {
 // ---- the project's own texts
 
 #[test]
-fn nothing_is_lost_of_any_text() {
+fn formatting_loses_no_text() {
     let whole = texts().iter().filter(|(_, text)| formatted(text).is_some()).count();
     assert!(whole > 400, "only {whole} texts follow the grammar");
 }
@@ -138,7 +138,7 @@ fn examples_cases_and_documentation_are_formatted() {
 // ---- texts that nobody wrote
 
 #[test]
-fn a_comment_before_a_comma_that_is_left_out_takes_nothing_with_it() {
+fn comments_before_dropped_commas_stay() {
     becomes(
         "mechanism m {\n    param a = max(1, 2 // c\n    , )\n}\n",
         "mechanism m {\n    param a = max(1, 2   // c\n        )\n}\n",
@@ -187,7 +187,7 @@ proptest! {
     #![proptest_config(ProptestConfig { cases: 250, max_shrink_iters: 0, max_global_rejects: 60, failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
-    fn nothing_is_lost_of_a_text_with_other_spaces_and_comments(seed in any::<u64>()) {
+    fn formatting_loses_no_perturbed_text(seed in any::<u64>()) {
         let texts = [
             include_str!("../format/everything.mech"),
             include_str!("../stages/everything/input.mech"),
@@ -216,7 +216,7 @@ fn damaged(text: &str, random: &mut Random) -> String {
 }
 
 #[test]
-fn a_damaged_text_stays_as_it_is_and_what_is_whole_of_it_is_formatted() {
+fn damaged_pieces_stay_unformatted() {
     let texts = texts();
     let (mut random, mut refused) = (Random::new(7), 0);
     for _ in 0..600 {
@@ -241,7 +241,7 @@ fn a_damaged_text_stays_as_it_is_and_what_is_whole_of_it_is_formatted() {
 // ---- how it looks
 
 #[test]
-fn comments_stay_where_they_stand() {
+fn comments_keep_their_position() {
     stays(
         "// the file
 /// the mechanism
@@ -364,7 +364,7 @@ fn long_formulas_are_broken_behind_operators() {
 
 /// What looks like something else to a reader, or would be something else to the parser.
 #[test]
-fn spaces_are_kept_where_they_mean_something() {
+fn significant_spaces_are_kept() {
     let formula = |text: &str| {
         let text = format!("mechanism m {{\n    param h = 3\n    measure a = {text}\n}}\n");
         let formatted = formatted(&text).unwrap_or_else(|| panic!("{text}"));
@@ -391,7 +391,7 @@ fn spaces_are_kept_where_they_mean_something() {
 }
 
 #[test]
-fn line_ends_are_those_of_the_first_line() {
+fn line_ends_follow_the_first_line() {
     becomes("mechanism m {\r\nparam a=1 // c\n}\n", "mechanism m {\r\n    param a = 1   // c\r\n}\r\n");
     becomes("mechanism m {\nparam a=1\r\n}", "mechanism m {\n    param a = 1\n}\n");
 }
@@ -404,7 +404,7 @@ fn with_edits(text: &str, of: impl Fn(&Parsed) -> Vec<Edit>) -> String {
 }
 
 #[test]
-fn what_is_whole_of_a_broken_text_is_formatted() {
+fn intact_pieces_of_broken_texts_are_formatted() {
     let text = "mechanism m {
   param a=1
   param   broken = 3 +
@@ -479,7 +479,7 @@ fn fmt(folder: &Path, arguments: &[&str]) -> (i32, String, String) {
 }
 
 #[test]
-fn files_are_replaced_only_where_they_change() {
+fn only_changed_files_are_replaced() {
     let folder = tempfile::tempdir().expect("a folder");
     let at = |name: &str| folder.path().join(name);
     let read = |name: &str| fs::read_to_string(at(name)).expect("a text");
@@ -531,7 +531,7 @@ fn files_are_replaced_only_where_they_change() {
 }
 
 #[test]
-fn what_cannot_be_formatted_is_told_and_the_rest_is_formatted() {
+fn unformattable_files_are_reported() {
     let folder = tempfile::tempdir().expect("a folder");
     let at = |name: &str| folder.path().join(name);
     fs::create_dir(at("empty")).unwrap();
@@ -549,7 +549,7 @@ fn what_cannot_be_formatted_is_told_and_the_rest_is_formatted() {
 }
 
 #[test]
-fn standard_input_goes_to_standard_output() {
+fn standard_input_is_formatted_to_standard_output() {
     let run = |arguments: &[&str], text: &str| {
         let mut command = assert_cmd::Command::new(env!("CARGO_BIN_EXE_mechc"));
         let output = command.arg("fmt").args(arguments).write_stdin(text).output().expect("it runs");

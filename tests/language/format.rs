@@ -42,7 +42,7 @@ fn formatted(name: &str, text: &str) -> String {
 }
 
 #[test]
-fn every_file_reads_back_as_it_was() {
+fn files_read_back() {
     for folder in ["examples", "tests/cases", "tests/ui/ok"] {
         for path in files(folder, "mech") {
             formatted(&path.display().to_string(), &fs::read_to_string(&path).expect("a text"));
@@ -66,7 +66,7 @@ fn files_with_mistakes_read_back_too() {
 
 /// A file that was written in the style of the formatter, without `//` comments, stays as it is.
 #[test]
-fn a_well_written_file_stays_as_it_is() {
+fn formatted_files_stay_unchanged() {
     for name in ["cam_point_follower", "gear_pair", "rack_and_pinion", "drawn_phase", "translational_driver"] {
         let path = format!("{}/tests/cases/{name}.mech", env!("CARGO_MANIFEST_DIR"));
         let text = fs::read_to_string(path).expect("a text");
@@ -146,7 +146,7 @@ fn only_needed_parentheses_stay() {
 }
 
 #[test]
-fn other_parentheses_go() {
+fn superfluous_parentheses_are_removed() {
     for (text, wanted) in [
         ("((a))", "a"),
         ("((a + b) + c)", "a + b + c"),
@@ -241,7 +241,7 @@ fn tree() -> impl Strategy<Value = Expr> {
         let boxed = || inner.clone().prop_map(Box::new);
         let list = |least: usize| proptest::collection::vec(inner.clone(), least..4);
         let sign = prop_oneof![Just(Sign::Plus), Just(Sign::Minus)];
-        let factor = prop_oneof![Just(Factor::Times), Just(Factor::Over)];
+        let factor = prop_oneof![Just(Factor::Times), Just(Factor::Divide)];
         let comparison = prop_oneof![
             Just(ComparisonSign::Less),
             Just(ComparisonSign::LessEqual),

@@ -78,7 +78,7 @@ proptest! {
         rng_seed: proptest::test_runner::RngSeed::Fixed(11), ..ProptestConfig::default() })]
 
     #[test]
-    fn what_is_put_in_order_reads_back_to_the_same_values(text in formulas()) {
+    fn reordered_formulas_keep_their_values(text in formulas()) {
         let Ok(mut formula) = std::panic::catch_unwind(|| read(&text)) else { return Err(TestCaseError::reject("a constant without value")) };
         let roots = derived(&mut formula);
         prop_assume!(formula.graph.written_size(&roots) < 3000);

@@ -160,7 +160,7 @@ fn addition(random: &mut Random) -> (String, bool) {
 }
 
 #[test]
-fn what_is_added_changes_no_name_of_another() {
+fn additions_change_no_other_name() {
     let before = names(TEXT).expect("determined");
     assert!(before.len() > 150, "{before:?}");
     let (mut looked_at, mut gave_way) = (0, 0);

@@ -457,7 +457,7 @@ fn formulas_keep_their_value() {
 }
 
 #[test]
-fn nothing_nests_too_deep() {
+fn imports_limit_nesting() {
     let n = 100_000;
     for formula in [
         format!("{}t{}", "(".repeat(n), ")".repeat(n)),
@@ -556,7 +556,7 @@ fn mistakes_have_their_places() {
 }
 
 #[test]
-fn a_mistake_as_the_user_sees_it() {
+fn mistakes_as_shown_to_users() {
     let model = WIPER.replace("0.4\"", "0.4*cos(phi)\"").replace("\"body2\": 3", "\"body2\": 30");
     insta::assert_snapshot!("mistakes_shown", imported(&model, None).said(Format::Human));
 }

@@ -68,7 +68,7 @@ fn four_mistakes_of_four_kinds_are_four_diagnostics() {
 }
 
 #[test]
-fn a_name_that_is_a_word_is_told_once() {
+fn reserved_names_are_reported_once() {
     for (word, code) in
         [("s", "E0204"), ("m", "E0204"), ("rad", "E0204"), ("driver", "E0101"), ("table", "E0101"), ("else", "E0101")]
     {
@@ -339,7 +339,7 @@ fn next(state: &mut u64) -> usize {
 }
 
 #[test]
-fn of_two_mistakes_both_are_told_and_nothing_else() {
+fn two_mistakes_give_two_reports() {
     let inputs = inputs();
     assert!(inputs.len() > 100, "only {} inputs", inputs.len());
     let renamed: Vec<Mistaken> = inputs.iter().map(Mistaken::renamed).collect();

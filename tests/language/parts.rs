@@ -160,7 +160,7 @@ fn largest_difference(alone: &Table, part: &Table, distance: f64) -> (f64, Strin
 }
 
 #[test]
-fn a_part_is_what_it_is_alone_seen_from_its_own_ground() {
+fn parts_match_single_mechanisms_in_their_frame() {
     let mut random = Random::new(20);
     let (mut compared, mut faults) = (0, Vec::new());
     for (file, name, text) in mechanisms() {
@@ -212,7 +212,7 @@ fn messages(text: &str) -> (Vec<String>, Vec<Vec<f64>>) {
 }
 
 #[test]
-fn an_input_that_is_bound_has_no_limits_of_its_own_formula() {
+fn bound_inputs_ignore_limits_of_their_formula() {
     let leaf = "mechanism leaf {
         table some = spline [(0, 0), (1, 1)]
         input turn = some(t)
@@ -242,7 +242,7 @@ const LEVER: &str = "mechanism lever {
 }";
 
 #[test]
-fn parts_on_one_line_begin_where_each_would_alone() {
+fn repeated_parts_start_as_single_ones() {
     let around = |part: &str| format!("mechanism whole {{ {part} analysis from 0 to 0 every 1 }}\n{LEVER}");
     let turns = [62.0, 40.0, 55.0, 61.0, 60.0, 40.0, 35.0];
     let all: Vec<String> =
@@ -257,7 +257,7 @@ fn parts_on_one_line_begin_where_each_would_alone() {
 }
 
 #[test]
-fn of_parts_on_one_line_each_says_that_it_does_not_arrive() {
+fn repeated_parts_report_failures_separately() {
     let parts = "part near: lever(turn = 66 deg)  part far: lever(turn = 200 deg)  part farther: lever(turn = 250 deg)";
     let (reported, _) = messages(&format!("mechanism whole {{ {parts} analysis from 0 to 0 every 1 }}\n{LEVER}"));
     let not_led: Vec<&String> =
@@ -271,7 +271,7 @@ fn of_parts_on_one_line_each_says_that_it_does_not_arrive() {
 }
 
 #[test]
-fn a_part_on_a_turning_body_is_what_it_is_alone_however_far_its_mount() {
+fn parts_on_turning_bodies_match_single_ones() {
     // a body without extent, whose size is that of what it is joined to
     let part = "mechanism guided {
         ground { point D = (60 mm, 0) }
@@ -332,7 +332,7 @@ mechanism arm {{
 }
 
 #[test]
-fn a_part_stands_where_the_point_of_its_place_is_drawn() {
+fn parts_are_placed_at_drawn_points() {
     // A stands on f, which is turned by a quarter: at (2, 27) mm; and k is turned over there
     for (by_point, by_numbers) in [
         ("at (ground.G, 30 deg)", "at (100 mm, 50 mm, 30 deg)"),
@@ -361,7 +361,7 @@ fn a_part_stands_where_the_point_of_its_place_is_drawn() {
 }
 
 #[test]
-fn a_part_on_a_body_stays_at_the_point_that_its_place_names() {
+fn parts_stay_at_their_mount_point() {
     for (on, point) in [("f", "f.P"), ("k.arm", "k.arm.P"), ("f", "k.ground.B"), ("k.ground", "k.ground.B")] {
         let measures = format!("measure dx = x(p.ground.O) - x({point})  measure dy = y(p.ground.O) - y({point})");
         for row in placed(&format!("on {on} at ({point}, 30 deg)"), &measures) {
@@ -438,7 +438,7 @@ fn bindings_of_inputs_may_name_parts_in_any_order() {
 }
 
 #[test]
-fn params_of_parts_stand_wherever_constants_do() {
+fn part_params_are_allowed_as_constants() {
     for (written, meant) in [
         (
             "param n = 2 * a.length part a: two(length = 30 mm) measure m1 = n",

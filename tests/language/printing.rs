@@ -105,7 +105,7 @@ proptest! {
     }
 
     #[test]
-    fn what_is_put_in_order_reads_back(steps in prop::collection::vec((any::<u8>(), any::<u8>(), any::<i8>()), 1..24)) {
+    fn reordered_texts_read_back(steps in prop::collection::vec((any::<u8>(), any::<u8>(), any::<i8>()), 1..24)) {
         let mut graph = Graph::new();
         let built = build(&mut graph, &steps);
         prop_assume!(!holds_no_value(&graph, built) && graph.written_size(&[built]) < 5_000);
@@ -136,7 +136,7 @@ proptest! {
 }
 
 #[test]
-fn parentheses_only_where_they_are_needed() {
+fn minimal_parentheses() {
     let cases = [
         "t + p0 * p1^2",
         "(t + p0) * p1",

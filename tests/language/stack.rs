@@ -23,7 +23,7 @@ const STACK: usize = if cfg!(debug_assertions) { 4 << 20 } else { 1 << 20 };
 const TOO_LARGE: &str = "functions with branches";
 
 #[test]
-fn what_is_deepest_does_with_a_small_stack() {
+fn deepest_texts_run_on_a_small_stack() {
     let all = deep_texts();
     assert!(all.len() > 20);
     for deep in all {
@@ -97,7 +97,7 @@ proptest! {
 }
 
 #[test]
-fn what_is_said_of_a_long_chain_is_what_is_said_of_a_short_one() {
+fn long_chains_are_reported_as_short_ones() {
     let body = "body b { point O = (0, 0) } driver d: angle(b) =";
     let cases = [
         ("u", "param p = if LAST(1) > 1e9 then 1 / 0 else 2", vec![]),
@@ -121,7 +121,7 @@ fn what_is_said_of_a_long_chain_is_what_is_said_of_a_short_one() {
 }
 
 #[test]
-fn any_number_of_levels_of_parts_is_told_with_a_small_stack() {
+fn part_nesting_is_reported_on_a_small_stack() {
     let level = |k: usize| format!("mechanism m{k} {{ part a: m{}() }}\n", k + 1);
     let text = (0..4000).map(level).collect::<String>() + "mechanism m4000 { body b { point O = (0, 0) } }";
     let check = move || {

@@ -4,7 +4,7 @@
 
 use crate::support::{Span, compile, compiled, run};
 use mechc_ir::DeclarationKind;
-use mechc_text::vocabulary::{self, Category, KEYWORDS, Keyword, OVERVIEWS, Place, Role, SYNONYMS, Synonym, Unit};
+use mechc_text::vocabulary::{self, Category, KEYWORDS, Keyword, OVERVIEWS, Position, Role, SYNONYMS, Synonym, Unit};
 use proptest::prelude::*;
 use std::collections::BTreeSet;
 use std::fs;
@@ -94,7 +94,7 @@ fn every_example_of_a_page_checks_and_runs_without_a_word() {
 }
 
 #[test]
-fn joints_have_as_many_equations_and_coordinates_as_their_pages_say() {
+fn joint_counts_match_their_pages() {
     for joint in vocabulary::JOINTS {
         let (determined, _) = compiled(joint.word.name, &joint.word.example()).inside();
         let system = determined.system();
@@ -157,7 +157,7 @@ fn pages_on_more_than_words_have_one_form_and_examples_that_run() {
 }
 
 #[test]
-fn every_word_stands_in_the_list_of_its_kind() {
+fn words_are_listed_by_kind() {
     let lists: String = OVERVIEWS.iter().map(|name| vocabulary::page(name).expect("a page")).collect();
     for word in vocabulary::words() {
         let begins = |line: &str| line.trim_start().starts_with(word.name);
@@ -310,9 +310,9 @@ const VALUES: &[(&str, &[&str], f64)] = &[
 ];
 
 #[test]
-fn what_is_said_instead_has_the_value_of_what_was_meant() {
+fn synonym_suggestions_have_the_right_value() {
     for &(word, arguments, value) in VALUES {
-        let messages = Synonym::of(Place::Call, word).unwrap_or_else(|| panic!("{word}")).say(arguments);
+        let messages = Synonym::of(Position::Call, word).unwrap_or_else(|| panic!("{word}")).message(arguments);
         let formula = *code_in(&messages).last().expect("a formula");
         let outcome = run(word, &with(&format!("measure v = {formula}")), Span::default()).expect_success();
         let found = outcome.column("v")[0];
@@ -324,7 +324,7 @@ fn what_is_said_instead_has_the_value_of_what_was_meant() {
 }
 
 #[test]
-fn only_what_exists_is_proposed() {
+fn only_existing_names_are_suggested() {
     // one for each kind of argument
     let of_kinds: [&[&str]; 7] =
         [&["0.4", "0.3", "0.6"], &["1.4"], &["b.P", "ground.Q"], &["b", "b"], &["joint_b"], &["guide"], &["motor"]];
@@ -333,19 +333,19 @@ fn only_what_exists_is_proposed() {
         for word in synonym.means {
             assert!(vocabulary::page(word).is_some(), "{:?} mean `{word}`, which is no word", synonym.names);
         }
-        let messages = synonym.say(&[]);
+        let messages = synonym.message(&[]);
         assert!(!messages.ends_with('.') && !messages.contains(['{', '}']), "{messages}");
         assert_eq!(code_in(&messages).len() * 2, messages.matches('`').count(), "{messages}");
         for name in synonym.names {
             assert_eq!(*name, name.to_lowercase(), "they are compared in small letters");
             let is_one = vocabulary::words().any(|word| {
                 word.name == *name
-                    && match synonym.place {
-                        Place::Joint => word.category == Category::Joint,
-                        Place::Call => vocabulary::is_called(name),
-                        Place::Unit => word.category == Category::Unit,
-                        Place::Declaration => Keyword::named(name).is_some_and(Keyword::begins_declaration),
-                        Place::Number => word.category == Category::Constant,
+                    && match synonym.position {
+                        Position::Joint => word.category == Category::Joint,
+                        Position::Call => vocabulary::is_called(name),
+                        Position::Unit => word.category == Category::Unit,
+                        Position::Declaration => Keyword::named(name).is_some_and(Keyword::begins_declaration),
+                        Position::Number => word.category == Category::Constant,
                     }
             });
             // `min` is a function, and no unit
@@ -365,10 +365,10 @@ fn only_what_exists_is_proposed() {
             let is_reduction = vocabulary::REDUCTIONS.iter().any(|reduction| reduction.word.name == name);
             assert!(is_joint || is_quantity || is_reduction || vocabulary::is_called(&name), "{messages}: `{name}`");
         }
-        if synonym.place == Place::Call && !messages.ends_with('?') {
+        if synonym.position == Position::Call && !messages.ends_with('?') {
             for k in 0..code_in(&messages).len() {
                 let works = of_kinds.iter().any(|arguments| {
-                    let messages = synonym.say(arguments);
+                    let messages = synonym.message(arguments);
                     let code = code_in(&messages)[k]
                         .replace("joint)", "joint_b)")
                         .replace("(u, u0, v0, u1, v1)", "(t, 0, 0, 1, 1)");
@@ -385,17 +385,17 @@ fn only_what_exists_is_proposed() {
 }
 
 #[test]
-fn no_word_of_others_stands_twice() {
+fn synonyms_are_unique() {
     let mut seen = BTreeSet::new();
     for synonym in SYNONYMS {
         for name in synonym.names {
-            assert!(seen.insert((format!("{:?}", synonym.place), name)), "`{name}` stands twice");
+            assert!(seen.insert((format!("{:?}", synonym.position), name)), "`{name}` stands twice");
         }
     }
 }
 
 #[test]
-fn units_are_listed_where_they_are_explained() {
+fn units_are_listed_in_their_page() {
     let page = mechc::Code::named("E0202").expect("a code").page();
     let listed: BTreeSet<&str> = code_in(page).into_iter().flat_map(str::split_whitespace).collect();
     let missing: Vec<&str> = Unit::names().filter(|name| !listed.contains(name)).collect();
@@ -433,7 +433,7 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(48))]
 
     #[test]
-    fn a_name_wins_over_a_unit_that_gives_way(formula in formula(), of_curve in formula(), unit in prop_oneof![Just("Hz"), Just("mrad")]) {
+    fn names_shadow_yielding_units(formula in formula(), of_curve in formula(), unit in prop_oneof![Just("Hz"), Just("mrad")]) {
         let over = |argument: &str| formula.replace('u', argument);
         let declarations = [
             // a parameter, plain and with a dimension
@@ -468,7 +468,7 @@ proptest! {
 
     // not 1, which stands elsewhere in the text that is replaced
     #[test]
-    fn a_unit_that_gives_way_is_itself_where_nobody_has_its_name(number in 2..1000_i32, power in 1..4_i32) {
+    fn yielding_units_apply_without_a_name(number in 2..1000_i32, power in 1..4_i32) {
         let text = |hertz: &str, milliradian: &str| with(&format!(
             "measure v = {number} {hertz}^{power} * 1 s^{power} + {number} * {milliradian} + sin({number} {milliradian}) + 2 * {hertz} / (3 * {hertz})"
         ));

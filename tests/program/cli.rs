@@ -24,7 +24,7 @@ fn failure(arguments: &[&str], code: i32) -> String {
 }
 
 #[test]
-fn files_that_cannot_be_read_or_written() {
+fn unreadable_and_unwritable_files() {
     let folder = tempfile::tempdir().expect("a folder");
     let inside = |name: &str| folder.path().join(name).to_string_lossy().into_owned();
     assert!(failure(&["run", &inside("missing.mech")], 4).contains("E0701"));
@@ -98,7 +98,7 @@ fn rows_before_a_lock_up_are_kept() {
 }
 
 #[test]
-fn a_reader_that_goes_away_is_no_error() {
+fn closed_pipes_are_no_error() {
     let mut child = std::process::Command::new(env!("CARGO_BIN_EXE_mechc"))
         .args(["run", "tests/cases/four_bar.mech", "--every", "1e-5"])
         .stdout(std::process::Stdio::piped())
@@ -159,7 +159,7 @@ fn numbers_in_messages_are_not_written_out() {
 }
 
 #[test]
-fn redundant_equations_are_left_out_of_what_is_emitted() {
+fn emitted_code_omits_redundant_equations() {
     let door = "tests/ui/ndof/same_pin_twice.mech";
     assert!(failure(&["emit", door], 1).contains("--allow-redundant"));
     let emitted = |more: &[&str]| {
@@ -190,7 +190,7 @@ fn standard_input_and_json() {
 }
 
 #[test]
-fn diagnostics_as_json_have_places_in_characters() {
+fn json_diagnostics_have_character_positions() {
     let text = "/// é\nmechanism ü { body µ at (0, 0, 9) {} driver d: angle(µ) = lenght }";
     let output = mechc().args(["check", "-", "--message-format", "json"]).write_stdin(text).output().unwrap();
     let text = String::from_utf8(output.stderr).unwrap();
@@ -234,7 +234,7 @@ fn settings_are_checked() {
 }
 
 #[test]
-fn colour_only_where_asked_for() {
+fn colour_only_on_request() {
     let colored = |arguments: &[&str]| -> bool {
         let mut command = mechc();
         command.args(["check", "-"]).args(arguments);
@@ -248,7 +248,7 @@ fn colour_only_where_asked_for() {
 }
 
 #[test]
-fn timings_go_to_standard_error() {
+fn timings_are_on_standard_error() {
     let output = mechc().args(["run", SLIDER_CRANK, "--timings"]).output().unwrap();
     let text = String::from_utf8(output.stderr).unwrap();
     let words: Vec<&str> = text.lines().filter_map(|line| line.split_whitespace().next()).collect();
@@ -271,7 +271,7 @@ const BLOCK: &str = "mechanism block {
 }";
 
 #[test]
-fn a_table_is_read_from_beside_its_file() {
+fn tables_are_read_relative_to_their_file() {
     let folder = tempfile::tempdir().expect("a folder");
     let inside = |name: &str| folder.path().join(name).to_string_lossy().into_owned();
     fs::write(inside("block.mech"), BLOCK).unwrap();
@@ -355,7 +355,7 @@ fn mistakes_without_doubt_are_mended_in_the_file() {
 }
 
 #[test]
-fn what_is_left_is_told_and_gives_the_exit_code() {
+fn remaining_mistakes_set_the_exit_code() {
     let folder = tempfile::tempdir().expect("a folder");
     let file = folder.path().join("disc.mech");
     let name = file.to_string_lossy().into_owned();
@@ -396,7 +396,7 @@ fn standard_input_is_mended_to_standard_output() {
 
 #[cfg(unix)]
 #[test]
-fn a_mended_file_is_replaced_as_results_are() {
+fn fixed_files_are_replaced_like_results() {
     use std::os::unix::fs::PermissionsExt;
     let folder = tempfile::tempdir().expect("a folder");
     let (file, link) = (folder.path().join("disc.mech"), folder.path().join("link.mech"));

@@ -15,7 +15,7 @@ fn system() -> ConstraintSystem {
 }
 
 #[test]
-fn columns_stand_where_the_layout_has_them() {
+fn columns_match_the_layout() {
     let system = system();
     let (layout, columns) = (RowLayout::new(&system), columns(&system));
     let name = |column: u32| columns[column as usize].name.as_str();
@@ -32,7 +32,7 @@ fn columns_stand_where_the_layout_has_them() {
 }
 
 #[test]
-fn a_measure_has_the_columns_that_can_be_had() {
+fn measures_have_all_available_columns() {
     let columns = columns(&system());
     let of_pull: Vec<(&str, &str)> = columns
         .iter()

@@ -72,7 +72,7 @@ fn the_table_of_the_test_has_the_rows_of_the_interpreter() {
 }
 
 #[test]
-fn every_file_is_marked_and_nothing_is_left_to_fill_in() {
+fn files_are_marked_and_complete() {
     for path in mechanisms() {
         let Crate { files, .. } = emitted(&path, &fs::read_to_string(&path).expect("a text"));
         for (file, text) in &files {
@@ -91,7 +91,7 @@ fn every_file_is_marked_and_nothing_is_left_to_fill_in() {
 }
 
 #[test]
-fn what_is_written_is_as_a_formatter_leaves_it() {
+fn crates_are_formatted() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut paths = Vec::new();
     for (number, path) in mechanisms().into_iter().enumerate() {
@@ -152,7 +152,7 @@ fn inside(folder: &Path) -> Vec<String> {
 }
 
 #[test]
-fn a_folder_is_made_and_what_mechc_wrote_is_replaced() {
+fn emitted_files_are_replaced() {
     let folder = tempfile::tempdir().expect("a folder");
     let target = folder.path().join("a_crate");
     let name = target.to_string_lossy();
@@ -178,7 +178,7 @@ fn a_folder_is_made_and_what_mechc_wrote_is_replaced() {
 }
 
 #[test]
-fn a_crate_is_named_like_its_folder() {
+fn crates_are_named_after_their_folder() {
     let folder = tempfile::tempdir().expect("a folder");
     let manifest = |name: &str| fs::read_to_string(folder.path().join(name).join("Cargo.toml")).unwrap();
     for (name, wanted) in [("enc", "enc"), ("hand-wheel", "hand-wheel"), ("Enc2", "enc2"), ("3 rods", "n3_rods")] {
@@ -197,7 +197,7 @@ fn a_crate_is_named_like_its_folder() {
 }
 
 #[test]
-fn what_somebody_wrote_stays() {
+fn user_files_stay() {
     let folder = tempfile::tempdir().expect("a folder");
     let name = folder.path().to_string_lossy();
     fs::create_dir(folder.path().join("tests")).unwrap();
@@ -213,7 +213,7 @@ fn what_somebody_wrote_stays() {
 }
 
 #[test]
-fn what_an_earlier_crate_has_and_this_one_has_not_is_removed() {
+fn obsolete_emitted_files_are_removed() {
     let folder = tempfile::tempdir().expect("a folder");
     let target = folder.path().join("a_crate");
     let name = target.to_string_lossy();
@@ -244,7 +244,7 @@ fn what_an_earlier_crate_has_and_this_one_has_not_is_removed() {
 }
 
 #[test]
-fn where_the_motion_stops_the_crate_is_written_up_to_there() {
+fn stopped_motions_are_emitted_partially() {
     let folder = tempfile::tempdir().expect("a folder");
     let target = folder.path().join("four_bar");
     let diagnostics = emit_crate(&["tests/ui/run/four_bar_into_lock_up.mech", "--crate", &target.to_string_lossy()], 3);

@@ -17,7 +17,7 @@ use std::path::{Path, PathBuf};
 const FIRMWARE: [&str; 6] = ["--crate-type", "lib", "--emit", "obj", "-C", "panic=abort"];
 
 #[test]
-fn nothing_in_a_module_can_panic() {
+fn modules_cannot_panic() {
     let folder = tempfile::tempdir().expect("a folder");
     let kinds = [("slider_crank", "3"), ("slider_crank", "s"), ("everything", "3"), ("contacts", "s"), ("tables", "z")];
     for (name, level) in kinds {
@@ -91,7 +91,7 @@ const GOES_ALONG: &str = "\n/// What solves the equations and follows the motion
 const OF_MOTION: [&str; 7] = ["branches_of_motion", "branches_of_time", "forces", "inputs", "loop", "plain", "rims"];
 
 #[test]
-fn what_is_generated_for_each_construct_is_as_a_reviewer_has_read_it() {
+fn generated_constructs_match_goldens() {
     let paths = support::files("tests/emitted/constructs", "mech");
     assert!(OF_MOTION.iter().all(|name| paths.iter().any(|path| support::stem(path) == *name)));
     for path in paths {
@@ -107,7 +107,7 @@ fn what_is_generated_for_each_construct_is_as_a_reviewer_has_read_it() {
 
 /// A whole module, which tests here run.
 #[test]
-fn the_golden_is_what_is_emitted() {
+fn golden_matches_emission() {
     let path = Path::new("tests/stages/slider_crank/input.mech");
     let emitted = Emitted::new("slider_crank".to_owned(), path, 0).expect("determined");
     support::golden::holds("tests/emitted/slider_crank.rs", &emitted.text(Some(4)));
@@ -165,7 +165,7 @@ fn lanes_of_variants_have_the_bits_of_each_alone() {
 }
 
 #[test]
-fn a_time_that_is_far_away_is_told_as_that_and_reached_in_parts() {
+fn far_times_are_reached_in_parts() {
     use slider_crank::{Error, LONGEST_STEP, Params, Progress, assemble, step, step_within};
     let mut far = assemble(&Params::default()).expect("it assembles");
     let mut whole = far.clone();
@@ -195,7 +195,7 @@ fn a_time_that_is_far_away_is_told_as_that_and_reached_in_parts() {
 }
 
 #[test]
-fn what_cannot_be_is_an_error_and_leaves_the_state_as_it_was() {
+fn errors_keep_the_state() {
     use slider_crank::{Error, Params, assemble, step};
     let mut state = assemble(&Params::default()).expect("it assembles");
     step(0.01, &mut state).expect("it moves");

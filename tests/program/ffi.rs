@@ -242,7 +242,7 @@ fn rows_that_c_prints_have_the_bits_of_the_interpreter() {
 }
 
 #[test]
-fn without_the_standard_library_it_is_the_same() {
+fn no_std_gives_the_same_results() {
     if !is_there("cc") {
         return;
     }

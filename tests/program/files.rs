@@ -43,7 +43,7 @@ fn messages(files: &[(&str, String)]) -> Vec<String> {
 }
 
 #[test]
-fn what_is_used_is_read() {
+fn used_files_are_read() {
     let files = [
         ("walker.mech", format!("use \"legs/leg.mech\"\nuse \"wheel.mech\" as w\n{}", mechanism("walker"))),
         ("legs/leg.mech", format!("use \"foot.mech\"\n{}", mechanism("leg"))),
@@ -73,7 +73,7 @@ impl World for Counting {
 }
 
 #[test]
-fn a_file_is_read_once_whichever_paths_lead_to_it() {
+fn files_are_read_once() {
     let user = "use \"leg.mech\"\nuse \"./leg.mech\" as a\nuse \"sub/../leg.mech\" as b\nuse \"sub/other.mech\"\n";
     let world = Memory::default()
         .with("dir/walker.mech", format!("{user}{}", mechanism("walker")))
@@ -91,14 +91,14 @@ fn a_file_is_read_once_whichever_paths_lead_to_it() {
 }
 
 #[test]
-fn a_text_that_uses_nothing_reads_nothing() {
+fn texts_without_uses_read_no_files() {
     let world = Counting(Memory::default(), Mutex::default());
     assert!(Parsed::new("a.mech", &mechanism("a")).check(&Choice::default(), &world).is_sound());
     assert!(world.1.into_inner().expect("nobody panicked").is_empty());
 }
 
 #[test]
-fn a_file_that_cannot_be_read_is_told_where_it_is_named() {
+fn unreadable_files_are_reported_at_their_use() {
     let using = |path: &str| ("dir/a.mech", format!("use \"{path}\"\n{}", mechanism("a")));
     let help = |files: &[(&str, String)]| {
         let checked = checked(files);
@@ -124,7 +124,7 @@ fn a_file_that_cannot_be_read_is_told_where_it_is_named() {
 }
 
 #[test]
-fn a_file_that_is_no_text_is_told_once() {
+fn binary_files_are_reported_once() {
     let world = Memory::default()
         .with("a.mech", format!("use \"b.mech\"\n{}", mechanism("a")))
         .with("b.mech", b"mechanism \xb5");
@@ -135,7 +135,7 @@ fn a_file_that_is_no_text_is_told_once() {
 }
 
 #[test]
-fn faults_of_a_used_file_are_told_there_and_once() {
+fn faults_of_used_files_are_reported_once() {
     let files = [
         ("a.mech", format!("use \"b.mech\"\nuse \"c.mech\"\n{}", mechanism("a"))),
         ("b.mech", format!("use \"c.mech\"\n{}", mechanism("b"))),
@@ -191,7 +191,7 @@ fn a_long_chain_of_files_is_followed() {
 }
 
 #[test]
-fn two_mechanisms_of_one_name_are_told_at_the_use() {
+fn duplicate_mechanisms_are_reported_at_the_use() {
     let files = |uses: &str| {
         [
             ("a.mech", format!("{uses}{}", mechanism("a"))),
@@ -230,7 +230,7 @@ fn two_mechanisms_of_one_name_are_told_at_the_use() {
 }
 
 #[test]
-fn a_use_at_fault_spoils_nothing_else() {
+fn faulty_uses_do_not_affect_others() {
     let text = format!("use b.mech\nuse \"c.mech\" as\nuse \"d.mech\" as x y\n{}", mechanism("a"));
     let files = [("a.mech", text), ("c.mech", mechanism("c")), ("d.mech", mechanism("c"))];
     assert_eq!(
@@ -244,7 +244,7 @@ fn a_use_at_fault_spoils_nothing_else() {
 }
 
 #[test]
-fn a_mechanism_is_named_only_where_one_has_to_be_chosen() {
+fn mechanisms_are_named_only_if_ambiguous() {
     let two = [("a.mech", format!("use \"b.mech\"\n{}{}", mechanism("a"), mechanism("c"))), ("b.mech", mechanism("b"))];
     assert_eq!(messages(&two), ["E0704  `a.mech` holds 2 mechanisms"]);
     let choose = |name: &str| {
@@ -257,7 +257,7 @@ fn a_mechanism_is_named_only_where_one_has_to_be_chosen() {
 }
 
 #[test]
-fn tables_are_beside_the_file_that_names_them() {
+fn tables_are_relative_to_their_file() {
     let table = "table way = spline \"way.csv\"\n";
     let files = [
         ("dir/a.mech", format!("use \"../b.mech\"\n{}", mechanism("a").replacen('{', &format!("{{ {table}"), 1))),
@@ -310,7 +310,7 @@ fn found((library, sources): &(Library, Sources), file: usize, path: &str) -> Re
 }
 
 #[test]
-fn names_are_those_of_the_file_and_of_what_it_uses() {
+fn names_include_used_files() {
     let walker = walker();
     let found = |file, path| found(&walker, file, path);
     for (file, path, wanted) in [
@@ -362,7 +362,7 @@ fn names_are_those_of_the_file_and_of_what_it_uses() {
 }
 
 #[test]
-fn of_what_cannot_be_read_nothing_more_is_said() {
+fn unreadable_files_are_reported_without_followups() {
     let silent = Err(String::new());
     let missing =
         library(&[("a.mech", format!("use \"b.mech\"\nuse \"c.mech\" as c\n{}", mechanism("a")), &[None, None])]);

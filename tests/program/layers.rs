@@ -129,7 +129,7 @@ fn a_circle_is_found() {
 }
 
 #[test]
-fn what_only_tests_need_is_left_out() {
+fn test_code_is_stripped() {
     let text = "mod a;\n#[cfg(test)]\nmod b;\nuse c::C;\n#[cfg(test)]\n#[allow(d)]\nmod d {\n    use e::E;\n}\n\
         mod f {\n    #[cfg(test)]\n    fn g() {\n    }\n    use h::H;\n}";
     assert_eq!(links::without_tests(text.lines()), "mod a;\nuse c::C;\nmod f {\n    use h::H;\n}");

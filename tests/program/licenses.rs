@@ -99,7 +99,7 @@ fn plain(text: &str) -> String {
 }
 
 #[test]
-fn the_program_tells_the_licences_of_all_that_it_carries() {
+fn the_program_prints_all_licences() {
     let all = carried();
     assert!(all.len() > 50, "only {} crates", all.len());
     let mut diagnostics: BTreeMap<String, Vec<String>> = BTreeMap::new();

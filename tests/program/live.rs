@@ -110,7 +110,7 @@ impl Drop for Served {
 const WRITE: &str = r#"{"version":1,"changes":[{"name":"speed","old":"90 deg/s","value":1}],"sure":true}"#;
 
 #[test]
-fn who_is_no_page_of_its_own_learns_nothing_and_writes_nothing() {
+fn foreign_pages_have_no_access() {
     let served = Served::new();
     let host = format!("127.0.0.1:{}", served.port);
     let origin = format!("http://{host}");
@@ -192,7 +192,7 @@ fn served_is_quick(served: &Served) {
 }
 
 #[test]
-fn a_thousand_connections_do_not_take_it_away_for_good() {
+fn the_server_survives_many_connections() {
     let served = Served::new();
     let held: Vec<TcpStream> =
         (0..1000).filter_map(|_| TcpStream::connect((Ipv4Addr::LOCALHOST, served.port)).ok()).collect();
@@ -213,7 +213,7 @@ fn a_thousand_connections_do_not_take_it_away_for_good() {
 }
 
 #[test]
-fn it_listens_on_this_machine_alone() {
+fn the_server_listens_locally() {
     let served = Served::new();
     let listening = |path: &str| fs::read_to_string(path).unwrap_or_default();
     let port = format!(":{:04X} ", served.port);
@@ -253,7 +253,7 @@ fn values_are_written_with_their_unit_and_once_for_a_version() {
 }
 
 #[test]
-fn nothing_is_written_that_makes_a_text_wrong() {
+fn invalid_edits_are_not_written() {
     let text = TEXT.replace("    ground", "    param wheels = 2\n    ground").replace("wheel {", "more[k in 0..wheels] { point O = (0, 0) }\n    joint fixed[k in 0..wheels]: weld(ground.O, more[k].O)\n    body wheel {");
     let served = Served::with(&text, &[]);
     let write = |value: &str| {
@@ -268,7 +268,7 @@ fn nothing_is_written_that_makes_a_text_wrong() {
 }
 
 #[test]
-fn over_ssh_the_line_that_forwards_the_port_is_printed() {
+fn ssh_sessions_print_port_forwarding() {
     let folder = tempfile::tempdir().expect("a folder");
     let file = folder.path().join("disc.mech");
     fs::write(&file, TEXT).expect("it is written");
@@ -299,7 +299,7 @@ fn over_ssh_the_line_that_forwards_the_port_is_printed() {
 }
 
 #[test]
-fn what_a_live_page_has_not_is_refused() {
+fn unsupported_live_options_are_refused() {
     let file = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/slider_crank.mech");
     for options in [&["-"][..], &[file, "--labels"], &[file, "--vary", "rod_length=1mm..2mm:3"], &[file, "--at", "0"]] {
         let mut command = Command::new(env!("CARGO_BIN_EXE_mechc"));
@@ -343,7 +343,7 @@ fn endless() -> String {
 
 #[cfg(target_os = "linux")]
 #[test]
-fn what_nobody_waits_for_is_not_worked_on() {
+fn abandoned_requests_are_dropped() {
     let served = Served::with(&endless(), &[]);
     let ask = |body: &str| {
         let mut stream = served.connection();
@@ -378,7 +378,7 @@ fn what_nobody_waits_for_is_not_worked_on() {
 }
 
 #[test]
-fn what_is_wrong_with_options_is_refused_at_the_start() {
+fn invalid_options_are_refused_at_the_start() {
     let folder = tempfile::tempdir().expect("a folder");
     let file = folder.path().join("disc.mech");
     fs::write(&file, TEXT).expect("it is written");
@@ -446,7 +446,7 @@ fn the_owner_of_a_file_stays() {
 
 #[cfg(unix)]
 #[test]
-fn the_mode_of_a_file_stays_whatever_the_mask() {
+fn writes_keep_the_file_mode_under_any_mask() {
     use std::os::unix::fs::PermissionsExt;
     for (mask, mode) in [("022", 0o664), ("077", 0o644), ("077", 0o2775), ("022", 0o600), ("000", 0o640)] {
         let folder = tempfile::tempdir().expect("a folder");
@@ -505,7 +505,7 @@ fn a_name_gives_no_orders_to_a_terminal() {
 }
 
 #[test]
-fn what_a_live_page_refuses_is_not_advised() {
+fn refused_options_are_not_suggested() {
     let served = Served::with(&TEXT.replace("    analysis from 0 s to 1 s every 10 ms\n", ""), &[]);
     let answer = served.asked_well("/motion", r#"{"page":"test"}"#);
     assert!(answer.contains("E0705") && answer.contains("--from T"), "{answer}");
@@ -514,7 +514,7 @@ fn what_a_live_page_refuses_is_not_advised() {
 
 #[cfg(unix)]
 #[test]
-fn the_file_that_leads_a_browser_to_the_page_is_gone_once_it_came() {
+fn the_redirect_file_is_removed_after_use() {
     use std::os::unix::fs::PermissionsExt;
     let folder = tempfile::tempdir().expect("a folder");
     let (file, bin, scratch) = ["disc.mech", "bin", "scratch"].map(|name| folder.path().join(name)).into();

@@ -47,7 +47,7 @@ fn edit(text: &mut String, from: &str, to: &str) -> Value {
 }
 
 #[test]
-fn a_mistake_is_told_where_it_is_and_gone_when_it_is_mended() {
+fn diagnostics_follow_edits() {
     let (mut client, mut text) = (pushed_to(), TEXT.to_owned());
     client.open(URI, &text);
     let change = edit(&mut text, "crank.pin, rod", "crank.pn, rod");
@@ -76,7 +76,7 @@ fn the_proof_comes_behind_the_words_and_stays_while_they_are_typed() {
 }
 
 #[test]
-fn a_measure_that_is_typed_hides_nothing_of_the_proof() {
+fn incomplete_measures_keep_proof_diagnostics() {
     let (mut client, mut text) = (pushed_to(), TEXT.to_owned());
     let driver = text.lines().find(|line| line.contains("driver")).expect("a driver").to_owned();
     text = text.replacen(&driver, "    // more", 1);
@@ -99,7 +99,7 @@ fn a_measure_that_is_typed_hides_nothing_of_the_proof() {
 }
 
 #[test]
-fn who_pulls_is_told_to_ask_again_and_never_told_by_itself() {
+fn pulling_clients_get_no_pushes() {
     let (mut client, mut text) = (pulling(), TEXT.to_owned());
     let driver = text.lines().find(|line| line.contains("driver")).expect("a driver").to_owned();
     text = text.replacen(&driver, "", 1);
@@ -142,7 +142,7 @@ fn a_name_is_hovered_and_the_declarations_are_listed() {
 }
 
 #[test]
-fn sessions_go_as_the_protocol_says() {
+fn sessions_follow_the_protocol() {
     const NOT_INITIALIZED: i32 = -32002;
     const INVALID_REQUEST: i32 = -32600;
     const METHOD_NOT_FOUND: i32 = -32601;
@@ -165,7 +165,7 @@ fn sessions_go_as_the_protocol_says() {
 }
 
 #[test]
-fn who_vanishes_ends_it() {
+fn vanished_clients_end_the_server() {
     assert_eq!(pushed_to().vanish(), SessionEnd::Early);
 }
 
@@ -181,7 +181,7 @@ const SWING: &str = "mechanism swing {
 ";
 
 #[test]
-fn lenses_are_asked_for_again_when_results_are_there() {
+fn results_refresh_lenses() {
     let able = json!({
         "workspace": { "codeLens": { "refreshSupport": true } },
         "experimental": { "commands": { "commands": ["mechc.run", "mechc.check"] } },
@@ -227,7 +227,7 @@ fn hints_tokens_and_signatures_are_in_the_words_of_the_protocol() {
 
 /// What hints count by the text alone is what the equations are.
 #[test]
-fn the_count_of_every_example_is_that_of_its_equations() {
+fn example_counts_match_equations() {
     let mut visited = 0;
     for folder in ["examples", "tests/cases"] {
         let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
@@ -279,7 +279,7 @@ fn counted(uri: &str, text: &str, path: &std::path::Path) -> Vec<(String, String
 
 #[cfg(unix)]
 #[test]
-fn it_ends_with_the_client_that_began_it_though_the_pipe_stays_open() {
+fn server_ends_with_its_parent_process() {
     use std::io::Read;
     use std::process::{Command, Stdio};
     use std::sync::mpsc::channel;

@@ -78,7 +78,7 @@ fn interrupted(folder: &Path, arguments: &[&str], moments: u64) -> usize {
 }
 
 #[test]
-fn an_interrupted_run_leaves_nothing_and_the_old_result() {
+fn interrupted_runs_keep_the_old_result() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path();
     fs::copy(SLIDER_CRANK, path.join("a.mech")).unwrap();
@@ -112,7 +112,7 @@ fn an_interrupted_crate_leaves_no_folder() {
 }
 
 #[test]
-fn what_is_ignored_stays_ignored() {
+fn ignored_signals_stay_ignored() {
     let folder = tempfile::tempdir().expect("a folder");
     fs::copy(SLIDER_CRANK, folder.path().join("a.mech")).unwrap();
     let before = inside(folder.path());
@@ -150,7 +150,7 @@ fn refused(folder: &Path, arguments: &[&str], stdin: Option<&str>) -> String {
 }
 
 #[test]
-fn what_was_read_is_not_written_over() {
+fn inputs_are_not_overwritten() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path();
     fs::create_dir(path.join("below")).unwrap();
@@ -217,7 +217,7 @@ const LEVER: &str = "mechanism lever {
 ";
 
 #[test]
-fn what_a_text_names_is_not_written_over() {
+fn named_files_are_not_overwritten() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path();
     fs::create_dir(path.join("below")).unwrap();
@@ -277,7 +277,7 @@ fn shell(folder: &Path, command: &str) -> (i32, String, String) {
 }
 
 #[test]
-fn pipes_and_devices_are_written_as_it_comes() {
+fn pipes_and_devices_are_streamed() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path();
     fs::write(path.join("a.mech"), LEVER).unwrap();
@@ -379,7 +379,7 @@ fn samples_come_from_standard_input_and_pipes() {
 }
 
 #[test]
-fn what_a_text_names_is_a_file() {
+fn named_files_are_regular_files() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path();
     assert!(Command::new("mkfifo").arg(path.join("pipe")).status().expect("it runs").success());
@@ -414,7 +414,7 @@ fn what_a_text_names_is_a_file() {
 // ---- endings
 
 #[test]
-fn an_ending_says_the_form_or_is_refused() {
+fn endings_select_the_format_or_are_refused() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path();
     fs::copy(SLIDER_CRANK, path.join("a.mech")).unwrap();

@@ -199,7 +199,7 @@ fn farthest_pin(name: &str, seen: &Visualization, file: &str) -> f64 {
 }
 
 #[test]
-fn pins_are_where_the_table_has_them_at_all_times() {
+fn pins_match_the_table() {
     for (name, seen) in examples() {
         let file = animated(&seen.scene, &seen.motion, &Options::default());
         let farthest = farthest_pin(&name, &seen, &file);
@@ -228,7 +228,7 @@ fn pictures_of_any_size_are_alike() {
 }
 
 #[test]
-fn names_of_moments_do_not_lie_on_each_other() {
+fn moment_labels_do_not_overlap() {
     for (name, seen) in examples() {
         for theme in [Theme::Light, Theme::Dark] {
             let options = Options { labels: true, theme, ..Options::default() };
@@ -303,7 +303,7 @@ mechanism cam {
 ";
 
 #[test]
-fn names_stand_near_what_they_name_and_beside_bars() {
+fn labels_are_near_their_features() {
     let seen = seen_text(FOUR_BAR);
     let options = Options { labels: true, ..Options::default() };
     for row in [0, 13, 30, 77] {
@@ -346,7 +346,7 @@ fn with_arrows(file: &str) -> Vec<&str> {
 }
 
 #[test]
-fn arrows_are_at_what_moves() {
+fn arrows_are_at_moving_points() {
     let options = Options { vectors: true, ..Options::default() };
     for (text, wanted) in [(FOUR_BAR, vec!["crank.A", "coupler.B", "coupler.C"]), (CAM, vec!["follower.top"])] {
         let seen = seen_text(text);
@@ -406,7 +406,7 @@ fn torques(seen: &Visualization, row: usize) -> Vec<(String, f64)> {
 }
 
 #[test]
-fn arcs_are_as_large_as_torques_and_go_their_way_round() {
+fn arcs_show_size_and_sense_of_torques() {
     let seen = seen_with_forces(HELD);
     let options = Options { forces: true, ..Options::default() };
     let mut scales: Vec<f64> = Vec::new();
@@ -435,7 +435,7 @@ fn arcs_are_as_large_as_torques_and_go_their_way_round() {
 }
 
 #[test]
-fn a_torque_is_the_same_however_it_is_written() {
+fn torque_arcs_do_not_depend_on_notation() {
     let wanted = torques(&seen_with_forces(HELD), 9);
     for (old, new) in [
         ("rotation(main) = 60 deg + 300 rpm * t", "60 deg + 300 rpm * t = rotation(main)"),
@@ -463,7 +463,7 @@ fn a_torque_is_the_same_however_it_is_written() {
 }
 
 #[test]
-fn what_drives_a_length_has_an_arrow() {
+fn length_drivers_have_arrows() {
     let text = HELD
         .replace("rotation(main) = 60 deg + 300 rpm * t", "displacement(guide) = 110 mm + 5 mm * sin(10 rad/s * t)");
     let seen = seen_with_forces(&text);
@@ -604,7 +604,7 @@ fn wheels_that_no_pitch_fits_have_no_teeth() {
 }
 
 #[test]
-fn guides_are_as_long_as_the_motion_asks_for() {
+fn guides_span_the_motion() {
     let seen = example("slider_crank");
     let shapes = |look| {
         seen.scene.nodes.iter().flat_map(move |node| {
@@ -674,7 +674,7 @@ fn names_are_no_mark_up() {
 }
 
 #[test]
-fn what_hardly_is_anything_is_drawn() {
+fn minimal_mechanisms_are_drawn() {
     // one body with one point; one that is nothing but a frame; and a motion of a single row
     for (bodies, joint) in [
         ("body b { point O = (0, 0) }", "joint j: revolute(ground.O, b.O) driver d: angle(b) = t"),
@@ -694,7 +694,7 @@ fn what_hardly_is_anything_is_drawn() {
 }
 
 #[test]
-fn edges_are_known() {
+fn edges_of_drivers_are_listed() {
     let seen = seen_text(
         "mechanism m {
             ground { point O = (0, 0) }
@@ -753,7 +753,7 @@ fn plots_show_the_columns() {
 }
 
 #[test]
-fn plots_leave_gaps_where_there_is_nothing() {
+fn plots_have_gaps_at_missing_values() {
     let seen = example("slider_crank");
     let values = vec![0.0, 1.0, f64::NAN, 1.0, f64::NAN, 3.0, 2.0];
     let plot = Plot { name: "a<b", unit: "mm", values };
@@ -803,7 +803,7 @@ fn places_are_true(seen: &Visualization, row: usize, options: &Options) {
 }
 
 #[test]
-fn a_body_alone_is_in_its_own_frame() {
+fn single_bodies_use_their_frame() {
     let seen = example("slider_crank");
     let (scene, rest) = seen.scene.alone(1);
     let file = animated(&scene, &rest, &Options { labels: true, ..Options::default() });
@@ -853,7 +853,7 @@ fn off_circle(places: &[Vector], center: Vector, radius: f64) -> f64 {
 }
 
 #[test]
-fn what_is_cut_keeps_to_its_lines() {
+fn cut_outlines_match_their_shapes() {
     let seen = example("eccentric_tappet");
     let text = dxf::written(&seen.scene, &seen.motion, seen.motion.poses(20), &[], 1.0).expect("something");
     assert!(text.contains("9\n$INSUNITS\n70\n4\n"));
@@ -907,7 +907,7 @@ fn traces_are_cut_between_rows_too() {
 }
 
 #[test]
-fn gears_are_cut_as_their_pitch_circles() {
+fn gears_are_cut_as_pitch_circles() {
     let seen = example("planetary_gear");
     let text = dxf::written(&seen.scene, &seen.motion, seen.motion.poses(0), &[], 1.0).expect("something");
     let (polylines, _) = read_dxf(&text);
@@ -1023,7 +1023,7 @@ fn gallery() -> Vec<(String, String)> {
 }
 
 #[test]
-fn the_gallery_has_all_examples_and_nothing_else() {
+fn the_gallery_has_exactly_the_examples() {
     let gallery = gallery();
     let pictures = || gallery.iter().filter(|(path, _)| Path::new(path).starts_with(GALLERY));
     let weight: usize = pictures().map(|(_, drawn)| drawn.len()).sum();
@@ -1048,7 +1048,7 @@ fn free(text: &str) -> Vec<Vec<(String, [f64; 3])>> {
 }
 
 #[test]
-fn free_motions_are_those_by_hand() {
+fn free_motions_match_manual_ones() {
     // two links between two pivots, and a bar between their tips; as drawn it nearly closes, which changes no slope
     let [first, bar, second] = [60.0_f64, 20.0, 80.0].map(f64::to_radians);
     let four_bar = "mechanism four_bar {
@@ -1108,7 +1108,7 @@ fn looking(seen: &Visualization, look: Look) -> Vec<(&str, Vector)> {
 }
 
 #[test]
-fn what_is_left_free_has_arrows() {
+fn free_motions_have_arrows() {
     let (seen, reports) = static_visualization("tests/ui/ndof/three_cranks_without_driver.mech");
     assert!(reports[0].starts_with("error[E0503]"), "{reports:?}");
     let mut arrows = looking(&seen, Look::Free);
@@ -1127,7 +1127,7 @@ fn what_is_left_free_has_arrows() {
 }
 
 #[test]
-fn what_cannot_be_assembled_is_open_where_it_is_said() {
+fn unassembled_joints_are_drawn_open() {
     let (seen, reports) = static_visualization("tests/ui/run/loop_that_never_closes.mech");
     assert!(reports[0].ends_with("joint `swing` stays open by 8.88 mm"), "{reports:?}");
     let open = seen.scene.nodes.iter().filter(|node| node.shapes.iter().any(|shape| shape.look == Look::GapEnd));
@@ -1143,7 +1143,7 @@ fn what_cannot_be_assembled_is_open_where_it_is_said() {
 }
 
 #[test]
-fn lengths_that_are_blamed_stand_beside_what_is_red() {
+fn blamed_lengths_are_labelled() {
     let path = "tests/ui/run/loop_that_never_closes.mech";
     let (seen, reports) = static_visualization(path);
     let remarks: Vec<&str> = seen.scene.remarks.iter().map(|remark| remark.text.as_str()).collect();
@@ -1154,7 +1154,7 @@ fn lengths_that_are_blamed_stand_beside_what_is_red() {
         assert!(named.contains(&body), "{named:?}");
     }
     assert!(!named.contains(&"crank") && !named.contains(&"ground"), "{named:?}");
-    let file = still(&seen.scene, &seen.motion, &seen.motion, &Options { said: reports, ..Options::default() });
+    let file = still(&seen.scene, &seen.motion, &seen.motion, &Options { messages: reports, ..Options::default() });
     assert_eq!(file.matches("<text class=\"remark\"").count(), 3);
     // the command tells them below it, and breaks no number off its unit
     let folder = tempfile::tempdir().expect("a folder");
@@ -1171,7 +1171,7 @@ fn lengths_that_are_blamed_stand_beside_what_is_red() {
 }
 
 #[test]
-fn what_stops_is_shown_up_to_there() {
+fn stopped_motions_are_shown_partially() {
     let seen = stopped();
     let why = seen.stopped.as_ref().expect("it locks up");
     let t = why.data["t"].as_f64().expect("a time");
@@ -1179,7 +1179,8 @@ fn what_stops_is_shown_up_to_there() {
     assert!(last < t && t < last + 0.01);
     let names: Vec<&str> = seen.scene.named.iter().map(|k| seen.scene.declarations[*k].name.as_str()).collect();
     assert!(names.contains(&"motor"), "{names:?}");
-    let file = animated(&seen.scene, &seen.motion, &Options { said: vec![why.message.clone()], ..Options::default() });
+    let file =
+        animated(&seen.scene, &seen.motion, &Options { messages: vec![why.message.clone()], ..Options::default() });
     assert!(file.contains("class=\"said\"") && file.contains("named m m") && file.contains("locks up"));
     assert!(farthest_pin("four_bar", &seen, &file) < 0.5);
 }
@@ -1190,10 +1191,10 @@ fn stopped() -> Visualization {
 }
 
 #[test]
-fn messages_take_no_room_from_what_is_drawn() {
+fn messages_take_no_room_from_the_picture() {
     let (seen, reports) = static_visualization("tests/ui/run/loop_that_never_closes.mech");
     for size in [None, Some([400.0, 300.0]), Some([1280.0, 720.0])] {
-        let options = Options { said: reports.clone(), labels: true, size, ..Options::default() };
+        let options = Options { messages: reports.clone(), labels: true, size, ..Options::default() };
         let file = still(&seen.scene, &seen.motion, &seen.motion, &options);
         let lines: Vec<f64> = file
             .split("<text class=\"said\"")
@@ -1226,11 +1227,11 @@ fn goldens() -> Vec<(String, String)> {
     let pen = ("coupler.pen".to_owned(), Anchor { frame: pen.frame, at: pen.at });
     let of_broken = |path: &str| {
         let (seen, reports) = static_visualization(path);
-        still(&seen.scene, &seen.motion, &seen.motion, &Options { said: reports, ..Options::default() })
+        still(&seen.scene, &seen.motion, &seen.motion, &Options { messages: reports, ..Options::default() })
     };
     let stopped = stopped();
     let why = stopped.stopped.as_ref().map(|why| why.message.clone());
-    let at_the_end = Options { said: why.into_iter().collect(), ..Options::default() };
+    let at_the_end = Options { messages: why.into_iter().collect(), ..Options::default() };
     let last = stopped.motion.moment(stopped.motion.len() - 1);
     let labelled = Options { labels: true, traces: vec![pen], ..Options::default() };
     let held = seen_with_forces(HELD);
@@ -1251,7 +1252,7 @@ fn goldens() -> Vec<(String, String)> {
 }
 
 #[test]
-fn goldens_are_what_is_drawn() {
+fn goldens_match_pictures() {
     for (path, drawn) in goldens() {
         support::golden::holds(path, &drawn);
     }

@@ -172,7 +172,7 @@ fn results_are_those_of_runs(
 }
 
 #[test]
-fn variants_of_all_broken_kinds_are_what_runs_say_and_leave_the_others_alone() {
+fn broken_variants_match_single_runs() {
     let folder = in_folder(&[("a.mech", FOUR_BAR)]);
     let path = folder.path();
     // fine, does not close, locks, all in line once a turn, negative, nothing
@@ -228,7 +228,7 @@ fn random_vary(path: &Path, name: &str, of: &Range, is_sampled: Option<bool>, ra
 
 /// Random options together, against runs: rows and results, to the bit.
 #[test]
-fn random_sweeps_are_what_runs_say() {
+fn random_sweeps_match_single_runs() {
     let folder = in_folder(&[("a.mech", FOUR_BAR)]);
     let path = folder.path();
     let mut random = Random::new(7);
@@ -320,7 +320,7 @@ fn rows_are_those_of_runs(path: &Path, params: &[(&str, &str)], (sweep, more): (
 }
 
 #[test]
-fn sensitivities_in_a_sweep_are_differences_of_its_neighbours() {
+fn sweep_sensitivities_match_differences() {
     let folder = in_folder(&[("a.mech", FOUR_BAR)]);
     let columns = ["height", "height.d", "height.dd"];
     let derivatives = columns.map(|column| format!("{column}.by.crank_length"));
@@ -373,7 +373,7 @@ fn slider_crank() -> tempfile::TempDir {
 }
 
 #[test]
-fn what_is_killed_leaves_nothing_under_the_name() {
+fn killed_sweeps_leave_no_file() {
     for out in ["new.csv", "old.json", "old.parquet"] {
         let folder = slider_crank();
         let path = folder.path();
@@ -435,7 +435,7 @@ fn interrupted_within(path: &Path, arguments: &[&str], count: usize) -> String {
 }
 
 #[test]
-fn an_interrupted_sweep_has_whole_variants_and_the_rest_goes_on_behind_them() {
+fn interrupted_sweeps_keep_whole_variants_and_resume() {
     const COUNT: usize = 2000;
     // rows enough to be interrupted among them
     const ROWS: usize = 401;
@@ -470,7 +470,7 @@ fn an_interrupted_sweep_has_whole_variants_and_the_rest_goes_on_behind_them() {
 // ---- what was read
 
 #[test]
-fn a_table_is_never_written_over_what_was_read() {
+fn sweep_tables_do_not_overwrite_inputs() {
     let folder = slider_crank();
     let path = folder.path();
     fs::write(path.join("v.csv"), "rod_length [mm]\n150\n").unwrap();
@@ -497,7 +497,7 @@ fn a_table_is_never_written_over_what_was_read() {
 // ---- what decides what is repeated
 
 #[test]
-fn each_number_of_copies_is_a_mechanism_of_its_own() {
+fn copy_counts_are_separate_mechanisms() {
     let text = fs::read_to_string("examples/scissor_lift.mech").unwrap();
     let folder = in_folder(&[("a.mech", text.as_str())]);
     let path = folder.path();
@@ -550,7 +550,7 @@ const ARM: &str = "mechanism m {
 
 /// What is looked for decides nothing of a variant, is found where it is the last, and is not fulfilled by what is not there.
 #[test]
-fn a_sweep_ends_where_a_condition_holds_for_the_first_time() {
+fn sweeps_end_at_the_first_match() {
     let folder = in_folder(&[("a.mech", ARM)]);
     let swept = |more: &[&str]| {
         let output = output(folder.path(), &[&["sweep", "a.mech"], more].concat());
@@ -601,7 +601,7 @@ fn zeros_need_no_unit() {
 }
 
 #[test]
-fn what_cannot_be_swept_is_refused_before_anything_is_made() {
+fn invalid_sweeps_are_refused_early() {
     let leg = "mechanism leg { param a = 1 m body b { point O = (0, 0) point P = (a, 0) }
         joint j: revolute(ground.O, b.O) ground { point O = (0, 0) } driver d: rotation(j) = t }
         mechanism all { part leg[k in 0..2]: leg() result r = max(x(leg[1].b.P)) analysis from 0 s to 1 s every 0.1 s }";

@@ -62,7 +62,7 @@ fn variants_are_on_the_page_and_its_size_is_reported() {
 }
 
 #[test]
-fn what_is_not_whole_says_why_and_the_others_are_there() {
+fn incomplete_variants_are_explained() {
     let Outcome { code, said, page, .. } = view(&["--vary", "rod_length=10mm..200mm:20"]);
     assert_eq!(code, 0, "{said}");
     assert!(said.contains("5 of them cannot be shown whole; the first is that with rod_length=10 mm:\n"), "{said}");
@@ -79,7 +79,7 @@ fn what_is_not_whole_says_why_and_the_others_are_there() {
 }
 
 #[test]
-fn the_own_variant_decides_how_the_command_ends() {
+fn the_nominal_variant_sets_the_exit_code() {
     let Outcome { code, said, page, .. } = view(&["--vary", "rod_length=10mm..20mm:2"]);
     assert_eq!(code, 3, "{said}");
     assert!(said.contains("\nerror[E0601]: the mechanism cannot be assembled"), "{said}");
@@ -89,7 +89,7 @@ fn the_own_variant_decides_how_the_command_ends() {
 }
 
 #[test]
-fn what_is_not_sound_is_a_variant_without_a_picture() {
+fn unsound_variants_have_no_picture() {
     let text = "mechanism m {
         param n = 2
         ground { point O = (0, 0) }

@@ -48,7 +48,7 @@ fn written(name: &str, text: &str) -> (String, String) {
 }
 
 #[test]
-fn goldens_are_what_is_emitted() {
+fn goldens_match_emission() {
     for name in ["everything", "odd_names", "slider_crank", "tables"] {
         let text = fs::read_to_string(format!("tests/stages/{name}/input.mech")).expect("a text");
         let (latex, json) = written(name, &text);
@@ -166,7 +166,7 @@ fn index(value: &Value) -> usize {
 }
 
 #[test]
-fn json_has_the_layout_of_its_page() {
+fn json_layout_matches_its_documentation() {
     let page = fs::read_to_string("docs/emit-json.md").expect("the page");
     let schema: Value = serde_json::from_str(&fs::read_to_string("docs/emit-json.schema.json").unwrap()).expect("JSON");
     let keys = |value: &Value| -> Vec<String> { value.as_object().expect("an object").keys().cloned().collect() };
@@ -291,7 +291,7 @@ fn formula(
 }
 
 #[test]
-fn formulas_of_the_json_are_those_of_the_system() {
+fn json_formulas_match_the_system() {
     for Emitted { name, compiled } in all() {
         let (determined, _) = compiled.inside();
         let mut system = determined.system().clone();
@@ -481,7 +481,7 @@ fn some_number(symbol: Symbol, seed: u64) -> f64 {
 }
 
 #[test]
-fn what_is_typeset_has_the_values_of_the_system() {
+fn typeset_formulas_match_the_system() {
     for Emitted { name, compiled } in all() {
         let (determined, _) = compiled.inside();
         for seed in 0..3 {
@@ -713,7 +713,7 @@ fn shared_parts_are_written_once() {
 }
 
 #[test]
-fn the_format_is_that_of_the_ending_or_as_said() {
+fn format_follows_ending_or_option() {
     let folder = tempfile::tempdir().expect("a folder");
     let emitted = |name: &str, more: &[&str]| -> String {
         let out = folder.path().join(name);

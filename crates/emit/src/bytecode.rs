@@ -25,14 +25,14 @@ const TIME: u32 = 3;
 
 const UNUSED: Register = Register::MAX;
 
-/// Operations with their registers shared.
+/// Operations after register allocation.
 pub(super) struct Shared {
     pub instructions: Vec<Instruction>,
     pub segments: Vec<Segment>,
     pub registers: usize,
 }
 
-/// Puts what is given into registers where it is first read: these are written by no operation.
+/// Inserts loads of inputs, the registers that no operation writes, each before its first use.
 pub(super) fn with_loads(instructions: &[Instruction], registers: usize) -> Vec<Instruction> {
     let mut is_written = vec![false; registers];
     let mut all = Vec::with_capacity(instructions.len());
@@ -51,7 +51,7 @@ pub(super) fn with_loads(instructions: &[Instruction], registers: usize) -> Vec<
     all
 }
 
-/// Gives registers out anew, each to several values one after the other. Every register must be written by one instruction.
+/// Allocates registers anew so that values with disjoint live ranges share one. Exactly one instruction must write each register.
 pub(super) fn share(instructions: &[Instruction], segments: &[Segment], registers: usize) -> Shared {
     let last = last_uses(instructions, segments, registers);
     let mut place = vec![UNUSED; registers];
@@ -75,14 +75,14 @@ pub(super) fn share(instructions: &[Instruction], segments: &[Segment], register
     Shared { instructions: shared, segments: segments.collect(), registers: next as usize }
 }
 
-/// By register, the instruction after which nothing needs it.
+/// Returns, for each register, the index of the last instruction that needs it.
 fn last_uses(instructions: &[Instruction], segments: &[Segment], registers: usize) -> Vec<usize> {
     let (mut last, mut written) = (vec![0; registers], vec![0; registers]);
     for segment in segments {
         let range = segment.range();
         for at in range.clone() {
             for register in instructions[at].reads() {
-                // what comes from before a loop is needed again in its next round
+                // a value from before a loop is needed again in its next round
                 let is_from_before = !segment.tears().is_empty() && written[register as usize] < range.start;
                 let until = if is_from_before { range.end - 1 } else { at };
                 last[register as usize] = last[register as usize].max(until);
@@ -98,7 +98,7 @@ fn last_uses(instructions: &[Instruction], segments: &[Segment], registers: usiz
     last
 }
 
-/// The words of operations, and the numbers among them.
+/// Encoded operations.
 #[derive(Default)]
 pub(super) struct Bytecode {
     pub words: Vec<u32>,
@@ -106,7 +106,7 @@ pub(super) struct Bytecode {
     pub starts: Vec<u32>,
 }
 
-/// Numbers that operations name, each once.
+/// Numbers to which operations refer by index, without duplicates.
 #[derive(Default)]
 pub(super) struct Numbers {
     pub values: Vec<f64>,
@@ -127,7 +127,7 @@ impl Numbers {
 /// Source of a register's value if no operation of the list writes it.
 pub(super) enum Loaded {
     Number(f64),
-    /// An array of those that operations read, and the place there.
+    /// An element of one of the arrays that operations read.
     Input {
         array: u32,
         index: u32,
@@ -137,11 +137,11 @@ pub(super) enum Loaded {
 /// Context of a list of operations: registers of the program, and the subjects of the solver's notes.
 pub(super) struct Notes<'n> {
     pub loaded: &'n dyn Fn(Register) -> Loaded,
-    /// By number: the turn of a pivot, and its weight.
+    /// Maps the number of a pivot to its turn and its weight.
     pub pivot: &'n dyn Fn(u32) -> (u32, f64),
-    /// By number: the weight of a multiplier.
+    /// Maps the number of a multiplier to its weight.
     pub weight: &'n dyn Fn(u32) -> f64,
-    /// By row: what may be left of it.
+    /// Maps a row to its largest admissible residual.
     pub bound: &'n dyn Fn(u32) -> f64,
 }
 
@@ -149,13 +149,13 @@ pub(super) struct Notes<'n> {
 #[derive(Default)]
 pub(super) struct ConstantPool {
     numbers: Numbers,
-    /// The functions that they call, by their number.
+    /// Functions that operations call, by number.
     unary: BTreeMap<u32, Unary>,
     binary: BTreeMap<u32, Binary>,
 }
 
 impl ConstantPool {
-    /// Writes operations down.
+    /// Encodes operations.
     pub fn encode(&mut self, instructions: &[Instruction], notes: &Notes<'_>) -> Bytecode {
         let mut tape = Bytecode::default();
         for &instruction in instructions {
@@ -206,7 +206,7 @@ impl ConstantPool {
         words.extend(about);
     }
 
-    /// The numbers, the functions and the columns of so many tables, by their numbers; a column is called by its name.
+    /// Prints lookups by number of the constants, the functions and the columns of `tables` tables. `called` returns the name of a column.
     pub fn print(
         &self,
         tables: usize,
@@ -250,7 +250,7 @@ impl ConstantPool {
     }
 }
 
-/// A function that gives one of several things by its number.
+/// Prints a function that looks up one of several items by number.
 fn choice(page: &mut Page, name: &str, arguments: &[&str], result: &str, arms: &[(u32, String)]) {
     let none = if result == "f64" { "f64::NAN" } else { "&[]" };
     let mark = |name: &str| if arms.is_empty() { format!("_{name}") } else { name.to_owned() };
@@ -270,7 +270,7 @@ fn choice(page: &mut Page, name: &str, arguments: &[&str], result: &str, arms: &
     });
 }
 
-/// A list of words.
+/// Prints a static array of words.
 pub(super) fn list(docs: &str, name: &str, words: &[u32], page: &mut Page) {
     page.docs(docs);
     page.line("#[rustfmt::skip]");
@@ -300,10 +300,10 @@ mod tests {
 
     const BINARY: [Binary; 6] = [Binary::Atan2, Binary::Hypot, Binary::Min, Binary::Max, Binary::Pow, Binary::Mod];
 
-    /// The numbers that are named, in their order.
+    /// Constants of the program, in order.
     const NUMBERS: [f64; 3] = [2.5, 0.125, 7.0];
 
-    /// By number, the columns of the tables of [`program`].
+    /// Columns of the tables of [`program`], by number.
     static COLUMNS: OnceLock<Vec<Vec<f64>>> = OnceLock::new();
 
     struct Named;
@@ -326,7 +326,7 @@ mod tests {
         }
     }
 
-    /// A program with tables, and its parameters.
+    /// Returns a program with tables, and its parameters.
     fn program() -> (Arc<Program>, Vec<f64>) {
         let text = include_str!("../../../tests/cases/table_list.mech");
         let checked = Parsed::new("table_list.mech", text).check(&Choice::default(), &Memory::default());
@@ -376,9 +376,9 @@ mod tests {
         Notes { loaded: &|_| Loaded::Number(0.125), pivot: &|_| (5, 7.0), weight: &|_| 16.0 * 7.0, bound: &|_| 0.125 }
     }
 
-    /// The number of each operation is that of what runs it, and so are the places of its operands.
+    /// Each opcode, and the positions of its operands, are those of the interpreter.
     #[test]
-    fn written_operations_do_what_they_say() {
+    fn encoded_operations_match_the_interpreter() {
         let (program, params) = program();
         let scalars = program.start(&params);
         let columns = program.tables().iter().flat_map(|table| Column::ALL.map(|column| table.column(column)));
@@ -433,7 +433,7 @@ mod tests {
 
     /// Checks the instructions that load and store values.
     #[test]
-    fn written_instructions_do_what_they_say() {
+    fn encoded_instructions_match_the_interpreter() {
         let input = |_| Loaded::Input { array: 1, index: 2 };
         let mut pool = ConstantPool::default();
         let mut tape = pool.encode(
@@ -464,7 +464,7 @@ mod tests {
     }
 
     #[test]
-    fn every_number_is_that_of_an_operation() {
+    fn opcodes_match_operations() {
         let codes = operations().into_iter().map(|op| op.code().0);
         let joining = [
             codes::NUMBER,

@@ -23,7 +23,7 @@ pub(super) struct Equations<'e> {
     pub sides: FxHashMap<Register, usize>,
     /// True for a mechanism that follows its inputs, which are given as a `Path`.
     pub is_input_driven: bool,
-    /// Constants that operations written as numbers share; `None` if they are written as lines.
+    /// Constants that encoded operations share; `None` if operations are emitted as Rust expressions.
     pub pool: Option<RefCell<ConstantPool>>,
     /// Runtime dependencies of the functions.
     pub deps: RefCell<RuntimeDeps>,
@@ -42,16 +42,16 @@ pub(super) struct FunctionSpec<'f> {
     pub varied: bool,
     /// True if it is also given the multipliers, of a mechanism whose forces are requested.
     pub multipliers: bool,
-    /// Its outputs, and the length of the array that they make.
+    /// Outputs, and the length of the array that holds them.
     pub outputs: &'f [Register],
     pub length: &'f str,
     pub negated: bool,
-    /// Switches that are given instead of computed.
+    /// Switches that the function takes as arguments instead of computing them.
     pub given: Given,
 }
 
 impl<'f> FunctionSpec<'f> {
-    /// A function of its own of time, on branches that are given.
+    /// Creates the specification of a private function of time on given branches.
     pub fn new(name: &'f str, docs: &'f str, outputs: &'f [Register], length: &'f str) -> FunctionSpec<'f> {
         let (is_public, has_time, negated) = (false, true, false);
         let (orders, varied, multipliers, given) = (0, false, false, Given::All);
@@ -59,7 +59,7 @@ impl<'f> FunctionSpec<'f> {
     }
 }
 
-/// Switches that a function is given.
+/// Switches that a function takes as arguments.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Given {
     None,
@@ -67,7 +67,7 @@ pub(super) enum Given {
     All,
 }
 
-/// A formatter sets wider ones in a column.
+/// Width from which rustfmt breaks an array into lines.
 const WIDEST_ARRAY: usize = 56;
 
 /// The arrays of the coordinates and their derivatives.
@@ -76,18 +76,18 @@ const OF_ARRAYS: [Arguments; 4] = [&["q"], &["qd"], &["qdd"], &["qddd"]];
 
 /// Expressions by which a function reaches its arguments.
 pub(super) struct Access {
-    /// The parameters, or the way: `p`, `m.params`.
+    /// Expression for the parameters or the input path: `p`, `m.params`.
     pub given: String,
-    /// The argument that this names.
+    /// Argument to which `given` refers.
     pub names: Arguments,
-    /// These arguments and the time.
+    /// Arguments to which `given` refers, and the time.
     pub names_with_time: Arguments,
     /// Index that selects a lane.
     pub lane: &'static str,
 }
 
 impl Equations<'_> {
-    /// A function with its documentation.
+    /// Prints a function with its documentation.
     pub fn function(&self, spec: &FunctionSpec<'_>, page: &mut Page) {
         let given: FxHashSet<Register> = match spec.given {
             Given::None => FxHashSet::default(),
@@ -131,7 +131,7 @@ impl Equations<'_> {
         page.text(&code.print(&EquationContext { equations: self, negated: spec.negated, given }, &function));
     }
 
-    /// A function that reads its operations from a list of numbers.
+    /// Prints a function whose operations are encoded as numbers.
     fn as_numbers(
         &self,
         spec: &FunctionSpec<'_>,
@@ -167,7 +167,7 @@ impl Equations<'_> {
         if self.is_input_driven {
             deps.file("input_list");
         }
-        // it hands all on, and parameters where there are any
+        // the function passes all arguments on, parameters only if there are any
         let reads_params = !self.names.params.is_empty() || (self.is_input_driven && spec.has_time);
         let marked = |name: &'static str| if name == "p" && !reads_params { "_p" } else { name };
         let types: Vec<(&str, &str)> = arguments.iter().map(|(name, of)| (marked(name), of.as_str())).collect();
@@ -226,7 +226,7 @@ impl Equations<'_> {
         })
     }
 
-    /// A register of the program that no operation of a function writes.
+    /// Returns the source of a register that no operation of the function writes.
     pub fn input(&self, register: Register, access: &Access) -> Input {
         let inputs = &self.program.inputs;
         if let Some(&value) = self.constants.get(&register) {
@@ -279,7 +279,7 @@ impl Equations<'_> {
         !self.program.outputs.variations.is_empty()
     }
 
-    /// The place of a register among the derivatives by inputs and parameters.
+    /// Returns the index of a register among the derivatives by inputs and parameters.
     fn varied(&self, register: Register) -> Option<usize> {
         let (first, count) = (self.program.inputs.varied, self.program.outputs.variations.len() as u32);
         let is_varied = (first..first + 3 * count * self.program.inputs.n).contains(&register);
@@ -291,7 +291,7 @@ impl Equations<'_> {
         !self.program.outputs.forces.is_empty()
     }
 
-    /// The place of a register among the multipliers.
+    /// Returns the index of a register among the multipliers.
     fn multiplier(&self, register: Register) -> Option<usize> {
         let (first, count) = (self.program.inputs.multipliers, self.program.outputs.forces.len() as u32);
         (first..first + count).contains(&register).then(|| (register - first) as usize)

@@ -1,6 +1,6 @@
-//! The errors of emitted code, for those who write of them: pages, and the codes that C has.
+//! Errors of emitted code, with the texts for its documentation and for the codes of the C interface.
 
-/// An error.
+/// Name and message of an error of emitted code.
 pub(super) struct ErrorText {
     /// Name of the variant of `Error`.
     pub name: &'static str,
@@ -14,7 +14,7 @@ const fn error(name: &'static str, message: &'static str, more: &'static str) ->
     ErrorText { name, message, more }
 }
 
-/// All errors; C has them by their places, counted from 1. A new one comes last.
+/// All errors. Their positions, from 1, are the codes of the C interface, so append new ones at the end.
 pub(super) const ERRORS: [ErrorText; 7] = [
     error("NotANumber", "the time, an input, a parameter or a formula is not a number", ""),
     error("LockUp", "the mechanism locks up: its driver cannot go on", ""),
@@ -39,7 +39,7 @@ mod tests {
     use crate::runtime::error::Error;
 
     #[test]
-    fn errors_are_told_as_they_tell_themselves() {
+    fn error_texts_match_their_display() {
         for error in [
             Error::NotANumber,
             Error::LockUp,

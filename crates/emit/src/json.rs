@@ -11,10 +11,10 @@ use mechc_ir::{
 use mechc_text::source::{Sources, Span};
 use serde_json::{Value, json};
 
-/// The version of the layout; it grows when a program that reads the layout before would go wrong.
+/// Version of the layout. It increases with every change that breaks readers of the previous layout.
 const LAYOUT: u32 = 1;
 
-/// The system as one JSON object.
+/// Returns the system as one JSON object.
 ///
 /// `file` is the name of the source, and `sources` has the text that the system's places lie in.
 #[must_use]
@@ -67,7 +67,7 @@ pub fn json(
     object.finish()
 }
 
-/// Every formula that is written.
+/// Returns all formulas that are emitted.
 fn roots(system: &ConstraintSystem, mechanics: Option<&Mechanics>) -> Vec<ExprId> {
     let mut roots: Vec<ExprId> = system.rows().iter().map(|row| row.phi).collect();
     roots.extend(system.phi_q().entries().iter().map(|&(_, id)| id));
@@ -87,7 +87,7 @@ fn roots(system: &ConstraintSystem, mechanics: Option<&Mechanics>) -> Vec<ExprId
     roots
 }
 
-/// Letters for the names of terms that no parameter and no table begins with.
+/// Returns a prefix for the names of terms with which no parameter and no table begins.
 fn prefix_of_terms(system: &ConstraintSystem) -> String {
     let tables = system.graph().tables().iter().map(|table| &table.name);
     let names: Vec<&String> = system.params().iter().map(|param| &param.name).chain(tables).collect();
@@ -109,7 +109,7 @@ impl Writer<'_> {
         list.iter().map(|&id| Value::String((self.text)(id))).collect()
     }
 
-    /// The line of a place, from 1.
+    /// Returns the line of a span's start, from 1.
     fn line(&self, span: Span) -> usize {
         self.sources.get(span.file).position(span.start).0
     }
@@ -223,7 +223,7 @@ impl Writer<'_> {
         rows.collect()
     }
 
-    /// The entries of a matrix that do not vanish.
+    /// Returns the nonzero entries of a matrix.
     fn entries(&self, matrix: &SparseRows) -> Vec<Value> {
         let entries = (0..matrix.rows()).flat_map(|row| {
             let entries = matrix.row(row).iter();
@@ -291,7 +291,7 @@ impl Writer<'_> {
     }
 }
 
-/// An object as it grows: a line for each field, and for each item of a list.
+/// Builder of a JSON object with a line for each field and for each item of a list.
 struct Object {
     text: String,
 }

@@ -1,6 +1,6 @@
-//! A constraint system for others: as Rust, a module or a whole crate, with functions for C, as LaTeX for a report, as JSON for other programs.
+//! Back ends for a constraint system: a Rust module or crate with a C interface, LaTeX for reports, JSON for other programs.
 //!
-//! What is emitted as Rust are the operations that the interpreter runs, those of the program and those of the solver, one by one, so
+//! Emitted Rust performs the operations of the interpreter, those of the program and those of the solver, one by one, so
 //! that both give the same bits (the sign of a zero in `phi_t`, which is `-nu`, aside).
 
 mod bytecode;
@@ -18,7 +18,7 @@ mod package;
 mod params;
 mod print;
 #[cfg(test)]
-// it is written for crates whose lints are the usual ones; only generic types copy themselves by hand
+// emitted code follows the default lints; only its generic types implement `Clone` by hand
 #[allow(clippy::expl_impl_clone_on_copy, clippy::needless_for_each)]
 mod runtime;
 mod runtime_files;
@@ -49,21 +49,21 @@ pub struct CrateFile {
 
 /// Mechanism to emit, with the options of its code.
 pub struct TranslationUnit<'u> {
-    /// The system, which is determined.
+    /// System, which must be determined.
     pub system: &'u ConstraintSystem,
-    /// Its program.
+    /// Program that evaluates the system.
     pub program: &'u Program,
-    /// The texts that it comes from.
+    /// Source texts of the mechanism.
     pub sources: &'u Sources,
-    /// The name of the file among them.
+    /// Name of the mechanism's file in `sources`.
     pub file: &'u str,
     /// Solver of the motion, if requested.
     pub motion: Option<EmittedMotion>,
     /// Number of lanes that are solved at once, in addition to the code for a single one.
     pub lanes: Option<usize>,
-    /// Beyond so many operations they are written as numbers instead of lines; mostly [`LARGEST_STRAIGHT`].
+    /// Number of operations beyond which they are encoded as numbers instead of Rust lines; normally [`LARGEST_STRAIGHT`].
     pub largest_straight: usize,
-    /// True if C reads its parameters and inputs.
+    /// True if parameters and inputs have the C layout.
     pub for_c: bool,
     /// System with its inputs as signals, if it has inputs and is to be solved.
     pub following: Option<Following<'u>>,
@@ -81,11 +81,11 @@ impl TranslationUnit<'_> {
     }
 }
 
-/// A mechanism once more, with its inputs as signals.
+/// Variant of a mechanism whose inputs are signals.
 pub struct Following<'u> {
-    /// Its system, in which they are signals; the program holds no operation that says what they are by the text.
+    /// Unit whose inputs are signals; its program does not evaluate the input formulas of the file.
     pub unit: Box<TranslationUnit<'u>>,
-    /// The program with these operations; its registers are the same.
+    /// Program with the same registers that also evaluates the input formulas of the file.
     pub by_text: &'u Program,
 }
 
@@ -95,17 +95,17 @@ pub struct EmittedMotion {
     pub solver: Solver,
     /// Operations that also give the derivatives of the coordinates by parameters, if requested.
     pub sensitive: Option<Solver>,
-    /// The operations that give what joints exert and drivers supply too, where there are masses or loads.
+    /// Operations that also give what joints exert and drivers supply; `None` without masses and loads.
     pub forced: Option<Solver>,
-    /// For elimination with partial pivoting; none where a block is too large.
+    /// Tables for elimination with partial pivoting; `None` if a block is too large.
     pub blocks: Option<BlockTables>,
     /// The assembled position [m, rad].
     pub q: Vec<f64>,
-    /// By row of `Φ`: what may be left of it.
+    /// Largest admissible residual of each row of `Φ`.
     pub bounds: Vec<f64>,
     /// The first time (s).
     pub from: f64,
-    /// The last time (s), where the earlier side of an edge counts; none if the file has no analysis.
+    /// The last time (s), where the earlier side of an edge counts; `None` if the file has no analysis.
     pub to: Option<f64>,
     /// Largest scaled residual of the parts of rows of `Φ`.
     pub tolerance: f64,

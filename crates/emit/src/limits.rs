@@ -7,7 +7,7 @@ use mechc_ir::tolerances::solving::{lanes, solver, trust};
 use mechc_ir::tolerances::steps::{edges, limits as sides, march, rims};
 use mechc_ir::tolerances::{checks, jumps};
 
-/// A limit of emitted code.
+/// Limit to which emitted code refers.
 struct Limit {
     name: &'static str,
     docs: &'static str,
@@ -24,7 +24,7 @@ macro_rules! limits {
         const LIMITS: &[Limit] =
             &[$(Limit { name: stringify!($name), docs: $docs, value: Value::$kind($value) },)*];
 
-        /// For the files that go along, where this crate compiles them itself.
+        /// Limits as constants, for the runtime files that this crate itself compiles.
         #[cfg(test)]
         #[allow(dead_code)] // one is named by code that is printed, and by no file
         pub(super) mod values {
@@ -105,7 +105,7 @@ limits! {
         "A velocity that changes by more than this part of the fastest at an edge jumps.";
 }
 
-/// A limit as it is declared.
+/// Returns the declaration of a limit.
 pub(super) fn printed(name: &str) -> String {
     let limit = LIMITS.iter().find(|limit| limit.name == name);
     debug_assert!(limit.is_some(), "`{name}` is no limit");
@@ -118,7 +118,7 @@ pub(super) fn printed(name: &str) -> String {
     })
 }
 
-/// A count with its thousands apart.
+/// Returns a count with separated thousands.
 fn grouped(count: usize) -> String {
     let digits = count.to_string();
     let mut text = String::new();

@@ -3,7 +3,7 @@
 use mechc_ir::{ConstraintSystem, Input};
 use rustc_hash::FxHashSet;
 
-/// Words that Rust keeps for itself.
+/// Keywords of Rust.
 const KEYWORDS: &[&str] = &[
     "abstract", "as", "async", "await", "become", "box", "break", "const", "continue", "crate", "do", "dyn", "else",
     "enum", "extern", "false", "final", "fn", "for", "gen", "if", "impl", "in", "let", "loop", "macro", "match", "mod",
@@ -11,10 +11,10 @@ const KEYWORDS: &[&str] = &[
     "try", "type", "typeof", "unsafe", "unsized", "use", "virtual", "where", "while", "yield",
 ];
 
-/// Longer names are cut, but those of paths; the documentation beside them has the whole.
+/// Length beyond which names are cut, except paths; the adjacent documentation has the full name.
 const LONGEST: usize = 40;
 
-/// Names in a body that are its own.
+/// Names that emitted function bodies use themselves.
 const RESERVED: &[&str] = &[
     "q", "qd", "qdd", "qddd", "t", "p", "m", "w", "x", "at", "out", "guess", "derived", "sides", "newton", "sin_cos",
     "select", "either", "sign", "lesser", "greater", "piece", "pick", "on_grid", "libm", "blocks",
@@ -23,34 +23,34 @@ const RESERVED: &[&str] = &[
 /// Name of time, also among inputs.
 pub(super) const TIME: &str = "t";
 
-/// The array of the derivatives by inputs and parameters, of a mechanism that has such.
+/// Name of the array of derivatives by inputs and parameters.
 pub(super) const VARIED: &str = "varied";
 
 /// Name of the array that forces are written to.
 pub(super) const FORCES: &str = "forces";
 
-/// The array of the multipliers, of a mechanism whose forces are asked for.
+/// Name of the array of multipliers, emitted if forces are requested.
 pub(super) const MULTIPLIERS: &str = "multipliers";
 
-/// Longer names of variables would make lines that a formatter breaks.
+/// Length of a variable's name beyond which rustfmt would break its lines.
 const LONGEST_VARIABLE: usize = 20;
 
-/// The names of a system's parameters and coordinates.
+/// Names of a system's parameters and coordinates.
 pub(super) struct Names {
     /// Paths of the parameters: `leg[1].shank`.
     pub params: Vec<String>,
-    /// Their names in a body.
+    /// Names of the parameters in a body.
     pub param_variables: Vec<String>,
     /// Names of coordinates, velocities and accelerations in a body.
     coordinates: [Vec<String>; 3],
     /// Fields of the inputs, where they are signals.
     pub inputs: Vec<String>,
-    /// Names of their values, rates and accelerations in a body.
+    /// Names of the inputs' values, rates and accelerations in a body.
     signals: [Vec<String>; 3],
 }
 
 impl Names {
-    /// The names of a system whose parameters are reached by some paths, in bodies that may hold some arrays.
+    /// Creates the names for a system, given the paths of its parameters. `arrays` are names that bodies use too.
     pub fn new(system: &ConstraintSystem, paths: Vec<String>, arrays: &[String]) -> Names {
         let params: Vec<String> = Case::Snake.names(system.params().iter().map(|param| param.name.as_str()));
         let mut variables = Namer::default();
@@ -68,8 +68,8 @@ impl Names {
             variables.snake(array);
         }
         let mut variable = |wanted: String, short: String| {
-            // what looks like a numbered one could be mistaken for it
-            let is_plain = wanted.len() <= LONGEST_VARIABLE && Names::is_telling(&wanted);
+            // a name that looks like a numbered one could be mistaken for it
+            let is_plain = wanted.len() <= LONGEST_VARIABLE && Names::is_descriptive(&wanted);
             variables.snake(if is_plain { &wanted } else { &short })
         };
         let param_variables =
@@ -99,7 +99,7 @@ impl Names {
     }
 
     /// Returns whether a name is more than lower-case letters with a number.
-    pub fn is_telling(name: &str) -> bool {
+    pub fn is_descriptive(name: &str) -> bool {
         let number = name.trim_start_matches(|c: char| c.is_ascii_lowercase());
         number.is_empty() || !number.chars().all(|c| c.is_ascii_digit()) || name.len() - number.len() > 4
     }
@@ -117,29 +117,29 @@ pub(super) enum Case {
 }
 
 impl Case {
-    /// Names that live in one space, in the order of their sources. Where two meet, the one that is less of a path keeps its name
-    /// (`pen_x` before `pen.x`, `leg_0.x` before `leg[0].x`), and of such that are alike the first; the other gets a number that makes
-    /// it no third one's. So what is declared behind others takes a name only from a path that it spells.
+    /// Returns unique names, in the order of their sources. Of colliding names the one with fewer path separators stays (`pen_x` before
+    /// `pen.x`, `leg_0.x` before `leg[0].x`), and among equals the first; the others get numbers that collide with no third name. So a
+    /// later declaration takes a name only from a path that spells it.
     pub fn names<'s>(self, sources: impl IntoIterator<Item = &'s str>) -> Vec<String> {
         let sources: Vec<&str> = sources.into_iter().collect();
         let mut order: Vec<usize> = (0..sources.len()).collect();
         let is_path = |c: &char| ".[ ".contains(*c);
         order.sort_by_key(|&k| sources[k].chars().filter(is_path).count());
         let (mut namer, mut names) = (Namer::default(), vec![String::new(); sources.len()]);
-        let mut met = Vec::new();
+        let mut colliding = Vec::new();
         for k in order {
             names[k] = self.name(sources[k]);
             if !namer.taken.insert(names[k].clone()) {
-                met.push(k);
+                colliding.push(k);
             }
         }
-        for k in met {
+        for k in colliding {
             names[k] = namer.name(self, sources[k]);
         }
         names
     }
 
-    /// A name that other sources may give too.
+    /// Converts a source to an identifier, which may not be unique.
     fn name(self, source: &str) -> String {
         let words = words(source);
         match self {
@@ -157,8 +157,8 @@ impl Case {
         }
     }
 
-    /// Names of inputs, and of time where it is one of them, behind all others. The name `t` is that of time, whether formulas hold it
-    /// or not, so that one which holds it changes no name of an input.
+    /// Returns the names of inputs; time comes last if it is an input. The name `t` is reserved for time even if no formula contains
+    /// it, so that a formula with time changes no name of an input.
     pub fn names_of_inputs(self, inputs: &[Input]) -> Vec<String> {
         let named = inputs.iter().filter(|input| !input.is_time()).map(|input| input.name.as_str());
         let mut names = self.names(std::iter::once(TIME).chain(named));
@@ -168,24 +168,24 @@ impl Case {
     }
 }
 
-/// Hands out names, each once.
+/// Allocator of unique names.
 #[derive(Default)]
 pub(super) struct Namer {
     taken: FxHashSet<String>,
 }
 
 impl Namer {
-    /// A name for a field or variable: `crank_length`.
+    /// Returns a unique name for a field or variable: `crank_length`.
     pub fn snake(&mut self, source: &str) -> String {
         self.name(Case::Snake, source)
     }
 
-    /// A name for a constant: `CRANK_PHI`.
+    /// Returns a unique name for a constant: `CRANK_PHI`.
     pub fn constant(&mut self, source: &str) -> String {
         self.name(Case::Constant, source)
     }
 
-    /// The name, with a number if it is taken.
+    /// Returns a unique name, with a number if the plain one is taken.
     fn name(&mut self, case: Case, source: &str) -> String {
         // a number behind it stands without a line in a variant
         let separator = if case == Case::Camel { "" } else { "_" };
@@ -200,7 +200,7 @@ impl Namer {
     }
 }
 
-/// A name that is no word of Rust.
+/// Returns the name, with `_` appended if it is a keyword of Rust.
 fn safe(name: String) -> String {
     if is_keyword(&name) { name + "_" } else { name }
 }
@@ -210,7 +210,7 @@ pub(super) fn is_keyword(name: &str) -> bool {
     KEYWORDS.contains(&name)
 }
 
-/// ASCII letters, digits and single underscores: `crank.phi` is `crank_phi`, `leg[3].x` is `leg_3_x`, `leg[-1]` is `leg_m1`, `é` is
+/// Returns ASCII letters, digits and single underscores: `crank.phi` is `crank_phi`, `leg[3].x` is `leg_3_x`, `leg[-1]` is `leg_m1`, `é` is
 /// `u00e9`, `gearA` stays one word.
 fn words(source: &str) -> String {
     let mut text = String::new();
@@ -227,7 +227,7 @@ fn words(source: &str) -> String {
             text += &format!("u{:04x}", u32::from(c));
         }
     }
-    // what is reached by a path would not be told apart
+    // cut paths could not be distinguished
     let longest = if source.contains(['.', '[']) { usize::MAX } else { LONGEST };
     let cut = text.char_indices().nth(longest).map_or(text.len(), |(at, _)| at);
     let text = text[..cut].trim_end_matches('_');
@@ -252,7 +252,7 @@ mod tests {
     }
 
     #[test]
-    fn where_two_names_meet_the_plainer_one_keeps_it() {
+    fn plainer_names_win_collisions() {
         let names = |sources: [&'static str; 3]| Case::Constant.names(sources);
         assert_eq!(names(["pen.x", "pen_x", "pen.y"]), ["PEN_X_2", "PEN_X", "PEN_Y"]);
         assert_eq!(names(["leg[0].x", "leg[1].x", "leg_0.x"]), ["LEG_0_X_2", "LEG_1_X", "LEG_0_X"]);

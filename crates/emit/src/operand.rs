@@ -3,20 +3,20 @@
 use super::text::literal;
 use std::fmt::{self, Display, Formatter};
 
-/// An operand that takes more characters than this makes a line hard to read.
+/// Number of characters beyond which an operand is bound to a variable, for legible lines.
 const LONGEST: usize = 20;
 
-/// Arguments of a function, by their names.
+/// Names of arguments of a function.
 pub(super) type Arguments = &'static [&'static str];
 
-/// A number, or what holds one.
+/// A number, or an expression for one.
 #[derive(Clone, Debug)]
 pub(super) enum Operand {
     Number(f64),
-    /// A name or a place, as it is written.
+    /// Text of a variable or of an element of an array.
     Held {
         text: String,
-        /// The arguments that this names.
+        /// Arguments to which the text refers.
         of: Arguments,
     },
 }
@@ -27,12 +27,12 @@ impl Operand {
         Operand::Held { text, of }
     }
 
-    /// A variable of the function itself.
+    /// Creates an operand that is a local variable.
     pub fn local(text: String) -> Operand {
         Operand::new(text, &[])
     }
 
-    /// The arguments that it names.
+    /// Returns the arguments to which the operand refers.
     pub fn arguments(&self) -> Arguments {
         match self {
             Operand::Number(_) => &[],
@@ -40,7 +40,7 @@ impl Operand {
         }
     }
 
-    /// Returns whether it can stand in a formula directly, without a variable.
+    /// Returns whether the operand is short enough for a formula, without a variable.
     pub fn is_short(&self) -> bool {
         match self {
             Operand::Number(value) => literal(*value).len() <= LONGEST,
@@ -57,7 +57,7 @@ impl Operand {
         }
     }
 
-    /// Its size.
+    /// Returns the absolute value as an expression.
     pub fn absolute(&self) -> String {
         match self {
             Operand::Number(value) if value.is_sign_negative() => format!("({self}).abs()"),
@@ -80,7 +80,7 @@ mod tests {
     use super::Operand;
 
     #[test]
-    fn signs_are_those_of_numbers() {
+    fn operand_signs_match_numbers() {
         let (number, held) = (Operand::Number(-2.5), Operand::new("q[1]".to_owned(), &["q"]));
         assert_eq!([number.negated(), held.negated()].map(|of| of.to_string()), ["2.5", "-q[1]"]);
         assert_eq!([number.absolute(), held.absolute()], ["(-2.5).abs()", "q[1].abs()"]);

@@ -1,11 +1,11 @@
-//! The operations that some outputs of a program need, and operations as Rust.
+//! Slices of a program for given outputs, and operations as Rust expressions.
 
 use mechc_engine::solver::Instruction;
 use mechc_expr::{Binary, Comparison, Unary};
 use mechc_ir::program::{Column, Machine, Program, Register, STAGES};
 use rustc_hash::FxHashSet;
 
-/// The operations behind some registers, in the order in which the interpreter runs them; `given` registers are not computed.
+/// Returns the operations behind some registers, in the order in which the interpreter runs them; `given` registers are not computed.
 /// Each output is left in the column of its number.
 pub(super) fn slice(program: &Program, outputs: &[Register], given: &FxHashSet<Register>) -> Vec<Instruction> {
     let mut is_read = vec![false; program.registers()];
@@ -30,11 +30,11 @@ pub(super) fn slice(program: &Program, outputs: &[Register], given: &FxHashSet<R
 
 /// Operations as Rust expressions.
 pub(super) struct Expression<V> {
-    /// The text of a register's value.
+    /// Text of a register's value.
     pub value: V,
-    /// The column of a table that the operation looks into, borrowed.
+    /// Borrowed column of a table that the operation reads.
     pub column: String,
-    /// The register that it writes, and the expression.
+    /// Written register, and the expression for its value.
     pub result: Option<(Register, String)>,
 }
 
@@ -126,14 +126,14 @@ impl<V: FnMut(Register) -> String> Machine for Expression<V> {
 /// Name of a function of numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Callee {
-    /// The first and the second of the pair.
+    /// Sine and cosine, of a function that returns both.
     Sine,
     Cosine,
-    /// A function that goes along.
+    /// Function of the runtime files.
     Runtime(&'static str),
-    /// A method of numbers.
+    /// Method of `f64` in `core`.
     Core(&'static str),
-    /// A function of the crate `libm`.
+    /// Function of the crate `libm`.
     Libm(&'static str),
 }
 
@@ -158,7 +158,7 @@ pub(super) fn callee_of_two(function: Binary) -> Callee {
     }
 }
 
-/// A call with some arguments.
+/// Returns a call as Rust.
 fn call(callee: Callee, arguments: &str) -> String {
     match callee {
         Callee::Sine => format!("sin_cos({arguments}).0"),
@@ -169,12 +169,12 @@ fn call(callee: Callee, arguments: &str) -> String {
     }
 }
 
-/// A function of one argument as Rust.
+/// Returns a function of one argument as Rust.
 pub(super) fn unary(function: Unary, a: &str) -> String {
     call(callee(function), a)
 }
 
-/// A function of two arguments as Rust.
+/// Returns a function of two arguments as Rust.
 pub(super) fn binary(function: Binary, a: &str, b: &str) -> String {
     call(callee_of_two(function), &format!("{a}, {b}"))
 }

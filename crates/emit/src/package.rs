@@ -18,10 +18,10 @@ pub const MARK: &str = "ritten by mechc ";
 /// Files that only some crates have, as folder and ending of the name: an earlier emission may have left one there.
 pub const NOT_IN_ALL: [(&str, &str); 2] = [("include", ".h"), ("src", "unsafe_c.rs")];
 
-/// The version of `libm` that the interpreter runs with; `Cargo.toml` pins the same.
+/// Version of `libm` that the interpreter uses; `Cargo.toml` pins the same.
 const LIBM: &str = "0.2.16";
 
-/// Names that a crate can have, but that would be mistaken for another one or that a system keeps for itself.
+/// Valid names of crates that clash with standard crates, or that operating systems reserve.
 const TAKEN: &[&str] = &[
     "alloc",
     "aux",
@@ -39,25 +39,25 @@ const TAKEN: &[&str] = &[
     "test",
 ];
 
-/// The motion as the interpreter has it.
+/// Motion that the interpreter computed, as reference for the emitted test.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reference {
     /// Names of a row's columns.
     pub columns: Vec<String>,
-    /// Rows of it, at least one: the first and the last, and some in between, in order (s, m, rad).
+    /// Rows, at least one: the first, the last, and some in between, in order (s, m, rad).
     pub rows: Vec<Vec<f64>>,
     /// Forces of joints and drivers for each row; empty lists if there are no masses and loads.
     pub forces: Vec<Vec<f64>>,
     /// Output times after the first, up to that of the last row.
     pub steps: u64,
-    /// From one output time to the next (s).
+    /// Interval between output times (s).
     pub every: f64,
-    /// Why it ends before the analysis does.
+    /// Reason why the motion ends before the analysis, if it does.
     pub stopped: Option<String>,
 }
 
-/// The files of a crate, for a unit with its motion. It has the name of its folder, as cargo's own have; where that cannot be a
-/// crate's, the next to it that can.
+/// Returns the files of a crate for a unit with its motion. The crate is named after its folder as with cargo, or by the closest valid
+/// name.
 #[must_use]
 pub fn package(unit: &TranslationUnit<'_>, reference: &Reference, folder: &str) -> Vec<CrateFile> {
     let module = rust::module(unit);
@@ -79,7 +79,7 @@ pub fn package(unit: &TranslationUnit<'_>, reference: &Reference, folder: &str) 
     files
 }
 
-/// A valid name of a crate, out of a folder's: in small letters, as crates are named.
+/// Returns a valid name of a crate, in lower case, derived from the name of a folder.
 fn crate_name(folder: &str) -> String {
     let is_part = |part: &str| part.chars().all(|c| c.is_ascii_alphanumeric() || c == '_');
     let may_stay = folder.starts_with(|c: char| c.is_ascii_alphabetic()) && folder.split('-').all(is_part);
@@ -89,7 +89,7 @@ fn crate_name(folder: &str) -> String {
     if is_keyword(plain) || is_taken { format!("{plain}_mechanism") } else { wanted }
 }
 
-/// Paragraph of a page about the crate that some modules need.
+/// Paragraph of the README about `libm`.
 const WITH_LIBM: &str = "It asks for the crate `libm`, for
 elementary functions with the same bits on every platform. Where cargo does not have that yet, `cargo fetch` gets it, once.";
 
@@ -133,9 +133,9 @@ Where formulas hold the time too, it is a plain number `t`.
 struct Writer<'w> {
     unit: &'w TranslationUnit<'w>,
     reference: &'w Reference,
-    /// The crate's.
+    /// Name of the crate.
     name: String,
-    /// Its name in code.
+    /// Name of the crate in Rust code.
     library: String,
     module: &'w rust::Module,
 }
@@ -146,7 +146,7 @@ impl Writer<'_> {
         format!("W{MARK}{} from `{}`.", env!("CARGO_PKG_VERSION"), one_line(self.unit.file))
     }
 
-    /// Parameters as the file has them.
+    /// Returns the expression for the parameters of the file.
     fn params(&self) -> &'static str {
         if self.unit.system.params().is_empty() { "Params" } else { "Params::default()" }
     }
@@ -284,7 +284,7 @@ impl Writer<'_> {
         )
     }
 
-    /// The times of the rows (s).
+    /// Returns the times of the rows (s).
     fn times(&self) -> Vec<f64> {
         self.reference.rows.iter().filter_map(|row| row.first().copied()).collect()
     }
@@ -475,7 +475,7 @@ impl Writer<'_> {
         if measures.is_empty() {
             return String::new();
         }
-        // those of each module, by measure
+        // indices in a module, for each measure
         let indices = |module: &str, has: fn(&Measure) -> bool| {
             let mut names =
                 Case::Constant.names(measures.iter().filter(|of| has(of)).map(|of| of.name.as_str())).into_iter();
@@ -499,24 +499,24 @@ impl Writer<'_> {
     }
 }
 
-/// A message as a part of a page: its names stay in backticks.
+/// Returns a message as Markdown; its names stay in backticks.
 fn in_prose(message: &str) -> String {
     message.split('`').map(one_line).collect::<Vec<String>>().join("`")
 }
 
-/// A row as an array in a list of such.
+/// Returns a row as an item of an array of arrays.
 fn array(row: &[f64]) -> String {
     let values: Vec<String> = row.iter().copied().map(literal).collect();
     format!("    [\n{}    ],\n", lines(&values, "    "))
 }
 
-/// A line of a table.
+/// Returns a row of a Markdown table.
 fn line<T: Display>(cells: &[T]) -> String {
     let cells: Vec<String> = cells.iter().map(ToString::to_string).collect();
     format!("| {} |\n", cells.join(" | "))
 }
 
-/// The line that imports names from a crate, as rustfmt breaks it.
+/// Returns the `use` item for names of a crate, formatted as rustfmt does.
 fn imported(library: &str, names: &str) -> String {
     /// Columns of rustfmt's default style.
     const WIDTH: usize = 100;
@@ -555,7 +555,7 @@ mod tests {
     }
 
     #[test]
-    fn libm_is_the_one_that_is_used_here() {
+    fn libm_version_is_pinned() {
         let pinned = format!("\nlibm = \"={LIBM}\"\n");
         assert!(include_str!("../../../Cargo.toml").contains(&pinned), "{pinned}");
     }

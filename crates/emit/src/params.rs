@@ -1,18 +1,17 @@
-//! The parameters as Rust has them: a structure, in which those of a part are a structure of their own, and those of a repeated part an
-//! array of such.
+//! Parameters as Rust structures: one for the mechanism, with a nested structure for each part and an array for each repeated part.
 //!
-//! Copies make an array where their numbers begin with 0 and leave none out, and all have the same parameters; other copies are fields,
-//! `leg_2`, of one type as long as they are alike. What is bound is no parameter, and a part without parameters is not there.
+//! Copies form an array if their numbers are consecutive from 0 and all have the same parameters; other copies are fields,
+//! `leg_2`, of one type as long as they are alike. Bound params are no parameters, and parts without parameters are left out.
 
 use super::names::Case;
 use mechc_ir::{ConstraintSystem, Param};
 use std::collections::BTreeMap;
 
-/// The parameters of a system, in structures.
+/// Parameters of a system, in structures.
 pub(super) struct Params {
-    /// `Params` itself, and behind it those of its parts.
+    /// `Params` itself, followed by the structures of its parts.
     pub types: Vec<Type>,
-    /// By parameter: how it is reached, `leg[1].shank`.
+    /// Path of each parameter: `leg[1].shank`.
     pub paths: Vec<String>,
     whole: Group,
 }
@@ -20,25 +19,25 @@ pub(super) struct Params {
 /// A structure of parameters.
 pub(super) struct Type {
     pub name: String,
-    /// The part that it is of, the first of copies: `leg[0]`, `front.wheel`; nothing of the mechanism itself.
+    /// Path of its part, for copies of the first: `leg[0]`, `front.wheel`; empty for the mechanism itself.
     pub source: String,
     pub fields: Vec<Field>,
 }
 
 pub(super) struct Field {
     pub name: String,
-    /// Its name in the text of its part.
+    /// Name in the source of the part.
     pub source: String,
-    pub of: Of,
+    pub kind: FieldType,
 }
 
 /// Content of a field.
-pub(super) enum Of {
-    /// A parameter; its number, in the first of copies.
+pub(super) enum FieldType {
+    /// Index of a parameter, for copies in the first one.
     Number(usize),
-    /// A part, by the number of its type.
+    /// A part, by the index of its type.
     Part(usize),
-    /// All copies of a part, with how many there are by each index.
+    /// All copies of a part: the index of their type, and the number of copies along each index.
     Copies(usize, Vec<usize>),
 }
 
@@ -59,7 +58,7 @@ enum Slot<'g> {
         source: &'g str,
         param: usize,
     },
-    /// A copy, whose part has others that are alike or not.
+    /// A copy; `are_alike` if all copies of its part have the same parameters.
     Part {
         part: &'g str,
         source: String,
@@ -91,10 +90,10 @@ impl Params {
         while let Some((of, group, path)) = open.pop() {
             for (field, slot) in self.types[of].fields.iter().zip(group.slots()) {
                 let path = format!("{path}{}", field.name);
-                match (&field.of, slot) {
+                match (&field.kind, slot) {
                     (_, Slot::Number { param, .. }) => self.paths[param] = path,
-                    (Of::Part(of), Slot::Part { group, .. }) => open.push((*of, group, path + ".")),
-                    (Of::Copies(of, lengths), Slot::Copies { groups, .. }) => {
+                    (FieldType::Part(of), Slot::Part { group, .. }) => open.push((*of, group, path + ".")),
+                    (FieldType::Copies(of, lengths), Slot::Copies { groups, .. }) => {
                         let groups = groups.into_iter().enumerate();
                         open.extend(groups.map(|(k, group)| (*of, group, format!("{path}{}.", place(k, lengths)))));
                     }
@@ -104,9 +103,9 @@ impl Params {
         }
     }
 
-    /// A value of `Params` with something for each parameter, by its number, in lines that stand under an indent.
-    pub fn value(&self, own: &str, indent: &str, of: &dyn Fn(usize) -> String) -> String {
-        self.value_of((0, own), &self.whole, indent, of)
+    /// Returns a struct expression of type `name`, with `of(k)` as the value of parameter `k`, in indented lines.
+    pub fn value(&self, name: &str, indent: &str, of: &dyn Fn(usize) -> String) -> String {
+        self.value_of((0, name), &self.whole, indent, of)
     }
 
     fn value_of(
@@ -119,11 +118,11 @@ impl Params {
         let within = format!("{indent}    ");
         let mut text = format!("{name} {{\n");
         for (field, slot) in self.types[number].fields.iter().zip(group.slots()) {
-            let value = match (&field.of, slot) {
-                (Of::Part(part), Slot::Part { group, .. }) => {
+            let value = match (&field.kind, slot) {
+                (FieldType::Part(part), Slot::Part { group, .. }) => {
                     self.value_of((*part, &self.types[*part].name), group, &within, of)
                 }
-                (Of::Copies(part, lengths), Slot::Copies { groups, .. }) => {
+                (FieldType::Copies(part, lengths), Slot::Copies { groups, .. }) => {
                     let depth = within.clone() + &"    ".repeat(lengths.len());
                     let copy = |group: &&Group| self.value_of((*part, &self.types[*part].name), group, &depth, of);
                     array(&groups.iter().map(copy).collect::<Vec<String>>(), lengths, &within)
@@ -137,11 +136,11 @@ impl Params {
     }
 }
 
-/// Types in the making.
+/// Builder of types.
 #[derive(Default)]
 struct Types {
     all: Vec<Type>,
-    /// Path of the part of each, without the numbers of copies that share it.
+    /// Path of each type's part, without the numbers of copies that share it.
     called: Vec<String>,
 }
 
@@ -151,39 +150,42 @@ impl Types {
         let number = self.all.len();
         self.all.push(Type { name: String::new(), source: source.to_owned(), fields: Vec::new() });
         self.called.push(called.to_owned());
-        let mut fields: Vec<(String, Of)> = Vec::new();
+        let mut fields: Vec<(String, FieldType)> = Vec::new();
         let mut before: Option<(&str, usize)> = None;
         for slot in group.slots() {
             fields.push(match slot {
-                Slot::Number { source, param } => (source.to_owned(), Of::Number(param)),
-                Slot::Part { part, source: own, group, are_alike } => {
-                    let known = before.filter(|(known, _)| are_alike && *known == part).map(|(_, of)| of);
-                    let telling = if are_alike { part } else { &own };
-                    let of = known.unwrap_or_else(|| self.add_part([called, source], [telling, &own], group));
+                Slot::Number { source, param } => (source.to_owned(), FieldType::Number(param)),
+                Slot::Part { part, source: field, group, are_alike } => {
+                    let alike = before.filter(|(previous, _)| are_alike && *previous == part).map(|(_, of)| of);
+                    let name = if are_alike { part } else { &field };
+                    let of = alike.unwrap_or_else(|| self.add_part([called, source], [name, &field], group));
                     before = Some((part, of));
-                    (own, Of::Part(of))
+                    (field, FieldType::Part(of))
                 }
-                Slot::Copies { source: own, lengths, groups } => {
-                    let first = copy_of(own, &vec![0; lengths.len()]);
-                    (own.to_owned(), Of::Copies(self.add_part([called, source], [own, &first], groups[0]), lengths))
+                Slot::Copies { source: field, lengths, groups } => {
+                    let first = copy_of(field, &vec![0; lengths.len()]);
+                    (
+                        field.to_owned(),
+                        FieldType::Copies(self.add_part([called, source], [field, &first], groups[0]), lengths),
+                    )
                 }
             });
         }
         let names = Case::Snake.names(fields.iter().map(|(source, _)| source.as_str()));
-        let named = fields.into_iter().zip(names).map(|((source, of), name)| Field { name, source, of });
+        let named = fields.into_iter().zip(names).map(|((source, kind), name)| Field { name, source, kind });
         self.all[number].fields = named.collect();
         number
     }
 
     /// Adds the type of a part within another.
-    fn add_part(&mut self, around: [&str; 2], own: [&str; 2], group: &Group) -> usize {
+    fn add_part(&mut self, around: [&str; 2], inner: [&str; 2], group: &Group) -> usize {
         let within =
-            |k: usize| if around[k].is_empty() { own[k].to_owned() } else { format!("{}.{}", around[k], own[k]) };
+            |k: usize| if around[k].is_empty() { inner[k].to_owned() } else { format!("{}.{}", around[k], inner[k]) };
         let (called, source) = (within(0), within(1));
         self.add([&called, &source], group)
     }
 
-    /// The types with their names.
+    /// Names the types and returns them.
     fn named(self) -> Vec<Type> {
         let sources: Vec<String> = self.called.iter().map(|called| format!("{called}.params")).collect();
         let names = Case::Camel.names(sources.iter().map(String::as_str));
@@ -193,17 +195,17 @@ impl Types {
 
 impl Group {
     fn add(&mut self, param: &Param, number: usize) {
-        let (parts, own) = param.name.split_at(param.part);
+        let (parts, field) = param.name.split_at(param.part);
         let mut group = self;
         for part in parts.split_terminator('.') {
             let (name, indices) = part.trim_end_matches(']').split_once('[').unwrap_or((part, ""));
             let indices = indices.split(',').filter_map(|index| index.trim().parse().ok()).collect();
             group = group.part(name).entry(indices).or_default();
         }
-        group.members.push(Member::Number { source: own.to_owned(), param: number });
+        group.members.push(Member::Number { source: field.to_owned(), param: number });
     }
 
-    /// The copies of a part.
+    /// Returns the copies of a part, and adds the part if necessary.
     fn part(&mut self, name: &str) -> &mut BTreeMap<Vec<i64>, Group> {
         let is_it = |member: &Member| matches!(member, Member::Part { source, .. } if source == name);
         let at = self.members.iter().position(is_it).unwrap_or_else(|| {
@@ -282,7 +284,7 @@ fn place(number: usize, lengths: &[usize]) -> String {
     text
 }
 
-/// Values as an array of arrays, the last index fastest.
+/// Returns values as an array of arrays, the last index fastest.
 fn array(values: &[String], lengths: &[usize], indent: &str) -> String {
     let (Some((_, rest)), false) = (lengths.split_first(), values.is_empty()) else {
         return values.concat();

@@ -1,28 +1,28 @@
-//! Rust as it is printed: items, blocks, lists of values, each at its place in the line, as a formatter leaves them.
+//! Printer of Rust items, blocks and lists of values, formatted as rustfmt does.
 
 use super::text::{LONGEST_LINE, documented, lines};
 
-/// Columns of an indent.
+/// Columns per level of indentation.
 const INDENT: usize = 4;
 
-/// Rust in the making.
+/// Buffer of Rust text.
 #[derive(Default)]
 pub(super) struct Page {
     text: String,
-    /// Columns that lines are indented by.
+    /// Current indentation in columns.
     indent: usize,
-    /// Columns that all of it will be indented by.
+    /// Indentation in columns that is later added to the whole text.
     margin: usize,
 }
 
-/// The head of a function.
+/// Head of a function.
 pub(super) struct Head<'h> {
-    /// Words before its name: `pub fn`.
+    /// Words before the name: `pub fn`.
     pub kind: &'h str,
     pub name: &'h str,
     /// Names and types; a type may be empty, as that of `&self`.
     pub arguments: &'h [(&'h str, &'h str)],
-    /// Its type, if it gives something.
+    /// Type of the result, empty if there is no result.
     pub result: &'h str,
 }
 
@@ -37,7 +37,7 @@ impl Page {
         self.text
     }
 
-    /// A line; one that is empty is blank.
+    /// Prints an indented line; an empty text gives a blank line.
     pub fn line(&mut self, line: &str) {
         if !line.is_empty() {
             self.text.extend(std::iter::repeat_n(' ', self.indent));
@@ -50,12 +50,12 @@ impl Page {
         self.text.push('\n');
     }
 
-    /// Lines that are finished.
+    /// Prints complete lines.
     pub fn text(&mut self, text: &str) {
         text.lines().for_each(|line| self.line(line));
     }
 
-    /// Documentation.
+    /// Prints documentation.
     pub fn docs(&mut self, docs: &str) {
         self.text(&documented(docs, ""));
     }
@@ -78,13 +78,13 @@ impl Page {
         self.indent += INDENT;
         body(self);
         self.indent -= INDENT;
-        // nothing blank stands before a brace
+        // no blank line precedes a closing brace
         if self.text.ends_with("\n\n") {
             self.text.pop();
         }
     }
 
-    /// Ends a block as a statement ends, and leaves a blank line.
+    /// Ends a block that is a statement, followed by a blank line.
     pub fn end_statement(&mut self) {
         if self.text.ends_with('\n') {
             self.text.pop();
@@ -92,7 +92,7 @@ impl Page {
         self.text += ";\n\n";
     }
 
-    /// A function, which a blank line follows.
+    /// Prints a function, followed by a blank line.
     pub fn function(&mut self, head: &Head<'_>, body: impl FnOnce(&mut Page)) {
         let Head { kind, name, arguments, result } = head;
         let argument =
@@ -110,14 +110,14 @@ impl Page {
         self.blank();
     }
 
-    /// A constant.
+    /// Prints a constant.
     pub fn constant(&mut self, docs: &str, head: &str, value: &str) {
         self.docs(docs);
         self.line(&format!("{head} = {value};"));
         self.blank();
     }
 
-    /// A list of values between what stands before and behind it.
+    /// Prints a list of values between the texts `before` and `behind`.
     pub fn list(&mut self, before: &str, values: &[String], behind: &str) {
         self.line(before);
         self.text(&lines(values, ""));
@@ -130,7 +130,7 @@ mod tests {
     use super::{Head, Page};
 
     #[test]
-    fn what_is_long_is_broken_and_nothing_blank_ends_a_block() {
+    fn long_lines_break_and_blocks_end_without_blanks() {
         let arguments = [("first", "&mut [f64; 12345678901234]"), ("second", "&mut [f64; 123456789]")];
         let mut page = Page::default();
         page.item("impl Long", |page| {

@@ -1,6 +1,6 @@
-//! Files that accompany emitted code: those of `runtime` and of `math`, verbatim, and the limits that they name.
+//! Files that accompany emitted code, verbatim: those of `runtime` and of the crate `mechc_runtime`, and the limits to which they refer.
 //!
-//! Who writes code that calls something says so here ([`RuntimeDeps`]); what else that needs follows.
+//! Writers of code record the items that it uses in [`RuntimeDeps`], which adds transitive dependencies.
 
 use super::limits;
 use super::operations::{Callee, callee, callee_of_two};
@@ -10,15 +10,15 @@ use mechc_ir::program::Op;
 use mechc_runtime::sources;
 use std::collections::BTreeSet;
 
-/// A file that can go along.
+/// File that can accompany emitted code.
 pub(super) struct File {
     /// Name of the module that it becomes.
     pub name: &'static str,
     /// Text of the source file that holds the module.
     source: &'static str,
-    /// The files that it names.
+    /// Files to which it refers.
     pub needs: &'static [&'static str],
-    /// The limits that it names.
+    /// Limits to which it refers.
     pub limits: &'static [&'static str],
 }
 
@@ -35,7 +35,7 @@ impl File {
 
 macro_rules! files {
     ($($name:literal is $text:expr; [$($needs:literal),*], [$($limits:ident),*];)*) => {
-        /// All files, each behind those that it needs.
+        /// All files, each after those that it needs.
         pub(super) const FILES: &[File] = &[
             $(File { name: $name, source: $text, needs: &[$($needs),*], limits: &[$(stringify!($limits)),*] },)*
         ];
@@ -112,13 +112,13 @@ files! {
 pub(super) struct RuntimeDeps {
     files: BTreeSet<&'static str>,
     limits: BTreeSet<&'static str>,
-    /// Names that it uses, with their files.
+    /// Used names, each with its file.
     names: BTreeSet<(&'static str, &'static str)>,
     libm: bool,
 }
 
 impl RuntimeDeps {
-    /// A thing of a file, or a limit of `limits`, is named.
+    /// Records the use of an item of a file, or of a limit of `limits`.
     pub fn name(&mut self, file: &'static str, name: &'static str) {
         self.names.insert((file, name));
         if file == "limits" {
@@ -128,17 +128,17 @@ impl RuntimeDeps {
         }
     }
 
-    /// A file goes along that extends what others have.
+    /// Adds a file that extends types of other files.
     pub fn file(&mut self, file: &'static str) {
         self.files.insert(file);
     }
 
-    /// A limit is named by its whole path.
+    /// Records the use of a limit by its full path.
     pub fn limit(&mut self, name: &'static str) {
         self.limits.insert(name);
     }
 
-    /// The crate `libm` is called.
+    /// Records a call of the crate `libm`.
     pub fn libm(&mut self) {
         self.libm = true;
     }
@@ -175,7 +175,7 @@ impl RuntimeDeps {
         }
     }
 
-    /// A function of numbers is called.
+    /// Records a call of a function of numbers.
     pub fn callee(&mut self, callee: Callee) {
         match callee {
             Callee::Sine | Callee::Cosine => self.name("sine_and_cosine", "sin_cos"),
@@ -190,7 +190,7 @@ impl RuntimeDeps {
         self.libm
     }
 
-    /// The lines that name what is used, of a module from which `runtime` is reached so.
+    /// Prints the `use` items; `runtime` is the path of the runtime module.
     pub fn print(&self, runtime: &str, page: &mut Page) {
         for (file, name) in &self.names {
             page.line(&format!("use {runtime}::{file}::{name};"));
@@ -200,7 +200,7 @@ impl RuntimeDeps {
         }
     }
 
-    /// More that the same module uses.
+    /// Adds the dependencies of more code of the same module.
     pub fn add(&mut self, other: &RuntimeDeps) {
         self.include(other);
         self.names.extend(&other.names);
@@ -216,7 +216,7 @@ impl RuntimeDeps {
     /// Prints the required files as a module, if there are any.
     pub fn print_runtime(&self, page: &mut Page) {
         let (mut wanted, mut limits) = (self.files.clone(), self.limits.clone());
-        // those that are needed stand before those that need them
+        // dependencies precede the files that need them
         for file in FILES.iter().rev() {
             if wanted.contains(file.name) {
                 wanted.extend(file.needs);
@@ -251,7 +251,7 @@ mod tests {
     use super::FILES;
     use std::collections::BTreeSet;
 
-    /// The names that follow `super::` in a file, in paths and in braces.
+    /// Returns the names that follow `super::` in a file, in paths and in braces.
     fn named(text: &str, after: &str) -> BTreeSet<String> {
         let is_part = |c: char| c.is_ascii_alphanumeric() || c == '_';
         let of = |rest: &str| match rest.strip_prefix('{') {
@@ -266,7 +266,7 @@ mod tests {
     }
 
     #[test]
-    fn files_name_what_goes_along_with_them() {
+    fn files_declare_their_dependencies() {
         for (number, file) in FILES.iter().enumerate() {
             if file.source.starts_with("// ") {
                 continue; // of another crate
@@ -276,7 +276,7 @@ mod tests {
             let declared: BTreeSet<String> = file.needs.iter().map(|name| (*name).to_owned()).collect();
             let is_before = |name: &&str| FILES[..number].iter().any(|before| before.name == *name);
             assert!(file.needs.iter().all(is_before), "{} stands too early", file.name);
-            // what extends a type is not named
+            // files that only extend a type are not named
             assert!(
                 needs.is_subset(&declared) && declared.difference(&needs).all(|name| name == "pivots"),
                 "{}: {needs:?}",

@@ -20,9 +20,9 @@ pub(super) struct Solution<'s> {
     pub unit: &'s TranslationUnit<'s>,
     pub motion: &'s EmittedMotion,
     pub equations: &'s Equations<'s>,
-    /// Registers of the program that follow from parameters alone, by their places in `derived`.
+    /// Registers of the program that follow from parameters alone, with their indices in `derived`.
     pub derived: FxHashMap<Register, usize>,
-    /// Columns of what measures join that is no result, in order.
+    /// Columns of values, other than results, that the solver stores and reads again, ascending.
     pub joined: Vec<u32>,
     /// Contents of the columns in which operations leave values.
     holds: Vec<ColumnContent>,
@@ -63,7 +63,7 @@ impl<'s> Solution<'s> {
         solution
     }
 
-    /// Gives a register a place in `derived`.
+    /// Assigns an index in `derived` to a register.
     fn add_derived(&mut self, register: Register) {
         let next = self.derived.len();
         self.derived.entry(register).or_insert(next);
@@ -84,7 +84,7 @@ impl<'s> Solution<'s> {
         !self.motion.solver.tears().is_empty()
     }
 
-    /// The registers that follow from parameters alone, in the order of their places.
+    /// Returns the registers that follow from parameters alone, in the order of their indices.
     pub fn derived_registers(&self) -> Vec<Register> {
         let mut registers: Vec<(usize, Register)> =
             self.derived.iter().map(|(&register, &place)| (place, register)).collect();
@@ -92,7 +92,7 @@ impl<'s> Solution<'s> {
         registers.into_iter().map(|(_, register)| register).collect()
     }
 
-    /// The function, for one mechanism or for several lanes.
+    /// Returns the solver's function, for one mechanism or for several lanes.
     pub fn function(&self, has_lanes: bool) -> String {
         let solver = &self.motion.solver;
         let code =
@@ -135,7 +135,7 @@ impl<'s> Solution<'s> {
         code.print(&SolverContext { solution: self, solver, has_lanes }, &function)
     }
 
-    /// Notes what a solver's operations use as lines.
+    /// Records the dependencies of a solver whose operations are emitted as Rust expressions.
     fn note(&self, solver: &Solver, has_lanes: bool) {
         let mut deps = self.equations.deps.borrow_mut();
         deps.instructions(solver.instructions(), has_lanes);
@@ -147,19 +147,19 @@ impl<'s> Solution<'s> {
         }
     }
 
-    /// The function that gives the derivatives of the coordinates by parameters too; none where they are not wanted.
+    /// Returns the function that also gives the derivatives of the coordinates by parameters; `None` if they are not requested.
     pub fn sensitive_function(&self) -> Option<String> {
         let what = "the derivatives of the coordinates by parameters";
         Some(self.function_with(self.motion.sensitive.as_ref()?, "solve_by_params", what, ("by", "&mut [Q; PARAMS]")))
     }
 
-    /// The function that gives what joints exert and drivers supply too; none where there are no masses and loads.
+    /// Returns the function that also gives what joints exert and drivers supply; `None` without masses and loads.
     pub fn forced_function(&self) -> Option<String> {
         let what = "what joints exert and drivers supply";
         Some(self.function_with(self.motion.forced.as_ref()?, "solve_with_forces", what, (FORCES, "&mut Forces")))
     }
 
-    /// The function of a solver that gives more.
+    /// Returns the function of a solver with additional results `more`.
     fn function_with(&self, solver: &Solver, name: &str, what: &str, more: (&'static str, &str)) -> String {
         let code =
             Code { instructions: solver.instructions(), segments: solver.segments(), registers: solver.registers() };
@@ -185,7 +185,7 @@ impl<'s> Solution<'s> {
         code.print(&SolverContext { solution: self, solver, has_lanes: false }, &function)
     }
 
-    /// A solver's operations as numbers: the listing, the registers that it takes, by names with an ending.
+    /// Prints a solver's operations as numbers: the listing and the number of its registers, in constants whose names end with `ending`.
     pub fn listing(&self, solver: &Solver, ending: &str, pool: &mut ConstantPool, page: &mut Page) {
         let Shared { instructions, segments, registers } =
             bytecode::share(solver.instructions(), solver.segments(), solver.registers());
@@ -247,29 +247,29 @@ impl<'s> Solution<'s> {
         self.holds.get(column as usize).copied().unwrap_or(ColumnContent::Time)
     }
 
-    /// The place of a column among those that are joined.
+    /// Returns the index of a column in `joined`.
     fn joined(&self, column: u32) -> Option<usize> {
         self.joined.binary_search(&column).ok()
     }
 
-    /// The column of what stands behind all else: the derivatives by parameters, or forces.
+    /// Returns the first column of the additional results, which come last: derivatives by parameters, or forces.
     pub fn first_of_more(&self) -> u32 {
         self.results() + self.joined.len() as u32
     }
 
-    /// The place behind the lists of results of a solution, one behind the other.
+    /// Returns the number of results in the concatenated lists of a solution.
     fn results(&self) -> u32 {
         let inputs = &self.unit.program.inputs;
         self.columns() + inputs.n * inputs.count
     }
 
-    /// Columns of a row, in which no reactions stand.
+    /// Returns the number of columns of a row without reactions.
     pub fn columns(&self) -> u32 {
         (self.motion.solver.layout().printed - self.unit.system.reactions().len()) as u32
     }
 
-    /// An operation whose column is the place in the lists of a solution, one behind the other: what is joined behind the results, and
-    /// behind that the derivatives by parameters.
+    /// Returns an operation whose column is the index in the concatenated lists of a solution: results, then `joined`, then
+    /// derivatives by parameters or forces.
     fn listed(&self, op: Instruction) -> Instruction {
         let inputs = &self.unit.program.inputs;
         let place = |column: u32| match (self.joined(column), self.holds(column)) {
@@ -291,7 +291,7 @@ impl<'s> Solution<'s> {
         }
     }
 
-    /// By coordinate that Newton solves for: the width of a cell of its grid.
+    /// Returns the width of a grid cell for each coordinate for which Newton's method solves.
     pub fn cells(&self) -> Vec<f64> {
         let solver = &self.motion.solver;
         let mut cell_of: FxHashMap<Register, f64> = FxHashMap::default();
@@ -310,7 +310,7 @@ impl<'s> Solution<'s> {
     }
 }
 
-/// The columns that solvers store to read them again, but those of results.
+/// Returns the columns, other than results, that solvers store and read again.
 fn joined<'s>(solvers: impl Iterator<Item = &'s Solver>) -> Vec<u32> {
     let read = |solver: &'s Solver| {
         let printed = solver.layout().printed as u32;
@@ -407,7 +407,7 @@ impl CodeContext for SolverContext<'_> {
         let names: &Names = self.solution.equations.names;
         match self.solution.holds(column) {
             ColumnContent::Coordinate { index, order } if order < 3 => {
-                Some(names.coordinate(order, index)).filter(|name| Names::is_telling(name))
+                Some(names.coordinate(order, index)).filter(|name| Names::is_descriptive(name))
             }
             _ => None,
         }
@@ -470,7 +470,7 @@ impl CodeContext for SolverContext<'_> {
     }
 }
 
-/// The line that watches a value of a lane, which must not be above 1 when it is multiplied by a factor.
+/// Returns the line that monitors a value of a lane, whose product with `factor` must not exceed 1.
 fn strain(value: &Operand, factor: f64) -> String {
     format!("at.watch(k, {value}, {});", literal(factor))
 }

@@ -4,7 +4,7 @@ use super::names::Namer;
 use mechc_ir::program::{Column, Program, Register};
 use rustc_hash::FxHashMap;
 
-/// Names for the columns of a program's tables.
+/// Names of the columns of a program's tables.
 pub(super) struct Tables {
     names: FxHashMap<(u32, Column), String>,
 }
@@ -32,13 +32,13 @@ impl Tables {
         all
     }
 
-    /// `LIFT_KNOTS`
+    /// Returns the name of a column's static: `LIFT_KNOTS`.
     pub fn of(&self, table: u32, column: Column) -> &str {
         self.names.get(&(table, column)).map_or("", String::as_str)
     }
 }
 
-/// The numbers of a column; `None` where it holds parameters.
+/// Returns the numbers of a column; `None` if it depends on parameters.
 pub(super) fn numbers(
     program: &Program,
     constants: &FxHashMap<Register, f64>,

@@ -1,12 +1,12 @@
-//! Pieces of Rust text, as a formatter leaves them.
+//! Pieces of Rust text, formatted as rustfmt does.
 
-/// Columns of a line at most.
+/// Largest length of a line.
 pub(super) const LONGEST_LINE: usize = 100;
 
 /// Numbers on a line of an array.
 const ON_A_LINE: usize = 4;
 
-/// A number that reads back to the same bits.
+/// Returns a literal that reads back to the same bits.
 pub(super) fn literal(value: f64) -> String {
     if value.is_finite() {
         format!("{value:?}")
@@ -19,24 +19,24 @@ pub(super) fn literal(value: f64) -> String {
     }
 }
 
-/// A name or text from elsewhere, fit for a comment: nothing ends the line, or turns its direction.
+/// Returns a foreign text fit for a comment, without line breaks and bidirectional controls.
 pub(super) fn one_line(text: &str) -> String {
     let is_unfit =
         |c: char| c.is_control() || c == '`' || matches!(c, '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
     text.replace(is_unfit, " ")
 }
 
-/// An SI unit as a reader wants it.
+/// Returns the display form of an SI unit.
 pub(super) fn unit(unit: &str) -> &str {
     if matches!(unit, "" | "1") { "a pure number" } else { unit }
 }
 
-/// Lines of documentation.
+/// Returns documentation as `///` lines.
 pub(super) fn documented(docs: &str, indent: &str) -> String {
     docs.lines().map(|line| format!("{indent}/// {line}").trim_end().to_owned() + "\n").collect()
 }
 
-/// The head of a function that will stand some columns to the right; an argument that the body does not use is marked.
+/// Returns the head of a function that is later indented by `margin` columns; unused arguments begin with `_`.
 pub(super) fn signature(
     visibility: &str,
     name: &str,
@@ -55,14 +55,14 @@ pub(super) fn signature(
     format!("{visibility}fn {name}(\n    {},\n){result} {{\n", arguments.join(",\n    "))
 }
 
-/// The values of an array, some on each line.
+/// Returns the values of an array as lines.
 pub(super) fn lines(values: &[String], indent: &str) -> String {
     let lines: Vec<String> =
         values.chunks(ON_A_LINE).map(|line| format!("{indent}    {},\n", line.join(", "))).collect();
     lines.concat()
 }
 
-/// A constant array of numbers.
+/// Returns a constant array of numbers.
 pub(super) fn constant(docs: &str, name: &str, of: &str, length: &str, values: &[String]) -> String {
     let docs = documented(docs, "");
     if values.is_empty() {
@@ -76,7 +76,7 @@ mod tests {
     use super::signature;
 
     #[test]
-    fn what_is_not_used_is_marked_and_what_is_long_is_broken() {
+    fn unused_arguments_are_marked_and_long_heads_break() {
         assert_eq!(
             signature("pub ", "f", &[("q", "f64"), ("t", "f64")], "f64", &|name| name == "t", 0),
             "pub fn f(_q: f64, t: f64) -> f64 {\n"

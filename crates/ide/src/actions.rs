@@ -164,7 +164,7 @@ fn compound(first: &Expr, rest: &[(Factor, Expr)]) -> Vec<Quantity> {
                 last.span = last.span.to(operand.span);
                 last.dimension = match factor {
                     Factor::Times => last.dimension.times(dimension),
-                    Factor::Over => last.dimension.over(dimension),
+                    Factor::Divide => last.dimension.over(dimension),
                 };
             }
             (None, None) => {}

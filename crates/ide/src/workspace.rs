@@ -6,7 +6,7 @@ use super::outline::{OutlineEntry, outline};
 use super::snapshot::Snapshot;
 use mechc_lang::check::NameKind;
 use mechc_text::cancel::Cancel;
-use mechc_text::world::{World, is_own};
+use mechc_text::world::{World, is_source_entry};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -49,10 +49,10 @@ pub fn files_in(folders: &[PathBuf], world: &dyn World, cancel: &Cancel) -> Vec<
         if visited > MAX_FOLDERS || found.len() >= MAX_FILES || cancel.is_cancelled() {
             break;
         }
-        let files = world.names_in(&folder).into_iter().filter(|name| is_mech(name) && is_own(name));
+        let files = world.names_in(&folder).into_iter().filter(|name| is_mech(name) && is_source_entry(name));
         found.extend(files.map(|name| Arc::<Path>::from(world.identity(&folder.join(name)))));
         if depth < MAX_DEPTH {
-            let inner = world.folders_in(&folder).into_iter().filter(|name| is_own(name));
+            let inner = world.folders_in(&folder).into_iter().filter(|name| is_source_entry(name));
             next.extend(inner.map(|name| (folder.join(name), depth + 1)));
         }
     }

@@ -138,7 +138,7 @@ impl ConstraintSystem {
     /// Returns the boundaries of the domains of functions in the equations.
     #[must_use]
     pub fn domain_boundaries(&self) -> &[DomainBoundary] {
-        &self.rims
+        &self.domain_boundaries
     }
 
     /// Returns the contacts whose start has no estimate; empty once the start has been searched for.

@@ -85,7 +85,7 @@ impl ConstraintSystem {
             conditions: written.conditions,
             checks: Vec::new(),
             watches: written.watches,
-            rims: Vec::new(),
+            domain_boundaries: Vec::new(),
             open_contacts: written.open_contacts,
             fits: written.fits,
             parts: written.parts,
@@ -96,7 +96,7 @@ impl ConstraintSystem {
         };
         system.derive(with_jerk);
         system.derive_variations();
-        system.find_rims();
+        system.find_domain_boundaries();
         system
     }
 }

@@ -8,11 +8,11 @@ use mechc_text::vocabulary::Dimension;
 /// A parameter with its value in SI.
 #[derive(Clone, Debug)]
 pub struct Param {
-    /// Its name.
+    /// Name.
     pub name: String,
     /// Length in bytes of the part's path in `name`, with the last dot; 0 for a parameter of the mechanism itself.
     pub part: usize,
-    /// Its value in SI.
+    /// Value in SI.
     pub value: f64,
     /// Dimension of the value; that of a plain number is pure.
     pub dimension: Dimension,
@@ -31,7 +31,7 @@ impl Param {
 /// An input signal.
 #[derive(Clone, Debug)]
 pub struct Input {
-    /// Its name.
+    /// Name.
     pub name: String,
     /// Number of its signal symbol.
     pub index: u32,
@@ -60,13 +60,13 @@ impl Input {
 /// A body with its source span.
 #[derive(Clone, Debug)]
 pub struct Body {
-    /// Its name.
+    /// Name.
     pub name: String,
     /// Span of the name.
     pub span: Span,
     /// Span of its pose, if the text gives one.
     pub pose_span: Option<Span>,
-    /// Its coordinates: x, y, phi.
+    /// Coordinates: x, y, phi.
     pub pose: [usize; 3],
 }
 
@@ -109,7 +109,7 @@ pub struct Coordinate {
     pub name: String,
     /// The body or joint that it belongs to.
     pub owner: Owner,
-    /// Its kind.
+    /// Kind.
     pub kind: CoordinateKind,
     /// Starting value for assembly; a formula of parameters alone.
     pub estimate: ExprId,
@@ -143,11 +143,11 @@ impl DeclarationKind {
 /// A joint, constraint or driver.
 #[derive(Clone, Debug)]
 pub struct Declaration {
-    /// Its name.
+    /// Name.
     pub name: String,
     /// Span of the name.
     pub span: Span,
-    /// Its kind.
+    /// Kind.
     pub kind: DeclarationKind,
     /// Number of rows that it wrote.
     pub rows: usize,
@@ -171,9 +171,9 @@ pub struct Declaration {
 /// A number to tabulate, with its time derivatives.
 #[derive(Clone, Debug)]
 pub struct Measure {
-    /// Its name.
+    /// Name.
     pub name: String,
-    /// Its value.
+    /// Value.
     pub value: ExprId,
     /// First time derivative, unless it would need a fourth derivative of `q`.
     pub first: Option<ExprId>,

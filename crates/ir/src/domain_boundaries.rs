@@ -17,7 +17,7 @@ pub struct DomainBoundary {
 
 impl ConstraintSystem {
     /// Finds the domain boundaries of all equations.
-    pub(super) fn find_rims(&mut self) {
+    pub(super) fn find_domain_boundaries(&mut self) {
         let mut gauges: FxHashMap<ExprId, ExprId> = FxHashMap::default();
         let nodes: Vec<(ExprId, Node)> = self.graph.nodes().collect();
         for (id, node) in nodes {
@@ -29,7 +29,7 @@ impl ConstraintSystem {
                 gauges.insert(id, gauge);
             }
         }
-        self.rims = Vec::new();
+        self.domain_boundaries = Vec::new();
         if gauges.is_empty() {
             return;
         }
@@ -42,10 +42,10 @@ impl ConstraintSystem {
                 };
                 let index = *index_of.entry(gauge).or_insert_with(|| {
                     let slope = Self::time_derivatives(&mut self.graph, &[gauge], 1)[0];
-                    self.rims.push(DomainBoundary { gauge, slope, declarations: Vec::new() });
-                    self.rims.len() - 1
+                    self.domain_boundaries.push(DomainBoundary { gauge, slope, declarations: Vec::new() });
+                    self.domain_boundaries.len() - 1
                 });
-                let declarations = &mut self.rims[index].declarations;
+                let declarations = &mut self.domain_boundaries[index].declarations;
                 if declarations.last() != Some(&declaration) {
                     declarations.push(declaration);
                 }

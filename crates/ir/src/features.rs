@@ -7,9 +7,9 @@ use mechc_expr::ExprId;
 /// A point of a body or the ground.
 #[derive(Clone, Debug)]
 pub struct Point {
-    /// Its body; `None` for the ground.
+    /// Body; `None` for the ground.
     pub body: Option<BodyId>,
-    /// Its name; `None` for an unnamed point.
+    /// Name; `None` for an unnamed point.
     pub name: Option<String>,
     /// Coordinates in the frame of its body (m).
     pub at: [ExprId; 2],
@@ -31,8 +31,8 @@ pub struct Axis {
 pub struct Circle {
     /// Full name, such as `wheel.rim`.
     pub name: String,
-    /// Its centre.
+    /// Centre.
     pub center: PointId,
-    /// Its radius (m).
+    /// Radius (m).
     pub radius: ExprId,
 }

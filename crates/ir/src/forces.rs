@@ -26,7 +26,7 @@ pub struct Forces {
 /// A load, as its formula gives it, before it is applied.
 #[derive(Clone, Debug)]
 pub struct LoadForce {
-    /// Its name.
+    /// Name.
     pub name: String,
     /// Span of the name.
     pub span: Span,
@@ -54,7 +54,7 @@ pub struct ContactForce {
 pub struct Reaction {
     /// Name, such as `big_end.fx` or `motor.effort`.
     pub name: String,
-    /// Its value in SI.
+    /// Value in SI.
     pub value: ExprId,
     /// SI unit: `N`, `N*m`.
     pub unit: String,

@@ -117,7 +117,7 @@ pub struct ConstraintSystem {
     /// Quantities whose signs distinguish the branches of gears and contacts.
     watches: Vec<Monitor>,
     /// Boundaries of the domains of functions in the equations.
-    rims: Vec<DomainBoundary>,
+    domain_boundaries: Vec<DomainBoundary>,
     /// Contacts whose start has no estimate; empty once the start has been searched for.
     open_contacts: Vec<OpenContact>,
     /// Center distances that gears and racks require but do not enforce.

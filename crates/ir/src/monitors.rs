@@ -96,7 +96,7 @@ pub struct OpenContact {
 /// Everything needed to start a part: it is assembled alone, its inputs are continued to their bound values, and it is moved to its mount.
 #[derive(Clone, Debug)]
 pub struct PartStart {
-    /// Its name.
+    /// Name.
     pub name: String,
     /// Span of the name.
     pub span: Span,
@@ -110,7 +110,7 @@ pub struct PartStart {
     pub mount: [ExprId; 3],
     /// True if the part is mirrored.
     pub is_mirrored: bool,
-    /// Its bodies.
+    /// Bodies.
     pub bodies: Vec<BodyId>,
     /// The coordinates of these bodies.
     pub poses: Range<usize>,

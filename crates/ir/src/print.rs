@@ -19,7 +19,7 @@ impl ConstraintSystem {
                 if order == 0 { name.clone() } else { format!("{name}.{}", "d".repeat(order as usize)) }
             }
             Symbol::Named(k) => format!("reduction_{}", k + 1),
-            // it is zero, and may be varied
+            // a shift is zero and only serves to be varied
             Symbol::Shift(_) => "0".to_owned(),
             Symbol::Varied { index, order, variation } => {
                 let of = self.symbol_name(Symbol::Coordinate { index, order });

@@ -13,14 +13,14 @@ pub struct Results {
     pub outcomes: Vec<Outcome>,
     /// Variations in the formulas, those of the rows first; `None` if there are none.
     pub variations: Option<Box<Variations>>,
-    /// By number of a variation: the condition that the left-out equations keep holding along it.
+    /// Numbers of variations, each with the condition that the left-out equations keep holding along it.
     pub variation_conditions: Vec<(u32, ExprId)>,
 }
 
 /// A result: one number for the whole analysis.
 #[derive(Clone, Debug)]
 pub struct Outcome {
-    /// Its name.
+    /// Name.
     pub name: String,
     /// Span of the name.
     pub span: Span,

@@ -19,7 +19,7 @@ pub struct Row {
 /// the text; the graph cannot tell it, since plain numbers may stand for lengths.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct RowUnit {
-    /// Its dimension; angles are pure numbers.
+    /// Dimension; angles are pure numbers.
     pub dimension: Dimension,
     /// True if an angle is a factor; a unit without length is then printed in radians.
     pub is_angle: bool,

@@ -20,8 +20,8 @@ pub const LEAF_ORDERS: usize = 4;
 pub struct Leaf {
     /// Index of the scope that holds it.
     pub scope: u32,
-    /// Its binding and the time derivatives of it, as formulas that may contain leaves.
-    pub over_leaves: [ExprId; LEAF_ORDERS],
+    /// Binding and its time derivatives, as formulas that may contain leaves.
+    pub with_leaves: [ExprId; LEAF_ORDERS],
     /// Binding and time derivatives with all leaves replaced.
     pub plain: [ExprId; LEAF_ORDERS],
 }
@@ -51,7 +51,7 @@ pub struct Scope {
     pub columns: Vec<u32>,
     /// The part's entries of `Φ`, which may contain leaves.
     pub phi: Vec<ExprId>,
-    /// Their derivatives with respect to `columns`, without leaves; columns are coordinate numbers.
+    /// Derivatives of the rows with respect to `columns`, without leaves; columns are coordinate numbers.
     pub phi_q: SparseRows,
 }
 
@@ -84,7 +84,7 @@ pub(super) fn without_leaves(graph: &mut Graph, leaves: &[Leaf], roots: &[ExprId
 /// A part whose text requests derivatives by its own equations.
 #[derive(Clone, Debug)]
 pub struct PartWithDerivatives {
-    /// Its name.
+    /// Name.
     pub name: String,
     /// Names of the part and the parts around it, innermost first, with the spans of their declarations.
     pub used_at: Vec<(String, Span)>,
@@ -92,10 +92,10 @@ pub struct PartWithDerivatives {
     pub places: Vec<Span>,
     /// First span that requests the derivative of a force.
     pub of_force: Option<Span>,
-    /// Its coordinates, ascending.
+    /// Coordinates, ascending.
     pub columns: Vec<u32>,
     /// Bindings of its inputs.
     pub inputs: Vec<ExprId>,
-    /// Its joints, constraints and drivers, ascending.
+    /// Joints, constraints and drivers of the part, ascending.
     pub declarations: Vec<DeclarationId>,
 }

@@ -35,7 +35,7 @@ impl ConstraintSystem {
             .chain(self.fits.iter().map(|fit| ("fit", fit.declaration)))
             .chain(self.contact_forces().iter().map(|press| ("press", press.declaration)))
             .chain(self.open_contacts.iter().map(|contact| ("contact", contact.declaration)))
-            .chain(self.rims.iter().flat_map(|rim| &rim.declarations).map(|id| ("rim", *id)))
+            .chain(self.domain_boundaries.iter().flat_map(|boundary| &boundary.declarations).map(|id| ("rim", *id)))
             .chain(self.parts_with_derivatives.iter().flat_map(|part| &part.declarations).map(|id| ("part", *id)));
         for (what, declaration) in declarations {
             ensure(declaration.index() < self.declarations.len(), || format!("a {what} of no declaration"))?;
@@ -175,7 +175,8 @@ impl ConstraintSystem {
         let of_forces = self.forces.iter().flat_map(Forces::formulas);
         let of_rows = self.conditions.iter().map(|of| of.positive);
         let of_rows = of_rows.chain(self.watches.iter().map(|of| of.value)).chain(of_forces);
-        let of_rows = of_rows.chain(self.rims.iter().flat_map(|rim| [rim.gauge, rim.slope]));
+        let of_rows =
+            of_rows.chain(self.domain_boundaries.iter().flat_map(|boundary| [boundary.gauge, boundary.slope]));
         let of_rows: Vec<ExprId> = of_rows.chain(self.measures.iter().map(|measure| measure.value)).collect();
         let variations = self.variations.as_deref();
         for symbol in self.graph.symbols_of_all(&of_rows) {
@@ -406,7 +407,7 @@ mod tests {
         assert_eq!(fault, "Named(7) is of nothing");
         let fault = broken(|s| {
             let (gauge, slope) = (coordinate(s), coordinate(s));
-            s.rims.push(DomainBoundary { gauge, slope, declarations: Vec::new() });
+            s.domain_boundaries.push(DomainBoundary { gauge, slope, declarations: Vec::new() });
         });
         assert!(fault.starts_with("Coordinate { index: 999"), "{fault}");
         let fault = broken(|s| {

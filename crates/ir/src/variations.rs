@@ -36,7 +36,7 @@ pub struct Variations {
 /// An input or parameter that derivatives are taken with respect to.
 #[derive(Clone, Debug)]
 pub struct Variable {
-    /// Its name.
+    /// Name.
     pub name: String,
     /// The symbol in the formulas that varies.
     pub symbol: Symbol,
@@ -69,7 +69,7 @@ pub struct Variation {
 pub struct DerivativeColumn {
     /// Name of the column, such as `crank.x.d.by.turn`.
     pub name: String,
-    /// Its value in SI.
+    /// Value in SI.
     pub value: ExprId,
     /// Index of the variable of differentiation.
     pub variable: u32,
@@ -140,7 +140,7 @@ impl Variations {
                 let (number, order) = as_leaf(symbol)?;
                 let leaf = &self.leaves[number];
                 let is_held = scope == Some(leaf.scope);
-                let bound = leaf.over_leaves[order];
+                let bound = leaf.with_leaves[order];
                 (!is_held).then(|| self.along(graph, &[bound], variable, &|_| false)[0])
             }
             Symbol::Coordinate { index, order } => {

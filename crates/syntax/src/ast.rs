@@ -7,7 +7,7 @@ use mechc_text::source::Span;
 pub struct Name {
     /// Text in NFC.
     pub text: String,
-    /// Its span.
+    /// Span.
     pub span: Span,
 }
 
@@ -40,7 +40,7 @@ pub struct UsedFile {
 pub struct Mechanism {
     /// Text of the `///` lines above.
     pub docs: Vec<String>,
-    /// Its name.
+    /// Name.
     pub name: Name,
     /// Span from the keyword to the closing brace.
     pub span: Span,
@@ -57,7 +57,7 @@ pub struct Item {
     pub span: Span,
     /// Index ranges behind its name: it stands for one declaration per index.
     pub ranges: Vec<IndexRange>,
-    /// Its kind.
+    /// Kind.
     pub kind: ItemKind,
 }
 
@@ -111,32 +111,32 @@ pub struct IndexRange {
 pub enum ItemKind {
     /// `param NAME = EXPR`
     Param {
-        /// Its name.
+        /// Name.
         name: Name,
-        /// Its formula.
+        /// Formula.
         value: Expr,
     },
     /// `fn NAME(ARGUMENT) = EXPR`
     Function {
-        /// Its name.
+        /// Name.
         name: Name,
-        /// Its one argument.
+        /// The single argument.
         argument: Name,
-        /// Its formula.
+        /// Formula.
         value: Expr,
     },
     /// `table NAME = periodic? spline …`
     Table {
-        /// Its name.
+        /// Name.
         name: Name,
         /// True if it repeats.
         periodic: bool,
-        /// Its points.
+        /// The points.
         rows: TableRows,
     },
     /// `input NAME = EXPR`
     Input {
-        /// Its name.
+        /// Name.
         name: Name,
         /// Default formula, used unless a value is set.
         value: Expr,
@@ -145,21 +145,21 @@ pub enum ItemKind {
     Part(Box<Part>),
     /// `ground { … }`
     Ground {
-        /// Its features.
+        /// The features.
         features: Vec<Feature>,
     },
     /// `body NAME at (x, y, phi) { … }`, `body NAME at (P, phi) { … }`, `body NAME at P toward Q { … }`
     Body {
-        /// Its name.
+        /// Name.
         name: Name,
         /// Pose behind `at`.
         pose: Option<DrawnPose>,
-        /// Its features.
+        /// The features.
         features: Vec<Feature>,
     },
     /// `joint NAME: KIND(…)`
     Joint {
-        /// Its name.
+        /// Name.
         name: Name,
         /// The kind of joint.
         kind: Name,
@@ -172,7 +172,7 @@ pub enum ItemKind {
     Equation {
         /// Constraint or driver.
         driver: bool,
-        /// Its name.
+        /// Name.
         name: Name,
         /// Left of the `=`.
         left: Expr,
@@ -186,7 +186,7 @@ pub enum ItemKind {
     },
     /// `load NAME: EXPR on QUANTITY`
     Load {
-        /// Its name.
+        /// Name.
         name: Name,
         /// The force or torque.
         force: Expr,
@@ -195,16 +195,16 @@ pub enum ItemKind {
     },
     /// `measure NAME = EXPR in UNIT`
     Measure {
-        /// Its name.
+        /// Name.
         name: Name,
-        /// Its formula.
+        /// Formula.
         value: Expr,
         /// The unit behind `in`.
         unit: Option<WrittenUnit>,
     },
     /// `trace NAME = P in UNIT`
     Trace {
-        /// Its name.
+        /// Name.
         name: Name,
         /// A point of a body, or a tuple.
         point: Expr,
@@ -213,9 +213,9 @@ pub enum ItemKind {
     },
     /// `result NAME = EXPR in UNIT`
     Result {
-        /// Its name.
+        /// Name.
         name: Name,
-        /// Its formula, over reductions.
+        /// Formula, over reductions.
         value: Expr,
         /// The unit behind `in`.
         unit: Option<WrittenUnit>,
@@ -249,7 +249,7 @@ impl ItemKind {
 /// An instance of another mechanism.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Part {
-    /// Its name.
+    /// Name.
     pub name: Name,
     /// The mechanism.
     pub mechanism: MechanismName,
@@ -310,7 +310,7 @@ pub enum TableRows {
     File {
         /// Path as written, with its span.
         path: Name,
-        /// Its two columns.
+        /// The two columns.
         columns: Option<[ColumnName; 2]>,
         /// Units of the two columns.
         units: Option<[WrittenUnit; 2]>,
@@ -344,7 +344,7 @@ impl DrawnPose {
 pub struct ColumnName {
     /// Number or name.
     pub kind: ColumnWord,
-    /// Its span.
+    /// Span.
     pub span: Span,
 }
 
@@ -371,7 +371,7 @@ pub struct WrittenUnit {
 pub struct UnitFactor {
     /// The unit.
     pub name: Name,
-    /// Its power as written.
+    /// Power as written.
     pub power: i32,
     /// Multiplication or division.
     pub factor: Factor,
@@ -386,9 +386,9 @@ pub struct Feature {
     pub docs: Vec<String>,
     /// Span of the declaration.
     pub span: Span,
-    /// Its name; empty for a mass, and where it cannot be read.
+    /// Name; empty for a mass, and where it cannot be read.
     pub name: Name,
-    /// Its kind.
+    /// Kind.
     pub kind: FeatureKind,
 }
 
@@ -436,7 +436,7 @@ pub enum FeatureKind {
     Mass {
         /// The mass.
         mass: Box<Expr>,
-        /// Its centre: a formula of points.
+        /// Centre: a formula of points.
         at: Option<Box<Expr>>,
         /// Moment of inertia about the centre.
         inertia: Option<Box<Expr>>,
@@ -464,9 +464,9 @@ impl Feature {
 /// A formula, a tuple of formulas, or a condition; `check` decides which one its position allows.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Expr {
-    /// Its kind.
+    /// Kind.
     pub kind: ExprKind,
-    /// Its span.
+    /// Span.
     pub span: Span,
 }
 
@@ -477,7 +477,7 @@ pub enum ExprKind {
     Literal {
         /// The number.
         value: f64,
-        /// Its unit and the unit's power.
+        /// Unit and its power.
         unit: Option<(Name, i32)>,
     },
     /// `speed`
@@ -550,7 +550,7 @@ impl Window {
 /// A segment of a path.
 #[derive(Clone, PartialEq, Debug)]
 pub struct PathSegment {
-    /// Its name.
+    /// Name.
     pub name: Name,
     /// Indices in brackets behind it.
     pub indices: Vec<Expr>,
@@ -571,7 +571,7 @@ pub enum Factor {
     /// `*`
     Times,
     /// `/`
-    Over,
+    Divide,
 }
 
 /// Comparison operators.

@@ -142,7 +142,7 @@ impl Reader<'_> {
         Ok(File { uses, mechanisms })
     }
 
-    /// `use "FILE.mech" as PREFIX`
+    /// Builds `use "FILE.mech" as PREFIX`.
     pub(super) fn use_file(&self, pair: Pair<'_, Rule>) -> Built<UsedFile> {
         let span = self.span(&pair);
         let (mut path, mut prefix) = (None, None);
@@ -412,7 +412,7 @@ impl Reader<'_> {
         let (mut factors, mut factor): (Vec<UnitFactor>, Factor) = (Vec::new(), Factor::Times);
         for pair in pair.into_inner() {
             if pair.as_rule() != Rule::unit_factor {
-                factor = if pair.as_str().ends_with('*') { Factor::Times } else { Factor::Over };
+                factor = if pair.as_str().ends_with('*') { Factor::Times } else { Factor::Divide };
                 continue;
             }
             let mut parts = pair.into_inner();
@@ -479,7 +479,7 @@ impl Reader<'_> {
         Ok(Feature { docs, span, name, kind })
     }
 
-    /// `mass M at (x, y) inertia I`
+    /// Builds `mass M at (x, y) inertia I`.
     fn mass(&self, pair: Pair<'_, Rule>, docs: Vec<String>) -> Built<Feature> {
         let span = self.span(&pair);
         let has_place = pair.clone().into_inner().any(|part| part.as_rule() == Rule::at);

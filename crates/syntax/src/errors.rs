@@ -343,7 +343,7 @@ fn found_at(text: &str, offset: usize) -> Range<usize> {
 fn expectation(rules: &[Rule], found: &str, end: &str) -> String {
     let mut words: Vec<&str> = Vec::new();
     let goes_on = rules.iter().any(|rule| matches!(rule, Rule::infix | Rule::unit_power));
-    // a point may end behind its name, but who goes on there has forgotten the `=`
+    // a point may end behind its name, but if text follows there, the `=` is missing
     let only_equals = rules.contains(&Rule::equals) && !goes_on;
     for rule in rules.iter().filter(|rule| !only_equals || **rule == Rule::equals) {
         let word = human(*rule, goes_on, end);
@@ -454,7 +454,7 @@ fn human(rule: Rule, after_operand: bool, end: &str) -> &str {
         Rule::table_rows => "`[`",
         Rule::table_file | Rule::string => "a file name in quotes",
         Rule::exponent => "a whole number",
-        Rule::unit_name | Rule::unit_factor | Rule::unit_product | Rule::one_over => "a unit",
+        Rule::unit_name | Rule::unit_factor | Rule::unit_product | Rule::reciprocal => "a unit",
         Rule::column | Rule::column_number => "a number or name of a column",
         _ => "",
     }

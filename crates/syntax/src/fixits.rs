@@ -13,7 +13,7 @@ use super::tokens::{Token, begins_declaration, next_token, tokens};
 use mechc_text::diag::{Applicability, Edit, Fix, nearest};
 use mechc_text::source::{FileId, Span};
 use mechc_text::vocabulary::{
-    KEYWORDS, Keyword, Place, Role, Synonym, Unit, is_declaration, is_feature, is_one_argument_function,
+    KEYWORDS, Keyword, Position, Role, Synonym, Unit, is_declaration, is_feature, is_one_argument_function,
 };
 use std::ops::Range;
 
@@ -134,7 +134,7 @@ impl Fault<'_> {
             let words = "`every` is how far one time is from the next: of 100 steps each is `every (B - A) / 100`";
             return Some(FixIt::words(words));
         }
-        // who writes one means it, though not here
+        // the author means the word that is written, though not in this position
         let is_a_keyword = Keyword::named(self.found).is_some();
         let declarations = KEYWORDS.iter().filter(|word| word.begins_declaration()).map(|word| word.word.name);
         // `1 evry 0.1`: the word before was taken for a unit
@@ -145,16 +145,16 @@ impl Fault<'_> {
             .or_else(|| nearest(self.word_before(), connecting.iter().copied()).map(|word| (word_before, word)))
             .or_else(|| nearest(self.found, declarations).filter(|_| !is_a_keyword).map(|word| (self.here(), word)));
         if let Some((place, word)) = suggestion {
-            return Some(FixIt::Fix(Fix::meant(self.span(place), word)));
+            return Some(FixIt::Fix(Fix::suggest(self.span(place), word)));
         }
-        let other = Synonym::of(Place::Declaration, self.found).filter(|synonym| self.begins(synonym.means));
+        let other = Synonym::of(Position::Declaration, self.found).filter(|synonym| self.begins(synonym.means));
         if let Some(synonym) = other {
             if let ([only], true) = (synonym.means, synonym.is_same) {
-                return Some(FixIt::Fix(Fix::meant(self.span(self.here()), only)));
+                return Some(FixIt::Fix(Fix::suggest(self.span(self.here()), only)));
             }
-            return Some(FixIt::Words(synonym.say(&[])));
+            return Some(FixIt::Words(synonym.message(&[])));
         }
-        // what joins the parts of a declaration is no factor
+        // a separator within a declaration is no factor
         let joins = Keyword::named(self.found).is_some_and(|keyword| keyword.role == Role::Separator);
         let starts_operand = !joins && self.found.starts_with(|c: char| c.is_alphanumeric() || c == '(' || c == '_');
         if !self.expects(Rule::infix) || !starts_operand || self.is_on_new_line() || !connecting.is_empty() {
@@ -166,8 +166,8 @@ impl Fault<'_> {
         if is_one_argument_function(self.word_before()) {
             return Some(self.argument());
         }
-        if let Some(synonym) = Synonym::of(Place::Call, self.word_before()) {
-            return Some(FixIt::Words(synonym.say(&[self.found])));
+        if let Some(synonym) = Synonym::of(Position::Call, self.word_before()) {
+            return Some(FixIt::Words(synonym.message(&[self.found])));
         }
         // within parentheses it may as well be a comma
         let is_listed = self.expects(Rule::comma) && self.opened().last().is_some_and(|(_, token)| *token == "(");
@@ -217,7 +217,7 @@ impl Fault<'_> {
         let end = if is_number && is_unit { self.text.len() - rest.len() } else { self.here().end };
         let argument = &self.text[self.at..end];
         let words = format!("what a function is of stands in parentheses: `{}({argument})`", self.word_before());
-        // it goes on: a call, a member, the rest of a number
+        // the argument goes on: a call, a member, the rest of a number
         if self.found == "(" || behind.trim_start().starts_with(['(', '.']) {
             return FixIt::Words(words);
         }

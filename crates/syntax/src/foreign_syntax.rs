@@ -13,7 +13,7 @@ use super::tokens::{Token, begins_declaration, tokens};
 use heads::is_dash;
 use mechc_text::diag::{Applicability, Edit, Fix};
 use mechc_text::source::{FileId, Span};
-use mechc_text::vocabulary::{Dimension, Keyword, Place, QuantityWord, Role, Synonym, Unit};
+use mechc_text::vocabulary::{Dimension, Keyword, Position, QuantityWord, Role, Synonym, Unit};
 use std::ops::Range;
 
 /// A declaration with a fault, by its words before and after the fault.
@@ -55,7 +55,7 @@ impl<'a> Foreign<'a> {
             "load" | "part" if [":", "["].contains(&word(k + 2)) => true,
             "gravity" | "mass" => {
                 let is_named = || word(k + 2) == ":" && is_name(word(k + 1));
-                // what comes next is the fault itself
+                // the next word is the fault itself
                 let is_last = k + 1 == all.len() && ["=", ":"].contains(&found) || k + 2 == all.len() && found == ":";
                 word(k + 1).starts_with(|c: char| ['(', '-'].contains(&c) || c.is_ascii_digit())
                     || is_named()
@@ -147,7 +147,7 @@ impl<'a> Foreign<'a> {
         self.rest.last().map_or(self.at, |token| token.end())
     }
 
-    /// `50 [mm]`
+    /// Corrects `50 [mm]`.
     fn unit_in_brackets(&self, last: &Token<'_>) -> Option<Correction> {
         let (unit, _) = self.text[self.at..].strip_prefix('[')?.split_once(']')?;
         let is_unit = unit.split(['/', '*', '^']).next().is_some_and(|unit| Unit::named(unit.trim()).is_some());
@@ -159,7 +159,7 @@ impl<'a> Foreign<'a> {
         })
     }
 
-    /// `point A = r, 0`, `at 0, 0, 0`, `along 30 deg`
+    /// Corrects `point A = r, 0`, `at 0, 0, 0`, `along 30 deg`.
     fn pair_without_parentheses(&self, keyword: &str, last: &Token<'_>) -> Option<Correction> {
         let (what, opening) = match keyword {
             "point" => ("a point is a pair", "="),
@@ -181,7 +181,7 @@ impl<'a> Foreign<'a> {
             let edits = vec![self.edit(start..start, "("), self.edit(end..end, ")")];
             Foreign::change(format!("{what} in parentheses: `({written})`"), edits)
         } else {
-            // of a place given by its distance and angle only the angle counts
+            // of polar coordinates only the angle counts
             let polar = written.strip_prefix("polar(").and_then(|rest| rest.strip_suffix(')'));
             let angle = polar.and_then(|rest| between_commas(rest).get(1).copied()).unwrap_or(written).trim();
             let pair = format!("(cos({angle}), sin({angle}))");
@@ -189,7 +189,7 @@ impl<'a> Foreign<'a> {
         })
     }
 
-    /// `crank A`
+    /// Corrects `crank A`.
     fn feature_without_dot(&self, last: &Token<'_>) -> Option<Correction> {
         let is_owner = last.text == "ground" || self.bodies.contains(&last.text);
         let is_in_formula = self.before.iter().any(|token| token.text == "(") && self.before.len() > 2;
@@ -199,7 +199,7 @@ impl<'a> Foreign<'a> {
         })
     }
 
-    /// `angle(rod) as deg`, `displacement(guide) mm`
+    /// Corrects `angle(rod) as deg`, `displacement(guide) mm`.
     fn trailing_unit(&self, keyword: &str, last: &Token<'_>) -> Option<Correction> {
         let is_number = last.text.starts_with(|c: char| c.is_ascii_digit());
         // `2 pi t` is a product with the time
@@ -208,7 +208,7 @@ impl<'a> Foreign<'a> {
         }
         let named = |k: usize| {
             let word = self.rest.get(k)?.text;
-            let synonym = || Synonym::of(Place::Unit, word).and_then(|synonym| synonym.means.first().copied());
+            let synonym = || Synonym::of(Position::Unit, word).and_then(|synonym| synonym.means.first().copied());
             Unit::named(word).map(|unit| unit.word.name).or_else(synonym)
         };
         let is_joined = ["in", "as"].contains(&self.found) && named(1).is_some();
@@ -241,7 +241,7 @@ impl<'a> Foreign<'a> {
         Some(Foreign::both_ways(&unit))
     }
 
-    /// `3 N m`
+    /// Corrects `3 N m`.
     fn adjacent_units(&self, last: &Token<'_>) -> Option<Correction> {
         let [.., number, _] = self.before.as_slice() else { return None };
         let is_number = number.text.starts_with(|c: char| c.is_ascii_digit());
@@ -262,7 +262,7 @@ impl<'a> Foreign<'a> {
         ))
     }
 
-    /// `rotation(main) speed 600 rpm`
+    /// Corrects `rotation(main) speed 600 rpm`.
     fn equation(&self, keyword: &str) -> Option<Correction> {
         let is_equation = ["driver", "constraint"].contains(&keyword);
         if !is_equation || !self.is_word() || !self.expects(Rule::equals) {
@@ -303,7 +303,7 @@ fn holds_quantity(formula: &[Token<'_>]) -> bool {
     formula.windows(2).any(|pair| is_quantity(pair[0].text) && pair[1].text == "(")
 }
 
-/// `600 rpm`, `10 mm/s`
+/// Returns whether words are a rate: `600 rpm`, `10 mm/s`.
 fn is_rate(words: &[Token<'_>]) -> bool {
     let words: Vec<&str> = words.iter().map(|token| token.text).collect();
     match words[..] {

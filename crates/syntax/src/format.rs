@@ -95,7 +95,7 @@ mod tests {
         Formatted::of(&parsed, text).steps
     }
 
-    /// A mechanism of many declarations, with formulas as deep as they may be.
+    /// Returns a mechanism of many declarations, with formulas as deep as they may be.
     fn large(declarations: usize) -> String {
         let deep = format!("{}a + b{}", "max(c, (".repeat(90), ") * d)".repeat(90));
         let one = |k: usize| match k % 500 {

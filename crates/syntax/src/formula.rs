@@ -233,7 +233,7 @@ impl<'i, I: Iterator<Item = Pair<'i, Rule>>> Row<'_, 'i, I> {
         let first = self.signed(depth)?;
         let mut rest = Vec::new();
         while let Some(operator) = self.infix(&["*", "/"]) {
-            let factor = if operator.as_str() == "*" { Factor::Times } else { Factor::Over };
+            let factor = if operator.as_str() == "*" { Factor::Times } else { Factor::Divide };
             rest.push((factor, self.signed(depth)?));
         }
         let Some((_, last)) = rest.last() else {

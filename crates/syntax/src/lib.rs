@@ -3,7 +3,7 @@
 //! The grammar is `grammar/mech.pest`; its words are those of `vocabulary`. This crate knows words and precedences. It does not know which
 //! names exist, or what a joint is.
 
-// what pest generates without its `std` asks for it
+// the parser that pest generates without its `std` needs this crate
 extern crate alloc;
 
 pub mod ast;

@@ -29,7 +29,7 @@ pub(super) fn parse_parallel(source: &Source, file: FileId) -> Option<File> {
     let piece = |range: &Range<usize>| Piece { source, file, range: range.clone() };
     let Head { name, .. } = piece(&cuts.head).read(Rule::mechanism_head, |reader, pair| reader.head(pair)).ok()?;
     let read = |pieces: Range<usize>| {
-        // what the first thread reads takes in what the others do
+        // the share of the first thread also receives those of the others
         let many = if pieces.start == 0 { &cuts.pieces[..] } else { &cuts.pieces[pieces.clone()] };
         let mut share =
             Share { features: Vec::new(), items: Vec::with_capacity(many.iter().map(|cut| cut.most_items).sum()) };
@@ -287,7 +287,7 @@ mod tests {
     }
 
     #[test]
-    fn what_does_not_follow_the_grammar_is_not_read_in_pieces() {
+    fn invalid_texts_are_not_parsed_in_parallel() {
         for middle in
             ["    joint j: revolute(ground.O\n", "    }\n", "    {\n", "    \"param\n", "    // } param\n    param\n"]
         {

@@ -133,7 +133,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_read_without_faults_is_what_the_grammar_has() {
+    fn recovery_matches_the_grammar_on_valid_texts() {
         let (mut state, mut refused) = (1, 0);
         for k in 0..900 {
             let text = damaged([TEXT, MORE, USES][k % 3], &mut state);
@@ -141,7 +141,7 @@ mod tests {
             let mut sources = Sources::default();
             let file = sources.add("text.mech", text.as_str());
             let (_, faults) = super::by_declarations(sources.get(file), file, None);
-            // what the grammar lets pass may still be no formula
+            // a text that follows the grammar may still be no formula
             let is_let_pass = faults
                 .iter()
                 .all(|f| f.code == Code::E0309 || f.message.contains("unit") && !f.message.starts_with("expected"));
@@ -152,7 +152,7 @@ mod tests {
     }
 
     #[test]
-    fn a_fault_spoils_its_own_declaration_and_no_other() {
+    fn faults_affect_only_their_declaration() {
         let text = "mechanism m {\n ground { point A = (0, 0 point B = (1, 0) }\n param r = 3 3\n param s = 4\n joint j revolute(a, b)\n body c at (0 { point P = (0, 0) }\n}";
         let parsed = parsed(text);
         assert_eq!(parsed.faults.len(), 4, "{:?}", parsed.faults);

@@ -63,7 +63,7 @@ struct Recovery<'a> {
 impl Recovery<'_> {
     fn file(&mut self) -> File {
         let (mut uses, mut mechanisms): (Vec<UsedFile>, Vec<Mechanism>) = (Vec::new(), Vec::new());
-        let mut is_outside_told = false;
+        let mut has_reported_outside = false;
         while !self.sync.is_behind_the_last(self.at) {
             if self.sync.begins_use(self.at) {
                 if !mechanisms.is_empty() {
@@ -80,7 +80,7 @@ impl Recovery<'_> {
                 continue;
             }
             // the declarations behind a superfluous brace are reported once
-            if !std::mem::replace(&mut is_outside_told, true) {
+            if !std::mem::replace(&mut has_reported_outside, true) {
                 let expected = if mechanisms.is_empty() { Rule::mechanism } else { Rule::mechanism_or_end };
                 let fault = self.fault_of(expected);
                 self.report(fault);
@@ -135,7 +135,7 @@ impl Recovery<'_> {
         let name = match head {
             Ok(head) => head.name,
             Err(fault) => {
-                // who leaves out the brace that opens leaves out the one that closes as well
+                // without its opening brace a block mostly lacks the closing one too
                 has_brace = brace.is_some();
                 let is_head = self.sync.begins_declaration(first + 2) && fault_at(&fault) == self.sync.start(first + 2);
                 self.report(fault);
@@ -258,7 +258,7 @@ impl Recovery<'_> {
                     return features;
                 }
                 _ if self.sync.begins_large_declaration(self.at) => {
-                    // as many braces are closed as are open here: none is missing
+                    // all open braces are closed, so no brace is missing
                     let is_misplaced = self.sync.braces_from(self.at) <= -2;
                     let fault = self.fault_of(Rule::feature_or_close);
                     if !is_misplaced {

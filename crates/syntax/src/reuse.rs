@@ -56,7 +56,7 @@ impl<'a> PreviousTree<'a> {
         }
         let mut item = Item { docs: Vec::new(), ..item.clone() };
         moved.item(&mut item);
-        // of a text that ends in the middle of a declaration the beginning is the same as well
+        // a declaration that ends beyond the stretch may be cut off in the text
         (item.span.end as usize <= stretch.end).then_some(item)
     }
 
@@ -175,7 +175,7 @@ mod tests {
     }
 
     #[test]
-    fn an_edited_text_is_read_as_if_it_were_new() {
+    fn edited_texts_parse_as_new_ones() {
         let mut state = 1;
         for k in 0..36 {
             let original = TEXTS[k % TEXTS.len()];
@@ -196,7 +196,7 @@ mod tests {
     }
 
     #[test]
-    fn a_text_that_is_cut_off_is_read_as_if_it_were_new() {
+    fn truncated_texts_parse_as_new_ones() {
         for original in TEXTS {
             let mut sources = Sources::default();
             let file = sources.add("text.mech", original);
@@ -211,7 +211,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_the_same_of_two_texts_is_counted_once() {
+    fn common_text_is_counted_once() {
         assert_eq!(ends_in_common(b"abab", b"abxab"), (2, 2));
         assert_eq!(ends_in_common(b"aaa", b"aa"), (2, 0));
         assert_eq!(ends_in_common(b"", b""), (0, 0));

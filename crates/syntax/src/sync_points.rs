@@ -3,7 +3,7 @@
 use super::foreign_syntax::hyphenated_at;
 use super::tokens::{Token, tokens};
 use mechc_text::diag::nearest;
-use mechc_text::vocabulary::{JointWord, Keyword, Place, Role, Synonym, declares_name, is_ground};
+use mechc_text::vocabulary::{JointWord, Keyword, Position, Role, Synonym, declares_name, is_ground};
 use rustc_hash::FxHashSet;
 use std::ops::Range;
 
@@ -11,9 +11,9 @@ use std::ops::Range;
 pub(super) struct SyncPoints<'a> {
     text: &'a str,
     tokens: Vec<Token<'a>>,
-    /// By token: its role, if it is a keyword in this position.
+    /// Role of each token that is a keyword in its position.
     roles: Vec<Option<Role>>,
-    /// By token: true if it stands where the declaration before it has its name.
+    /// True for tokens in the position of a declaration's name.
     names: Vec<bool>,
     /// Hyphenated names at their declarations; every use of them parses as a difference.
     hyphenated: FxHashSet<&'a str>,
@@ -155,7 +155,7 @@ impl<'a> SyncPoints<'a> {
     /// Returns the names that the declaration at a token would define: the word behind its keyword, or the first of two words.
     pub fn names_of(&self, k: usize, end: usize) -> impl Iterator<Item = Token<'a>> {
         let is_name = |token: &&Token<'a>| token.text.starts_with(|c: char| c.is_alphabetic() || c == '_');
-        // what is no keyword may be a name without one, `r = 3`, or a misspelt keyword before one
+        // a word that is no keyword may be a name without one, `r = 3`, or a misspelt keyword before one
         let whole = |token: Token<'a>| Token { text: self.hyphenated_name(&token).unwrap_or(token.text), ..token };
         let head = (k..end.min(k + 2).min(self.tokens.len())).filter(|&k| !self.is_declaration(k));
         head.map(|k| self.tokens[k]).filter(move |token| is_name(&token)).map(whole)
@@ -185,7 +185,7 @@ impl<'a> SyncPoints<'a> {
             "analysis" => next == "from",
             "fn" | "curve" => second == "(",
             "joint" | "driver" | "constraint" | "part" | "load" => second == ":",
-            // seen by what stands beside it
+            // `role` recognizes these by adjacent tokens
             "gravity" | "mass" => true,
             "mechanism" => second == "{",
             "body" => second == "{" || second == "at",
@@ -204,7 +204,7 @@ impl<'a> SyncPoints<'a> {
 
     /// Returns whether a declaration begins at a token: by its keyword, or by a word in its place.
     pub fn begins_declaration(&self, k: usize) -> bool {
-        // `ground.O` is a point, `joint joint: …` has a name that is none
+        // `ground.O` is a point, and `joint joint: …` has a keyword as its name
         if self.word(k + 1) == "." {
             return false;
         }
@@ -241,7 +241,7 @@ impl<'a> SyncPoints<'a> {
     fn begins_without_keyword(&self, k: usize) -> bool {
         let [next, second] = [self.word(k + 1), self.word(k + 2)];
         let is_joint = JointWord::named(self.word(k)).is_some();
-        let is_named_joint = second == "(" && (is_joint || Synonym::of(Place::Joint, self.word(k)).is_some());
+        let is_named_joint = second == "(" && (is_joint || Synonym::of(Position::Joint, self.word(k)).is_some());
         self.is_first_on_its_line(k) && (["=", ":", "{"].contains(&next) || is_joint && next == "(" || is_named_joint)
     }
 
@@ -253,7 +253,7 @@ impl<'a> SyncPoints<'a> {
     /// Returns whether a token is a keyword that was used as a name, or stands right behind one.
     pub fn uses_bad_name(&self, byte: usize, bad_names: &FxHashSet<&str>) -> bool {
         let k = self.index_at(byte);
-        // where it begins a declaration it is no name
+        // a word that begins a declaration is no name
         let is_used = |k: usize| bad_names.contains(self.word(k)) && (self.is_inside(k) || !self.is_keyword(k));
         [k, k.saturating_sub(1)].iter().any(|&k| !self.is_behind_the_last(k) && is_used(k))
     }
@@ -267,8 +267,8 @@ impl<'a> SyncPoints<'a> {
 
     /// Returns the hyphenated name that begins with a token.
     fn hyphenated_name(&self, token: &Token<'a>) -> Option<&'a str> {
-        let is_known = |name: &&str| self.hyphenated.contains(name);
-        if self.hyphenated.is_empty() { None } else { hyphenated_at(self.text, token.start).filter(is_known) }
+        let is_declared = |name: &&str| self.hyphenated.contains(name);
+        if self.hyphenated.is_empty() { None } else { hyphenated_at(self.text, token.start).filter(is_declared) }
     }
 
     /// Returns whether a range of tokens contains a hyphenated name.

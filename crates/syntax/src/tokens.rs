@@ -7,9 +7,9 @@ use mechc_text::vocabulary::{Keyword, Role, is_declaration};
 /// A word or character.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Token<'a> {
-    /// Its first byte.
+    /// First byte.
     pub start: usize,
-    /// Its text.
+    /// Text.
     pub text: &'a str,
 }
 
@@ -79,16 +79,16 @@ pub fn keywords_in(text: &str) -> impl Iterator<Item = (usize, &'static Keyword)
     let tokens = tokens(text);
     let keyword = |at: usize| {
         let keyword = Keyword::named(tokens[at].text)?;
-        let beside = |at: Option<usize>| at.and_then(|at| tokens.get(at)).map_or("", |token| token.text);
+        let text_at = |at: Option<usize>| at.and_then(|at| tokens.get(at)).map_or("", |token| token.text);
         let begins_window = || {
             let is_apart = tokens.get(at + 1).is_some_and(|behind| behind.start > tokens[at].end());
-            let is_behind_comma = beside(at.checked_sub(1)) == ",";
+            let is_behind_comma = text_at(at.checked_sub(1)) == ",";
             is_behind_comma
                 && matches!(tokens[at].text, "from" | "to")
-                && may_begin_a_bound(beside(Some(at + 1)), is_apart)
+                && may_begin_a_bound(text_at(Some(at + 1)), is_apart)
         };
         let is_one = keyword.is_reserved()
-            || !is_name(keyword.role, beside(at.checked_sub(1)), beside(Some(at + 1)))
+            || !is_name(keyword.role, text_at(at.checked_sub(1)), text_at(Some(at + 1)))
             || begins_window();
         is_one.then_some((tokens[at].start, keyword))
     };

@@ -74,7 +74,7 @@ pub fn is_mech(name: &str) -> bool {
 
 /// Returns whether an entry of a folder belongs to the user, by its name: it is neither hidden nor a folder of build results.
 #[must_use]
-pub fn is_own(name: &str) -> bool {
+pub fn is_source_entry(name: &str) -> bool {
     !name.starts_with('.') && name != "target" && name != "node_modules"
 }
 

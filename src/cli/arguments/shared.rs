@@ -4,7 +4,7 @@ use clap::{Args, ValueEnum};
 use mechc_pipeline::Vectors;
 use std::path::PathBuf;
 
-/// What all commands that read a .mech file share.
+/// Options of all commands that read a `.mech` file.
 #[derive(Args, Debug)]
 pub(in crate::cli) struct Input {
     /// The .mech file; `-` is standard input
@@ -33,7 +33,7 @@ pub(in crate::cli) struct Input {
     pub messages: Messages,
 }
 
-/// How a command speaks to its user.
+/// Options for the messages of a command.
 #[derive(Args, Debug, Default)]
 pub(in crate::cli) struct Messages {
     /// How diagnostics are written
@@ -65,7 +65,7 @@ pub(in crate::cli) enum When {
     Never,
 }
 
-/// When an analysis begins and ends, over what the file says.
+/// Interval of an analysis, which overrides that of the file.
 #[derive(Args, Clone, Debug, Default)]
 pub(in crate::cli) struct Interval {
     /// First time, in seconds or with a unit; the motion is followed to it from the start of the file's analysis, or from 0 s
@@ -81,7 +81,7 @@ pub(in crate::cli) struct Interval {
     pub every: Option<String>,
 }
 
-/// How a motion is followed.
+/// Options for following a motion.
 #[derive(Args, Clone, Debug)]
 pub(in crate::cli) struct Following {
     /// Bounds the residual of every equation, relative to the mechanism's size

@@ -98,7 +98,7 @@ pub(in crate::cli) struct ExplainArguments {
     pub messages: Messages,
 }
 
-/// Of the language server.
+/// Options of the language server.
 #[cfg(feature = "lsp")]
 #[derive(Args, Debug)]
 pub(in crate::cli) struct LspArguments {

@@ -105,7 +105,7 @@ pub(in crate::cli) enum SheetFormat {
     Parquet,
 }
 
-/// How a sample is spread.
+/// Methods of sampling.
 #[derive(ValueEnum, Clone, Copy, PartialEq, Eq, Debug)]
 pub(in crate::cli) enum MethodChoice {
     /// Evenly, by Sobol's sequence: any first part of it fills the ranges

@@ -19,7 +19,7 @@ pub(super) fn svg_options(arguments: &ViewArguments, visualization: &Visualizati
     let errors = visualization.messages().filter(|message| message.is_error());
     let messages = errors.flat_map(message_lines).collect();
     let ViewArguments { size, scale, vectors, forces, labels, .. } = *arguments;
-    Ok(Options { size, scale, theme, traces, vectors, forces, labels, captions: Vec::new(), said: messages })
+    Ok(Options { size, scale, theme, traces, vectors, forces, labels, captions: Vec::new(), messages })
 }
 
 /// Returns the lines of an error below a picture. The notes of E0601 are included, since they name the lengths that do not fit.

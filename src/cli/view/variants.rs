@@ -170,8 +170,8 @@ impl VariantSolver<'_> {
 
     fn page(&self, variants: &[SolvedVariant], first: usize, sources: &Sources) -> Result<String, Failure> {
         let vary = |varied: &SliderRange| {
-            let SliderRange { name, unit, values, nearest, nominal: own, .. } = varied.clone();
-            Vary { name, unit, values, nearest, own }
+            let SliderRange { name, unit, values, nearest, nominal, .. } = varied.clone();
+            Vary { name, unit, values, nearest, nominal }
         };
         let shown: Vec<Variant> = variants.iter().map(|solved| page::variant(&solved.visualization)).collect();
         let text = page::render_variants(

@@ -227,7 +227,7 @@ pub fn value_here(e: &Expr, t: f64) -> f64 {
         }),
         ExprKind::Product(first, rest) => rest.iter().fold(of(first), |product, (factor, e)| match factor {
             Factor::Times => product * of(e),
-            Factor::Over => product / of(e),
+            Factor::Divide => product / of(e),
         }),
         ExprKind::Power(base, exponent) => math::pow(of(base), of(exponent)),
         ExprKind::Compare(a, comparison, b) => {

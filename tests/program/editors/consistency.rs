@@ -48,7 +48,7 @@ fn neovim_has_the_queries_of_the_grammar() {
 }
 
 #[test]
-fn helix_has_the_queries_of_the_grammar_with_its_own_names() {
+fn helix_queries_match_the_grammar() {
     // it folds by indentation
     for name in QUERIES.into_iter().filter(|name| *name != "folds") {
         holds(&format!("helix/queries/mech/{name}.scm"), |_| in_helix(&query(name)));

@@ -49,7 +49,7 @@ fn insert(pipe: &mut Pipe, uri: &str, version: i64, at: (usize, usize), text: &s
 }
 
 #[test]
-fn who_pulls_is_told_when_a_used_file_has_changed() {
+fn used_file_changes_refresh_pulls() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().canonicalize().expect("it is there");
     let [part, whole] = ["lever.mech", "whole.mech"].map(|name| path.join(name));
@@ -67,7 +67,7 @@ fn who_pulls_is_told_when_a_used_file_has_changed() {
 
 #[test]
 #[cfg(unix)]
-fn a_text_opened_by_a_link_is_the_same_while_its_file_is_gone() {
+fn linked_texts_survive_deleted_files() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().canonicalize().expect("it is there");
     let [real, link] = ["real", "link"].map(|name| path.join(name));
@@ -92,7 +92,7 @@ fn a_text_opened_by_a_link_is_the_same_while_its_file_is_gone() {
 }
 
 #[test]
-fn what_was_said_and_done_is_written_down_with_the_time() {
+fn logs_have_messages_and_times() {
     let folder = tempfile::tempdir().expect("a folder");
     let log = folder.path().join("lsp.log");
     let mut pipe = Pipe::open_with(binary(), &["--stdio", "--log", &log.to_string_lossy()]);
@@ -121,7 +121,7 @@ fn a_log_that_cannot_be_written_is_reported() {
 }
 
 #[test]
-fn who_does_not_speak_the_protocol_is_told_what_this_is() {
+fn plain_text_clients_get_an_explanation() {
     let mut child = Command::new(binary());
     child.arg("lsp").stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());
     let output = child.output().expect("it runs");

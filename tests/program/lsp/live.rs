@@ -63,7 +63,7 @@ fn a_panel_follows_the_text_and_the_cursor() {
 }
 
 #[test]
-fn a_panel_whose_text_is_closed_follows_the_file() {
+fn panels_of_closed_texts_follow_the_file() {
     let on_disk = TEXT.replace("mechanism slider_crank", "mechanism on_disk");
     let mut client = Client::new(&json!({}), Memory::default().with("/work/slider_crank.mech", on_disk.as_str()));
     let mut own = TEXT.to_owned();
@@ -97,7 +97,7 @@ fn value_of(param: &str) -> &'static str {
 }
 
 #[test]
-fn what_a_panel_writes_is_an_edit_of_the_text() {
+fn panel_writes_are_text_edits() {
     let mut client = pushed_to();
     client.open(URI, TEXT);
     let change = json!({ "name": "rod_length", "old": value_of("rod_length"), "value": 321.5 });
@@ -128,7 +128,7 @@ fn result(client: &mut Client, request: i32) -> Value {
 }
 
 #[test]
-fn an_edit_is_of_the_version_that_the_client_has_and_may_be_refused() {
+fn edits_carry_versions() {
     let capabilities = json!({ "workspace": { "workspaceEdit": { "documentChanges": true } } });
     let mut client = Client::new(&capabilities, Memory::default());
     let mut own = TEXT.to_owned();
@@ -157,7 +157,7 @@ fn an_edit_is_of_the_version_that_the_client_has_and_may_be_refused() {
 }
 
 #[test]
-fn the_cursor_in_a_used_file_lights_what_is_there() {
+fn cursors_in_used_files_highlight() {
     const MAIN: &str = "use \"arm.mech\"
 mechanism disc {
     part one: arm()
@@ -199,7 +199,7 @@ mechanism disc {
 }
 
 #[test]
-fn a_browser_has_the_same_page_by_its_address() {
+fn browsers_get_the_same_page() {
     let mut client = pushed_to();
     client.open(URI, TEXT);
     let url = client.request("mechc/view", text())["url"].as_str().expect("an address").to_owned();

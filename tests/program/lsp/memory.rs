@@ -78,7 +78,7 @@ fn memory_does_not_grow_with_a_hundred_thousand_edits() {
 }
 
 #[test]
-fn a_dead_editor_ends_it() {
+fn dead_editors_end_the_server() {
     let mut pipe = Pipe::open(Path::new(env!("CARGO_BIN_EXE_mechc")));
     let document = json!({ "uri": URI, "languageId": "mech", "version": 1, "text": TEXT });
     pipe.notify("textDocument/didOpen", &json!({ "textDocument": document }));

@@ -366,7 +366,7 @@ fn edit_at_random(seed: u64, rounds: usize) {
 }
 
 #[test]
-fn whatever_is_edited_the_rest_is_known_as_before() {
+fn random_edits_keep_other_answers() {
     for seed in 1..5 {
         edit_at_random(seed, 4);
     }
@@ -374,14 +374,14 @@ fn whatever_is_edited_the_rest_is_known_as_before() {
 
 #[test]
 #[ignore = "it takes minutes"]
-fn whatever_is_edited_the_rest_is_known_as_before_for_long() {
+fn many_random_edits_keep_other_answers() {
     for seed in 100..200 {
         edit_at_random(seed, 12);
     }
 }
 
 #[test]
-fn files_go_and_come_under_those_who_use_them() {
+fn used_files_may_vanish_and_return() {
     const PART: &str = "mechanism arm {\n body bar at (0, 0, 0) { point P = (0, 0) }\n}\n";
     let main = "use \"part.mech\"\nmechanism m {\n part a: arm()\n}\n";
     let mut session = Session::new(7);
@@ -406,7 +406,7 @@ fn files_go_and_come_under_those_who_use_them() {
 }
 
 #[test]
-fn who_waits_for_a_text_that_is_closed_is_answered() {
+fn requests_on_closed_texts_are_answered() {
     let (uri, text) = &examples()[0];
     let mut session = Session::new(3);
     for _ in 0..20 {

@@ -59,7 +59,7 @@ fn some(client: &mut Client, method: &str, params: &Value) -> Value {
 }
 
 #[test]
-fn names_lead_into_files_that_nobody_has_opened() {
+fn definitions_reach_unopened_files() {
     let mut client = in_folder(&json!({}));
     client.open(URI, USER);
     let found = client.request("textDocument/definition", at(URI, USER, "tip"));
@@ -84,7 +84,7 @@ fn uses_are_found_in_files_of_the_folder() {
 }
 
 #[test]
-fn a_name_is_changed_in_all_files_or_it_is_said_why_not() {
+fn renames_span_files_or_explain() {
     const REQUEST_FAILED: i32 = -32803;
     let mut client = in_folder(&json!({}));
     client.open(URI, USER);
@@ -99,7 +99,7 @@ fn a_name_is_changed_in_all_files_or_it_is_said_why_not() {
 }
 
 #[test]
-fn what_is_completed_has_places_where_the_client_fills_them_in() {
+fn completions_have_placeholders() {
     let text = "mechanism m {\n    body 𝛼 { point P = (0, 0) }\n    joint j: rev\n    measure w = x(𝛼.)\n}\n";
     let snippets = json!({ "textDocument": { "completion": { "completionItem": { "snippetSupport": true } } } });
     let mut texts = Vec::new();
@@ -121,7 +121,7 @@ fn what_is_completed_has_places_where_the_client_fills_them_in() {
 }
 
 #[test]
-fn fixes_and_refactorings_are_offered_as_they_are_asked_for() {
+fn actions_match_requested_kinds() {
     let text = USER.replace("left.arm.tip", "left.arn.tip");
     let mut client = in_folder(&json!({}));
     client.open(URI, &text);
@@ -162,7 +162,7 @@ fn texts_are_formatted_folded_and_selected() {
 }
 
 #[test]
-fn a_client_that_can_is_asked_to_watch_files() {
+fn capable_clients_watch_files() {
     let mut client = in_folder(&json!({ "workspace": { "didChangeWatchedFiles": { "dynamicRegistration": true } } }));
     client.asked("client/registerCapability");
     client.end();

@@ -190,7 +190,7 @@ fn from_side(at: Vector, [from, to]: [Vector; 2]) -> f64 {
 }
 
 #[test]
-fn traces_are_cut_as_the_motion_goes_whatever_the_output_times() {
+fn traces_do_not_depend_on_output_times() {
     let mut random = Random::new(50);
     let kinds: [fn(&mut Random, f64) -> Known; 4] = [four_bar, slider_crank, planet, with_poles];
     for number in 0..24 {
@@ -262,7 +262,7 @@ fn lines_of(seen: &mechc::Visualization, layer: &str) -> Vec<Polyline> {
 }
 
 #[test]
-fn what_repeats_itself_is_followed_once() {
+fn periodic_motions_are_traced_once() {
     let [one, many] = [1, 20_000].map(|turns| seen_to_cut(&turning(turns)));
     // so many rows as there are for some ten turns, and those of the table
     assert!(many.motion.len() < 30_000, "{} rows", many.motion.len());
@@ -285,7 +285,7 @@ fn what_repeats_itself_is_followed_once() {
 }
 
 #[test]
-fn a_line_that_is_not_drawn_to_its_end_says_so() {
+fn truncated_lines_are_reported() {
     let text = "mechanism m {
         ground { point O = (0, 0) }
         body crank { point O = (0, 0) point P = (0.1, 0) }
@@ -344,7 +344,7 @@ const BARS: &str = "mechanism bars {
 }";
 
 #[test]
-fn a_body_alone_has_all_its_holes() {
+fn single_bodies_have_all_holes() {
     let seen = seen_text(BARS);
     for (frame, wanted) in [(1, vec![0.0, 0.05]), (2, vec![0.0, 0.05]), (3, vec![0.0])] {
         let (scene, rest) = seen.scene.alone(frame);
@@ -379,7 +379,7 @@ fn pictured(every: f64) -> String {
 }
 
 #[test]
-fn what_runs_to_infinity_decides_no_frame() {
+fn unbounded_traces_do_not_set_the_frame() {
     let file = pictured(0.01);
     let scale: f64 = attribute(&file, "data-scale").expect("a scale").parse().expect("a number");
     // the crank's circle is as large as the picture allows, and the other line is broken where it leaves
@@ -448,7 +448,7 @@ fn poles_squash_no_plot() {
 }
 
 #[test]
-fn a_name_on_another_body_has_a_line_to_its_own() {
+fn labels_on_other_bodies_have_leader_lines() {
     // three long bars on each other, the names of which are longer than the room between them
     let text = "mechanism stack {
         ground { point O = (0, 0) }

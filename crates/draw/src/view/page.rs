@@ -73,7 +73,7 @@ pub struct Vary {
     /// Index of the value that the page begins with, the nearest to the file's own value.
     pub nearest: usize,
     /// The file's own value in the unit, if it is not one of `values`.
-    pub own: Option<f64>,
+    pub nominal: Option<f64>,
 }
 
 /// A motion of the page.

@@ -1,4 +1,4 @@
-//! The functions that C calls: what they are given, what they do, and the file that holds them.
+//! Functions that C calls: their arguments, bodies and source file.
 
 use super::names::field;
 use super::{Interface, codes};
@@ -6,9 +6,9 @@ use crate::names::Case;
 use crate::print::{Head, Page};
 use crate::text::unit;
 
-/// Kind of an argument.
+/// Type of an argument.
 #[derive(Clone, Copy, PartialEq, Eq)]
-pub(super) enum Of {
+pub(super) enum Type {
     State,
     StateToWrite,
     Params,
@@ -22,67 +22,67 @@ pub(super) enum Of {
     Code,
 }
 
-/// Kind of a result.
+/// Type of a result.
 #[derive(Clone, Copy, PartialEq, Eq)]
-pub(super) enum Gives {
+pub(super) enum Return {
     Code,
     Message,
     Params,
     Count,
 }
 
-/// A function of the header.
+/// Function of the header.
 pub(super) struct Function {
     pub name: &'static str,
     pub docs: &'static str,
-    pub arguments: Vec<(&'static str, Of)>,
-    pub gives: Gives,
-    /// Its body as a Rust expression; for a code, of type `Result<(), Status>`.
-    pub does: &'static str,
+    pub arguments: Vec<(&'static str, Type)>,
+    pub result: Return,
+    /// Body as a Rust expression, of type `Result<(), Status>` if the function returns a code.
+    pub body: &'static str,
 }
 
-impl Of {
+impl Type {
     fn in_rust(self) -> &'static str {
         match self {
-            Of::State => "*const Memory",
-            Of::StateToWrite => "*mut Memory",
-            Of::Params => "*const Params",
-            Of::Inputs => "*const Inputs",
-            Of::InputsToWrite => "*mut Inputs",
-            Of::Number => "f64",
-            Of::Numbers => "*const f64",
-            Of::NumbersToWrite => "*mut f64",
-            Of::WholeToWrite => "*mut i32",
-            Of::Count => "usize",
-            Of::Code => "i32",
+            Type::State => "*const Memory",
+            Type::StateToWrite => "*mut Memory",
+            Type::Params => "*const Params",
+            Type::Inputs => "*const Inputs",
+            Type::InputsToWrite => "*mut Inputs",
+            Type::Number => "f64",
+            Type::Numbers => "*const f64",
+            Type::NumbersToWrite => "*mut f64",
+            Type::WholeToWrite => "*mut i32",
+            Type::Count => "usize",
+            Type::Code => "i32",
         }
     }
 
     /// Returns the declaration of an argument in C.
     pub fn in_c(self, name: &str, prefix: &str) -> String {
         match self {
-            Of::State => format!("const {prefix}_state *{name}"),
-            Of::StateToWrite => format!("{prefix}_state *{name}"),
-            Of::Params => format!("const {prefix}_params *{name}"),
-            Of::Inputs => format!("const {prefix}_inputs *{name}"),
-            Of::InputsToWrite => format!("{prefix}_inputs *{name}"),
-            Of::Number => format!("double {name}"),
-            Of::Numbers => format!("const double *{name}"),
-            Of::NumbersToWrite => format!("double *{name}"),
-            Of::WholeToWrite => format!("int32_t *{name}"),
-            Of::Count => format!("size_t {name}"),
-            Of::Code => format!("int32_t {name}"),
+            Type::State => format!("const {prefix}_state *{name}"),
+            Type::StateToWrite => format!("{prefix}_state *{name}"),
+            Type::Params => format!("const {prefix}_params *{name}"),
+            Type::Inputs => format!("const {prefix}_inputs *{name}"),
+            Type::InputsToWrite => format!("{prefix}_inputs *{name}"),
+            Type::Number => format!("double {name}"),
+            Type::Numbers => format!("const double *{name}"),
+            Type::NumbersToWrite => format!("double *{name}"),
+            Type::WholeToWrite => format!("int32_t *{name}"),
+            Type::Count => format!("size_t {name}"),
+            Type::Code => format!("int32_t {name}"),
         }
     }
 }
 
-impl Gives {
+impl Return {
     fn in_rust(self) -> &'static str {
         match self {
-            Gives::Code => "i32",
-            Gives::Message => "*const c_char",
-            Gives::Params => "Params",
-            Gives::Count => "usize",
+            Return::Code => "i32",
+            Return::Message => "*const c_char",
+            Return::Params => "Params",
+            Return::Count => "usize",
         }
     }
 }
@@ -128,31 +128,36 @@ const FORCES: &str =
     "What joints exert on their second bodies and what drivers supply at a state, in SI, by the numbers of FORCE; NAN
 close to a singular position. The length of the list is FORCES.";
 
-fn function(name: &'static str, docs: &'static str, arguments: &[(&'static str, Of)], does: &'static str) -> Function {
-    Function { name, docs, arguments: arguments.to_vec(), gives: Gives::Code, does }
+fn function(
+    name: &'static str,
+    docs: &'static str,
+    arguments: &[(&'static str, Type)],
+    body: &'static str,
+) -> Function {
+    Function { name, docs, arguments: arguments.to_vec(), result: Return::Code, body }
 }
 
 impl Interface<'_> {
-    /// All functions.
+    /// Returns all functions.
     pub(super) fn all(&self) -> Vec<Function> {
-        let (state, to_write) = (("state", Of::State), ("state", Of::StateToWrite));
-        let (params, inputs) = (("params", Of::Params), ("inputs", Of::Inputs));
+        let (state, to_write) = (("state", Type::State), ("state", Type::StateToWrite));
+        let (params, inputs) = (("params", Type::Params), ("inputs", Type::Inputs));
         let (t, most, list, length) =
-            (("t", Of::Number), ("most", Of::Count), ("list", Of::NumbersToWrite), ("length", Of::Count));
+            (("t", Type::Number), ("most", Type::Count), ("list", Type::NumbersToWrite), ("length", Type::Count));
         let mut all = vec![Function {
-            gives: Gives::Message,
-            ..function("message", MESSAGE, &[("code", Of::Code)], "message(code).as_ptr()")
+            result: Return::Message,
+            ..function("message", MESSAGE, &[("code", Type::Code)], "message(code).as_ptr()")
         }];
         if self.has_params() {
             let default = function("params_default", PARAMS_DEFAULT, &[], "Params::default()");
-            all.push(Function { gives: Gives::Params, ..default });
-            let does = "let params = given(params)?; given_to_write(state)?.hold(|| Ok(assemble(params)?))";
-            all.push(function("assemble", ASSEMBLE, &[to_write, params], does));
+            all.push(Function { result: Return::Params, ..default });
+            let body = "let params = given(params)?; given_to_write(state)?.hold(|| Ok(assemble(params)?))";
+            all.push(function("assemble", ASSEMBLE, &[to_write, params], body));
         } else {
-            let does = "given_to_write(state)?.hold(|| Ok(assemble(&Params)?))";
-            all.push(function("assemble", ASSEMBLE, &[to_write], does));
+            let body = "given_to_write(state)?.hold(|| Ok(assemble(&Params)?))";
+            all.push(function("assemble", ASSEMBLE, &[to_write], body));
         }
-        let assembly = [state, ("assembly", Of::WholeToWrite)];
+        let assembly = [state, ("assembly", Type::WholeToWrite)];
         all.push(function(
             "assembly",
             ASSEMBLY,
@@ -160,38 +165,38 @@ impl Interface<'_> {
             "write_whole(assembly, state_of(state)?.assembly() as i32)",
         ));
         let most_work = function("most_work", MOST_WORK, &[most], "most_work(most)");
-        all.push(Function { gives: Gives::Count, ..most_work });
-        let does = "Ok(step(t, state_to_write(state)?)?)";
-        all.push(function("step", STEP, &[to_write, t], does));
-        let does = "reached(step_within(t, state_to_write(state)?, most)?)";
-        all.push(function("step_within", STEP_WITHIN, &[to_write, t, most], does));
-        let does = "write(list, length, &state_of(state)?.row())";
-        all.push(function("row", ROW, &[state, list, length], does));
-        let does = "write(value, 1, &[*state_of(state)?.row().get(column).ok_or(NO_SUCH_COLUMN)?])";
-        all.push(function("value", VALUE, &[state, ("column", Of::Count), ("value", Of::NumbersToWrite)], does));
+        all.push(Function { result: Return::Count, ..most_work });
+        let body = "Ok(step(t, state_to_write(state)?)?)";
+        all.push(function("step", STEP, &[to_write, t], body));
+        let body = "reached(step_within(t, state_to_write(state)?, most)?)";
+        all.push(function("step_within", STEP_WITHIN, &[to_write, t, most], body));
+        let body = "write(list, length, &state_of(state)?.row())";
+        all.push(function("row", ROW, &[state, list, length], body));
+        let body = "write(value, 1, &[*state_of(state)?.row().get(column).ok_or(NO_SUCH_COLUMN)?])";
+        all.push(function("value", VALUE, &[state, ("column", Type::Count), ("value", Type::NumbersToWrite)], body));
         if self.has_inputs() {
-            let to_inputs = ("inputs", Of::InputsToWrite);
-            let (given, does) = if self.has_params() {
+            let to_inputs = ("inputs", Type::InputsToWrite);
+            let (given, body) = if self.has_params() {
                 (vec![t, params, to_inputs], "say(inputs, || Ok(Inputs::at(number(t)?, given(params)?)))")
             } else {
                 (vec![t, to_inputs], "say(inputs, || Ok(Inputs::at(number(t)?, &Params)))")
             };
-            all.push(function("inputs_at", INPUTS_AT, &given, does));
-            let does = "say(inputs, || Ok(state_of(state)?.inputs()))";
-            all.push(function("inputs_of", INPUTS, &[state, to_inputs], does));
-            let does = "Ok(follow(given(inputs)?, state_to_write(state)?)?)";
-            all.push(function("follow", FOLLOW, &[to_write, inputs], does));
-            let does = "reached(follow_within(given(inputs)?, state_to_write(state)?, most)?)";
-            all.push(function("follow_within", FOLLOW_WITHIN, &[to_write, inputs, most], does));
-            let does = "read(list, length, |all| state_to_write(state).map(|state| state.set_largest_change(all)))";
-            let arguments = [to_write, ("list", Of::Numbers), ("length", Of::Count)];
-            all.push(function("set_largest_change", SET_LARGEST_CHANGE, &arguments, does));
-            let does = "write(list, length, influence(state_of(state)?)?.as_flattened())";
-            all.push(function("influence", INFLUENCE, &[state, list, length], does));
+            all.push(function("inputs_at", INPUTS_AT, &given, body));
+            let body = "say(inputs, || Ok(state_of(state)?.inputs()))";
+            all.push(function("inputs_of", INPUTS, &[state, to_inputs], body));
+            let body = "Ok(follow(given(inputs)?, state_to_write(state)?)?)";
+            all.push(function("follow", FOLLOW, &[to_write, inputs], body));
+            let body = "reached(follow_within(given(inputs)?, state_to_write(state)?, most)?)";
+            all.push(function("follow_within", FOLLOW_WITHIN, &[to_write, inputs, most], body));
+            let body = "read(list, length, |all| state_to_write(state).map(|state| state.set_largest_change(all)))";
+            let arguments = [to_write, ("list", Type::Numbers), ("length", Type::Count)];
+            all.push(function("set_largest_change", SET_LARGEST_CHANGE, &arguments, body));
+            let body = "write(list, length, influence(state_of(state)?)?.as_flattened())";
+            all.push(function("influence", INFLUENCE, &[state, list, length], body));
         }
         if self.has_sensitivity() {
-            let does = "write(list, length, sensitivity(given(params)?, state_of(state)?)?.as_flattened())";
-            all.push(function("sensitivity", SENSITIVITY, &[state, params, list, length], does));
+            let body = "write(list, length, sensitivity(given(params)?, state_of(state)?)?.as_flattened())";
+            all.push(function("sensitivity", SENSITIVITY, &[state, params, list, length], body));
         }
         if self.unit.has_forces() {
             all.push(function(
@@ -216,12 +221,12 @@ impl Interface<'_> {
         if self.unit.has_forces() {
             used.push("forces");
         }
-        // as a formatter orders them: what is a type comes first
+        // rustfmt sorts types before functions
         used.sort_by_key(|name| (name.starts_with(|c: char| c.is_ascii_lowercase()), *name));
         used
     }
 
-    /// The file of the functions.
+    /// Returns the Rust source file of the functions.
     pub(super) fn functions(&self) -> String {
         let mut page = Page::default();
         page.line(&format!("// {}", self.mark));
@@ -252,7 +257,7 @@ impl Interface<'_> {
         page.done().trim_end().to_owned() + "\n"
     }
 
-    /// A number that other mechanisms hardly have (FNV-1a).
+    /// Returns the hash (FNV-1a) that marks states of this mechanism.
     fn sign(&self) -> u64 {
         let what = self.prefix.bytes().chain(self.words.to_le_bytes());
         what.fold(0xcbf2_9ce4_8422_2325, |sign, byte| (sign ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3))
@@ -266,17 +271,17 @@ impl Interface<'_> {
         page.line("#[unsafe(no_mangle)]");
         let kind = if is_safe { "pub extern \"C\" fn" } else { "pub unsafe extern \"C\" fn" };
         let name = format!("{}_{}", self.prefix, function.name);
-        let head = Head { kind, name: &name, arguments: &arguments, result: function.gives.in_rust() };
-        page.function(&head, |page| match function.gives {
-            Gives::Code => {
+        let head = Head { kind, name: &name, arguments: &arguments, result: function.result.in_rust() };
+        page.function(&head, |page| match function.result {
+            Return::Code => {
                 page.line("// SAFETY: pointers are what the header asks for; null ones are refused");
-                page.line(&format!("answer(|| unsafe {{ {} }})", function.does));
+                page.line(&format!("answer(|| unsafe {{ {} }})", function.body));
             }
-            _ => page.line(function.does),
+            _ => page.line(function.body),
         });
     }
 
-    /// The fields of inputs, as C has them.
+    /// Returns name, documentation and whether it is time, for each field of the C structure of inputs.
     pub(super) fn fields_of_inputs(&self) -> Vec<(String, String, bool)> {
         let Some(following) = &self.unit.following else {
             return Vec::new();
@@ -290,7 +295,7 @@ impl Interface<'_> {
     }
 }
 
-/// Codes and what they mean.
+/// Prints the status codes with their messages.
 fn of_codes(page: &mut Page) {
     let codes = codes();
     for (number, code) in codes.iter().filter(|(number, code)| *number != 0 && code.error.is_none()) {
@@ -322,7 +327,7 @@ fn of_codes(page: &mut Page) {
     });
 }
 
-/// A sentence's first letter, large.
+/// Returns a text with its first letter in upper case.
 fn capital(text: &str) -> String {
     let (first, rest) = text.split_at(text.len().min(1));
     first.to_uppercase() + rest

@@ -1,10 +1,10 @@
-//! The header: constants, structures and functions as C and C++ read them.
+//! The C and C++ header: constants, structures and functions.
 
-use super::functions::{Function, Gives};
+use super::functions::{Function, Return};
 use super::names::{comment, field};
-use super::{Interface, apart, codes};
+use super::{Interface, codes, constant};
 use crate::names::Case;
-use crate::params::{Of, Params};
+use crate::params::{FieldType, Params};
 use crate::print::Page;
 use crate::text::{literal, unit};
 use mechc_ir::tolerances::steps::march::FEWEST_STEPS;
@@ -28,7 +28,7 @@ another length, a state that was not assembled and a number that is not one are 
 change nothing. That a list is as long as is said, and that a pointer leads somewhere, C alone can know.";
 
 impl Interface<'_> {
-    /// The header.
+    /// Returns the header.
     pub(super) fn header(&self) -> String {
         let mut page = Page::default();
         let (name, guard) = (self.unit.system.name(), format!("{}_H", self.constants()));
@@ -66,7 +66,7 @@ impl Interface<'_> {
         page.end_statement();
     }
 
-    /// Places and counts.
+    /// Prints indices and counts.
     fn numbers(&self, page: &mut Page) {
         let (system, constants) = (self.unit.system, self.constants());
         let coordinates = Case::Constant.names(system.coordinates().iter().map(|of| of.name.as_str()));
@@ -124,13 +124,13 @@ impl Interface<'_> {
         page.blank();
     }
 
-    /// Numbers by names, and how many they are.
-    fn places(&self, page: &mut Page, one: &str, all: &str, says: &str, named: &[(String, String)]) {
+    /// Prints named indices and their count.
+    fn places(&self, page: &mut Page, one: &str, all: &str, docs: &str, named: &[(String, String)]) {
         let constants = self.constants();
-        page.line(&comment(says));
+        page.line(&comment(docs));
         page.block("enum", |page| {
-            for (k, (name, says)) in named.iter().enumerate() {
-                page.line(&format!("{constants}_{one}_{name} = {k}, {}", comment(says)));
+            for (k, (name, docs)) in named.iter().enumerate() {
+                page.line(&format!("{constants}_{one}_{name} = {k}, {}", comment(docs)));
             }
             page.line(&format!("{constants}_{all} = {} /* how many they are */", named.len()));
         });
@@ -147,9 +147,9 @@ impl Interface<'_> {
             self.structure(page, "signal", |page| page.line("double value, rate, acceleration;"));
             page.line("/* What comes from outside, in SI. */");
             self.structure(page, "inputs", |page| {
-                for (name, says, is_time) in self.fields_of_inputs() {
+                for (name, docs, is_time) in self.fields_of_inputs() {
                     let of = if is_time { "double".to_owned() } else { format!("{prefix}_signal") };
-                    page.line(&format!("{of} {name}; {}", comment(&says)));
+                    page.line(&format!("{of} {name}; {}", comment(&docs)));
                 }
             });
         }
@@ -166,10 +166,10 @@ impl Interface<'_> {
         page.blank();
     }
 
-    /// The parameters; what others hold stands before them.
+    /// Prints the structures of the parameters, nested ones first.
     fn params(&self, page: &mut Page) {
         let params = Params::new(self.unit.system);
-        let called = |name: &str| apart(name).to_lowercase();
+        let called = |name: &str| constant(name).to_lowercase();
         for of in params.types.iter().rev() {
             page.line(&comment(&if of.source.is_empty() {
                 "The parameters, in SI.".to_owned()
@@ -180,18 +180,18 @@ impl Interface<'_> {
                 for member in &of.fields {
                     let name = field(&member.name);
                     let inner = |part: usize| format!("{}_{}", self.prefix, called(&params.types[part].name));
-                    let (declared, says) = match &member.of {
-                        Of::Number(param) => {
+                    let (declared, docs) = match &member.kind {
+                        FieldType::Number(param) => {
                             let of = self.unit.system.params()[*param].unit();
                             (format!("double {name}"), format!("{} ({})", member.source, unit(&of)))
                         }
-                        Of::Part(part) => (format!("{} {name}", inner(*part)), member.source.clone()),
-                        Of::Copies(part, lengths) => {
+                        FieldType::Part(part) => (format!("{} {name}", inner(*part)), member.source.clone()),
+                        FieldType::Copies(part, lengths) => {
                             let lengths: Vec<String> = lengths.iter().map(|length| format!("[{length}]")).collect();
                             (format!("{} {name}{}", inner(*part), lengths.concat()), member.source.clone())
                         }
                     };
-                    page.line(&format!("{declared}; {}", comment(&says)));
+                    page.line(&format!("{declared}; {}", comment(&docs)));
                 }
             });
         }
@@ -202,13 +202,13 @@ impl Interface<'_> {
         page.line(&format!("/* {} */", function.docs));
         let arguments: Vec<String> = function.arguments.iter().map(|(name, of)| of.in_c(name, prefix)).collect();
         let arguments = if arguments.is_empty() { "void".to_owned() } else { arguments.join(", ") };
-        let gives = match function.gives {
-            Gives::Code => "int32_t ".to_owned(),
-            Gives::Message => "const char *".to_owned(),
-            Gives::Params => format!("{prefix}_params "),
-            Gives::Count => "size_t ".to_owned(),
+        let result = match function.result {
+            Return::Code => "int32_t ".to_owned(),
+            Return::Message => "const char *".to_owned(),
+            Return::Params => format!("{prefix}_params "),
+            Return::Count => "size_t ".to_owned(),
         };
-        page.line(&format!("{gives}{prefix}_{}({arguments});", function.name));
+        page.line(&format!("{result}{prefix}_{}({arguments});", function.name));
         page.blank();
     }
 }

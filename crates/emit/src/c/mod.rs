@@ -1,8 +1,8 @@
-//! A mechanism for C: a header, and the functions behind it, which are all that is unsafe in a crate.
+//! The C interface of a mechanism: a header, and its functions, the only unsafe code of an emitted crate.
 //!
-//! The caller has the memory of everything. A state is so many words, which only these functions look into; params and inputs are plain
-//! structures, those of the crate laid out as C does. What a function is given, and what it gives, stands in one list (`functions.rs`),
-//! from which both files are written.
+//! The caller owns all memory. A state is an opaque array of words that only these functions access; params and inputs are plain
+//! structures of the crate with C layout. One list (`functions.rs`) defines the arguments and results of functions,
+//! from which both files are generated.
 
 mod functions;
 mod header;
@@ -15,7 +15,7 @@ use super::text::{one_line, unit};
 use super::{CrateFile, TranslationUnit};
 use mechc_ir::layout::{ColumnContent, ColumnUnit, columns, holds};
 
-/// Source of both files.
+/// Context of both files.
 struct Interface<'i> {
     unit: &'i TranslationUnit<'i>,
     /// Prefix of names: `four_bar`.
@@ -28,7 +28,7 @@ struct Interface<'i> {
     bounds: &'i [(&'static str, usize)],
 }
 
-/// The header and the functions of a crate's library, whose name all names begin with.
+/// Returns the header and the source file of the functions; all names begin with that of the library.
 pub(super) fn files(unit: &TranslationUnit<'_>, module: &Module, library: &str, mark: &str) -> Vec<CrateFile> {
     let interface = Interface { unit, prefix: library, mark, words: module.words + 1, bounds: &module.bounds };
     vec![
@@ -42,35 +42,35 @@ struct Code {
     /// `LOCK_UP`
     name: String,
     message: &'static str,
-    /// The error in Rust; none of what only C can do wrong.
+    /// Variant of the Rust error; `None` for errors that only C can cause.
     error: Option<&'static str>,
 }
 
 /// First code of the errors that only C can cause; they come after those of `Error`.
-const FIRST_OF_C: i32 = 101;
+const FIRST_C_CODE: i32 = 101;
 /// Message of the status that is no error; its code is below 0.
-const ON_THE_WAY: &str = "the state is on its way, and the same call goes on";
-const OF_C: [(&str, &str); 4] = [
+const IN_PROGRESS: &str = "the state is on its way, and the same call goes on";
+const C_ERRORS: [(&str, &str); 4] = [
     ("BAD_POINTER", "a pointer is null or not aligned"),
     ("NOT_ASSEMBLED", "the state is not one that was assembled for this mechanism"),
     ("WRONG_LENGTH", "the list has another length"),
     ("NO_SUCH_COLUMN", "there is no such column"),
 ];
 
-/// All codes with their numbers, that of no error and 0 among them.
+/// Returns all codes with their numbers, including 0 and the status that is no error.
 fn codes() -> Vec<(i32, Code)> {
     let fine = Code { name: "OK".to_owned(), message: "all went well", error: None };
     let errors =
-        ERRORS.iter().map(|error| Code { name: apart(error.name), message: error.message, error: Some(error.name) });
-    let of_c = OF_C.iter().map(|(name, message)| Code { name: (*name).to_owned(), message, error: None });
-    let numbers = (0..).take(ERRORS.len() + 1).chain(FIRST_OF_C..);
-    let on_the_way = Code { name: "ON_THE_WAY".to_owned(), message: ON_THE_WAY, error: None };
-    let all = numbers.zip(std::iter::once(fine).chain(errors).chain(of_c));
-    std::iter::once((-1, on_the_way)).chain(all).collect()
+        ERRORS.iter().map(|error| Code { name: constant(error.name), message: error.message, error: Some(error.name) });
+    let c_errors = C_ERRORS.iter().map(|(name, message)| Code { name: (*name).to_owned(), message, error: None });
+    let numbers = (0..).take(ERRORS.len() + 1).chain(FIRST_C_CODE..);
+    let in_progress = Code { name: "ON_THE_WAY".to_owned(), message: IN_PROGRESS, error: None };
+    let all = numbers.zip(std::iter::once(fine).chain(errors).chain(c_errors));
+    std::iter::once((-1, in_progress)).chain(all).collect()
 }
 
-/// `NOT_A_NUMBER` of `NotANumber`.
-fn apart(name: &str) -> String {
+/// Converts `NotANumber` to `NOT_A_NUMBER`.
+fn constant(name: &str) -> String {
     let mut text = String::new();
     for c in name.chars() {
         if c.is_ascii_uppercase() && !text.is_empty() {
@@ -99,7 +99,7 @@ impl Interface<'_> {
         self.prefix.to_uppercase()
     }
 
-    /// The columns of a row: their names in C, and what they hold, in SI.
+    /// Returns the columns of a row: their names in C, and their contents with SI units.
     fn columns(&self) -> Vec<(String, String)> {
         let system = self.unit.system;
         // forces have a list of their own
@@ -123,14 +123,14 @@ impl Interface<'_> {
 
 #[cfg(test)]
 mod tests {
-    use super::{FIRST_OF_C, codes};
+    use super::{FIRST_C_CODE, codes};
 
     #[test]
-    fn codes_have_names_and_numbers_of_their_own() {
+    fn codes_have_unique_names_and_numbers() {
         let codes = codes();
         let names: Vec<&str> = codes.iter().map(|(_, code)| code.name.as_str()).collect();
         assert_eq!(names[..4], ["ON_THE_WAY", "OK", "NOT_A_NUMBER", "LOCK_UP"]);
         assert!((-1..8).zip(&codes).all(|(k, (number, _))| k == *number));
-        assert_eq!(codes[9].0, FIRST_OF_C);
+        assert_eq!(codes[9].0, FIRST_C_CODE);
     }
 }

@@ -1,6 +1,6 @@
 //! Names for C and C++.
 
-/// Words that C or C++ keep for themselves, in small letters, and those that some compilers define.
+/// Keywords of C and C++ in lower case, and names that some compilers define.
 const KEYWORDS: &[&str] = &[
     "alignas",
     "alignof",
@@ -103,12 +103,12 @@ const KEYWORDS: &[&str] = &[
     "xor_eq",
 ];
 
-/// A field's name in Rust as one in C. Names in Rust end with a line only where Rust keeps the word, so that no two meet.
+/// Converts a Rust field name to a C one. Rust names end with `_` only after keywords, so no two names collide.
 pub(super) fn field(name: &str) -> String {
     if KEYWORDS.contains(&name) { format!("{name}_") } else { name.to_owned() }
 }
 
-/// A comment of C: nothing ends it, or seems to begin another.
+/// Returns a text fit for a C comment, without `*/` and `/*`.
 pub(super) fn comment(text: &str) -> String {
     format!("/* {} */", text.replace("*/", "* /").replace("/*", "/ *").replace(char::is_control, " "))
 }
@@ -118,7 +118,7 @@ mod tests {
     use super::{comment, field};
 
     #[test]
-    fn names_are_those_of_the_crate_where_c_lets_them() {
+    fn c_names_match_the_crate() {
         assert_eq!(["reach", "int", "class", "fn_"].map(field), ["reach", "int_", "class_", "fn_"]);
     }
 

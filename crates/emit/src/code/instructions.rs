@@ -12,9 +12,9 @@ use std::fmt::{self, Display, Formatter};
 
 /// Target of an assignment.
 pub(super) enum Target {
-    /// A variable of its own.
+    /// New variable.
     Let(Operand),
-    /// Operand that exists already.
+    /// Existing operand.
     Set(Operand),
     /// Unused value.
     Discard,
@@ -87,7 +87,7 @@ impl<S: CodeContext> Printer<'_, S> {
         let value = self.operand(a);
         if let Some(line) = self.context.store(column, &value) {
             self.used.extend(value.arguments());
-            // what is worked out, and what comes of it
+            // a blank line separates computations from results
             if std::mem::take(&mut self.is_set_off) && !text.is_empty() {
                 text.push('\n');
             }
@@ -113,7 +113,7 @@ impl<S: CodeContext> Printer<'_, S> {
         *text += &self.assigned(indent, &target.to_string(), &expression);
     }
 
-    /// A value of the program, by a name of its own if it is long.
+    /// Appends the load of an input, bound to a name if its text is long.
     fn load(&mut self, to: Register, from: Register, indent: &str, text: &mut String) {
         let value = self.context.load(from);
         if value.is_short() {
@@ -126,7 +126,7 @@ impl<S: CodeContext> Printer<'_, S> {
         }
     }
 
-    /// An assignment, on two lines if it is too long for one.
+    /// Returns an assignment, on two lines if it is too long for one.
     fn assigned(&self, indent: &str, target: &str, expression: &str) -> String {
         let line = format!("{indent}{target} = {expression};\n");
         let margin = if self.context.has_lanes() { MODULE.len() } else { 0 };
@@ -136,7 +136,7 @@ impl<S: CodeContext> Printer<'_, S> {
         format!("{indent}{target} =\n{indent}    {expression};\n")
     }
 
-    /// Another name for the same value; where a later function needs it, a place among the terms.
+    /// Appends a copy of a value: an alias, or an assignment to a term if a later function needs it.
     fn copy(&mut self, to: Register, a: Register, indent: &str, text: &mut String) {
         if let Location::Term(_) = self.locations.location(to) {
             let value = self.value(a);

@@ -25,27 +25,27 @@ const APART: &str = "#[inline(never)]\n";
 
 /// Surroundings of printed operations.
 pub(super) trait CodeContext {
-    /// The name and the value of a register that no operation writes.
+    /// Returns the name and the value of a register that no operation writes.
     fn input(&self, register: Register) -> Input;
     /// Returns the operand for a register of the program.
     fn load(&self, register: Register) -> Operand;
-    /// A column of a result.
+    /// Returns the operand of a column of the result.
     fn place(&self, column: u32) -> Operand;
-    /// The name of a value that is left in a column, `rod_phi`; none where it is no name of its own.
+    /// Returns the variable name for the value of a column, `rod_phi`; `None` if it has no special name.
     fn name(&self, column: u32) -> Option<String>;
     /// Returns the name of a column of a table.
     fn table(&self, table: u32, column: Column) -> Operand;
-    /// The registers that a function has to build a column from; none where it is known by its name.
+    /// Returns the registers from which a function builds a table's column; empty if the column is a static.
     fn cells(&self, table: u32, column: Column) -> Vec<Register>;
     /// Returns whether a column stores values at all.
     fn stores(&self, _column: u32) -> bool {
         true
     }
-    /// The line that leaves a value in a column, with what it names; none where that holds it already.
+    /// Returns the line that stores a value in a column, with the arguments that it uses; `None` if the column already holds it.
     fn store(&self, column: u32, value: &Operand) -> Option<(String, Arguments)>;
-    /// The line that is written for an operation without a result, with what it names.
+    /// Returns the line for an operation without a result, with the arguments that it uses.
     fn act(&self, instruction: Instruction, value: &Operand) -> (String, Arguments);
-    /// The line that watches a multiplier, with what it names.
+    /// Returns the line that monitors a multiplier, with the arguments that it uses.
     fn watch(&self, weight: u32, value: &Operand) -> (String, Arguments);
     /// Returns whether every number stands for several lanes, which loops iterate.
     fn has_lanes(&self) -> bool {
@@ -53,15 +53,15 @@ pub(super) trait CodeContext {
     }
 }
 
-/// A value that a function is given.
+/// Input value of a function.
 pub(super) enum Input {
-    /// A number, or what is as short as a name.
+    /// A number, or an expression as short as a name.
     Is(Operand),
     /// Value that is bound to a name first.
     Bound { name: String, value: Operand },
 }
 
-/// A function, or several that follow one another.
+/// Function to print; a long one is split into several.
 pub(super) struct Function<'f> {
     pub name: &'f str,
     /// Lines of documentation.
@@ -71,15 +71,15 @@ pub(super) struct Function<'f> {
     pub arguments: Vec<(&'static str, String)>,
     /// Outputs of the function.
     pub out: Out<'f>,
-    /// Columns that it will be indented by.
+    /// Columns of later indentation.
     pub margin: usize,
 }
 
 /// Destination of the results of a function.
 pub(super) enum Out<'f> {
-    /// In a list, by its type and its first value, that it returns as `out`.
+    /// A new array that is returned as `out`, with its type and initial value.
     List { of: &'f str, first: &'f str },
-    /// In what it is given; the line that makes that ready, with what it names.
+    /// An argument; `begin` is the line that prepares it, `names` the arguments that this line uses.
     Given { begin: &'f str, names: Arguments },
 }
 
@@ -91,7 +91,7 @@ pub(super) struct Code<'c> {
 }
 
 impl Code<'_> {
-    /// The functions as text.
+    /// Returns the text of the functions.
     pub fn print(&self, context: &impl CodeContext, function: &Function<'_>) -> String {
         let parts = self.parts(context.has_lanes());
         let mut printer = Printer::new(self, context, &parts);
@@ -115,7 +115,7 @@ fn is_work(instruction: Instruction) -> bool {
     }
 }
 
-/// Arguments that the printer names itself.
+/// Names that the printer itself uses.
 const OUT: &str = "out";
 const TERMS: &str = "w";
 const AT: &str = "at";
@@ -131,14 +131,14 @@ struct Printer<'p, S> {
     /// Inputs that the function being written has bound.
     bound: FxHashSet<Register>,
     bindings: String,
-    /// The arguments that it names.
+    /// Arguments that the function uses.
     used: FxHashSet<&'static str>,
     /// True if a blank line precedes the first result.
     is_set_off: bool,
-    /// Columns of tables that it has built.
+    /// Columns of tables that the function has built.
     built: FxHashSet<(u32, Column)>,
     count: usize,
-    /// By register: the number of the coordinate that Newton solves for there.
+    /// Registers for which Newton's method solves, with the numbers of their coordinates.
     guessed: FxHashMap<Register, u32>,
 }
 
@@ -160,7 +160,7 @@ impl<'p, S: CodeContext> Printer<'p, S> {
         }
     }
 
-    /// A register's value, for a line that holds it.
+    /// Returns the operand of a register.
     fn value(&mut self, register: Register) -> Operand {
         let operand = self.operand(register);
         self.used.extend(operand.arguments());
@@ -202,13 +202,13 @@ impl<'p, S: CodeContext> Printer<'p, S> {
         target
     }
 
-    /// A place among the terms.
+    /// Returns the operand of a term.
     fn term(&self, place: u32) -> Operand {
         let lane = if self.context.has_lanes() { "[k]" } else { "" };
         Operand::new(format!("{TERMS}[{place}]{lane}"), &[TERMS])
     }
 
-    /// A line, with what it names.
+    /// Appends a line and records the arguments that it uses.
     fn line(&mut self, indent: &str, (line, names): (String, Arguments), text: &mut String) {
         self.used.extend(names);
         *text += &format!("{indent}{line}\n");
@@ -221,7 +221,7 @@ impl<'p, S: CodeContext> Printer<'p, S> {
         }
     }
 
-    /// A function that is not cut.
+    /// Prints a function that is not split.
     fn alone(&mut self, function: &Function<'_>, pieces: &[Piece<'_>]) -> String {
         self.is_set_off = matches!(function.out, Out::List { .. });
         let (body, mut used) = self.body(pieces);
@@ -241,7 +241,7 @@ impl<'p, S: CodeContext> Printer<'p, S> {
         head(function, result, &|name| used.contains(name)) + &body + "}\n\n"
     }
 
-    /// A function that calls others in turn, and these.
+    /// Prints a function that calls its parts in turn, and the parts.
     fn several(&mut self, function: &Function<'_>, parts: &[Part<'_>]) -> String {
         let mut arguments = function.arguments.clone();
         let mut given = names(&function.arguments) + ", ";
@@ -279,12 +279,12 @@ impl<'p, S: CodeContext> Printer<'p, S> {
             Out::Given { begin, .. } => (format!("    {begin}\n{terms}{calls}"), ""),
             Out::List { of, first } => (format!("    let mut out = {first};\n{terms}{calls}    out\n"), of),
         };
-        // it hands all on
+        // the function passes all arguments on
         let head = head(function, result, &|_| !calls.is_empty());
         head + &body + "}\n\n" + &written.text
     }
 
-    /// The body of a function: what it is given, and then its lines; with the arguments that it names.
+    /// Returns the body of a function, bindings of inputs first, and the arguments that it uses.
     fn body(&mut self, pieces: &[Piece<'_>]) -> (String, FxHashSet<&'static str>) {
         self.bound.clear();
         self.bindings.clear();
@@ -313,26 +313,26 @@ impl<'p, S: CodeContext> Printer<'p, S> {
         }
         let mut bindings = std::mem::take(&mut self.bindings);
         if !bindings.is_empty() && !text.is_empty() {
-            // what is given, and what is made of it
+            // a blank line separates bindings from computations
             bindings.push('\n');
         }
         (bindings + &text, std::mem::take(&mut self.used))
     }
 }
 
-/// The names of arguments, as they are handed on.
+/// Returns the arguments of a call that passes them on.
 fn names(arguments: &[(&'static str, String)]) -> String {
     arguments.iter().map(|(name, _)| *name).collect::<Vec<&str>>().join(", ")
 }
 
-/// Documentation and head of a function; an argument that is not used is marked.
+/// Returns documentation and head of a function; unused arguments begin with `_`.
 fn head(function: &Function<'_>, result: &str, is_used: &dyn Fn(&str) -> bool) -> String {
     let arguments: Vec<(&str, &str)> = function.arguments.iter().map(|(name, of)| (*name, of.as_str())).collect();
     let visibility = if function.is_public { "pub " } else { "" };
     documented(&function.docs, "") + &signature(visibility, function.name, &arguments, result, is_used, function.margin)
 }
 
-/// The functions that a long one is cut into.
+/// Functions into which a long one is split.
 struct Parts<'p> {
     name: &'p str,
     arguments: &'p [(&'static str, String)],

@@ -1,4 +1,4 @@
-//! Newton's loops, of one at a time and of lanes.
+//! Loops of Newton's method, for a single variant and for lanes.
 
 use super::value_locations::Location;
 use super::{AT, CodeContext, Printer};
@@ -25,7 +25,7 @@ impl<S: CodeContext> Printer<'_, S> {
         *text += &self.around(tears, &body);
     }
 
-    /// Newton in all lanes.
+    /// Appends Newton's loop for all lanes.
     pub(super) fn newton_of_lanes(&mut self, range: Range<usize>, tears: &[Tear], text: &mut String) {
         let mut places = Vec::new();
         let (mut begin, mut before) = (String::new(), String::new());
@@ -60,7 +60,7 @@ impl<S: CodeContext> Printer<'_, S> {
         );
     }
 
-    /// A loop around a body.
+    /// Returns a Newton loop with the given body.
     pub(super) fn around(&mut self, tears: &[Tear], body: &str) -> String {
         let (mut begin, mut after, mut go_on, mut end) = (String::new(), String::new(), String::new(), String::new());
         for tear in tears {

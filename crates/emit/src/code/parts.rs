@@ -4,15 +4,15 @@ use super::Code;
 use mechc_engine::solver::{Segment, Tear};
 use std::ops::Range;
 
-/// Operations of a function at most: rustc takes more than proportionally longer for longer ones.
+/// Largest number of operations of a function: the time that rustc takes grows superlinearly.
 const LONGEST_FUNCTION: usize = 2000;
 /// Largest length of a loop over lanes, which should become vector instructions.
 const LONGEST_LOOP: usize = 400;
 
-/// A run of operations in a function of its own.
+/// Run of operations that becomes a function.
 pub(super) enum Part<'c> {
     Straight(Vec<Piece<'c>>),
-    /// A loop whose body is so long that it is made of several functions.
+    /// Loop with a body so long that it consists of several functions.
     Loop {
         bodies: Vec<Range<usize>>,
         tears: &'c [Tear],
@@ -26,7 +26,7 @@ pub(super) struct Piece<'c> {
 }
 
 impl<'c> Code<'c> {
-    /// Cuts the segments into parts that are short enough; with lanes each loop is a part of its own.
+    /// Splits the segments into parts that are short enough; with lanes each loop is a separate part.
     pub(super) fn parts(&self, has_lanes: bool) -> Vec<Part<'c>> {
         let longest = if has_lanes { LONGEST_LOOP } else { LONGEST_FUNCTION };
         let mut cut = Cut { parts: Vec::new(), pieces: Vec::new(), length: 0, longest };
@@ -48,7 +48,7 @@ impl<'c> Code<'c> {
     }
 }
 
-/// Parts in the making.
+/// Builder of parts.
 struct Cut<'c> {
     parts: Vec<Part<'c>>,
     pieces: Vec<Piece<'c>>,

@@ -9,19 +9,19 @@ use std::ops::Range;
 /// Location of a value.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Location {
-    /// Written by no operation.
+    /// An input, which no operation writes.
     Given,
-    /// In its function, and there in its loop if it is in one.
+    /// A variable that only its function uses, and only within its loop if `of_loop` is not [`STRAIGHT`].
     Local { function: u32, of_loop: u32 },
-    /// In its function, beyond its loop.
+    /// A variable that its function also uses outside the loop.
     BeyondLoop { function: u32 },
-    /// Among the terms that functions hand on.
+    /// A term that functions pass on.
     Term(u32),
 }
 
-/// No loop.
+/// Number for code outside of loops.
 const STRAIGHT: u32 = 0;
-/// No function in particular.
+/// Number for uses in several functions.
 const OTHERS: u32 = u32::MAX;
 
 /// Locations of all values, by their registers.
@@ -32,7 +32,7 @@ pub(super) struct ValueLocations<'p, S> {
     is_read: Vec<bool>,
     /// Number of terms that functions pass on.
     pub terms: u32,
-    /// Names that values shall have.
+    /// Preferred names of values.
     pub result_names: Vec<Option<String>>,
 }
 
@@ -72,7 +72,7 @@ impl<'p, S: CodeContext> ValueLocations<'p, S> {
                         let of_loop = if piece.tears.is_some() { loops } else { STRAIGHT };
                         self.settle_in(piece.range.clone(), function, of_loop);
                         for tear in piece.tears.unwrap_or(&[]) {
-                            // in lanes loops beside its own have the corrections too
+                            // with lanes, other loops use the corrections too
                             let reader = if self.context.has_lanes() { OTHERS } else { function };
                             self.read(tear.x, function, STRAIGHT);
                             self.read(tear.delta, reader, STRAIGHT);

@@ -12,33 +12,33 @@ use mechc_expr::{Binary, Comparison, ExprId, Graph, Node, Symbol, Unary};
 use mechc_ir::ConstraintSystem;
 use rustc_hash::FxHashMap;
 
-/// Parts of this many operations that stand in several places are terms.
+/// Number of operations from which a shared part becomes a term.
 const SHARED: u32 = 24;
 
-/// Formulas up to this size are put in order first.
+/// Largest size of a formula that is simplified first.
 const LARGEST_TIDIED: u64 = 600;
 
-/// Anything wider than this inside a formula is a term: more than a line (em).
+/// Width beyond which a part of a formula becomes a term: more than a line (em).
 const WIDEST_PART: f64 = 60.0;
 
-/// The widest that stands in other places which cannot be broken (em).
+/// Largest width of a part in other positions that cannot be broken (em).
 const WIDEST_ROOT: f64 = 24.0;
 const WIDEST_HALF_ROOT: f64 = 15.0;
 const WIDEST_CASE: f64 = 17.0;
 const WIDEST_CONDITION: f64 = 14.0;
 const WIDEST_EXPONENT: f64 = 8.0;
 
-/// A page takes no more rows of `cases`.
+/// Largest number of rows of `cases` on a page.
 const MOST_CASES: usize = 16;
 
-/// Operations within each other that are written in one formula.
+/// Largest nesting depth of operations in one formula.
 const DEEPEST: u32 = 50;
 
-/// A term, to be written out below the formula that first holds it.
+/// Term, defined below the formula that first uses it.
 #[derive(Debug)]
 pub(super) struct Term {
     pub name: String,
-    /// `=`, or another sign where it is a condition.
+    /// `=`, or the sign of a comparison.
     pub relation: &'static str,
     pub text: String,
 }
@@ -46,26 +46,26 @@ pub(super) struct Term {
 /// Writes the formulas of one system.
 pub(super) struct Formulas<'s> {
     system: &'s ConstraintSystem,
-    /// The system's formulas, with a named symbol for each shared part.
+    /// The system's formulas, with a symbol for each shared part.
     graph: Graph,
     /// Expressions in `graph` for the roots.
     roots: FxHashMap<ExprId, ExprId>,
     /// Shared parts.
     shared: Vec<ExprId>,
-    /// The numbers of the terms that have been met.
+    /// Numbers of the terms used so far.
     terms: FxHashMap<ExprId, usize>,
-    /// Terms that are still to be written out.
+    /// Terms whose definitions are pending.
     open: Vec<Open>,
 }
 
-/// A term that is still to be written out.
+/// Term whose definition is pending.
 enum Open {
     Shared { number: usize, definition: ExprId },
     Wide { number: usize, piece: Piece },
 }
 
 impl<'s> Formulas<'s> {
-    /// A writer for these formulas of a system.
+    /// Creates a writer for some formulas of a system.
     pub fn new(system: &'s ConstraintSystem, roots: &[ExprId]) -> Formulas<'s> {
         let mut graph = Graph::new();
         let mut imported = FxHashMap::default();
@@ -99,7 +99,7 @@ impl<'s> Formulas<'s> {
         Set { text: piece.text, width: piece.width }
     }
 
-    /// The terms that what was written since the last call holds, and those that these hold.
+    /// Returns the terms used since the last call, and those that these use.
     pub fn terms(&mut self) -> Vec<Term> {
         let mut list = Vec::new();
         while !self.open.is_empty() {
@@ -120,7 +120,7 @@ impl<'s> Formulas<'s> {
     }
 
     fn tidied(&mut self, root: ExprId) -> ExprId {
-        // a root that was not told beforehand has no place here
+        // a root must have been passed to `new`
         let id = self.roots.get(&root).copied().unwrap_or_else(|| self.graph.constant(0.0));
         self.in_order(id)
     }
@@ -129,7 +129,7 @@ impl<'s> Formulas<'s> {
         if self.graph.written_size(&[id]) <= LARGEST_TIDIED { self.graph.tidied(id) } else { id }
     }
 
-    /// A formula that stands alone: only here are there cases.
+    /// Returns a displayed formula; only such formulas contain `cases`.
     fn outermost(&mut self, id: ExprId) -> Piece {
         match self.graph.node(id) {
             _ if self.terms.contains_key(&id) => self.part(id),
@@ -138,12 +138,12 @@ impl<'s> Formulas<'s> {
         }
     }
 
-    /// A part of a formula, where it can be broken.
+    /// Returns a part of a formula in a position that can be broken.
     fn part(&mut self, id: ExprId) -> Piece {
         self.within(id, WIDEST_PART, 2)
     }
 
-    /// A part of a formula, or a term where that is too wide or too tall.
+    /// Returns a part of a formula, or a term if it is too wide or too tall.
     fn within(&mut self, id: ExprId, widest: f64, tallest: u32) -> Piece {
         if let Some(&number) = self.terms.get(&id) {
             return reference(number);
@@ -156,7 +156,7 @@ impl<'s> Formulas<'s> {
         self.term(id, piece)
     }
 
-    /// A term instead of a piece.
+    /// Returns the symbol of a term that replaces a piece.
     fn term(&mut self, id: ExprId, piece: Piece) -> Piece {
         let number = self.terms.len() + 1;
         self.terms.insert(id, number);
@@ -211,7 +211,7 @@ impl<'s> Formulas<'s> {
 
     fn symbol(&mut self, id: ExprId, symbol: Symbol) -> Piece {
         match symbol {
-            // what is typeset has inputs as formulas of time
+            // the typeset system has formulas of time instead of signals
             Symbol::Time | Symbol::Signal { .. } => Piece::new("t", 0.45, Level::Atom),
             Symbol::Param(k) => {
                 let name = param(self.system, k as usize);
@@ -273,7 +273,7 @@ impl<'s> Formulas<'s> {
         sum
     }
 
-    /// Products and quotients as one fraction, what is wide beside it.
+    /// Returns products and quotients as one fraction, with wide factors next to it.
     fn product(&mut self, root: ExprId) -> Piece {
         let (mut above, mut below, mut is_negative) = (Vec::new(), Vec::new(), false);
         let mut open = vec![(root, true)];
@@ -411,7 +411,7 @@ impl<'s> Formulas<'s> {
         Piece::new(text, a.width + b.width + width, level).tall(a.tall.max(b.tall))
     }
 
-    /// A chain of conditions, a row for each.
+    /// Returns a chain of conditions as `cases`, with a row for each.
     fn cases(&mut self, root: ExprId) -> Piece {
         let (mut rows, mut id) = (Vec::new(), root);
         while let Node::Select(condition, value, rest) = self.graph.node(id) {
@@ -434,7 +434,7 @@ impl<'s> Formulas<'s> {
     }
 }
 
-/// The command of a function that LaTeX knows.
+/// Returns the LaTeX command of an elementary function.
 fn elementary(function: Unary) -> Option<&'static str> {
     Some(match function {
         Unary::Sin => r"\sin",
@@ -453,7 +453,7 @@ fn elementary(function: Unary) -> Option<&'static str> {
     })
 }
 
-/// A number without its sign.
+/// Returns a number without its sign.
 fn constant(size: f64) -> Piece {
     let set = numeral(size);
     let is_single = set.text.bytes().all(|c| c.is_ascii_digit() || c == b'.') || set.text == r"\pi";
@@ -468,7 +468,7 @@ fn reference(number: usize) -> Piece {
     Piece::new(name(number), 0.9 + 0.4 * number.to_string().len() as f64, Level::Atom)
 }
 
-/// The large parts that stand in several places, those that hold no other one first.
+/// Returns the large shared parts, inner ones first.
 fn shared_parts(graph: &Graph, roots: &[ExprId]) -> Vec<ExprId> {
     let reachable = graph.reachable(roots);
     let mut uses: FxHashMap<ExprId, u32> = FxHashMap::default();

@@ -6,7 +6,7 @@
 use mechc_expr::number;
 use unicode_normalization::char::decompose_canonical;
 
-/// Names longer than this are cut in formulas, and told apart by a number.
+/// Length beyond which names are cut in formulas and distinguished by a number.
 const LONGEST: usize = 24;
 
 /// Number of letters of a long name before it may be broken.
@@ -102,7 +102,7 @@ pub(super) struct Set {
     pub width: f64,
 }
 
-/// A name as a symbol of a formula. `number` tells names apart that are cut.
+/// Returns a name as a symbol of a formula. `number` distinguishes names that are cut.
 pub(super) fn symbol(name: &str, style: Style, number: usize) -> Set {
     let (cut, is_cut) = match name.char_indices().nth(LONGEST) {
         Some(_) => (name.char_indices().nth(LONGEST - 6).map_or(name, |(at, _)| &name[..at]), true),
@@ -128,7 +128,7 @@ pub(super) fn symbol(name: &str, style: Style, number: usize) -> Set {
     Set { text, width }
 }
 
-/// A name or a file's name in running text; a long one may be broken.
+/// Returns a name or a file's name in running text; a long one may be broken.
 pub(super) fn words(name: &str) -> String {
     let is_long = name.chars().count() > LONGEST;
     let mut text = String::new();
@@ -207,7 +207,7 @@ fn width_of(c: char) -> f64 {
     }
 }
 
-/// A number that is not negative, for a reader: twelve digits at most, and multiples of π and simple fractions as what they
+/// Returns a number that is not negative, for a reader: twelve digits at most, and multiples of π and simple fractions as what they
 /// are.
 pub(super) fn numeral(value: f64) -> Set {
     let rounded = format!("{value:.11e}").parse().unwrap_or(value);
@@ -228,7 +228,7 @@ pub(super) fn numeral(value: f64) -> Set {
     }
 }
 
-/// `nπ/d`, `n/(dπ)` or `n/d`, where a number is one of these as exactly as numbers can be.
+/// Returns a number as `nπ/d`, `n/(dπ)` or `n/d` if it equals one of these up to rounding.
 fn recognized(value: f64) -> Option<Set> {
     const OF_A_TURN: [f64; 20] = [
         1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0, 9.0, 10.0, 12.0, 15.0, 18.0, 20.0, 24.0, 30.0, 36.0, 45.0, 60.0, 90.0, 180.0,
@@ -273,7 +273,7 @@ mod tests {
     use super::{Style, numeral, symbol, words};
 
     #[test]
-    fn names_hold_what_pdflatex_can_set() {
+    fn names_are_valid_for_pdflatex() {
         let cases = [
             ("crank_length", r"\mathit{crank\_length}"),
             ("a", "a"),
@@ -309,7 +309,7 @@ mod tests {
     }
 
     #[test]
-    fn numbers_are_what_they_mean() {
+    fn numerals_match_their_values() {
         let cases = [
             (0.05, "0.05"),
             (3.0, "3"),

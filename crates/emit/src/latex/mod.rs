@@ -67,8 +67,8 @@ pub fn latex(system: &ConstraintSystem, mechanics: Option<&Mechanics>, is_determ
     writer.text + "\n\\end{document}\n"
 }
 
-/// A measure's formula, without the condition under which it has a value: a reader sees from a table where that ends.
-fn where_it_has_a_value(system: &ConstraintSystem, measure: ExprId) -> ExprId {
+/// Returns a measure's formula, without the condition under which it has a value: a reader sees from a table where that ends.
+fn without_condition(system: &ConstraintSystem, measure: ExprId) -> ExprId {
     let is_none =
         |id: ExprId| system.graph().dependence(id).is_constant() && !system.graph().value(id, |_| 0.0).is_finite();
     match system.graph().node(measure) {
@@ -77,14 +77,14 @@ fn where_it_has_a_value(system: &ConstraintSystem, measure: ExprId) -> ExprId {
     }
 }
 
-/// Every formula that is written.
+/// Returns all formulas that are emitted.
 fn roots(system: &ConstraintSystem, mechanics: Option<&Mechanics>) -> Vec<ExprId> {
     let mut roots: Vec<ExprId> = system.rows().iter().map(|row| row.phi).collect();
     roots.extend(system.phi_q().entries().iter().map(|&(_, id)| id));
     roots.extend(system.nu().iter().chain(system.gamma()));
     roots.extend(system.inputs().iter().map(|input| input.formulas[0]));
     let measures = system.measures().iter().filter(|measure| not_written(system, measure.value).is_none());
-    roots.extend(measures.map(|measure| where_it_has_a_value(system, measure.value)));
+    roots.extend(measures.map(|measure| without_condition(system, measure.value)));
     if let Some(Mechanics { mass_matrix, applied }) = mechanics {
         roots.extend(mass_matrix.entries().iter().map(|&(_, id)| id).chain(applied.iter().copied()));
         roots.extend(system.reactions().iter().map(|of| of.value));
@@ -281,7 +281,7 @@ impl Writer<'_> {
         self.terms();
     }
 
-    /// A column with its coordinate on top.
+    /// Returns a column with its coordinate on top.
     fn column(&mut self, column: u32, rows: &[usize]) -> Vec<Set> {
         let system = self.system;
         let mut cells = vec![coordinate(system, column as usize, 0)];
@@ -352,7 +352,7 @@ impl Writer<'_> {
                 self.entry(&name, &format!("\\text{{{reason}}}"));
                 continue;
             }
-            let text = self.formulas.text(where_it_has_a_value(self.system, measure.value));
+            let text = self.formulas.text(without_condition(self.system, measure.value));
             self.entry(&name, &text);
             self.terms();
         }
@@ -375,7 +375,7 @@ impl Writer<'_> {
     }
 }
 
-/// An SI unit behind a number, from `m`, `1/s` or `m^2/s`; nothing for a pure number.
+/// Returns an SI unit behind a number, from `m`, `1/s` or `m^2/s`; nothing for a pure number.
 fn unit(unit: &str) -> String {
     if unit == "1" {
         return String::new();

@@ -1,9 +1,9 @@
-//! Formulas as they are written, with an estimate of how wide they are, and what is put together of several.
+//! Typeset formulas with estimates of their widths, and their composition.
 
-/// The widest that stands in a fraction, which cannot be broken (em).
+/// Largest width of a part of a fraction, which cannot be broken (em).
 pub(super) const WIDEST_FRACTION: f64 = 20.0;
 
-/// From here on a row of factors or arguments may be broken between any two of them (em).
+/// Width from which a row of factors or arguments may be broken between any two of them (em).
 const BREAKABLE: f64 = 20.0;
 
 /// Precedence of a piece.
@@ -20,13 +20,13 @@ pub(super) enum Level {
     Atom,
 }
 
-/// A formula as it is written.
+/// Typeset formula.
 #[derive(Clone, Debug)]
 pub(super) struct Piece {
     pub(super) text: String,
-    /// About how wide it is (em).
+    /// Estimated width (em).
     pub(super) width: f64,
-    /// Nesting depth of its fractions.
+    /// Nesting depth of fractions.
     pub(super) tall: u32,
     pub(super) level: Level,
     /// True if a minus belongs in front of it.
@@ -43,7 +43,7 @@ impl Piece {
         self
     }
 
-    /// With its sign, as it stands at the beginning of a formula.
+    /// Returns the piece with its sign, for the beginning of a formula.
     pub(super) fn signed(mut self) -> Piece {
         if self.is_negative {
             self.text.insert(0, '-');
@@ -56,7 +56,7 @@ impl Piece {
         self.enclosed(["(", ")"])
     }
 
-    /// Between delimiters that are as tall as needed, and do not keep a wide piece from being broken.
+    /// Encloses the piece in delimiters that are as tall as needed and still let a wide piece be broken.
     pub(super) fn enclosed(self, [left, right]: [&str; 2]) -> Piece {
         let piece = self.signed();
         let text = match piece.tall {
@@ -97,7 +97,7 @@ pub(super) fn rank(piece: &Piece) -> Rank {
     }
 }
 
-/// Factors above and below a line; in as many fractions as their widths ask for.
+/// Returns a quotient of products, as one fraction or as several if the factors are wide.
 pub(super) fn quotient(above: Vec<Factor>, below: Vec<Factor>) -> Piece {
     if below.is_empty() {
         return row(above);
@@ -116,7 +116,7 @@ pub(super) fn quotient(above: Vec<Factor>, below: Vec<Factor>) -> Piece {
     }
     let whole = row(above.clone());
     let fits = whole.width <= WIDEST_FRACTION && whole.tall <= 1;
-    // what is wide stands beside the line, but for its numbers
+    // wide factors stand next to the fraction, except numbers
     let (numbers, rest) = if fits { (Vec::new(), Vec::new()) } else { above.into_iter().partition(is_number) };
     let mut top = if fits { whole } else { row(numbers) };
     let is_negative = std::mem::take(&mut top.is_negative);
@@ -138,7 +138,7 @@ fn is_number((rank, _): &Factor) -> bool {
     *rank == Rank::Number
 }
 
-/// Factors side by side.
+/// Returns a product as a row of factors.
 fn row(mut factors: Vec<Factor>) -> Piece {
     factors.sort_by_key(|(rank, _)| *rank);
     let Some((_, first)) = factors.first() else { return Piece::new("1", 0.5, Level::Atom) };
@@ -165,7 +165,7 @@ fn row(mut factors: Vec<Factor>) -> Piece {
     row
 }
 
-/// A function of its arguments; an operator takes a lone symbol without parentheses.
+/// Returns a function of its arguments; an operator takes a lone symbol without parentheses.
 pub(super) fn call(word: &str, width: f64, arguments: Vec<Piece>, is_operator: bool) -> Piece {
     if let [argument] = arguments.as_slice()
         && is_operator

@@ -4,7 +4,7 @@ use super::letters::{Set, Style, symbol};
 use mechc_expr::TableId;
 use mechc_ir::{ConstraintSystem, Owner};
 
-/// A parameter's symbol.
+/// Returns a parameter's symbol.
 pub(super) fn param(system: &ConstraintSystem, number: usize) -> Set {
     let name = &system.params()[number].name;
     match name.split_once('.') {
@@ -17,12 +17,12 @@ pub(super) fn param(system: &ConstraintSystem, number: usize) -> Set {
     }
 }
 
-/// A table's symbol.
+/// Returns a table's symbol.
 pub(super) fn table_name(system: &ConstraintSystem, table: TableId) -> Set {
     symbol(&system.graph().tables()[table.index()].name, Style::Upright, table.index())
 }
 
-/// A coordinate's symbol, or that of a derivative of it: `\dot{\phi}_{\mathrm{crank}}`.
+/// Returns a coordinate's symbol, or that of a derivative of it: `\dot{\phi}_{\mathrm{crank}}`.
 pub(super) fn coordinate(system: &ConstraintSystem, index: usize, order: u8) -> Set {
     let name = &system.coordinates()[index].name;
     let field = name.rsplit('.').next().unwrap_or(name);

@@ -177,7 +177,7 @@ fn a_motion_is_followed_forwards_and_back() {
 }
 
 #[test]
-fn bits_do_not_depend_on_the_way() {
+fn bits_do_not_depend_on_the_path() {
     let (mut one, mut other) = (started(1.0).unwrap(), started(1.0).unwrap());
     step(0.7, &mut one, 100, &mut Work::default()).unwrap();
     for t in [0.2, 0.9, 0.65, 0.7] {
@@ -192,7 +192,7 @@ fn all_of(state: &State<Circle>) -> String {
 }
 
 #[test]
-fn at_its_highest_place_it_locks_up_and_stays_where_it_was() {
+fn lock_up_keeps_the_state() {
     let mut state = started(1.0).unwrap();
     step(0.5, &mut state, 100, &mut Work::default()).unwrap();
     let before = all_of(&state);
@@ -205,7 +205,7 @@ fn at_its_highest_place_it_locks_up_and_stays_where_it_was() {
 }
 
 #[test]
-fn what_is_no_number_is_refused_and_too_few_steps_are_told() {
+fn invalid_times_and_step_limits_are_reported() {
     assert_eq!(started(f64::NAN).err(), Some(Error::NotANumber));
     let mut state = started(0.5).unwrap();
     let (before, mut work) = (all_of(&state), Work::default());
@@ -223,7 +223,7 @@ fn what_is_no_number_is_refused_and_too_few_steps_are_told() {
 }
 
 #[test]
-fn a_rim_is_met_once() {
+fn boundaries_are_met_once() {
     let (model, work) = (Circle::new(&Speed(1.0)), &mut Work::default());
     let never = [f64::NEG_INFINITY];
     let (boundary, t) = first_boundary(&model, 0.0, 0.5, &never, work).unwrap();
@@ -233,7 +233,7 @@ fn a_rim_is_met_once() {
 }
 
 #[test]
-fn sizes_are_judged_beside_their_scales() {
+fn sizes_are_relative_to_scales() {
     assert!(larger(1.0, f64::NAN).is_nan() && larger(f64::NAN, 1.0).is_nan());
     for place in 0..3 {
         let mut values = [1.0, -6.0, 2.0];

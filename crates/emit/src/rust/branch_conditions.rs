@@ -8,7 +8,7 @@ use crate::text::{constant, literal};
 use mechc_ir::program::{BoundaryRegisters, Register};
 
 impl Writer<'_> {
-    /// The branches of formulas.
+    /// Prints the functions that determine the branches of formulas.
     pub fn sides(&self, page: &mut Page) {
         let switches = self.unit.program.switches();
         let docs = "Number of places where formulas have branches.";
@@ -32,7 +32,7 @@ impl Writer<'_> {
         }
     }
 
-    /// A register that holds 0, or what no function computes.
+    /// Returns a register that holds 0, or one that no function computes.
     fn zero(&self) -> Register {
         let zero =
             self.equations.constants.iter().filter(|(_, value)| value.to_bits() == 0).map(|(register, _)| *register);
@@ -69,7 +69,7 @@ impl Writer<'_> {
         });
     }
 
-    /// The functions of what must hold beside the equations.
+    /// Prints the functions for the conditions that must hold in addition to the equations.
     pub fn checks(&self, page: &mut Page) {
         let (outputs, watches) = (self.open_conditions(), &self.unit.program.outputs.watches);
         let mut function = |name: &str, docs: &str, outputs: &[Register], length: &str| {
@@ -92,7 +92,7 @@ impl Writer<'_> {
         }
     }
 
-    /// Formulas that must be positive, but those that always are what they are.
+    /// Returns the formulas that must be positive, without those that are constant.
     fn open_conditions(&self) -> Vec<Register> {
         let is_open = |register: &&Register| !self.equations.constants.contains_key(register);
         self.unit.program.outputs.conditions.iter().filter(is_open).copied().collect()
@@ -184,7 +184,7 @@ impl Writer<'_> {
     }
 }
 
-/// A function that gives the branches of formulas.
+/// Returns the specification of a function that determines branches of formulas.
 fn spec_of_sides<'f>(
     name: &'f str,
     docs: &'f str,

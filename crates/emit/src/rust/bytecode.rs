@@ -1,4 +1,4 @@
-//! Solvers whose operations are written as numbers.
+//! Solvers whose operations are encoded as numbers.
 
 use super::Writer;
 use crate::bytecode::ConstantPool;
@@ -20,7 +20,7 @@ struct More {
 }
 
 impl Writer<'_> {
-    /// The function that solves.
+    /// Prints the solver's function.
     pub fn solver_as_numbers(&self, solution: &Solution<'_>, pool: &mut ConstantPool, page: &mut Page) {
         page.docs("Position, velocity and acceleration at a time, by the operations of [`SOLVE`].");
         self.listed(solution, "solve", &[], page, |page| {
@@ -76,7 +76,7 @@ impl Writer<'_> {
         solution.listing(solver, ending, pool, page);
     }
 
-    /// A function that runs a listing.
+    /// Prints a function that interprets a listing.
     fn listed(
         &self,
         solution: &Solution<'_>,

@@ -1,4 +1,4 @@
-//! Constants: the columns of tables, and what coordinates are judged against.
+//! Constants: columns of tables, and reference sizes of coordinates.
 
 use super::Writer;
 use crate::print::Page;
@@ -9,11 +9,11 @@ use mechc_expr::VARIED_TABLE;
 use mechc_ir::program::{Column, STAGES};
 use mechc_ir::tolerances::steps::march::{FEWEST_STEPS, SMALLEST_STEP};
 
-/// More coordinates that Newton solves for are looked up in a table.
+/// Number of coordinates of Newton's method beyond which a table holds them.
 const MOST_TEARS_IN_LINE: usize = 64;
 
 impl Writer<'_> {
-    /// The tables' columns that hold numbers alone.
+    /// Prints the columns of tables that are constant.
     pub fn tables(&self, page: &mut Page) {
         let program = self.unit.program;
         for (number, table) in program.tables().iter().enumerate() {
@@ -45,7 +45,7 @@ impl Writer<'_> {
         self.equations.pool.is_some() || all().any(|&op| op.column() == Some((table, column)))
     }
 
-    /// The times of the file's analysis.
+    /// Prints the times of the file's analysis.
     pub fn times(solution: &Solution<'_>, page: &mut Page) {
         let (from, to) = (solution.motion.from, solution.motion.to);
         let span = to.map_or(1.0, |to| if to > from { to - from } else { 1.0 });

@@ -80,7 +80,7 @@ impl Writer<'_> {
         });
     }
 
-    /// The functions that count what they do.
+    /// Prints the entry points that count their work.
     fn counted(&self, page: &mut Page) {
         let (state, most, work) = (("state", "&mut State"), ("most", "usize"), ("work", "&mut Work"));
         let [nothing, progress] = ["Result<(), Error>", "Result<Progress, Error>"];

@@ -1,7 +1,7 @@
 //! Code that follows inputs: `Inputs`, `follow` and `influence` of emitted Rust.
 //!
-//! Its equations hold inputs as signals. What `step` does along time, it does along the straight line from signals to others, whose
-//! places go from 0 to 1; it stands in a module of its own, so that nothing else changes.
+//! In its equations inputs are signals. It steps along the straight line between two values of the signals as `step` does along time,
+//! with a parameter from 0 to 1. It is a separate module, so that other code does not depend on it.
 
 use super::indices::numbered;
 use super::state_size::Work;
@@ -48,7 +48,7 @@ const LARGEST_CHANGE: &str =
 more is refused at once, as a value that an encoder never had. At first half a turn of an angle,
 and of a length twice the largest body; infinite where an input is neither.";
 
-/// The inputs, and the module that follows them; what that uses, the words that it takes of a state, and the work of a step.
+/// Prints the inputs and the module that follows them. Returns its dependencies, the words that it takes of a state, and the work of a step.
 pub(super) fn module(following: &Following<'_>, page: &mut Page) -> (RuntimeDeps, usize, Option<Work>) {
     let unit = &*following.unit;
     let Some(motion) = &unit.motion else {
@@ -63,7 +63,7 @@ pub(super) fn module(following: &Following<'_>, page: &mut Page) -> (RuntimeDeps
     let mut deps = by_formulas(following, &names, &tables, &mut body);
     let solution = Solution::new(unit, motion, &equations);
     writer.input_driven(&solution, &mut body);
-    let words = writer.words_of_lead(&solution);
+    let words = writer.words_of_input_path(&solution);
     deps.add(&equations.deps.take());
     let inputs = Inputs { all: unit.system.inputs(), names: &names, for_c: unit.for_c };
     inputs.print(page);
@@ -110,7 +110,7 @@ fn by_formulas(following: &Following<'_>, names: &Names, tables: &Tables, page: 
 }
 
 impl Writer<'_> {
-    /// The mechanism along signals.
+    /// Prints the model of the mechanism along signals.
     fn input_driven(&self, solution: &Solution<'_>, page: &mut Page) {
         let system = self.unit.system;
         page.constant(
@@ -136,7 +136,7 @@ impl Writer<'_> {
         self.equations.print_pool(page);
     }
 
-    /// By signal: the largest change that a call takes at first.
+    /// Returns the default of the largest change per call, for each signal.
     fn largest_changes(&self) -> Vec<f64> {
         let system = self.unit.system;
         let lengths = system.coordinates().iter().filter(|of| of.kind.unit() == "m").map(|of| of.scale);
@@ -150,7 +150,7 @@ impl Writer<'_> {
         system.inputs().iter().map(of).collect()
     }
 
-    /// The motion along signals.
+    /// Prints the motion along signals.
     fn along_signals(&self, solution: &Solution<'_>, page: &mut Page) {
         self.requires("input_path", "InputDriven");
         self.requires("input_path", "Signals");
@@ -195,7 +195,7 @@ impl Inputs<'_> {
         self.all.iter().zip(&self.names.inputs).filter(|(input, _)| !input.is_time())
     }
 
-    /// A structure that C knows too.
+    /// Prints the attribute for C layout if C accesses the structure.
     fn as_in_c(&self, page: &mut Page) {
         if self.for_c {
             page.line("#[repr(C)]");
@@ -285,7 +285,7 @@ impl Inputs<'_> {
         });
     }
 
-    /// The functions that everybody may call.
+    /// Prints the public functions.
     fn entry_points(&self, is_left_out: bool, page: &mut Page) {
         page.item("impl runtime::follow::Follows<following::Model, SIGNALS> for Model", |page| {
             page.line(&format!("const HAS_TIME: bool = {};", self.has_time()));

@@ -1,4 +1,4 @@
-//! Forces of joints and drivers: their positions in arrays, their equations, and the functions that give them.
+//! Forces of joints and drivers: their indices, equations and functions.
 
 use super::Writer;
 use super::indices::numbered;
@@ -45,7 +45,7 @@ impl Writer<'_> {
         );
     }
 
-    /// The functions that everybody may call.
+    /// Prints the public functions.
     pub fn force_functions(&self, page: &mut Page) {
         if self.equations.has_forces() {
             self.needed(Given::None, page);

@@ -1,4 +1,4 @@
-//! The functions that everybody may call: the equations, what follows from them, the measures.
+//! Public functions for the equations, their derivatives and the measures.
 
 use super::Writer;
 use crate::equations::{FunctionSpec, Given};
@@ -7,7 +7,7 @@ use crate::print::{Head, Page};
 use crate::text::one_line;
 use mechc_ir::program::Register;
 
-/// Systems up to this many coordinates get their Jacobian as a full matrix too.
+/// Largest number of coordinates for which the Jacobian is also emitted as a full matrix.
 const LARGEST_DENSE: usize = 64;
 
 /// Documentation of the function for the equations that were left out.
@@ -19,7 +19,7 @@ const VARIED_RIGHT: &str =
 before those by two, those of `q` before those of `qd` and these before those of `qdd`: what is not found yet
 may be anything.";
 
-/// Function of the equations.
+/// Function for the equations or one of their derivatives.
 struct Kind<'k> {
     name: &'k str,
     docs: &'k str,
@@ -30,7 +30,7 @@ struct Kind<'k> {
 }
 
 impl Writer<'_> {
-    /// The equations, with what they leave.
+    /// Returns the functions of the equations, including residuals of left-out ones.
     fn kinds(&self) -> Vec<Kind<'_>> {
         let outputs = &self.unit.program.outputs;
         let kind = |name, docs, orders, outputs, length| Kind { name, docs, orders, outputs, length };
@@ -54,7 +54,7 @@ impl Writer<'_> {
         kinds
     }
 
-    /// The functions that everybody may call.
+    /// Prints the public functions.
     pub fn functions(&self, page: &mut Page) {
         self.left_out(page);
         for Kind { name, docs, orders, outputs, length } in self.kinds() {
@@ -78,7 +78,7 @@ impl Writer<'_> {
         self.measures("pub fn", page);
     }
 
-    /// The functions of the equations on branches that are given, as far as a solution needs them.
+    /// Prints those functions of the equations on given branches that a solution needs.
     pub fn functions_on_sides(&self, has_pivoting: bool, page: &mut Page) {
         let is_input_driven = self.equations.is_input_driven;
         for Kind { name, orders, outputs, length, .. } in self.kinds() {
@@ -169,7 +169,7 @@ impl Writer<'_> {
         );
     }
 
-    /// The measures with their derivatives.
+    /// Prints the measures with their derivatives.
     pub fn measures(&self, kind: &str, page: &mut Page) {
         let (system, outputs) = (self.unit.system, &self.unit.program.outputs);
         if system.measures().is_empty() {
@@ -219,7 +219,7 @@ impl Writer<'_> {
     }
 }
 
-/// The Jacobian as a matrix.
+/// Prints the Jacobian as a matrix.
 fn dense(page: &mut Page) {
     page.docs("The Jacobian as a full matrix, row by row.");
     let arguments = [("q", "&[f64; N]"), ("t", "f64"), ("p", "&Params")];

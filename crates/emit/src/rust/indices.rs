@@ -54,7 +54,7 @@ impl Writer<'_> {
         page.line("];\n");
     }
 
-    /// The bodies, and where they are.
+    /// Prints the indices of bodies, and the function for their poses.
     fn bodies(&self, page: &mut Page) {
         let system = self.unit.system;
         if system.bodies().is_empty() {
@@ -134,7 +134,7 @@ impl Writer<'_> {
     }
 }
 
-/// A module of numbers by names: what each is of, and its name.
+/// Prints a module of named indices, given documentation and name of each.
 pub(super) fn numbered<'n>(page: &mut Page, docs: &str, module: &str, all: impl Iterator<Item = (String, &'n String)>) {
     page.docs(docs);
     let mut all = all.enumerate().peekable();

@@ -6,12 +6,12 @@ use crate::solution::Solution;
 use crate::text::{constant, literal};
 
 impl Writer<'_> {
-    /// The module for several lanes, where these are wanted.
+    /// Prints the module for several lanes, if requested.
     pub fn lanes(&self, solution: &Solution<'_>, page: &mut Page) {
         let Some(lanes) = self.unit.lanes.filter(|_| self.equations.pool.is_none()) else {
             return;
         };
-        // what lanes use they name themselves
+        // the module of lanes has its own `use` items
         let of_one = self.equations.deps.take();
         let mut body = Page::of_module();
         self.inside(solution, lanes, &mut body);
@@ -51,7 +51,7 @@ impl Writer<'_> {
         page.text(&solution.function(true));
     }
 
-    /// The functions that everybody may call.
+    /// Prints the public functions.
     fn public_functions(&self, page: &mut Page) {
         let each = "[Result<(), Error>; LANES]";
         page.docs(

@@ -1,4 +1,4 @@
-//! A mechanism as one Rust file: its equations, and what solves them.
+//! A mechanism as one Rust file: its equations and solver.
 
 mod branch_conditions;
 mod bytecode;
@@ -29,12 +29,12 @@ use mechc_text::source::Span;
 use state_size::Bounds;
 use std::cell::RefCell;
 
-/// A Rust module.
+/// Emitted Rust module.
 pub(super) struct Module {
     pub text: String,
     /// True if it needs the crate `libm`.
     pub needs_libm: bool,
-    /// Words of 8 bytes that a state takes; 0 where nothing is solved.
+    /// Words of 8 bytes that a state takes; 0 without a solver.
     pub words: usize,
     /// Upper bounds of the steps of calls, and of their evaluations.
     pub bounds: Bounds,
@@ -57,7 +57,7 @@ pub(super) fn module(unit: &TranslationUnit<'_>) -> Module {
     writer.indices(&mut body);
     writer.tables(&mut body);
     writer.functions(&mut body);
-    let (mut words, mut lead) = (0, None);
+    let (mut words, mut work_to_follow) = (0, None);
     if let Some(motion) = &unit.motion {
         let solution = Solution::new(unit, motion, &equations);
         writer.entry_points(&mut body);
@@ -67,12 +67,12 @@ pub(super) fn module(unit: &TranslationUnit<'_>) -> Module {
     }
     equations.print_pool(&mut body);
     if let Some(following) = &unit.following {
-        let (deps, words_of_lead, work) = following::module(following, &mut body);
-        words += words_of_lead;
-        lead = work;
+        let (deps, words_of_input_path, work) = following::module(following, &mut body);
+        words += words_of_input_path;
+        work_to_follow = work;
         equations.deps.borrow_mut().include(&deps);
     }
-    let bounds = if unit.motion.is_some() { writer.bounds(lead) } else { Bounds::new() };
+    let bounds = if unit.motion.is_some() { writer.bounds(work_to_follow) } else { Bounds::new() };
     let deps = equations.deps.take();
     let mut page = Page::default();
     writer.header(deps.needs_libm(), &mut page);
@@ -179,7 +179,7 @@ impl Writer<'_> {
         format!(", line {}", self.unit.sources.get(span.file).position(span.start).0)
     }
 
-    /// Notes that a thing of a file that goes along is named.
+    /// Records the use of an item of a runtime file.
     fn requires(&self, file: &'static str, name: &'static str) {
         self.equations.deps.borrow_mut().name(file, name);
     }
@@ -194,7 +194,7 @@ impl Writer<'_> {
         (switches.iter().any(|switch| switch.on_time), switches.iter().any(|switch| !switch.on_time))
     }
 
-    /// The parameters, or the way, that functions of the equations are given by a method of the mechanism.
+    /// Returns the expression for the parameters or the input path that methods of the mechanism pass to functions of the equations.
     fn given(&self) -> &'static str {
         if self.equations.is_input_driven { "&self.path" } else { "&self.params" }
     }

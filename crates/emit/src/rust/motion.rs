@@ -43,7 +43,7 @@ impl Writer<'_> {
         self.pivoting(solution, page);
     }
 
-    /// The function that solves, as lines or as numbers.
+    /// Prints the solver's function, as Rust expressions or as numbers.
     fn solver(&self, solution: &Solution<'_>, page: &mut Page) {
         match &self.equations.pool {
             Some(pool) => self.solver_as_numbers(solution, &mut pool.borrow_mut(), page),
@@ -51,7 +51,7 @@ impl Writer<'_> {
         }
     }
 
-    /// The arguments of a function of the equations: what it has of its own, the time, the parameters, the branches.
+    /// Returns a call of a function of the equations with the arguments `more`, time, parameters and branches.
     pub fn call(&self, function: &str, more: &[&str], given: Given) -> String {
         let mut arguments = more.to_vec();
         arguments.extend(["t", self.given()]);
@@ -61,7 +61,7 @@ impl Writer<'_> {
         format!("{function}({})", arguments.join(", "))
     }
 
-    /// A method that calls a function of the equations, with arguments of its own before the time.
+    /// Prints a method that calls a function of the equations, with additional arguments before the time.
     pub fn method(
         &self,
         page: &mut Page,
@@ -86,7 +86,7 @@ impl Writer<'_> {
         });
     }
 
-    /// The equations.
+    /// Prints the methods for the equations.
     fn equations(&self, page: &mut Page) {
         page.item("impl Equations for Model", |page| {
             page.line("type Q = Q;");
@@ -105,7 +105,7 @@ impl Writer<'_> {
         });
     }
 
-    /// The operations that solve them.
+    /// Prints the methods that solve the equations.
     fn solves(&self, solution: &Solution<'_>, page: &mut Page) {
         let (file, name, along) = if self.equations.is_input_driven {
             ("input_path", "Slopes", "Slopes<Q, SIGNALS>")
@@ -140,7 +140,7 @@ impl Writer<'_> {
         });
     }
 
-    /// The measures as a solution has them.
+    /// Prints the methods for the measures of a solution.
     fn measured(&self, page: &mut Page) {
         if self.unit.system.measures().is_empty() {
             return;
@@ -180,7 +180,7 @@ impl Writer<'_> {
         values.chain(rates).chain(accelerations).collect()
     }
 
-    /// The mechanism with what it is given, and what follows from its parameters alone.
+    /// Prints the structure of the mechanism: its parameters, and the values that follow from these alone.
     pub fn model(&self, field: &str, of: &str, what: &str, solution: &Solution<'_>, page: &mut Page) {
         let registers = solution.derived_registers();
         if !registers.is_empty() {
@@ -218,7 +218,7 @@ impl Writer<'_> {
         }
     }
 
-    /// The motion along time.
+    /// Prints the motion along time.
     fn timed(&self, solution: &Solution<'_>, page: &mut Page) {
         let estimates = &self.unit.program.outputs.estimates;
         let docs = "Where the file's poses put the coordinates, roughly: what is not closed yet.";

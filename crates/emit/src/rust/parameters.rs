@@ -1,11 +1,11 @@
-//! Parameters, which users can set, in structures.
+//! Structures of the parameters that users can set.
 
 use super::Writer;
-use crate::params::{Of, Params};
+use crate::params::{FieldType, Params};
 use crate::print::{Head, Page};
 use crate::text::{literal, one_line};
 
-/// Part of the way from parameters to others.
+/// Head of the method that interpolates between two sets of parameters.
 const TOWARDS: Head<'_> = Head {
     kind: "fn",
     name: "towards",
@@ -55,7 +55,7 @@ impl Writer<'_> {
         }
     }
 
-    /// A structure that C knows too.
+    /// Prints the attribute for C layout if C accesses the structure.
     fn as_in_c(&self, page: &mut Page) {
         if self.unit.for_c {
             page.line("#[repr(C)]");
@@ -76,7 +76,7 @@ impl Writer<'_> {
         }
     }
 
-    /// The structures of the parameters.
+    /// Prints the structures of the parameters.
     fn types_of_params(&self, params: &Params, page: &mut Page) {
         for of in &params.types {
             page.docs(&if of.source.is_empty() {
@@ -89,13 +89,13 @@ impl Writer<'_> {
             page.item(&format!("pub struct {}", of.name), |page| {
                 for field in &of.fields {
                     let (source, name) = (one_line(&field.source), &field.name);
-                    let (docs, of) = match &field.of {
-                        Of::Number(param) => {
+                    let (docs, of) = match &field.kind {
+                        FieldType::Number(param) => {
                             let param = &self.unit.system.params()[*param];
                             (format!("`{source}` ({}){}", param.unit(), self.line(param.span)), "f64".to_owned())
                         }
-                        Of::Part(part) => (format!("Those of `{source}`."), params.types[*part].name.clone()),
-                        Of::Copies(part, lengths) => {
+                        FieldType::Part(part) => (format!("Those of `{source}`."), params.types[*part].name.clone()),
+                        FieldType::Copies(part, lengths) => {
                             let inner = params.types[*part].name.clone();
                             let array = lengths.iter().rev().fold(inner, |of, length| format!("[{of}; {length}]"));
                             (format!("Those of `{source}`, by its numbers."), array)

@@ -1,4 +1,4 @@
-//! Solving with partial pivoting, where the order of elimination loses digits.
+//! Solution with partial pivoting, for positions in which the order of elimination loses digits.
 
 use super::Writer;
 use crate::equations::{FunctionSpec, Given};
@@ -59,7 +59,7 @@ impl Writer<'_> {
         !self.unit.program.outputs.jerk().is_empty() && self.unit.system.jerk().is_some()
     }
 
-    /// The methods that give right sides.
+    /// Prints the methods for right sides.
     fn right_sides(&self, page: &mut Page) {
         let orders = ("[q, qd, qdd]", "[&Q; 3]");
         if self.has_jerk() {
@@ -139,7 +139,7 @@ impl Writer<'_> {
         Self::table_of_blocks("EQUATIONS", "How the equations fall apart into blocks.", tables, page);
     }
 
-    /// Blocks of equations, as a static of a name.
+    /// Prints the static that describes the blocks of equations.
     pub fn table_of_blocks(name: &str, docs: &str, tables: &BlockTables, page: &mut Page) {
         let whole = |values: &[usize]| values.iter().map(usize::to_string).collect::<Vec<String>>();
         let lists = [
@@ -161,7 +161,7 @@ impl Writer<'_> {
         page.end_statement();
     }
 
-    /// The right sides for the derivatives of the coordinates by signals or parameters.
+    /// Prints the right sides for the derivatives of the coordinates by signals or parameters.
     pub fn rights<'l>(&self, by: &str, lists: impl Iterator<Item = &'l [Register]>, count: &str, page: &mut Page) {
         let all: Vec<Register> = lists.flatten().copied().collect();
         let name = format!("all_rights_by_{by}");

@@ -74,7 +74,8 @@ impl Writer<'_> {
         });
     }
 
-    /// Leaves out derivatives in whose direction an equation that was left out would cease to hold; what that is evaluated with.
+    /// Prints the check that leaves out derivatives in whose direction a left-out equation would cease to hold.
+    /// `with` is the expression by which that is evaluated.
     pub fn reject_drift(&self, by: &str, with: &str, page: &mut Page) {
         self.requires("constraint_drift", "reject_drift");
         page.line(&format!("let slopes = left_out_slopes_by_{by}(&at.q, at.t, {with});"));
@@ -115,7 +116,7 @@ impl Writer<'_> {
         );
     }
 
-    /// The function that everybody may call.
+    /// Prints the public function.
     fn public_sensitivity(&self, page: &mut Page) {
         let head =
             |arguments| Head { kind: "pub fn", name: "sensitivity", arguments, result: "Result<[Q; PARAMS], Error>" };

@@ -1,7 +1,7 @@
 //! Memory of a state and work of a call, for callers that reserve both without Rust.
 //!
-//! All in it are numbers of 8 bytes and answers of one, so that it is the same everywhere. The code for C does not compile where this is
-//! too little.
+//! A state consists of numbers of 8 bytes and flags of one, so its size is equal on all platforms. The code for C does not compile if the
+//! size is too small.
 
 use super::Writer;
 use crate::solution::Solution;
@@ -17,19 +17,19 @@ use mechc_ir::tolerances::steps::rims::MOST_HALVINGS;
 const WORD: usize = 8;
 
 impl Writer<'_> {
-    /// Words of a state, but for what leads it: the mechanism, two solutions, how far steps go, which boundaries were passed, how it was
-    /// assembled.
+    /// Returns the words of a state without its input path: the mechanism, two solutions, the step size, the passed boundaries, and the
+    /// kind of assembly.
     pub fn words(&self, solution: &Solution<'_>) -> usize {
         let of_model = self.unit.system.params().len() + solution.derived.len();
         of_model + 2 * self.words_of_solution(solution) + self.boundaries().count() + 2 + words_of(2) + words_of(1)
     }
 
-    /// Words of what leads it: the mechanism on a way of signals, two solutions, how far it goes, what it takes, where it was going.
-    pub fn words_of_lead(&self, solution: &Solution<'_>) -> usize {
+    /// Returns the words of the input path: the mechanism along signals, two solutions, the step size, the largest changes, the target.
+    pub fn words_of_input_path(&self, solution: &Solution<'_>) -> usize {
         let signals = self.unit.system.inputs().len();
-        let of_way = self.unit.system.params().len() + 4 * signals;
+        let of_path = self.unit.system.params().len() + 4 * signals;
         let of_track = 2 * self.words_of_solution(solution) + 1 + words_of(2);
-        of_way + solution.derived.len() + of_track + signals + (signals + 1) + words_of(1)
+        of_path + solution.derived.len() + of_track + signals + (signals + 1) + words_of(1)
     }
 
     fn words_of_solution(&self, solution: &Solution<'_>) -> usize {
@@ -42,25 +42,25 @@ impl Writer<'_> {
     }
 }
 
-/// Upper bounds of the steps of calls and of their evaluations, by the names of their constants; the same as `work.rs` and
-/// its like in `runtime` say, for those who do not ask Rust.
+/// Upper bounds of the steps of calls and of their evaluations, by the names of their constants. They equal those that `work.rs` and
+/// similar files of `runtime` compute, for callers without Rust.
 pub(crate) type Bounds = Vec<(&'static str, usize)>;
 
-/// Evaluations that steps take at most.
+/// Upper bounds of the evaluations of steps.
 #[derive(Clone, Copy)]
 pub(super) struct Work {
-    /// To look at the switches of time on both sides.
+    /// Evaluations of the switches of time on both sides.
     sides: usize,
-    /// To reach a state.
+    /// Evaluations to reach a state.
     reaching: usize,
-    /// To see that a state is regular.
+    /// Evaluations to check that a state is regular.
     regular: usize,
-    /// To take a step.
+    /// Evaluations of a step.
     pub step: usize,
 }
 
 impl Writer<'_> {
-    /// Evaluations of a step along time, or along signals.
+    /// Returns the bounds for a step along time, or along signals.
     pub fn work(&self) -> Work {
         const OF_FINDING: usize = 3;
         let (of_time, of_motion) = self.switches();
@@ -71,29 +71,29 @@ impl Writer<'_> {
         Work { sides, reaching, regular: 1 + 2 * sides, step }
     }
 
-    /// The bounds of a mechanism, with what its inputs take.
-    pub fn bounds(&self, lead: Option<Work>) -> Bounds {
+    /// Returns the bounds of a mechanism, with those of its input path.
+    pub fn bounds(&self, path: Option<Work>) -> Bounds {
         let work = self.work();
         let most_work = self.boundaries().count() * (MOST_HALVINGS + 3) + 2 + 2 * MOST_LOOKS * work.reaching;
         let of_step = work.step + if self.has_boundaries() { most_work } else { 0 };
-        let of_lead_step = lead.map_or(0, |lead| lead.step + 1);
-        let to_follow = |lead: Work| 1 + lead.sides + lead.reaching + lead.regular + lead.reaching + 2;
-        let to_take_up = lead.map_or(0, |lead| to_follow(lead) + 1 + work.sides + work.reaching);
+        let of_path_step = path.map_or(0, |path| path.step + 1);
+        let to_follow = |path: Work| 1 + path.sides + path.reaching + path.regular + path.reaching + 2;
+        let to_take_up = path.map_or(0, |path| to_follow(path) + 1 + work.sides + work.reaching);
         let of_parts = (2 + FIRST_PARTS + MOST_PARTS) * (2 * work.sides + work.reaching + 1);
         let mut bounds = vec![
             ("MOST_STEPS", MOST_STEPS),
-            ("MOST_WORK", MOST_STEPS * of_step.max(of_lead_step) + to_take_up + work.regular),
+            ("MOST_WORK", MOST_STEPS * of_step.max(of_path_step) + to_take_up + work.regular),
             ("MOST_WORK_TO_ASSEMBLE", of_parts + work.sides + (1 + MOST_SHORTER) * MOST_TRIALS),
         ];
-        if let Some(lead) = lead {
+        if let Some(path) = path {
             bounds.push(("MOST_STEPS_TO_FOLLOW", MOST_STEPS_TO_FOLLOW));
-            bounds.push(("MOST_WORK_TO_FOLLOW", MOST_STEPS_TO_FOLLOW * of_lead_step + to_follow(lead)));
+            bounds.push(("MOST_WORK_TO_FOLLOW", MOST_STEPS_TO_FOLLOW * of_path_step + to_follow(path)));
         }
         bounds
     }
 }
 
-/// Words that some answers take.
+/// Returns the number of words that some flags take.
 fn words_of(answers: usize) -> usize {
     answers.div_ceil(WORD)
 }

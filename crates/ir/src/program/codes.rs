@@ -21,11 +21,11 @@ pub const LESS_MUL: u32 = 11;
 pub const NEG: u32 = 12;
 pub const RECIP: u32 = 13;
 pub const SIN_COS: u32 = 14;
-/// A multiplier, and the place of what makes it at most 1.
+/// A multiplier, and the index of the weight that makes it at most 1.
 pub const MULTIPLIER: u32 = 15;
-/// What is left of an equation, and the place of what may be left.
+/// Residual of an equation, and the index of its bound.
 pub const RESIDUAL: u32 = 16;
-/// One over a pivot, the turn that it counts for, and the place of its weight.
+/// Reciprocal of a pivot, the turn that it counts for, and the index of its weight.
 pub const PIVOT: u32 = 17;
 pub const UNARY: u32 = 18;
 pub const BINARY: u32 = 19;

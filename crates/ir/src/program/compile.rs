@@ -81,7 +81,7 @@ fn stage_of(with: With) -> Stage {
         With::Time(0 | 1) | With::Input(_) => Stage::Velocity,
         With::Time(2) => Stage::Acceleration,
         With::Time(_) => Stage::Jerk,
-        // as for variations: differentiation adds no branches
+        // params need no stage of their own: differentiation adds no branches
         With::Param(_) => Stage::Variation,
     }
 }

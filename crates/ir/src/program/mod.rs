@@ -110,7 +110,7 @@ impl Column {
 /// Registers of a table; each column is a run of consecutive registers.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct TableLayout {
-    /// Its name.
+    /// Name.
     pub name: String,
     /// Number of pieces, one less than knots.
     pub pieces: u32,
@@ -313,7 +313,7 @@ impl Outputs {
 pub struct BoundaryRegisters {
     /// The event function.
     pub gauge: Register,
-    /// Its time derivative.
+    /// Time derivative.
     pub slope: Register,
     /// Terms of its sum, which scale its rounding.
     pub terms: Vec<Register>,

@@ -79,7 +79,7 @@ pub struct Ranges {
     /// Operations that the formulas depend on, with their properties.
     steps: Vec<Step>,
     findings: Vec<u8>,
-    /// By formula: the operations that earlier formulas do not run, and all operations that it depends on.
+    /// Operations of each formula that earlier formulas do not run, and all operations that it depends on.
     additional: Vec<Vec<u32>>,
     dependencies: Vec<Vec<u32>>,
     roots: Vec<Register>,
@@ -91,7 +91,7 @@ pub struct Ranges {
     /// Restrictions by register, and the restricted registers.
     holds: Vec<Option<Restriction>>,
     held: Vec<Register>,
-    /// By register: true if the formula of the last [`Ranges::find_live`] depends on it.
+    /// True for registers on which the formula of the last [`Ranges::find_live`] depends.
     is_live: Vec<bool>,
     time: Register,
 }

@@ -41,7 +41,7 @@ impl Determined {
     /// others suffice.
     fn counts_alone(&self, part: &PartWithDerivatives) -> Option<[usize; 2]> {
         let rows = self.rows_of(part);
-        // where inputs are scope, the scope has the coordinates that the rows contain then
+        // if the part's inputs are held, its scope has the coordinates that the rows then contain
         let scope = self.system.scopes().iter().find(|scope| scope.name == part.name);
         let mut pattern = SparseRows::new();
         for (k, &row) in rows.iter().enumerate() {

@@ -41,13 +41,13 @@ pub fn steps(determined: &Determined) -> Vec<Step> {
 
 /// Chooses the next step among groups of blocks: the single-coordinate blocks of one body or joint form a group, and so does every larger block.
 struct Planner {
-    /// By block: its group, the blocks that it depends on, and whether it is done.
+    /// Group of each block, followed by the blocks that it depends on, and whether it is done.
     group: Vec<usize>,
     needs: Vec<Vec<usize>>,
     is_done: Vec<bool>,
-    /// By block: the blocks that depend on it.
+    /// Blocks that depend on each block.
     needed_by: Vec<Vec<usize>>,
-    /// By group: its blocks in order, and the number of open dependencies on other groups.
+    /// Blocks of each group in order, followed by the number of its open dependencies on other groups.
     members: Vec<Vec<usize>>,
     open: Vec<usize>,
     /// Groups that are not done: number of open dependencies, first block, group.

@@ -19,7 +19,7 @@ impl Checker<'_> {
     ) -> Option<CompoundUnit> {
         let mut factors = Vec::new();
         for of in &written.factors {
-            let power = if of.factor == Factor::Over { -of.power } else { of.power };
+            let power = if of.factor == Factor::Divide { -of.power } else { of.power };
             match Unit::named(&of.name.text) {
                 Some(unit) => factors.push((unit, power)),
                 None => self.report(not_a_unit(&of.name)),
@@ -83,7 +83,7 @@ impl Checker<'_> {
             }
             ExprKind::Product(first, rest) => rest.iter().fold(self.angle_power(first), |power, (factor, term)| {
                 let exponent = self.angle_power(term);
-                if *factor == Factor::Over { power.saturating_sub(exponent) } else { power.saturating_add(exponent) }
+                if *factor == Factor::Divide { power.saturating_sub(exponent) } else { power.saturating_add(exponent) }
             }),
             ExprKind::Power(base, exponent) => match exponent.bare_number() {
                 // A fractional exponent does not give an angle.

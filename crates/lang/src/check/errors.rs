@@ -34,7 +34,7 @@ use mechc_text::source::Span;
 use mechc_text::vocabulary::Word;
 
 fn nearest_name(expected: &Name, names: &[&str]) -> Option<Fix> {
-    nearest(&expected.text, names.iter().copied()).map(|name| Fix::meant(expected.span, name))
+    nearest(&expected.text, names.iter().copied()).map(|name| Fix::suggest(expected.span, name))
 }
 
 /// `word` is given for words of the language.

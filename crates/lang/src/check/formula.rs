@@ -486,7 +486,7 @@ impl Checker<'_> {
                 Factor::Times => {
                     Value { id: graph.mul(left.id, right.id), dim: left.dim.with(right.dim, Dimension::times) }
                 }
-                Factor::Over => {
+                Factor::Divide => {
                     Value { id: graph.div(left.id, right.id), dim: left.dim.with(right.dim, Dimension::over) }
                 }
             };

@@ -196,7 +196,7 @@ impl Checker<'_> {
             (Scaled::Number(a), Factor::Times, Scaled::Number(b)) => {
                 Scaled::Number(Value { id: graph.mul(a.id, b.id), dim: of(Dimension::times, a.dim, b.dim) })
             }
-            (Scaled::Number(a), Factor::Over, Scaled::Number(b)) => {
+            (Scaled::Number(a), Factor::Divide, Scaled::Number(b)) => {
                 Scaled::Number(Value { id: graph.div(a.id, b.id), dim: of(Dimension::over, a.dim, b.dim) })
             }
             (Scaled::Number(a), Factor::Times, Scaled::Point(at, dim)) => {
@@ -205,11 +205,11 @@ impl Checker<'_> {
             (Scaled::Point(at, dim), Factor::Times, Scaled::Number(b)) => {
                 Scaled::Point(at.map(|id| graph.mul(id, b.id)), of(Dimension::times, dim, b.dim))
             }
-            (Scaled::Point(at, dim), Factor::Over, Scaled::Number(b)) => {
+            (Scaled::Point(at, dim), Factor::Divide, Scaled::Number(b)) => {
                 Scaled::Point(at.map(|id| graph.div(id, b.id)), of(Dimension::over, dim, b.dim))
             }
-            (Scaled::Point(..), Factor::Times, Scaled::Point(..)) | (_, Factor::Over, Scaled::Point(..)) => {
-                self.report(errors::product_of_points(span, factor == Factor::Over));
+            (Scaled::Point(..), Factor::Times, Scaled::Point(..)) | (_, Factor::Divide, Scaled::Point(..)) => {
+                self.report(errors::product_of_points(span, factor == Factor::Divide));
                 return None;
             }
         })

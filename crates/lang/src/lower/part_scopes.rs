@@ -133,12 +133,12 @@ impl Lowering<'_> {
         if let Some(&number) = self.leaf_context.leaves.get(&(part, bound)) {
             return self.graph.symbol(leaf(number));
         }
-        let over_leaves = with_rates(&mut self.graph, id);
+        let with_leaves = with_rates(&mut self.graph, id);
         let plain = self.with_leaves(|l| l.formula(bound));
         let plain = with_rates(&mut self.graph, plain);
         let Some(variations) = &mut self.variations else { return id };
         let number = variations.leaves.len();
-        variations.leaves.push(Leaf { scope, over_leaves, plain });
+        variations.leaves.push(Leaf { scope, with_leaves, plain });
         self.leaf_context.leaves.insert((part, bound), number);
         self.graph.symbol(leaf(number))
     }

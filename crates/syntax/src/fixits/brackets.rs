@@ -66,7 +66,7 @@ impl<'a> Fault<'a> {
 
     /// Returns the brackets that are missing before the fault.
     pub(super) fn closing(&self) -> Option<Fix> {
-        // what is closed further on is not what is missing
+        // a bracket that is closed further on is not missing
         if !self.ends_what_is_open() || self.before().ends_with('=') || self.is_closed_behind() {
             return None;
         }

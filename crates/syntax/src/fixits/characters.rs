@@ -20,7 +20,7 @@ const OPERAND: [Rule; 5] = [Rule::expr, Rule::prefix, Rule::literal, Rule::numbe
 
 impl Fault<'_> {
     pub(super) fn foreign_character(&self) -> Option<FixIt> {
-        // where a name goes on it is no operator
+        // inside of a name the character is no operator
         let has_operator = self.expects(Rule::infix) || OPERAND.iter().any(|rule| self.expects(*rule));
         let written = WRITTEN.iter().find(|(written, ..)| *written == self.found);
         if let Some((_, text, words)) = written.filter(|_| has_operator) {
@@ -121,7 +121,7 @@ impl Fault<'_> {
         self.replaced(start..end, if joins { " " } else { "" }, words, Applicability::Always)
     }
 
-    /// `driver d := …`
+    /// Corrects `driver d := …`.
     fn colon_equals(&self) -> Option<FixIt> {
         let line = self.behind().lines().next().unwrap_or_default();
         let is_sure = !self.expects(Rule::prefix) || line.contains('=');
@@ -130,14 +130,14 @@ impl Fault<'_> {
         is_sure.then(|| self.replaced(start..self.here().end, ":", words, Applicability::Always))
     }
 
-    /// `# a comment`, and what is none: `a#1`.
+    /// Corrects `# a comment`, but not `a#1`.
     fn number_sign(&self) -> FixIt {
         let words = "a comment begins with `//`";
         let marks = self.found.len() + self.behind().len() - self.behind().trim_start_matches('#').len();
         let range = self.at..self.at + marks;
         let is_at_line_start = self.text[..self.at].trim_end_matches([' ', '\t']).ends_with('\n');
         let is_apart = self.text[..self.at].ends_with(char::is_whitespace);
-        // what has begun and is not complete would go on in the comment
+        // an incomplete declaration would continue in the comment
         let is_complete = self.expects(Rule::infix) || self.expects(Rule::close);
         // a block that was commented out needs a mark on each of its lines
         let opens_a_block = self.behind().lines().next().is_some_and(|line| line.contains(['{', '}']));
@@ -149,7 +149,7 @@ impl Fault<'_> {
         }
     }
 
-    /// `/* … */`
+    /// Corrects `/* … */`.
     fn block_comment(&self, start: usize) -> FixIt {
         let words = "a comment begins with `//` and ends with its line".to_owned();
         let Some(length) = self.text[start + 2..].find("*/") else { return FixIt::Words(words) };
@@ -161,7 +161,7 @@ impl Fault<'_> {
         FixIt::Fix(Fix::replace(self.span(start..end), text, words, Applicability::Always))
     }
 
-    /// `30°`, and `alpha°`, which is a product.
+    /// Corrects `30°`, and `alpha°`, which is a product.
     fn degree_sign(&self) -> FixIt {
         let word = self.word_before();
         let words = format!("degrees are written `{word} deg`");
@@ -188,7 +188,7 @@ impl Fault<'_> {
         line.starts_with("fn ") && !line.contains('=')
     }
 
-    /// `0,5` and `2.`
+    /// Corrects `0,5` and `2.`.
     fn decimal_separator(&self) -> Option<FixIt> {
         let (whole, behind) = (self.word_before(), self.behind());
         let is_number = |text: &str| !text.is_empty() && text.chars().all(|c| c.is_ascii_digit());
@@ -223,7 +223,7 @@ fn line_comments(text: &str) -> String {
     let mark = if is_doc { "///" } else { "//" };
     let inside = text.trim_start_matches('/').trim_start_matches('*').trim_end_matches('*').trim_end();
     let mut lines = inside.split('\n').enumerate().peekable();
-    // of a doc comment the first line is mostly empty
+    // the first line of a doc comment is mostly empty
     if is_doc && inside.contains('\n') {
         lines.next_if(|(_, line)| line.trim().is_empty());
     }

@@ -7,7 +7,7 @@ use crate::tokens::{begins_declaration, tokens};
 const WORDS: [&str; 3] = ["on", "at", "mirrored"];
 
 impl Fault<'_> {
-    /// `part leg: jansen_leg() at (0, 0, 0) on chassis`
+    /// Corrects `part leg: jansen_leg() at (0, 0, 0) on chassis`.
     pub(super) fn mount_order(&self) -> Option<FixIt> {
         if !WORDS.contains(&self.found) {
             return None;

@@ -13,7 +13,7 @@ impl Fault<'_> {
     pub(super) fn semicolon(&self, around: &str) -> FixIt {
         match around {
             "" | "{" => self.terminator(),
-            _ if self.is_decimal_comma_beside() => self.decimal_commas(),
+            _ if self.has_decimal_comma() => self.decimal_commas(),
             "[" => self.replaced(self.here(), ",", ROWS, Applicability::Always),
             // closed on its line, it goes on behind the semicolon
             _ if self.expects(Rule::comma) && self.is_closed_on_the_line() => {
@@ -30,7 +30,7 @@ impl Fault<'_> {
         }
     }
 
-    /// `param a = 3; param b = 4;`
+    /// Corrects `param a = 3; param b = 4;`.
     fn terminator(&self) -> FixIt {
         let behind = self.behind().trim_start_matches([' ', '\t']);
         let gap = self.here().end..self.text.len() - behind.len();
@@ -47,7 +47,7 @@ impl Fault<'_> {
         self.replaced(self.at..gap.end, &text, TERMINATOR, Applicability::Always)
     }
 
-    /// `weld(a.P; b.Q` at the end of a line
+    /// Corrects `weld(a.P; b.Q` at the end of a line.
     fn unclosed_parenthesis(&self) -> FixIt {
         let line = self.behind().lines().next().unwrap_or_default();
         let rest = tokens(line);
@@ -89,7 +89,7 @@ impl Fault<'_> {
     }
 
     /// Returns the commas right between digits in brackets with a `;`; `None` for a comma that separates.
-    fn commas_beside_semicolons(&self) -> Vec<Option<usize>> {
+    fn commas_in_semicolon_lists(&self) -> Vec<Option<usize>> {
         let list = self.list();
         let mut open: Vec<(bool, Vec<Option<usize>>)> = vec![(false, Vec::new())];
         let mut found = Vec::new();
@@ -116,13 +116,13 @@ impl Fault<'_> {
             && !behind.starts_with(',')
     }
 
-    fn is_decimal_comma_beside(&self) -> bool {
-        self.commas_beside_semicolons().iter().any(Option::is_some)
+    fn has_decimal_comma(&self) -> bool {
+        self.commas_in_semicolon_lists().iter().any(Option::is_some)
     }
 
     /// Explains both readings of `max(1,5; 2)` and chooses neither.
     fn decimal_commas(&self) -> FixIt {
-        let commas: Option<Vec<usize>> = self.commas_beside_semicolons().into_iter().collect();
+        let commas: Option<Vec<usize>> = self.commas_in_semicolon_lists().into_iter().collect();
         let Some(commas) = commas else {
             return FixIt::words("a list is separated by commas, and decimals are written with a point: `(0.5, 1.5)`");
         };

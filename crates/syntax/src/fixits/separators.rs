@@ -3,7 +3,7 @@
 use super::Fault;
 use crate::tokens::tokens;
 use mechc_text::diag::{Applicability, Fix};
-use mechc_text::vocabulary::{JointWord, Place, QuantityWord, Synonym, is_called};
+use mechc_text::vocabulary::{JointWord, Position, QuantityWord, Synonym, is_called};
 
 /// Separators behind a name, by their description, with the wrong one.
 const SEPARATORS: [(&str, &str, &str); 2] = [("`:`", ":", "="), ("`=`", "=", ":")];
@@ -30,7 +30,7 @@ impl Fault<'_> {
         Some(Fix::replace(self.span(place..place), text, words, applies))
     }
 
-    /// `param a: 3`, `joint j = …`, `param a := 3`
+    /// Corrects `param a: 3`, `joint j = …`, `param a := 3`.
     fn other_separator(&self, separator: &str) -> Fix {
         let is_both = self.found == ":" && self.behind().starts_with('=');
         let end = self.here().end + usize::from(is_both);
@@ -59,7 +59,9 @@ impl Fault<'_> {
         let is_gap = self.before().len() < self.at;
         let is_sure = match (separator, self.found) {
             (":", word) if is_equation => is_call && QuantityWord::named(word).is_some(),
-            (":", word) => is_call && (JointWord::named(word).is_some() || Synonym::of(Place::Joint, word).is_some()),
+            (":", word) => {
+                is_call && (JointWord::named(word).is_some() || Synonym::of(Position::Joint, word).is_some())
+            }
             (_, "(") => is_gap || keyword.text == "point",
             (_, "spline" | "periodic") => true,
             (_, word) if word.starts_with(|c: char| c.is_ascii_digit()) => true,

@@ -52,7 +52,7 @@ impl Foreign<'_> {
         }
     }
 
-    /// `mass 5 kg inertia 1 kg*m^2 at (0, 0)`
+    /// Corrects `mass 5 kg inertia 1 kg*m^2 at (0, 0)`.
     fn position_behind_inertia(&self) -> Option<Correction> {
         let inertia = self.before.iter().find(|token| token.text == "inertia")?;
         // a pair, or a point's name

@@ -5,7 +5,7 @@ use crate::tokens::{Token, begins_declaration, tokens};
 use mechc_text::vocabulary::is_feature;
 
 impl Foreign<'_> {
-    /// `x(ground)`, `ground O`, `ground->O`
+    /// Corrects `x(ground)`, `ground O`, `ground->O`.
     pub(super) fn ground_feature(&self) -> Option<Correction> {
         let ground = Token { start: self.at, text: self.found };
         if self.found != "ground" || begins_declaration(self.text, ground) {

@@ -7,7 +7,7 @@ use crate::tokens::tokens;
 use mechc_text::vocabulary::{Keyword, Unit};
 
 impl Foreign<'_> {
-    /// `body arm[3]`, `joint pin[n]: …`, `body cell[2, 3]`
+    /// Corrects `body arm[3]`, `joint pin[n]: …`, `body cell[2, 3]`.
     pub(super) fn array_size(&self, keyword: &str) -> Option<Correction> {
         let [_, name, bracket, ..] = self.before.as_slice() else { return None };
         if !REPEATED.contains(&keyword) || bracket.text != "[" || !is_name(name.text) {
@@ -50,7 +50,7 @@ impl Foreign<'_> {
         tokens(self.text).windows(2).any(|pair| pair[1].text == name && declares(pair[0].text))
     }
 
-    /// `param a: length = 3 mm`, `param a: mm = 3`
+    /// Corrects `param a: length = 3 mm`, `param a: mm = 3`.
     pub(super) fn type_annotation(&self, keyword: &str) -> Option<Correction> {
         let ([_, name], [colon, kind, equals, value @ ..]) = (self.before.as_slice(), self.rest.as_slice()) else {
             return None;
@@ -74,7 +74,7 @@ impl Foreign<'_> {
         Some(Foreign::change(message, edits))
     }
 
-    /// `trace path = crank.A, rod.B`, `measure h = x(rod.A), y(rod.A)`, `measure d = crank.A, rod.B`
+    /// Corrects `trace path = crank.A, rod.B`, `measure h = x(rod.A), y(rod.A)`, `measure d = crank.A, rod.B`.
     pub(super) fn several_values(&self, keyword: &str) -> Option<Correction> {
         let [_, name, equals, ..] = self.before.as_slice() else { return None };
         let what = match keyword {
@@ -102,7 +102,7 @@ impl Foreign<'_> {
         let each = format!("`{keyword} {} = {}`, `{}`", name.text, values[0], others.join("`, `"));
         let is_short = each.chars().count() <= 2 * LONGEST_SHOWN;
         let message = if is_short { format!("{what}: {each}") } else { apart };
-        // a unit behind the last one is meant for all
+        // a unit behind the last one applies to all
         let unit = &self.text[end..self.end()];
         let gap = format!("{unit}{}", self.gap_between_declarations());
         let rest = format!("{gap}{}{unit}", others.join(&gap));

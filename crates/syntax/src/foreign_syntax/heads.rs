@@ -4,7 +4,7 @@ use super::{Correction, Foreign, hyphenated_at, is_name};
 use crate::grammar::Rule;
 use crate::tokens::{Token, tokens};
 use mechc_text::diag::{Applicability, Fix};
-use mechc_text::vocabulary::{JointWord, Keyword, Place, Role, Synonym, is_called, is_declaration};
+use mechc_text::vocabulary::{JointWord, Keyword, Position, Role, Synonym, is_called, is_declaration};
 
 impl Foreign<'_> {
     /// Returns a correction of the head of a declaration.
@@ -17,7 +17,7 @@ impl Foreign<'_> {
             .or_else(|| self.missing_argument(keyword, last))
     }
 
-    /// `small-end`, where a name is declared, with whatever dash.
+    /// Corrects `small-end`, where a name is declared, with whatever dash.
     fn hyphenated_name(&self, last: &Token<'_>) -> Option<Correction> {
         let keyword = self.before.get(self.before.len().checked_sub(2)?)?.text;
         if !self.found.starts_with(is_dash) || !is_declaration(keyword) {
@@ -36,9 +36,9 @@ impl Foreign<'_> {
         self.before.len() == 2 && is_separator
     }
 
-    /// `joint revolute j2(…)`
+    /// Corrects `joint revolute j2(…)`.
     fn name_behind_kind(&self, keyword: &str, last: &Token<'_>) -> Option<Correction> {
-        let is_kind = |word: &str| JointWord::named(word).is_some() || Synonym::of(Place::Joint, word).is_some();
+        let is_kind = |word: &str| JointWord::named(word).is_some() || Synonym::of(Position::Joint, word).is_some();
         let is_called = self.rest.get(1).is_some_and(|token| token.text == "(");
         if keyword != "joint" || !self.is_behind_the_name() || JointWord::named(last.text).is_none() {
             return None;
@@ -52,7 +52,7 @@ impl Foreign<'_> {
         Some(Correction::Change(Fix { message, edits: vec![edit], applies: Applicability::Always }))
     }
 
-    /// `measure der(x(arm.tip))`, `joint: revolute(…)`, `measure (x(arm.tip))`
+    /// Corrects `measure der(x(arm.tip))`, `joint: revolute(…)`, `measure (x(arm.tip))`.
     fn missing_name(&self, keyword: &str, last: &Token<'_>) -> Option<Correction> {
         let form = Keyword::named(keyword).filter(|keyword| keyword.role == Role::Declaration)?;
         let form = form.word.forms.first()?;
@@ -62,7 +62,7 @@ impl Foreign<'_> {
         let is_named_by_a_call = || match keyword {
             "joint" => JointWord::named(last.text).is_some(),
             "body" | "fn" | "table" => false,
-            _ => is_called(last.text) || Synonym::of(Place::Call, last.text).is_some() || last.text == "der",
+            _ => is_called(last.text) || Synonym::of(Position::Call, last.text).is_some() || last.text == "der",
         };
         let start = if self.before.len() == 1 && self.expects(Rule::name) && [":", "=", "(", "{"].contains(&self.found)
         {
@@ -83,7 +83,7 @@ impl Foreign<'_> {
         Some(Correction::Words(format!("a {keyword} needs a name: `{written}`")))
     }
 
-    /// `mechanism "crank rocker" {`
+    /// Corrects `mechanism "crank rocker" {`.
     fn quoted_name(&self) -> Option<Correction> {
         let string = self.rest.first().filter(|token| token.text.len() > 2 && token.text.ends_with('"'))?;
         let words: Vec<&str> =
@@ -97,7 +97,7 @@ impl Foreign<'_> {
         Some(Foreign::change(format!("a name stands without quotes: `{name}`"), vec![edit]))
     }
 
-    /// `mechanism crank rocker {`, `joint j 1: …`, `ground g {`
+    /// Corrects `mechanism crank rocker {`, `joint j 1: …`, `ground g {`.
     fn name_of_several_words(&self, keyword: &str) -> Option<Correction> {
         if keyword == "ground" && self.before.len() == 1 && self.expects(Rule::open) && is_name(self.found) {
             let edit = self.edit(self.before[0].end()..self.at + self.found.len(), "");
@@ -144,7 +144,7 @@ impl Foreign<'_> {
         !others.is_empty() && !others.iter().any(is_declared)
     }
 
-    /// `fn f = 3 * u`, `curve profile u = (…)`, `param f(u) = …`
+    /// Corrects `fn f = 3 * u`, `curve profile u = (…)`, `param f(u) = …`.
     fn missing_argument(&self, keyword: &str, last: &Token<'_>) -> Option<Correction> {
         if !self.is_behind_the_name() {
             return None;

@@ -2,10 +2,10 @@
 
 use super::{Correction, Foreign, holds_quantity, is_name};
 use crate::grammar::Rule;
-use mechc_text::vocabulary::{JointWord, Keyword, Place, Role, Synonym};
+use mechc_text::vocabulary::{JointWord, Keyword, Position, Role, Synonym};
 
 impl Foreign<'_> {
-    /// `a = 30 mm`, `j: revolute(…)`, `revolute j: (…)`, where a declaration begins.
+    /// Corrects `a = 30 mm`, `j: revolute(…)`, `revolute j: (…)`, where a declaration begins.
     pub(super) fn missing_keyword(&self) -> Option<Correction> {
         if self.found == "inertia" && self.begins_feature() {
             return Some(Correction::Words("an inertia stands behind its mass: `mass M inertia I`".to_owned()));
@@ -32,8 +32,8 @@ impl Foreign<'_> {
                 Some(Foreign::change(format!("a body is declared by `body {name} {{`"), vec![edit]))
             }
             [_, _] => {
-                let synonym = Synonym::of(Place::Declaration, self.found)?;
-                synonym.means.is_empty().then(|| Correction::Words(synonym.say(&[])))
+                let synonym = Synonym::of(Position::Declaration, self.found)?;
+                synonym.means.is_empty().then(|| Correction::Words(synonym.message(&[])))
             }
             _ => None,
         }
@@ -58,7 +58,7 @@ impl Foreign<'_> {
         Some(Foreign::change(format!("a {keyword} is declared by `{keyword} {name}{separator} …`"), vec![edit]))
     }
 
-    /// `joint j: (…)`, `joint j: distance(…) = …`
+    /// Corrects `joint j: (…)`, `joint j: distance(…) = …`.
     pub(super) fn missing_joint_kind(&self, keyword: &str) -> Option<Correction> {
         let [joint, name, colon, ..] = self.before.as_slice() else { return None };
         if keyword != "joint" || colon.text != ":" {
@@ -111,10 +111,10 @@ impl Foreign<'_> {
 }
 
 fn is_joint(word: &str) -> bool {
-    JointWord::named(word).is_some() || Synonym::of(Place::Joint, word).is_some()
+    JointWord::named(word).is_some() || Synonym::of(Position::Joint, word).is_some()
 }
 
 /// Returns the language's name for a kind of joint.
 fn kind_of_joint(word: &str) -> &str {
-    Synonym::of(Place::Joint, word).and_then(|synonym| synonym.means.first().copied()).unwrap_or(word)
+    Synonym::of(Position::Joint, word).and_then(|synonym| synonym.means.first().copied()).unwrap_or(word)
 }

@@ -7,7 +7,7 @@ use mechc_text::diag::{Applicability, Fix};
 use mechc_text::vocabulary::{JointWord, Keyword, QuantityWord, Role};
 
 impl Foreign<'_> {
-    /// `joint j: revolute A, B`, `rotation j = …`, `x arm.tip`
+    /// Corrects `joint j: revolute A, B`, `rotation j = …`, `x arm.tip`.
     pub(super) fn bare_arguments(&self, keyword: &str, last: &Token<'_>) -> Option<Correction> {
         let is_kind = keyword == "joint" && last.text == ":" && JointWord::named(self.found).is_some();
         let (called, arguments) =
@@ -41,7 +41,7 @@ impl Foreign<'_> {
         is_quantity && is_in_a_line && self.expects(Rule::infix)
     }
 
-    /// `axis way = top, (0, -1)`
+    /// Corrects `axis way = top, (0, -1)`.
     pub(super) fn axis_with_comma(&self, keyword: &str) -> Option<Correction> {
         if keyword != "axis" || self.found != "," || !self.expects(Rule::along) {
             return None;
@@ -52,7 +52,7 @@ impl Foreign<'_> {
         Some(Foreign::change(message, vec![self.edit(self.before.last()?.end()..next.start, &format!(" {word} "))]))
     }
 
-    /// `circle c = (0, 0, 6 mm)`, `axis a = (0, 1)`, `load push: 20 N`, at the end of a declaration; reported at that end.
+    /// Corrects `circle c = (0, 0, 6 mm)`, `axis a = (0, 1)`, `load push: 20 N`, at the end of a declaration; reported at that end.
     pub(super) fn incomplete_declaration(&self, keyword: &str, last: &Token<'_>) -> Option<Correction> {
         let expected = match keyword {
             "circle" if self.expects(Rule::radius) => "`radius`",
@@ -63,8 +63,8 @@ impl Foreign<'_> {
         let begins = begins_declaration(self.text, Token { start: self.at, text: self.found });
         let is_opener = || Keyword::named(self.found).is_some_and(|keyword| keyword.role == Role::Opener);
         let begins = begins || self.text[last.end()..self.at].contains('\n') && is_opener();
-        let is_over = begins || self.found == "}" || self.found.is_empty();
-        if !is_over {
+        let is_at_end = begins || self.found == "}" || self.found.is_empty();
+        if !is_at_end {
             return None;
         }
         let form = || {
@@ -82,7 +82,7 @@ impl Foreign<'_> {
         })
     }
 
-    /// `circle c = (0, 0, 6 mm)`
+    /// Corrects `circle c = (0, 0, 6 mm)`.
     fn radius_among_coordinates(&self, last: &Token<'_>) -> Option<Correction> {
         let place = self.before.get(3..)?;
         let commas: Vec<usize> = (0..place.len()).filter(|&k| place[k].text == ",").collect();
@@ -95,7 +95,7 @@ impl Foreign<'_> {
         Some(Foreign::change(format!("the radius stands behind the center: `{written}`"), vec![edit]))
     }
 
-    /// `body b (0, 0, 0) {`, `body b { at (0, 0, 0) …`
+    /// Corrects `body b (0, 0, 0) {`, `body b { at (0, 0, 0) …`.
     pub(super) fn pose_without_at(&self, keyword: &str, last: &Token<'_>) -> Option<Correction> {
         let [_, name, ..] = self.before.as_slice() else { return None };
         if keyword != "body" {
@@ -115,7 +115,7 @@ impl Foreign<'_> {
         Some(Foreign::change(format!("the pose stands before the `{{`: `body {} {pose} {{`", name.text), vec![edit]))
     }
 
-    /// `circle c = P diameter 12 mm`
+    /// Corrects `circle c = P diameter 12 mm`.
     pub(super) fn diameter(&self) -> Option<Correction> {
         let is_one = ["diameter", "dia", "d", "Ø"].contains(&self.found) && self.expects(Rule::radius);
         let [_, first, ..] = self.rest.as_slice() else { return None };
@@ -125,7 +125,7 @@ impl Foreign<'_> {
         Some(Foreign::change(format!("a circle has a radius: `radius {value} / 2`"), edits))
     }
 
-    /// `spline [0 0, 1 1]`
+    /// Corrects `spline [0 0, 1 1]`.
     pub(super) fn rows_without_parentheses(&self, keyword: &str) -> Option<Correction> {
         let open = self.before.iter().rposition(|token| token.text == "[")?;
         let begins_operand = self.found.starts_with(|c: char| c.is_alphanumeric() || c == '-');

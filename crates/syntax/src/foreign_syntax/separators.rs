@@ -7,7 +7,7 @@ use mechc_text::diag::{Applicability, Fix};
 use mechc_text::vocabulary::{Unit, is_declaration};
 
 impl Foreign<'_> {
-    /// `param a = 3 mm, b = 4 mm`, `param a = 3 mm,` at the end of its line, `param a = (3 mm))`
+    /// Corrects `param a = 3 mm, b = 4 mm`, `param a = 3 mm,` at the end of its line, `param a = (3 mm))`.
     pub(super) fn declaration_list(&self, keyword: &str) -> Option<Correction> {
         if !is_declaration(keyword)
             || !self.is_outside_of_brackets()
@@ -40,13 +40,13 @@ impl Foreign<'_> {
     fn applies_before_the_next(&self) -> Applicability {
         let behind = self.at + self.found.len();
         let next = tokens(&self.text[behind..]).first().copied();
-        let is_over = next.is_none_or(|next| {
+        let is_last = next.is_none_or(|next| {
             next.text == "}" || begins_declaration(self.text, Token { start: behind + next.start, ..next })
         });
-        if is_over { Applicability::Always } else { Applicability::Probably }
+        if is_last { Applicability::Always } else { Applicability::Probably }
     }
 
-    /// `point P = (45, 40) mm`
+    /// Corrects `point P = (45, 40) mm`.
     pub(super) fn unit_behind_pair(&self, last: &Token<'_>) -> Option<Correction> {
         let unit = Unit::named(self.found)?.word.name;
         let open = self.before.iter().rposition(|token| token.text == "(").filter(|_| last.text == ")")?;
@@ -65,7 +65,7 @@ impl Foreign<'_> {
         Some(Foreign::change(format!("each number has its own unit: `({first} {unit}, …)`"), edits))
     }
 
-    /// `'ground.O'`
+    /// Corrects `'ground.O'`.
     pub(super) fn single_quotes(&self) -> Option<Correction> {
         let quote = self.found.chars().next().filter(|c| ['\'', '‘', '’', '`', '“', '”'].contains(c))?;
         let line = self.text[self.at + quote.len_utf8()..].lines().next()?;
@@ -80,7 +80,7 @@ impl Foreign<'_> {
         Some(Foreign::change(format!("names stand without quotes: `{inside}`"), vec![self.edit(whole, inside)]))
     }
 
-    /// `arm->tip`
+    /// Corrects `arm->tip`.
     pub(super) fn arrow(&self, last: &Token<'_>) -> Option<Correction> {
         let [.., owner, _] = self.before.as_slice() else { return None };
         let feature = self.rest.get(1).filter(|token| is_name(token.text))?;
@@ -89,7 +89,7 @@ impl Foreign<'_> {
         is_arrow.then(|| Foreign::change(message, vec![self.edit(owner.end()..feature.start, ".")]))
     }
 
-    /// `arm.tip.x`
+    /// Corrects `arm.tip.x`.
     pub(super) fn point_coordinate(&self, last: &Token<'_>) -> Option<Correction> {
         let [.., owner, dot, _] = self.before.as_slice() else { return None };
         let coordinate = self.rest.get(1).filter(|token| ["x", "y"].contains(&token.text))?;

@@ -17,7 +17,7 @@ const WIDEST_BEFORE_COMMENT: usize = 60;
 /// Comments in between are passed over.
 pub(super) fn runs(rows: &[Row], are_alike: impl Fn(Kind, Kind) -> bool) -> Vec<Range<usize>> {
     let mut runs: Vec<Range<usize>> = Vec::new();
-    // of the run that is open
+    // last row of the open run
     let mut last: Option<&Row> = None;
     for (k, row) in rows.iter().enumerate() {
         let goes_on = last.is_some_and(|last| {
@@ -53,7 +53,7 @@ impl Cells {
         Cells(starts.iter().zip(ends).map(cell).collect())
     }
 
-    /// All but the last.
+    /// Returns all cells but the last.
     fn padded(&self) -> &[(usize, usize)] {
         self.0.split_last().map_or(&[], |(_, padded)| padded)
     }
@@ -90,7 +90,7 @@ pub(super) fn align(rows: &[Row], cells: &[Option<Cells>], spaces: &mut [usize])
     }
 }
 
-/// The spaces before the comments behind the rows of a run, by the columns at which the rows end; those of rows of several lines are none.
+/// Returns the spaces before the comments of a run, by the end columns of its rows, which are `None` for rows of several lines.
 pub(super) fn before_comments(rows: &[Row], ends: &[Option<usize>]) -> Vec<usize> {
     let commented = rows.iter().zip(ends).filter(|(row, _)| row.behind.is_some());
     let columns = commented.filter_map(|(_, end)| *end).filter(|&end| end <= WIDEST_BEFORE_COMMENT);

@@ -49,7 +49,7 @@ impl Level {
     }
 }
 
-/// A formula as text, which reads back as the same formula.
+/// Returns a formula as text, which reads back as the same formula.
 ///
 /// A number is written as the shortest decimal that reads back to the same `f64`. Sums, products and `else if` chains
 /// that nest where it changes nothing (`(a + b) + c`) become flat.
@@ -159,7 +159,7 @@ fn write_list(text: &mut String, list: &[Expr], window: Option<&Window>) {
     *text += ")";
 }
 
-/// A time of a window. With a sign behind the comma's word that would be a name.
+/// Appends a time of a window. A leading sign needs parentheses, as `from` would be read as a name otherwise.
 fn write_bound(text: &mut String, bound: &Expr, is_first: bool) {
     let start = text.len();
     write(text, bound, Level::If);
@@ -202,11 +202,11 @@ fn write_product(text: &mut String, first: &Expr, rest: &[(Factor, Expr)]) -> bo
     };
     for (factor, e) in rest {
         in_quantity = match factor {
-            Factor::Over if in_quantity && is_unit(e) => {
+            Factor::Divide if in_quantity && is_unit(e) => {
                 *text += "/";
                 true
             }
-            Factor::Over => {
+            Factor::Divide => {
                 *text += " / ";
                 false
             }
@@ -224,7 +224,7 @@ fn is_quantity(e: &Expr) -> bool {
     matches!(e.bare().kind, ExprKind::Literal { unit: Some(_), .. })
 }
 
-/// `s`, or `s^2`: written behind a number without spaces, as in `9.81 m/s^2`.
+/// Returns whether an operand looks like a unit, `s` or `s^2`, which stands behind a number without spaces, as in `9.81 m/s^2`.
 fn is_unit(e: &Expr) -> bool {
     match &e.bare().kind {
         ExprKind::Name(name) => Unit::named(&name.text).is_some(),
@@ -259,10 +259,10 @@ fn comparison_sign(comparison: ComparisonSign) -> &'static str {
     }
 }
 
-/// The shortest decimal that reads back to the same number.
+/// Returns the shortest decimal that reads back to the same number.
 fn number(value: f64) -> String {
     if value.is_infinite() {
-        // what is too large to be a number reads as infinite, and `check` refuses it with its place
+        // too large a number reads as infinite, and `check` refuses it with its span
         return if value > 0.0 { "1e999" } else { "-1e999" }.to_owned();
     }
     let mut buffer = zmij::Buffer::new();

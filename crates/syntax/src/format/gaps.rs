@@ -38,9 +38,9 @@ enum Comma {
 pub(super) struct Formatted<'a> {
     lexemes: Vec<Lexeme<'a>>,
     rows: Vec<Row>,
-    /// By lexeme.
+    /// One for each lexeme.
     gaps: Vec<Gap>,
-    /// By lexeme.
+    /// One for each lexeme.
     commas: Vec<Comma>,
     /// Number of examined items.
     pub steps: usize,
@@ -156,7 +156,7 @@ impl<'a> Formatted<'a> {
         }
     }
 
-    /// The whole text, formatted.
+    /// Returns the whole text, formatted.
     pub fn text(&self, text: &str) -> String {
         let (mut out, mut at) = (String::with_capacity(text.len() + text.len() / 8), 0);
         self.each_change(

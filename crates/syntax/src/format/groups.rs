@@ -1,4 +1,4 @@
-//! From the words of a declaration to groups that may be broken into lines: what binds more loosely is broken first.
+//! Groups of a declaration's words that may be broken into lines: those that bind more loosely are broken first.
 
 use super::layout::{Node, Style};
 use super::lexemes::Lexeme;
@@ -7,7 +7,7 @@ use super::words::{Bracket, Class, Level, Word};
 /// A declaration as nodes, each with the number of the lexeme that it stands for or before.
 pub(super) struct Grouped {
     pub nodes: Vec<Node>,
-    /// By node.
+    /// Lexeme of each node.
     pub lexemes: Vec<usize>,
     /// Lists that may have a line for each item.
     pub lists: Vec<List>,
@@ -17,7 +17,7 @@ pub(super) struct Grouped {
 pub(super) struct List {
     /// The node that opens it.
     pub node: usize,
-    /// Its last lexeme that is neither a comment nor the comma behind the last item.
+    /// Last lexeme that is neither a comment nor the comma behind the last item.
     pub last: usize,
     /// The comma behind the last item, if there is one.
     pub comma: Option<usize>,
@@ -47,19 +47,19 @@ enum Frame {
 /// The groups that begin and end at each lexeme of a declaration.
 #[derive(Default)]
 struct Groups {
-    /// By lexeme: the groups that begin with it, inner ones first.
+    /// Groups that begin with each lexeme, inner ones first.
     begin: Vec<Vec<Style>>,
-    /// By lexeme: how many groups end with it.
+    /// Number of groups that end with each lexeme.
     end: Vec<usize>,
-    /// By lexeme: whether the gap before it may end a line.
+    /// True for lexemes before which a line may end.
     is_gap: Vec<bool>,
-    /// By lexeme: whether it is a bracket whose list may have a line for each item.
+    /// True for brackets whose list may have a line for each item.
     is_list: Vec<bool>,
 }
 
 struct Grouping<'a> {
     words: &'a [Word],
-    /// By lexeme, and behind the last: where what stands before it ends, comments and a comma that is left out not counted.
+    /// End of the text before each lexeme, and of the whole, without comments and without a comma that is left out.
     ends: Vec<usize>,
     groups: Groups,
     frames: Vec<Frame>,
@@ -101,7 +101,7 @@ impl Grouping<'_> {
                 return;
             }
             Class::Close => return self.close(k),
-            // as if it were not there
+            // a comma that is left out ends its part only
             Class::Comma if words[k].is_last_comma => return self.end_part(k),
             Class::Comma => {
                 self.end_part(k);
@@ -246,7 +246,7 @@ impl Grouping<'_> {
 /// The text before the last column of a declaration breaks only if it is wider than this.
 const WIDEST_HEAD: usize = 60;
 
-/// The first lexeme before which a line may end.
+/// Returns the first lexeme before which a line may end.
 fn breakable(words: &[Word], lexemes: &[Lexeme<'_>], keyword: &str) -> usize {
     if matches!(keyword, "body" | "ground" | "mechanism") {
         return words.len();
@@ -255,7 +255,7 @@ fn breakable(words: &[Word], lexemes: &[Lexeme<'_>], keyword: &str) -> usize {
     if super::words::width(&words[..head], &lexemes[..head]) > WIDEST_HEAD { 0 } else { head }
 }
 
-/// The nodes of a declaration; `spaces` are those before each of its lexemes, the first one's not counted.
+/// Returns the nodes of a declaration; `spaces` are those before each of its lexemes, the first one's not counted.
 pub(super) fn grouped(words: &[Word], lexemes: &[Lexeme<'_>], spaces: &[usize]) -> Grouped {
     let mut groups = groups(words);
     let breakable = breakable(words, lexemes, lexemes.first().map_or("", |lexeme| lexeme.text));

@@ -6,22 +6,22 @@
 /// Style in which the gaps of a group break if it does not fit.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Style {
-    /// Only those behind which the next piece would not fit.
+    /// Only gaps behind which the next piece does not fit are broken.
     Filled,
-    /// All of them.
+    /// All gaps are broken.
     Stacked,
-    /// All of them, and the bracket that closes it stands on a line of its own.
+    /// All gaps are broken, and the closing bracket stands on a line of its own.
     Listed,
 }
 
 /// A piece of a line.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Node {
-    /// So many columns.
+    /// Width of a text in columns.
     Text(usize),
-    /// So many spaces.
+    /// Fixed number of spaces.
     Space(usize),
-    /// So many spaces, or the end of a line.
+    /// Number of spaces, or the end of a line.
     Gap(usize),
     /// The end of a line.
     Line,
@@ -41,9 +41,9 @@ pub(super) const DEEPEST_INDENT: usize = 48;
 /// Result of the layout.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub(super) struct Laid {
-    /// For each node that is a gap or line: the indentation of the line that it begins, if it does.
+    /// Indentation of the lines that begin with each node that is a gap or line, if it begins one.
     pub lines: Vec<Option<usize>>,
-    /// For each node that opens a group: whether it is broken.
+    /// True for nodes that open a broken group.
     pub is_broken: Vec<bool>,
     /// The column behind the last node.
     pub column: usize,
@@ -59,9 +59,9 @@ struct Measures {
     columns: Vec<usize>,
     /// Lines before each node, and behind the last.
     lines: Vec<usize>,
-    /// For each gap and each node that closes a group: the node at which a line can end next, outside of groups that begin later.
+    /// Node at which a line can end next, outside of groups that begin later, for each gap and each node that closes a group.
     next_end: Vec<usize>,
-    /// For each node that opens a group: the one that closes it.
+    /// Closing node of each group, by its opening node.
     closes: Vec<usize>,
     steps: usize,
 }
@@ -107,12 +107,12 @@ impl Measures {
         }
     }
 
-    /// The columns from before one node to before another, if no line ends between.
+    /// Returns the columns from before one node to before another, if no line ends between.
     fn width(&self, from: usize, to: usize) -> Option<usize> {
         (self.lines[from] == self.lines[to]).then(|| self.columns[to] - self.columns[from])
     }
 
-    /// The columns of a group with all that cannot be on another line, if no line ends in it.
+    /// Returns the columns of a group with all that cannot be on another line, if no line ends in it.
     fn width_of_group(&self, open: usize) -> Option<usize> {
         let close = self.closes[open];
         let behind = self.next_end.get(close).copied().unwrap_or(close);
@@ -133,14 +133,14 @@ struct Group {
 }
 
 impl Group {
-    /// The indentation of a line that begins with a node.
+    /// Returns the indentation of a line that begins with a node.
     fn begin_line(&mut self, with: Option<&Node>) -> usize {
         self.has_lines = true;
         let is_end_of_list = self.style == Style::Listed && with == Some(&Node::Close);
         if is_end_of_list { self.base } else { self.indent }
     }
 
-    /// The indentation of what stands in it now.
+    /// Returns the current indentation.
     fn now(&self) -> usize {
         if self.has_lines { self.indent } else { self.base }
     }
@@ -201,7 +201,7 @@ impl Laid {
 mod tests {
     use super::{INDENT, Node, Style, WIDTH, lay_out};
 
-    /// Each node as a character, lines as they come out.
+    /// Lays out nodes and returns the length of each line.
     fn shown(nodes: &[Node]) -> Vec<usize> {
         let laid = lay_out(nodes, 0);
         let mut widths = vec![0];
@@ -218,7 +218,7 @@ mod tests {
     }
 
     #[test]
-    fn what_fits_stays_on_one_line() {
+    fn fitting_groups_stay_on_one_line() {
         let half = WIDTH / 2;
         assert_eq!(shown(&[Node::Text(half - 1), Node::Gap(1), Node::Text(half)]), [WIDTH]);
         assert_eq!(shown(&[Node::Text(half), Node::Gap(1), Node::Text(half)]), [half, INDENT + half]);

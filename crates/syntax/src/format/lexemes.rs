@@ -11,7 +11,7 @@ pub(super) enum Shape {
     Number,
     /// A string with its quotes.
     Quoted,
-    /// From its slashes to the end of its line, white space at the end left out.
+    /// A comment from its slashes to the end of the line, without trailing white space.
     Comment,
     /// Anything else.
     Sign,
@@ -40,7 +40,7 @@ impl Lexeme<'_> {
 /// Signs of more than one character, the longer ones first.
 const LONG_SIGNS: [&str; 6] = ["..=", "..", "==", "<=", ">=", "!="];
 
-/// All lexemes of a text, in order. Words and numbers end where the grammar ends them; a text that does not follow it has lexemes too.
+/// Returns all lexemes of a text, in order. Words and numbers end as in the grammar; invalid texts have lexemes too.
 pub(super) fn lexemes(text: &str) -> Vec<Lexeme<'_>> {
     let (mut found, mut end) = (Vec::new(), 0);
     loop {
@@ -52,7 +52,7 @@ pub(super) fn lexemes(text: &str) -> Vec<Lexeme<'_>> {
     }
 }
 
-/// The shape and the length of what a text begins with.
+/// Returns the shape and the length of the first lexeme of a text.
 fn first(text: &str) -> Option<(Shape, usize)> {
     let first = text.chars().next()?;
     if text.starts_with("//") {
@@ -83,7 +83,7 @@ fn is_of_a_word(c: char) -> bool {
     c.is_ascii_alphanumeric() || c == '_' || !c.is_ascii() && !c.is_whitespace()
 }
 
-/// The length of the number that a text begins with: `12`, `1.5`, `.5e-3`. In `0..3` the number is `0`.
+/// Returns the length of the number that a text begins with: `12`, `1.5`, `.5e-3`. In `0..3` the number is `0`.
 fn number(text: &str) -> Option<usize> {
     let digits = |from: &str| from.len() - skip_digits(from.chars()).as_str().len();
     let whole = digits(text);
@@ -113,7 +113,7 @@ mod tests {
     use super::{Shape, lexemes};
 
     #[test]
-    fn a_text_comes_apart_as_the_grammar_reads_it() {
+    fn lexemes_match_the_grammar() {
         let texts = |text| lexemes(text).iter().map(|lexeme| lexeme.text).collect::<Vec<_>>().join("|");
         assert_eq!(texts("p[k in 0..n]=.5e-3 mm^-2 // c \n"), "p|[|k|in|0|..|n|]|=|.5e-3|mm|^|-|2|// c");
         assert_eq!(texts("0..=3 2e 1.5E+3x \"a//b\" \"c"), "0|..=|3|2|e|1.5E+3|x|\"a//b\"|\"|c");

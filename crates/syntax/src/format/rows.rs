@@ -1,6 +1,6 @@
-//! From the tree to rows: what begins a line of its own, in order, with all comments.
+//! Rows of a tree: the pieces that begin a line of their own, in order, with all comments.
 //!
-//! Each lexeme of the text is in one row, or behind one. What the tree does not have, or has as broken, stays as it was written.
+//! Each lexeme of the text is in one row, or behind one. Text that the tree lacks or marks as broken stays as it was written.
 
 use super::layout::{INDENT, WIDTH};
 use super::lexemes::Lexeme;
@@ -16,7 +16,7 @@ pub(super) struct Row {
     pub lexemes: Range<usize>,
     /// The comment behind it, on its line.
     pub behind: Option<usize>,
-    /// In columns.
+    /// Indentation in columns.
     pub indent: usize,
     pub kind: Kind,
     /// True if a blank line stands before it.
@@ -31,7 +31,7 @@ pub(super) enum Kind {
     Comment,
     /// A declaration, whose columns are those of its neighbours of the same kind.
     Declaration(Group),
-    /// Up to the brace that opens a block.
+    /// The head of a block, up to the opening brace.
     Head,
     /// The brace that closes it.
     End,
@@ -84,7 +84,7 @@ impl Group {
     }
 }
 
-/// The rows of a text. `faults` are the bytes at which something is wrong with it, in order.
+/// Returns the rows of a text. `faults` are the bytes of its syntax errors, in order.
 pub(super) fn rows(file: &File, lexemes: &[Lexeme<'_>], names: &FxHashSet<&str>, faults: &[usize]) -> Vec<Row> {
     let mut rows = Rows { lexemes, names, faults, at: 0, made: Vec::new() };
     let mut mechanisms = file.mechanisms.iter().peekable();
@@ -113,7 +113,7 @@ impl Rows<'_> {
         self.lexemes.get(self.at).is_some_and(|lexeme| lexeme.start < byte)
     }
 
-    /// The first lexeme at or behind a byte, from the next one on.
+    /// Returns the first lexeme at or behind a byte, from the next one on.
     fn index_at(&self, byte: usize) -> usize {
         self.at + self.lexemes[self.at..].partition_point(|lexeme| lexeme.start < byte)
     }
@@ -292,7 +292,7 @@ impl Rows<'_> {
     }
 }
 
-/// The byte at which the unit behind `in` begins.
+/// Returns the byte at which the unit behind `in` begins.
 fn printed(kind: &ItemKind) -> Option<usize> {
     match kind {
         ItemKind::Measure { unit, .. } | ItemKind::Trace { unit, .. } | ItemKind::Result { unit, .. } => {

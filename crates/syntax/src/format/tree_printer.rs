@@ -17,7 +17,7 @@ pub(super) fn print(file: &File) -> String {
 }
 
 fn use_file(used: &UsedFile) -> String {
-    // what is broken has no form
+    // broken declarations have no text
     let Some(path) = &used.path else { return String::new() };
     let prefix = used.prefix.as_ref().map_or_else(String::new, |prefix| format!(" as {}", prefix.text));
     format!("use \"{}\"{prefix}\n", path.text)
@@ -34,7 +34,7 @@ fn documented(of: &Item) -> String {
     documentation(&of.docs) + &item(of) + "\n"
 }
 
-/// The `///` lines above a declaration.
+/// Returns the `///` lines above a declaration.
 fn documentation(docs: &[String]) -> String {
     let lines = docs.iter().flat_map(|doc| doc.split('\n'));
     lines.map(|line| if line.is_empty() { "///\n".to_owned() } else { format!("/// {line}\n") }).collect()
@@ -43,7 +43,7 @@ fn documentation(docs: &[String]) -> String {
 fn item(item: &Item) -> String {
     let named = |name: &Name| format!("{}{}", name.text, ranges(&item.ranges));
     match &item.kind {
-        // what is broken has no form
+        // broken declarations have no text
         ItemKind::Broken { .. } => String::new(),
         ItemKind::Param { name, value } => format!("param {} {}", name.text, defined(value)),
         ItemKind::Function { name, argument, value } => {
@@ -83,7 +83,7 @@ fn item(item: &Item) -> String {
     }
 }
 
-/// `MECHANISM(BINDING, …) on BODY at (x, y, phi) mirrored`
+/// Returns `MECHANISM(BINDING, …) on BODY at (x, y, phi) mirrored`.
 fn part(of: &Part) -> String {
     let bindings: Vec<String> = of.bindings.iter().map(binding).collect();
     let mut text = format!("{}({})", of.mechanism.text(), bindings.join(", "));
@@ -101,7 +101,7 @@ fn defined(value: &Expr) -> String {
     format!("= {}", expression(value))
 }
 
-/// `[k in 0..n]`
+/// Returns `[k in 0..n]`.
 fn ranges(ranges: &[IndexRange]) -> String {
     let range = |range: &IndexRange| {
         let dots = if range.is_closed { "..=" } else { ".." };
@@ -111,7 +111,7 @@ fn ranges(ranges: &[IndexRange]) -> String {
     if list.is_empty() { String::new() } else { format!("[{}]", list.join(", ")) }
 }
 
-/// ` in mm/s^2`, or nothing.
+/// Returns ` in mm/s^2`, or an empty text.
 fn in_unit(written: Option<&WrittenUnit>) -> String {
     written.map_or_else(String::new, |written| format!(" in {}", unit(written)))
 }
@@ -122,8 +122,8 @@ fn unit(written: &WrittenUnit) -> String {
         match of.factor {
             Factor::Times if k == 0 => {}
             Factor::Times => text += "*",
-            Factor::Over if k == 0 => text += "1/",
-            Factor::Over => text += "/",
+            Factor::Divide if k == 0 => text += "1/",
+            Factor::Divide => text += "/",
         }
         text += &of.name.text;
         if of.power != 1 {
@@ -157,7 +157,7 @@ fn table(periodic: bool, rows: &TableRows) -> String {
     }
 }
 
-/// The features of a body or of the ground in their braces.
+/// Returns the features of a body or of the ground in their braces.
 fn block(features: &[Feature]) -> String {
     let lines: String = features.iter().map(|of| documentation(&of.docs) + &feature(of) + "\n").collect();
     format!("{{\n{lines}}}")

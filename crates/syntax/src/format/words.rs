@@ -2,7 +2,7 @@
 
 use super::lexemes::{Lexeme, Shape};
 use crate::tokens::may_begin_a_bound;
-use mechc_text::vocabulary::{Constant, Keyword, Place, Role, Synonym, Unit, declares_name};
+use mechc_text::vocabulary::{Constant, Keyword, Position, Role, Synonym, Unit, declares_name};
 use rustc_hash::FxHashSet;
 use std::ops::Range;
 
@@ -28,7 +28,7 @@ pub(super) enum Class {
     /// A name, where one is declared or used.
     Name,
     Number,
-    /// Behind a number.
+    /// A unit behind a number.
     Unit,
     Quoted,
     Open(Bracket),
@@ -84,7 +84,7 @@ pub(super) struct Word {
 /// Spaces between declarations that share a line.
 const BETWEEN_FEATURES: usize = 2;
 
-/// The words that a text declares as names, wherever: none of them means a unit in a formula.
+/// Returns the words that a text declares as names anywhere: in a formula they do not denote units.
 pub(super) fn declared<'a>(lexemes: &[Lexeme<'a>]) -> FxHashSet<&'a str> {
     let is_keyword =
         |lexeme: &Lexeme<'_>| declares_name(lexeme.text) && Keyword::named(lexeme.text).is_some_and(|k| begins(k.role));
@@ -98,7 +98,7 @@ fn begins(role: Role) -> bool {
     matches!(role, Role::Declaration | Role::Feature) || role.is_opener()
 }
 
-/// The words of a declaration, or of a block on one line. `printed` is the byte at which the unit behind `in` begins.
+/// Returns the words of a declaration, or of a block on one line. `printed` is the byte at which the unit behind `in` begins.
 pub(super) fn words(
     lexemes: &[Lexeme<'_>],
     names: &FxHashSet<&str>,
@@ -121,31 +121,31 @@ pub(super) fn words(
     range.map(|k| reading.word(k)).collect()
 }
 
-/// The columns of a declaration on one line.
+/// Returns the columns of a declaration on one line.
 pub(super) fn width(words: &[Word], lexemes: &[Lexeme<'_>]) -> usize {
     let shown = words.iter().zip(lexemes).enumerate().filter(|(_, (word, _))| !word.is_last_comma);
     shown.map(|(k, (word, lexeme))| usize::from(k > 0) * word.spaces + super::width(lexeme.text)).sum()
 }
 
-/// Position of the next column.
+/// Position at which the next cell of aligned columns begins.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Cells {
     None,
-    /// Before the next lexeme.
+    /// The next lexeme begins it.
     Next,
-    /// Before `=`.
+    /// `=` begins it.
     Equals,
-    /// Behind `:`.
+    /// It begins behind `:`.
     Colon,
-    /// Behind `:`, and then with `=`.
+    /// It begins behind `:`, and another with `=`.
     ColonAndEquals,
-    /// Before the next keyword.
+    /// The next keyword begins it.
     As,
-    /// Before the next keyword, and then again.
+    /// The next keyword begins it, and an opening brace begins another.
     At,
-    /// Before every keyword.
+    /// Every keyword begins one.
     Keywords,
-    /// Before the brace that opens a block.
+    /// The opening brace of a block begins it.
     Brace,
 }
 
@@ -171,7 +171,7 @@ struct Classifier<'a> {
     before: Option<Class>,
     cells: Cells,
     quantity: Quantity,
-    /// In the unit behind `in`, or in those of a table's file.
+    /// True in the unit behind `in`, and in the units of a table's file.
     is_in_unit: bool,
     takes_name: bool,
 }
@@ -194,7 +194,7 @@ impl<'a> Classifier<'a> {
         Word { class, spaces, begins_cell, is_last_comma }
     }
 
-    /// The lexeme behind one, comments aside.
+    /// Returns the lexeme behind one, comments aside.
     fn behind(&self, k: usize) -> Option<&Lexeme<'a>> {
         self.lexemes[k + 1..self.range.end].iter().find(|lexeme| !lexeme.is_comment())
     }
@@ -263,7 +263,7 @@ impl<'a> Classifier<'a> {
         let is_first = self.before.is_none();
         self.keyword = keyword;
         self.takes_name = declares_name(keyword) && keyword != "use";
-        // what stands in a block on one line has no columns
+        // declarations in a block on one line have no columns
         if is_first {
             let has_cells = !matches!(keyword, "ground" | "analysis" | "gravity" | "mechanism");
             self.cells = if has_cells { Cells::Next } else { Cells::None };
@@ -311,9 +311,9 @@ impl<'a> Classifier<'a> {
     /// Returns whether a unit stands behind a lexeme, with its power or alone.
     fn is_a_unit_behind(&self, k: usize) -> bool {
         let mut behind = self.lexemes[k + 1..self.range.end].iter().filter(|lexeme| !lexeme.is_comment());
-        // `min` is none, but meant as one; `t` is the time
-        let is_meant = |text: &str| Synonym::of(Place::Unit, text).is_some() && Constant::named(text).is_none();
-        let names_one = |text: &str| Unit::named(text).is_some() || is_meant(text);
+        // `min` is no unit, but its author means one; `t` is the time
+        let is_synonym = |text: &str| Synonym::of(Position::Unit, text).is_some() && Constant::named(text).is_none();
+        let names_one = |text: &str| Unit::named(text).is_some() || is_synonym(text);
         let is_unit = |lexeme: &Lexeme<'_>| names_one(lexeme.text) && !self.names.contains(lexeme.text);
         behind.next().is_some_and(is_unit)
             && match behind.next().map(|lexeme| lexeme.text) {

@@ -13,7 +13,7 @@ const MOST_STEPS: f64 = 9e15;
 /// Maximum number of digits of a step that is written as a number.
 const STEP_DIGITS: usize = 6;
 
-/// The analysis that a settings file asks for.
+/// Returns the analysis that a settings file requests.
 pub(super) fn read(value: &Value, diagnostics: &mut Diagnostics) -> Option<Item> {
     let Kind::Object(members) = &value.kind else {
         let message = format!("settings must be an object, found {}", value.describe());
@@ -50,7 +50,7 @@ fn simulation(value: &Value, diagnostics: &mut Diagnostics) {
     }
 }
 
-/// `10 ms` where that is the step to the last digit, else `5 s / 333`.
+/// Returns `10 ms` if that is the exact step, otherwise `5 s / 333`.
 fn step(end: Number, steps: Number) -> Expr {
     let span = end.span.to(steps.span);
     if let Some((value, unit)) = short_step(end.value, steps.value as i128) {
@@ -58,10 +58,10 @@ fn step(end: Number, steps: Number) -> Expr {
     }
     let end = build::quantity(end.value, "s", end.span, build::Zero::WithUnit);
     let steps = build::number(steps.value, steps.span);
-    Expr { kind: ExprKind::Product(Box::new(end), vec![(Factor::Over, steps)]), span }
+    Expr { kind: ExprKind::Product(Box::new(end), vec![(Factor::Divide, steps)]), span }
 }
 
-/// A time over a count, where it is a short decimal: the number and its unit.
+/// Returns a time divided by a count, number and unit, if it is a short decimal.
 fn short_step(end: f64, steps: i128) -> Option<(f64, &'static str)> {
     // the shortest decimal that reads back to the time, as digits and a power of ten
     let scientific = format!("{end:e}");

@@ -206,7 +206,7 @@ impl<'a> Reader<'a> {
         Some([first, second])
     }
 
-    /// A body by its position from 1, as a position from 0.
+    /// Returns a body by its position from 1, as a position from 0.
     fn body(&self, key: &str, diagnostics: &mut Diagnostics) -> Option<usize> {
         let number = self.fields.number(key, diagnostics)?;
         // a whole number prints without a point, and nothing else reads back as one
@@ -228,7 +228,7 @@ fn same(a: f64, b: f64) -> bool {
     a.partial_cmp(&b).is_some_and(std::cmp::Ordering::is_eq)
 }
 
-/// The note that names what a kinematic model has no place for, if there is anything.
+/// Returns a note on the content that a kinematic model cannot represent, if there is any.
 pub(super) fn left_behind(model: &Value) -> Option<Diagnostic> {
     let items = |key: &str| match model.get(key).map(|value| &value.kind) {
         Some(Json::List(list)) => list.as_slice(),
@@ -264,7 +264,7 @@ pub(super) fn left_behind(model: &Value) -> Option<Diagnostic> {
     (!what.is_empty()).then(|| errors::left_behind(&what, places))
 }
 
-/// The place of a joint's `fun` that says something, although a joint has no use for it.
+/// Returns the span of a joint's nonempty `fun`, for which a joint has no use.
 fn unused_formula(constraint: &Value) -> Option<Span> {
     let text = |key: &str| match constraint.get(key).map(|value| &value.kind) {
         Some(Json::Text(text)) => Some(text),

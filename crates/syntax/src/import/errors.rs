@@ -6,7 +6,7 @@ use mechc_text::diag::{Code, Diagnostic, nearest, readable};
 use mechc_text::source::{FileId, Span};
 use pest::error::{Error, ErrorVariant, InputLocation};
 
-/// A fault at a place, with what is there.
+/// Reports a fault at a span, with a label.
 pub(super) fn fault(span: Span, message: impl Into<String>, label: impl Into<String>) -> Diagnostic {
     Diagnostic::new(Code::E0707, message).at(span, label)
 }
@@ -58,7 +58,7 @@ pub(super) fn not_json(error: &Error<Rule>, text: &str, file: FileId) -> Diagnos
         .help_if(suggestion(word, text, start))
 }
 
-/// A string that does not end, or that holds an escape which is none.
+/// Reports a string that does not end, or that has an invalid escape.
 fn broken_string(text: &str, start: usize, file: FileId) -> Option<Diagnostic> {
     let span = |from: usize, length: usize| {
         let start = (start + from) as u32;
@@ -127,13 +127,13 @@ fn suggestion(found: &str, text: &str, at: usize) -> Option<String> {
 
 // ---- keys and values
 
-/// A value of the wrong type.
+/// Reports a value of the wrong type.
 pub(super) fn wrong_type(key: &str, expected: &str, found: &Value) -> Diagnostic {
     let message = format!("`{key}` must be {expected}, found {}", found.describe());
     fault(found.span, message, format!("expected {expected}"))
 }
 
-/// A key that is not there.
+/// Reports a missing key.
 pub(super) fn missing(what: &str, key: &str, place: Span, help: &str) -> Diagnostic {
     fault(place, format!("{what} has no `{key}`"), format!("`{key}` is missing")).help(format!("add {help}"))
 }
@@ -162,7 +162,7 @@ pub(super) fn with_itself(name: &str, first: Span, second: Span) -> Diagnostic {
 
 // ---- formulas
 
-/// A formula that is too deep or too large for the language.
+/// Reports a formula that is too deep or too large for the language.
 pub(super) fn formula_too_deep(span: Span) -> Diagnostic {
     fault(span, format!("the formula nests deeper than {DEEPEST}"), "one level too many")
 }
@@ -174,12 +174,12 @@ pub(super) fn formula_too_large(span: Span) -> Diagnostic {
 
 // ---- notes on a translation that succeeded
 
-/// A name that could not stay.
+/// Reports a name that had to be changed.
 pub(super) fn renamed(what: &str, old: &str, new: &str, span: Span, why: &str) -> Diagnostic {
     Diagnostic::new(Code::N0702, format!("the {what} `{old}` is called `{new}`")).at(span, why)
 }
 
-/// Something without a name got one.
+/// Reports that an item without a name got one.
 pub(super) fn named(what: &str, new: &str, span: Span) -> Diagnostic {
     Diagnostic::new(Code::N0702, format!("the {what} without a name is called `{new}`")).at(span, "it has no `name`")
 }
@@ -196,7 +196,7 @@ pub(super) fn left_behind(what: &[String], places: Vec<Span>) -> Diagnostic {
     places.into_iter().fold(note, |note, span| note.at(span, "left out"))
 }
 
-/// A settings file that asks for dynamics.
+/// Reports a settings file that asks for dynamics.
 pub(super) fn only_kinematics(span: Span) -> Diagnostic {
     Diagnostic::new(Code::N0701, "only the kinematics will be analysed, not the dynamics").at(span, "asks for dynamics")
 }

@@ -54,9 +54,9 @@ struct Axis {
 /// Direction of an axis from its point.
 #[derive(Clone)]
 pub(super) enum Line {
-    /// In a direction.
+    /// Direction of an axis.
     Along([f64; 2]),
-    /// To a second point, written as it should be.
+    /// Second point of an axis; `target` is its formula in the output.
     To { numbers: [f64; 2], target: Expr },
 }
 
@@ -68,7 +68,7 @@ struct Circle {
 }
 
 impl Features {
-    /// The point at a place, made at its first use.
+    /// Returns the point at some coordinates, created at its first use.
     pub fn point(&mut self, at: [f64; 2], span: Span, purpose: Purpose) -> usize {
         let count = self.points.len();
         let position = *self.positions.entry(("point", 0, at.map(f64::to_bits))).or_insert(count);
@@ -79,7 +79,7 @@ impl Features {
         position
     }
 
-    /// An axis from one of the points.
+    /// Returns an axis from one of the points.
     pub fn axis(&mut self, origin: usize, line: Line, span: Span) -> usize {
         let count = self.axes.len();
         let key = match &line {
@@ -93,7 +93,7 @@ impl Features {
         position
     }
 
-    /// A circle around one of the points.
+    /// Returns a circle around one of the points.
     pub fn circle(&mut self, center: usize, radius: f64, span: Span) -> usize {
         let count = self.circles.len();
         let position = *self.positions.entry(("circle", center, [radius.to_bits(), 0])).or_insert(count);
@@ -141,17 +141,17 @@ impl Features {
         }
     }
 
-    /// The name of a point.
+    /// Returns the name of a point.
     pub fn point_name(&self, position: usize) -> &str {
         self.points.get(position).map_or("", |point| &point.name)
     }
 
-    /// The name of an axis.
+    /// Returns the name of an axis.
     pub fn axis_name(&self, position: usize) -> &str {
         self.axes.get(position).map_or("", |axis| &axis.name)
     }
 
-    /// The name of a circle.
+    /// Returns the name of a circle.
     pub fn circle_name(&self, position: usize) -> &str {
         self.circles.get(position).map_or("", |circle| &circle.name)
     }
@@ -188,7 +188,7 @@ impl Features {
     }
 }
 
-/// A name for a point: after its first joint, else after how its coordinates are ruled.
+/// Returns a name for a point, after its first joint or else after its role in constraints.
 fn purpose_in_a_word(purposes: &[Purpose]) -> String {
     for purpose in purposes {
         match purpose {

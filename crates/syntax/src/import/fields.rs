@@ -33,7 +33,7 @@ impl<'a> Fields<'a> {
         Fields { object, what: what.into(), place }
     }
 
-    /// A value that has to be there.
+    /// Returns a required value, or reports its absence.
     pub fn required(&self, key: &str, help: &str, diagnostics: &mut Diagnostics) -> Option<&'a Value> {
         let value = self.object.get(key);
         if value.is_none() {
@@ -51,7 +51,7 @@ impl<'a> Fields<'a> {
         Some(Number { value: number, span: value.span })
     }
 
-    /// A number that must hold a condition.
+    /// Returns a number that must hold a condition.
     pub fn number_with(
         &self,
         key: &str,
@@ -109,7 +109,7 @@ impl<'a> Fields<'a> {
         None
     }
 
-    /// A list that has to be there.
+    /// Returns a required list, or reports its absence.
     pub fn list(&self, key: &str, diagnostics: &mut Diagnostics) -> Option<&'a [Value]> {
         let value = self.required(key, &format!("`\"{key}\": […]`"), diagnostics)?;
         if let Kind::List(list) = &value.kind {
@@ -120,7 +120,7 @@ impl<'a> Fields<'a> {
     }
 }
 
-/// A `name` that may be missing but not of another type.
+/// Returns a `name` that may be missing but not of another type.
 pub(super) fn name_of<'a>(object: &'a Value, diagnostics: &mut Diagnostics) -> Option<&'a Quoted> {
     let value = object.get("name")?;
     if let Kind::Text(text) = &value.kind {
@@ -130,7 +130,7 @@ pub(super) fn name_of<'a>(object: &'a Value, diagnostics: &mut Diagnostics) -> O
     None
 }
 
-/// A word of an object to point at: its name, else its first key, else its opening brace.
+/// Returns a word of an object to point at: its name, else its first key, else its opening brace.
 pub(super) fn location_of(object: &Value) -> Span {
     match &object.kind {
         Kind::Object(members) => {

@@ -8,7 +8,7 @@ use mechc_text::source::{FileId, Sources, Span};
 use pest::Parser;
 use pest::iterators::Pair;
 
-/// The value that a file holds.
+/// Returns the value that a file holds.
 ///
 /// # Errors
 /// The first fault: nested too deep, or no JSON.
@@ -71,7 +71,7 @@ fn build(pair: &Pair<'_, Rule>, file: FileId) -> Result<Value, Box<Diagnostic>> 
     Ok(Value { span, kind })
 }
 
-/// A pair's place, without the white space that the parser may have taken in behind it.
+/// Returns a pair's place, without the white space that the parser may have taken in behind it.
 fn span_of(pair: &Pair<'_, Rule>, file: FileId) -> Span {
     let start = pair.as_span().start();
     let end = start + pair.as_str().trim_end().len();
@@ -90,7 +90,7 @@ fn member(pair: Pair<'_, Rule>, file: FileId) -> Result<Option<(Quoted, Value)>,
     }
 }
 
-/// The value of `a + b * c …`; products before sums, each from the left.
+/// Returns the value of `a + b * c …`; products before sums, each from the left.
 fn sum(pair: Pair<'_, Rule>) -> f64 {
     let (mut total, mut product): (f64, Option<f64>) = (0.0, None);
     let (mut operator, mut sign) = ("+", 1.0);
@@ -142,7 +142,7 @@ fn text(pair: &Pair<'_, Rule>, file: FileId) -> Quoted {
     decoded
 }
 
-/// The character that a text begins with, and how many bytes it takes there.
+/// Returns the character that a text begins with, and how many bytes it takes there.
 fn next_character(text: &str) -> Option<(char, usize)> {
     let mut characters = text.chars();
     let first = characters.next()?;
@@ -161,7 +161,7 @@ fn next_character(text: &str) -> Option<(char, usize)> {
     Some((character, 2))
 }
 
-/// `\u0074`, or a pair of surrogates; half a pair stands for no character.
+/// Returns the character of `\u0074`, or of a pair of surrogates; half a pair stands for no character.
 fn code_point(text: &str) -> (char, usize) {
     let unit = |at: usize| {
         let digits = text.get(at..at + 6).and_then(|escape| escape.strip_prefix("\\u"))?;

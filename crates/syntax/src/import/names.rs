@@ -8,11 +8,11 @@ use mechc_text::source::Span;
 use mechc_text::vocabulary::{Constant, Unit};
 use rustc_hash::{FxHashMap, FxHashSet};
 
-/// One space of names.
+/// Namespace.
 #[derive(Default)]
 pub(super) struct Names {
     used: FxHashSet<String>,
-    /// For each stem, the number to try next: many things of one name must not cost the square of their count.
+    /// Number to try next for each stem: the cost of many items with one name must not be quadratic.
     next: FxHashMap<String, u32>,
 }
 
@@ -74,7 +74,7 @@ impl Names {
     }
 }
 
-/// The name of the mechanism, which shares its space with nothing.
+/// Returns the name of the mechanism, which has a separate namespace.
 pub(super) fn mechanism_name(name: Option<&Quoted>, place: Span, file: &str, diagnostics: &mut Diagnostics) -> String {
     let Some(old) = name else {
         let new = valid(file, "imported");
@@ -92,7 +92,7 @@ pub(super) fn mechanism_name(name: Option<&Quoted>, place: Span, file: &str, dia
     new
 }
 
-/// Why a text cannot be a name in the mechanism's space, if it cannot.
+/// Returns why a text cannot be a name in the mechanism's namespace; `None` if it can.
 fn why_not(name: &str) -> Option<&'static str> {
     if name.is_empty() {
         Some("the name is empty")
@@ -109,7 +109,7 @@ fn why_not(name: &str) -> Option<&'static str> {
     }
 }
 
-/// The text with `_` for what cannot stand in a name; it may still be a keyword.
+/// Returns the text with `_` for characters that names cannot contain; it may still be a keyword.
 fn valid(text: &str, fallback: &str) -> String {
     let mut name = String::new();
     for c in syntax::normalized(text).chars() {

@@ -63,7 +63,7 @@ pub(super) fn mechanism(model: &Model<'_>, file: &str, diagnostics: &mut Diagnos
     Some(Mechanism { docs, name: build::name(&name, model.place), span: model.place, items })
 }
 
-/// A name for a model without one, and where it comes from, in words.
+/// Returns a name for a model without one, and where it comes from, in words.
 fn origin(file: &str) -> (String, String) {
     if file == "<stdin>" {
         return ("imported".to_owned(), "standard input".to_owned());
@@ -75,9 +75,9 @@ fn origin(file: &str) -> (String, String) {
 }
 
 struct Translator<'a> {
-    /// Their names.
+    /// Names of the bodies.
     bodies: &'a [String],
-    /// For each body.
+    /// Features of each body.
     features: Vec<Features>,
     /// Names of the mechanism's space.
     names: Names,
@@ -101,7 +101,7 @@ impl Translator<'_> {
         self.features.get_mut(body).map_or(0, |features| features.point(at.values, at.span, purpose))
     }
 
-    /// The points where two bodies are joined, each named after the other body.
+    /// Returns the points where two bodies are joined, each named after the other body.
     fn joint_points(&mut self, bodies: [usize; 2], points: [Vector<2>; 2]) -> [usize; 2] {
         let [first, second] = bodies;
         let purpose = |other: usize, this: &Self| Purpose::Joint(this.name_of(other).to_owned());
@@ -237,11 +237,11 @@ fn equation(name: &str, left: Expr, formula: &Formula, unit: fn(f64, Span) -> Ex
     Item { docs: Vec::new(), span, ranges: Vec::new(), kind: ItemKind::Equation { driver, name, left, right } }
 }
 
-/// A coordinate of `2Q − P`, the point as far beyond Q as P is before it: as a number where that is exact, else as a formula.
+/// Returns a coordinate of `2Q − P`, the point as far beyond Q as P is before it: as a number where that is exact, else as a formula.
 fn beyond(p: f64, q: f64, span: Span) -> Expr {
     let doubled = 2.0 * q;
     let far = doubled - p;
-    // what rounding took away (Knuth's two-sum): none where both differences give back what went in
+    // the rounding error (Knuth's two-sum) is zero if both differences reproduce the operands
     let taken = far - doubled;
     let exact = (doubled - (far - taken)).abs() + (-p - taken).abs() <= 0.0;
     // `2 * 0.1 m - 0.3 m` reads better than its 17 digits
@@ -259,7 +259,7 @@ fn mesh_offset(parts: &RackPinion) -> Expr {
     let span = parts.radius.span;
     let quarter_turns = ExprKind::Product(
         Box::new(build::number(3.0, span)),
-        vec![(Factor::Times, build::word("pi", span)), (Factor::Over, build::number(2.0, span))],
+        vec![(Factor::Times, build::word("pi", span)), (Factor::Divide, build::number(2.0, span))],
     );
     let quarter_turns = Expr { kind: quarter_turns, span };
     let [theta1, theta2] = parts.phases;

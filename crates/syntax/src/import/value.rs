@@ -31,18 +31,18 @@ pub(super) enum Kind {
     Object(Vec<(Quoted, Value)>),
 }
 
-/// A string as it is meant, and where each of its bytes stands in the file.
+/// A decoded string, with the position of each of its bytes in the file.
 #[derive(Clone, Debug)]
 pub(super) struct Quoted {
     pub text: String,
     /// Span with its quotes.
     pub span: Span,
-    /// For each byte of the text and its end, the offset in the file; empty where nothing was escaped.
+    /// Offset in the file of each byte of the text and of its end; empty if the text has no escapes.
     pub places: Vec<u32>,
 }
 
 impl Quoted {
-    /// The place of a stretch of the text.
+    /// Returns the span of a range of the text.
     pub fn place(&self, start: usize, end: usize) -> Span {
         let offset = |at: usize| match self.places.get(at) {
             Some(&place) => place,
@@ -53,12 +53,12 @@ impl Quoted {
 }
 
 impl Value {
-    /// A key's value, the last one where it is repeated; `None` where this is no object, or has no such key.
+    /// Returns a key's value, the last one if it is repeated; `None` if this is no object or lacks the key.
     pub fn get(&self, key: &str) -> Option<&Value> {
         self.member(key).map(|(_, value)| value)
     }
 
-    /// A key with its value.
+    /// Returns a key with its value.
     pub fn member(&self, key: &str) -> Option<&(Quoted, Value)> {
         match &self.kind {
             Kind::Object(members) => members.iter().rev().find(|(name, _)| name.text == key),

@@ -63,7 +63,7 @@ impl Fix {
 
     /// Creates the fix "was `NAME` meant?", which replaces a span.
     #[must_use]
-    pub fn meant(span: Span, name: &str) -> Fix {
+    pub fn suggest(span: Span, name: &str) -> Fix {
         Fix::replace(span, name, format!("was `{name}` meant?"), Applicability::Probably)
     }
 }

@@ -97,7 +97,7 @@ impl Dimension {
         ];
         WORDS
             .iter()
-            .find(|(known, _)| self.is(*known))
+            .find(|(dimension, _)| self.is(*dimension))
             .map_or_else(|| format!("a quantity in {}", self.unit()), |(_, words)| (*words).to_owned())
     }
 

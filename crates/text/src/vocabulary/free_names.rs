@@ -140,7 +140,7 @@ mod tests {
     }
 
     #[test]
-    fn a_name_is_proposed_that_the_text_does_not_use() {
+    fn proposed_names_are_unused() {
         let kind = SubstituteKind::behind("body");
         assert_eq!(substitute_name("s", kind, |_| true), Some("slide"));
         assert_eq!(substitute_name("s", kind, |name| name != "slide"), Some("arm"));

@@ -25,7 +25,7 @@ pub use keywords::{KEYWORDS, Keyword, Role, declares_name, is_declaration, is_fe
 pub use page::{OVERVIEWS, page};
 pub use quantities::{QUANTITIES, QuantityWord};
 pub use reductions::{REDUCTIONS, ReductionWord};
-pub use synonyms::{Place, SYNONYMS, Synonym, is_ground};
+pub use synonyms::{Position, SYNONYMS, Synonym, is_ground};
 pub use topics::{topic, topics};
 pub use units::{CompoundUnit, UNITS, Unit};
 

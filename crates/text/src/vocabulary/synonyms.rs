@@ -4,7 +4,7 @@
 #[derive(Debug)]
 pub struct Synonym {
     /// Position in a text.
-    pub place: Place,
+    pub position: Position,
     /// Words in lower case.
     pub names: &'static [&'static str],
     /// Equivalent words of the language.
@@ -13,19 +13,19 @@ pub struct Synonym {
     pub is_same: bool,
     /// Message with the equivalent. `{0 a}` is the first argument as written, or `a` if there is none; `{0 (a)}` is the argument as an
     /// operand, with parentheses where necessary, `{0 deg}` a number of degrees, and `{2 ?}` one more argument, if it exists.
-    say: &'static str,
+    message: &'static str,
 }
 
 /// Position of a word in a text.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Place {
+pub enum Position {
     /// Beginning of a declaration.
     Declaration,
     /// Kind of a joint.
     Joint,
     /// Called in a formula.
     Call,
-    /// After a number.
+    /// Unit, after a number.
     Unit,
     /// Number in a formula.
     Number,
@@ -34,22 +34,22 @@ pub enum Place {
 /// Returns whether a foreign word means the ground.
 #[must_use]
 pub fn is_ground(word: &str) -> bool {
-    Synonym::of(Place::Declaration, word).is_some_and(|synonym| synonym.means == ["ground"])
+    Synonym::of(Position::Declaration, word).is_some_and(|synonym| synonym.means == ["ground"])
 }
 
 impl Synonym {
     /// Returns the synonym for a word in a position, in upper or lower case; `prismatic_joint` is `prismatic`.
     #[must_use]
-    pub fn of(place: Place, word: &str) -> Option<&'static Synonym> {
-        Synonym::all_of(word).find(|synonym| synonym.place == place)
+    pub fn of(position: Position, word: &str) -> Option<&'static Synonym> {
+        Synonym::all_of(word).find(|synonym| synonym.position == position)
     }
 
     /// Returns the synonyms for a word in any position.
     pub fn all_of(word: &str) -> impl Iterator<Item = &'static Synonym> {
         let word = word.to_lowercase();
         SYNONYMS.iter().filter(move |synonym| {
-            let word = match synonym.place {
-                Place::Joint => word.strip_suffix("joint").map_or(word.as_str(), |stem| stem.trim_end_matches('_')),
+            let word = match synonym.position {
+                Position::Joint => word.strip_suffix("joint").map_or(word.as_str(), |stem| stem.trim_end_matches('_')),
                 _ => word.as_str(),
             };
             synonym.names.contains(&word)
@@ -67,12 +67,12 @@ impl Synonym {
 
     /// Returns the message for arguments as written.
     #[must_use]
-    pub fn say(&self, arguments: &[&str]) -> String {
+    pub fn message(&self, arguments: &[&str]) -> String {
         // long arguments would hide the message
         let is_short = arguments.iter().all(|text| text.chars().count() <= LONGEST_ARGUMENT && !text.contains('\n'));
         let arguments = if is_short { arguments } else { &[] };
         let mut text = String::new();
-        let mut rest = self.say;
+        let mut rest = self.message;
         while let Some((before, after)) = rest.split_once('{') {
             let (gap, after_gap) = after.split_once('}').unwrap_or((after, ""));
             text += before;
@@ -106,12 +106,12 @@ fn fill(gap: &str, arguments: &[&str]) -> String {
 }
 
 const fn synonym(
-    place: Place,
+    position: Position,
     names: &'static [&'static str],
     means: &'static [&'static str],
-    say: &'static str,
+    message: &'static str,
 ) -> Synonym {
-    Synonym { place, names, means, is_same: true, say }
+    Synonym { position, names, means, is_same: true, message }
 }
 
 impl Synonym {
@@ -122,24 +122,24 @@ impl Synonym {
 }
 
 /// Creates a synonym for a call in a formula.
-const fn call(names: &'static [&'static str], means: &'static [&'static str], say: &'static str) -> Synonym {
-    synonym(Place::Call, names, means, say)
+const fn call(names: &'static [&'static str], means: &'static [&'static str], message: &'static str) -> Synonym {
+    synonym(Position::Call, names, means, message)
 }
 
-const fn joint(names: &'static [&'static str], means: &'static [&'static str], say: &'static str) -> Synonym {
-    synonym(Place::Joint, names, means, say)
+const fn joint(names: &'static [&'static str], means: &'static [&'static str], message: &'static str) -> Synonym {
+    synonym(Position::Joint, names, means, message)
 }
 
-const fn unit(names: &'static [&'static str], means: &'static [&'static str], say: &'static str) -> Synonym {
-    synonym(Place::Unit, names, means, say)
+const fn unit(names: &'static [&'static str], means: &'static [&'static str], message: &'static str) -> Synonym {
+    synonym(Position::Unit, names, means, message)
 }
 
-const fn number(names: &'static [&'static str], means: &'static [&'static str], say: &'static str) -> Synonym {
-    synonym(Place::Number, names, means, say)
+const fn number(names: &'static [&'static str], means: &'static [&'static str], message: &'static str) -> Synonym {
+    synonym(Position::Number, names, means, message)
 }
 
-const fn declaration(names: &'static [&'static str], means: &'static [&'static str], say: &'static str) -> Synonym {
-    synonym(Place::Declaration, names, means, say)
+const fn declaration(names: &'static [&'static str], means: &'static [&'static str], message: &'static str) -> Synonym {
+    synonym(Position::Declaration, names, means, message)
 }
 
 /// All synonyms.
@@ -547,22 +547,22 @@ pub static SYNONYMS: &[Synonym] = &[
 
 #[cfg(test)]
 mod tests {
-    use super::{Place, Synonym};
+    use super::{Position, Synonym};
 
     #[test]
-    fn arguments_are_told_as_they_were_written() {
-        let say = |word: &str, arguments: &[&str]| Synonym::of(Place::Call, word).unwrap().say(arguments);
-        assert!(say("sind", &["30"]).ends_with("`sin(30 deg)`"));
-        assert!(say("sind", &["2 * t"]).ends_with("`sin((2 * t) * 1 deg)`"));
-        assert!(say("sqr", &["a + b"]).ends_with("`(a + b)^2`"));
-        assert!(say("SQR", &["a"]).ends_with("`a^2`"));
-        assert!(say("floor", &[]).ends_with("`a - mod(a, 1)`"));
-        assert!(say("floor", &["a_very_long_name_of_something + another_one"]).ends_with("`a - mod(a, 1)`"));
+    fn synonym_arguments_keep_their_spelling() {
+        let message = |word: &str, arguments: &[&str]| Synonym::of(Position::Call, word).unwrap().message(arguments);
+        assert!(message("sind", &["30"]).ends_with("`sin(30 deg)`"));
+        assert!(message("sind", &["2 * t"]).ends_with("`sin((2 * t) * 1 deg)`"));
+        assert!(message("sqr", &["a + b"]).ends_with("`(a + b)^2`"));
+        assert!(message("SQR", &["a"]).ends_with("`a^2`"));
+        assert!(message("floor", &[]).ends_with("`a - mod(a, 1)`"));
+        assert!(message("floor", &["a_very_long_name_of_something + another_one"]).ends_with("`a - mod(a, 1)`"));
     }
 
     #[test]
     fn a_joint_may_say_that_it_is_one() {
-        let means = |word: &str| Synonym::of(Place::Joint, word).map(|synonym| synonym.means[0]);
+        let means = |word: &str| Synonym::of(Position::Joint, word).map(|synonym| synonym.means[0]);
         assert_eq!(means("Prismatic_Joint"), Some("translational"));
         assert_eq!(means("PinJoint"), Some("revolute"));
         assert_eq!(means("revolute"), None);

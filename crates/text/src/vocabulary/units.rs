@@ -417,7 +417,7 @@ mod tests {
 
     #[test]
     #[allow(clippy::float_cmp)] // to the bit
-    fn what_is_printed_in_a_unit_is_rounded_once() {
+    fn unit_values_are_rounded_once() {
         let printed = |si: f64, factors: &[(&str, i32)]| {
             let [first, multiply, last] = compound(factors).scale();
             si / first * multiply / last

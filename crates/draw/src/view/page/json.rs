@@ -53,7 +53,7 @@ pub(super) fn value(page: &Page, every: usize, tables: Tables) -> Value {
         "scene": scene,
         "columns": page.columns.iter().map(|column| Value::Object(column_object(column))).collect::<Vec<_>>(),
         "vary": page.vary.iter().map(|vary| {
-            json!({ "name": vary.name, "unit": vary.unit, "values": vary.values, "nearest": vary.nearest, "own": vary.own })
+            json!({ "name": vary.name, "unit": vary.unit, "values": vary.values, "nearest": vary.nearest, "own": vary.nominal })
         }).collect::<Vec<_>>(),
         "variants": variants,
     });

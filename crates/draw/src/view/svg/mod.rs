@@ -54,7 +54,7 @@ pub struct Options {
     /// Captions below positions (m).
     pub captions: Vec<(Vector, String)>,
     /// Messages below the picture.
-    pub said: Vec<String>,
+    pub messages: Vec<String>,
 }
 
 /// Writes the mechanism at the rows of `moments`, the last one in full and the others pale, with the traces of the whole motion.

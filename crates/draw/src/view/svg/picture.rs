@@ -98,11 +98,11 @@ impl<'s> Picture<'s> {
             let needed = |side: usize, [least, most]: [f64; 2]| {
                 mechc_expr::math::floor((extent[side] * scale + 2.0 * margin).clamp(least, most) + 0.5)
             };
-            let least = if options.said.is_empty() { WIDTHS[0] } else { WIDTH_WITH_MESSAGE };
+            let least = if options.messages.is_empty() { WIDTHS[0] } else { WIDTH_WITH_MESSAGE };
             [needed(0, [least, WIDTHS[1]]), needed(1, HEIGHTS)]
         });
         let is_given = options.size.is_some() && options.scale.is_none();
-        let messages = MessageBlock::new(&options.said, size, margin, is_given);
+        let messages = MessageBlock::new(&options.messages, size, margin, is_given);
         let drawn = if is_given { [size[0], size[1] - messages.height] } else { size };
         let size = [drawn[0], drawn[1] + messages.height];
         let fitting = (inner(drawn[0]) / extent[0]).min(inner(drawn[1]) / extent[1]);
@@ -191,9 +191,9 @@ impl<'s> Picture<'s> {
             escape(&self.scene.name)
         );
         let mut description = self.scene.docs.join("\n").trim().to_owned();
-        for said in &self.options.said {
+        for message in &self.options.messages {
             description += if description.is_empty() { "" } else { "\n" };
-            description += said;
+            description += message;
         }
         if !description.is_empty() {
             let _ = writeln!(file, "<desc>{}</desc>", escape(&description));

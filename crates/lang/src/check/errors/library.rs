@@ -10,7 +10,7 @@ const MOST_LISTED: usize = 5;
 /// A name before a `.` that is not a prefix of a `use`.
 pub fn no_prefix(prefix: &Name, candidates: &[&Name]) -> Diagnostic {
     let names: Vec<&str> = candidates.iter().map(|name| name.text.as_str()).collect();
-    let suggestion = nearest(&prefix.text, names.iter().copied()).map(|name| Fix::meant(prefix.span, name));
+    let suggestion = nearest(&prefix.text, names.iter().copied()).map(|name| Fix::suggest(prefix.span, name));
     let diagnostic = Diagnostic::new(Code::E0201, format!("no file is used as `{}`", prefix.text))
         .at(prefix.span, "not the prefix of a `use`");
     match (suggestion, names.is_empty()) {
@@ -44,7 +44,7 @@ pub fn no_mechanism(
         return diagnostic.help(format!("`{file}` holds it: `use \"{path}\"` at the top of the file"));
     }
     match (suggestion, candidates) {
-        (Some(suggestion), _) => diagnostic.fix(Fix::meant(name.span, suggestion)),
+        (Some(suggestion), _) => diagnostic.fix(Fix::suggest(name.span, suggestion)),
         (None, []) => diagnostic,
         (None, names) => diagnostic.help(format!("the mechanisms are {}", listed(names))),
     }

@@ -5,7 +5,9 @@ use crate::check::suggest::edits::suggest_rename;
 use mechc_syntax::ast::Name;
 use mechc_text::diag::{Applicability, Code, Diagnostic, Fix};
 use mechc_text::source::Span;
-use mechc_text::vocabulary::{Constant, FUNCTIONS, JOINTS, JointWord, Place, QUANTITIES, QuantityWord, Synonym, Unit};
+use mechc_text::vocabulary::{
+    Constant, FUNCTIONS, JOINTS, JointWord, Position, QUANTITIES, QuantityWord, Synonym, Unit,
+};
 
 pub fn unknown(what: &str, name: &Name, candidates: &[&str]) -> Diagnostic {
     Diagnostic::new(Code::E0201, format!("there is no {what} `{}`", name.text))
@@ -26,20 +28,20 @@ pub fn unknown_number(what: &str, name: &Name, candidates: &[&str]) -> Diagnosti
         return diagnostic.instead(Fix::replace(name.span, written, message, Applicability::Probably));
     }
     if let (Some(power), true) = (power_of_a_unit(&name.text), diagnostic.help.is_empty()) {
-        return diagnostic.instead(Fix::meant(name.span, &power));
+        return diagnostic.instead(Fix::suggest(name.span, &power));
     }
-    if let Some(synonym) = Synonym::of(Place::Number, &name.text) {
+    if let Some(synonym) = Synonym::of(Position::Number, &name.text) {
         return match synonym.means {
-            [only] if synonym.is_same => diagnostic.instead(Fix::meant(name.span, only)),
-            _ => diagnostic.help(synonym.say(&[])),
+            [only] if synonym.is_same => diagnostic.instead(Fix::suggest(name.span, only)),
+            _ => diagnostic.help(synonym.message(&[])),
         };
     }
-    match Synonym::of(Place::Unit, &name.text).filter(|_| name.text.len() > 1 && diagnostic.help.is_empty()) {
+    match Synonym::of(Position::Unit, &name.text).filter(|_| name.text.len() > 1 && diagnostic.help.is_empty()) {
         Some(synonym) => match synonym.means {
             // `turn` is more likely an undeclared input than a unit.
             [unit @ "rev"] => diagnostic
                 .help(format!("the unit is `{unit}`; a number of that name is declared: `param {} = …`", name.text)),
-            _ => diagnostic.help(synonym.say(&[])),
+            _ => diagnostic.help(synonym.message(&[])),
         },
         None => diagnostic,
     }
@@ -57,7 +59,7 @@ pub fn path_from_outside(span: Span, owner: &str, noun: &str, is_whole: bool) ->
 pub fn names_in_option(name: &Name) -> Diagnostic {
     Diagnostic::new(Code::E0706, format!("a value from outside the file cannot name `{}`", name.text))
         .at(name.span, "a name of the file")
-        .fix_if(power_of_a_unit(&name.text).map(|power| Fix::meant(name.span, &power)))
+        .fix_if(power_of_a_unit(&name.text).map(|power| Fix::suggest(name.span, &power)))
         .help("write it out in numbers and units")
 }
 
@@ -68,12 +70,12 @@ pub fn names_in_formula(name: &Name) -> Diagnostic {
     let diagnostic =
         Diagnostic::new(Code::E0706, format!("a formula from outside the file cannot name `{}`", name.text))
             .at(name.span, "not known here");
-    let synonym = Synonym::of(Place::Unit, &name.text).filter(|_| name.text.len() > 1);
+    let synonym = Synonym::of(Position::Unit, &name.text).filter(|_| name.text.len() > 1);
     if let Some(power) = power_of_a_unit(&name.text) {
-        return diagnostic.fix(Fix::meant(name.span, &power));
+        return diagnostic.fix(Fix::suggest(name.span, &power));
     }
     match (nearest, synonym) {
-        (_, Some(synonym)) => diagnostic.help(synonym.say(&[])),
+        (_, Some(synonym)) => diagnostic.help(synonym.message(&[])),
         (Some(fix), None) => diagnostic.fix(fix),
         (None, None) => diagnostic.help("it is a formula of the time `t`; `pi`, `tau` and the units may stand in it"),
     }
@@ -107,8 +109,8 @@ pub fn unknown_function(name: &Name, local_names: &[&str], arguments: &[&str]) -
 
 /// Suggests how to write an entity that is called like a function.
 fn suggest_other_form(name: &str, arguments: &[&str]) -> Option<String> {
-    if let Some(synonym) = Synonym::of(Place::Call, name) {
-        return Some(synonym.say(arguments));
+    if let Some(synonym) = Synonym::of(Position::Call, name) {
+        return Some(synonym.message(arguments));
     }
     if let Some(joint) = JointWord::named(name) {
         let form = joint.word.forms.first().copied().unwrap_or(name);
@@ -124,8 +126,8 @@ pub fn unknown_joint(kind: &Name, arguments: &[&str]) -> Diagnostic {
     let candidates: Vec<&str> = JOINTS.iter().map(|joint| joint.word.name).collect();
     let diagnostic = Diagnostic::new(Code::E0201, format!("there is no kind of joint `{}`", kind.text))
         .at(kind.span, "not declared");
-    match (Synonym::of(Place::Joint, &kind.text), nearest_name(kind, &candidates)) {
-        (Some(synonym), _) => diagnostic.help(synonym.say(arguments)),
+    match (Synonym::of(Position::Joint, &kind.text), nearest_name(kind, &candidates)) {
+        (Some(synonym), _) => diagnostic.help(synonym.message(arguments)),
         (None, Some(fix)) => diagnostic.fix(fix),
         (None, None) => diagnostic.help(format!("the joints are {}", list(&candidates))),
     }
@@ -139,8 +141,8 @@ pub fn not_a_unit(name: &Name, [number, power]: [&str; 2], is_a_name: bool) -> D
         let words = format!("was `{number} * {}{power}` meant?", name.text);
         let diagnostic = diagnostic.fix(Fix::insert(name.span, "* ", words, Applicability::Probably));
         // A unit in other formulas, and a name here.
-        return match Synonym::of(Place::Unit, &name.text) {
-            Some(synonym) if name.text == "g" => diagnostic.help(synonym.say(&[])),
+        return match Synonym::of(Position::Unit, &name.text) {
+            Some(synonym) if name.text == "g" => diagnostic.help(synonym.message(&[])),
             _ => diagnostic,
         };
     }
@@ -157,11 +159,11 @@ pub(super) fn power_of_a_unit(name: &str) -> Option<String> {
 /// Adds the probable unit to a diagnostic, or lists all units.
 pub(super) fn suggest_unit(diagnostic: Diagnostic, name: &Name) -> Diagnostic {
     if let Some(power) = power_of_a_unit(&name.text) {
-        return diagnostic.fix(Fix::meant(name.span, &power));
+        return diagnostic.fix(Fix::suggest(name.span, &power));
     }
     let units: Vec<&str> = Unit::names().collect();
-    match (Synonym::of(Place::Unit, &name.text), Unit::prefixed_value(&name.text), nearest_name(name, &units)) {
-        (Some(synonym), ..) => diagnostic.help(synonym.say(&[])),
+    match (Synonym::of(Position::Unit, &name.text), Unit::prefixed_value(&name.text), nearest_name(name, &units)) {
+        (Some(synonym), ..) => diagnostic.help(synonym.message(&[])),
         (None, Some(text), _) => diagnostic.help(format!("`1 {}` is written `{text}`", name.text)),
         (None, None, Some(fix)) => diagnostic.fix(fix),
         (None, None, None) => diagnostic.help(format!("the units are {}", units.join(" "))),
@@ -211,13 +213,13 @@ pub fn circle(names: &[&Name]) -> Diagnostic {
         _ => format!("definitions go in a circle: {} needs {}", chain[0], chain[1..].join(", which needs ")),
     };
     // `measure power = power(motor)`
-    let synonym = Synonym::of(Place::Call, &first.text).filter(|_| names.len() == 1);
+    let synonym = Synonym::of(Position::Call, &first.text).filter(|_| names.len() == 1);
     names[1..]
         .iter()
         .fold(Diagnostic::new(Code::E0206, message).at(first.span, "needs its own value"), |diagnostic, name| {
             diagnostic.also(name.span, "on the circle")
         })
-        .help_if(synonym.map(|synonym| synonym.say(&[])))
+        .help_if(synonym.map(|synonym| synonym.message(&[])))
 }
 
 pub fn hidden_name(argument: &Name, declared: Span, free: Option<&str>, uses: &[Span]) -> Diagnostic {

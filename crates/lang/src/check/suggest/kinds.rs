@@ -9,7 +9,7 @@ use crate::model::{Dimension, Frame, JointKind};
 use mechc_syntax::ast::{Expr, ExprKind, Factor, ItemKind, Name};
 use mechc_text::diag::{Applicability, Code, Diagnostic, Edit, Fix};
 use mechc_text::source::Span;
-use mechc_text::vocabulary::{Place, QuantityWord, Synonym, Unit};
+use mechc_text::vocabulary::{Position, QuantityWord, Synonym, Unit};
 
 impl Checker<'_> {
     /// Suggests an axis instead of a point: an axis of the body, or a new one through the point.
@@ -63,7 +63,7 @@ impl Checker<'_> {
         let names: Vec<&str> = fitting.map(|joint| joint.declared.name.as_str()).collect();
         let diagnostic = match names[..] {
             [] => diagnostic,
-            [only] => diagnostic.fix(Fix::meant(name.span, only)),
+            [only] => diagnostic.fix(Fix::suggest(name.span, only)),
             _ => diagnostic.help(format!("joints of `{}` are {}", name.text, list(&names))),
         };
         if quantity == "rotation" {
@@ -77,7 +77,7 @@ impl Checker<'_> {
     pub(in crate::check) fn suggest_effort(&self, e: &Expr, called: &Name, arguments: &[Expr]) -> Option<Fix> {
         let [argument] = arguments else { return None };
         let ExprKind::Name(name) = &argument.bare().kind else { return None };
-        let means = Synonym::of(Place::Call, &called.text)?.means;
+        let means = Synonym::of(Position::Call, &called.text)?.means;
         let (what, text) = match self.entity(name)? {
             Entity::Equation(_) if called.text == "power" => {
                 let moved = self.moved_by(&name.text)?;

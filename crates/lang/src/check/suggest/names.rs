@@ -8,7 +8,7 @@ use crate::model::{Dimension, JointKind};
 use mechc_syntax::ast::{Expr, ExprKind, ItemKind, Name};
 use mechc_text::diag::{Applicability, Code, Diagnostic, Diagnostics, Edit, Fix};
 use mechc_text::source::Span;
-use mechc_text::vocabulary::{Place, Synonym, Unit, is_ground};
+use mechc_text::vocabulary::{Position, Synonym, Unit, is_ground};
 use rustc_hash::FxHashMap;
 use std::collections::hash_map::Entry;
 
@@ -43,14 +43,14 @@ impl Checker<'_> {
     ) -> Option<Fix> {
         let [argument] = arguments else { return None };
         let ExprKind::Name(joint) = &argument.bare().kind else { return None };
-        let synonym = Synonym::of(Place::Call, &name.text);
+        let synonym = Synonym::of(Position::Call, &name.text);
         let is_rate = name.text == "speed" || synonym.is_some_and(|synonym| synonym.means.contains(&"der"));
         let quantity = self.quantity_of(joint).filter(|_| is_rate)?;
         if !context.rates {
             return Some(self.replace_in_equation(e.span, &quantity));
         }
         let synonym = synonym?;
-        let example = synonym.say(&[]);
+        let example = synonym.message(&[]);
         let order = (1..=3).rev().find(|&order| example.contains(&"der(".repeat(order))).unwrap_or(1);
         let written = format!("{}{quantity}{}", "der(".repeat(order), ")".repeat(order));
         Some(Fix::replace(e.span, &written, format!("of a joint it is `{written}`"), Applicability::Probably))
@@ -99,7 +99,7 @@ impl Checker<'_> {
         candidates.push("ground");
         let diagnostic = errors::unknown("body", name, &candidates);
         let is_ground = diagnostic.help.is_empty() && is_ground(&name.text);
-        let ground = is_ground.then(|| Fix::meant(name.span, "ground"));
+        let ground = is_ground.then(|| Fix::suggest(name.span, "ground"));
         self.report(diagnostic.fix_if(ground));
     }
 

@@ -76,7 +76,7 @@ pub(super) fn is_known(name: &str) -> bool {
     matches!(name, "t" | "pi") || FUNCTIONS.iter().any(|(function, ..)| *function == name)
 }
 
-/// A name that is not called.
+/// Returns a name that is not called.
 pub(super) fn constant(name: &str, span: Span) -> Built<Term> {
     let expression = match name {
         "t" | "pi" => build::word(name, span),
@@ -115,12 +115,12 @@ fn no_constant(name: &str, span: Span) -> Diagnostic {
     }
 }
 
-/// A call in the language's words.
+/// Returns a call in the language's words.
 pub(super) fn call(name: &str, name_span: Span, arguments: &[Expr], span: Span) -> Built<Expr> {
     let Some(&(_, count, formula)) = FUNCTIONS.iter().find(|(function, ..)| *function == name) else {
         let near = nearest(name, FUNCTIONS.iter().map(|(function, ..)| *function));
-        let known = matches!(name, "t" | "pi");
-        let help = if known {
+        let is_constant = matches!(name, "t" | "pi");
+        let help = if is_constant {
             Some(format!("a product is written with `*`: `{name}*(…)`"))
         } else {
             near.map(|near| format!("was `{near}` meant?"))
@@ -142,7 +142,7 @@ pub(super) fn call(name: &str, name_span: Span, arguments: &[Expr], span: Span) 
     })
 }
 
-/// A formula of the table with the arguments in their places.
+/// Returns a formula of the table with the arguments in their places.
 fn with_arguments(e: &Expr, arguments: &[Expr], span: Span) -> Expr {
     let inside = |e: &Expr| Box::new(with_arguments(e, arguments, span));
     let kind = match &e.kind {
@@ -176,7 +176,7 @@ fn with_arguments(e: &Expr, arguments: &[Expr], span: Span) -> Expr {
     Expr { kind, span }
 }
 
-/// A product; `90 * 1 deg` becomes `90 deg`, and `90 * t * 1 deg` becomes `90 deg * t`.
+/// Returns a product; `90 * 1 deg` becomes `90 deg`, and `90 * t * 1 deg` becomes `90 deg * t`.
 fn in_degrees(first: Expr, rest: Vec<(Factor, Expr)>) -> ExprKind {
     let [(Factor::Times, Expr { kind: ExprKind::Literal { unit: unit @ Some(_), .. }, .. })] = rest.as_slice() else {
         return ExprKind::Product(Box::new(first), rest);

@@ -1,4 +1,4 @@
-//! From tokens to a formula, by MATLAB's precedences.
+//! Parser of formulas with MATLAB's precedences.
 //!
 //! Loosest first, all from the left: `||`, `&&`, `|`, `&`, comparisons, `+ -`, `* /`, signs and `~`, `^` and `'`. A
 //! sign behind `^` belongs to the exponent.
@@ -42,8 +42,8 @@ const INFIX: &[(&str, u8, Infix)] = &[
     ("-", 6, Infix::Sum(Sign::Minus)),
     ("*", 7, Infix::Product(Factor::Times)),
     (".*", 7, Infix::Product(Factor::Times)),
-    ("/", 7, Infix::Product(Factor::Over)),
-    ("./", 7, Infix::Product(Factor::Over)),
+    ("/", 7, Infix::Product(Factor::Divide)),
+    ("./", 7, Infix::Product(Factor::Divide)),
     ("\\", 7, Infix::LeftDivision),
     (".\\", 7, Infix::LeftDivision),
     ("^", POWER, Infix::Power),
@@ -54,7 +54,7 @@ const INFIX: &[(&str, u8, Infix)] = &[
 const SIGN: u8 = 8;
 const POWER: u8 = 9;
 
-/// The formula that a text's tokens write.
+/// Parses the tokens of a formula.
 pub(super) fn parse(tokens: &[Token<'_>], text: &Quoted) -> Built<Expr> {
     let end = text.place(text.text.len(), text.text.len());
     let mut parser = Parser { tokens, at: 0, end };
@@ -89,7 +89,7 @@ impl<'a> Parser<'a> {
         errors::fault(token.span, message, "expected an operator").help_if(help)
     }
 
-    /// An operand with all operators behind it that bind at least so tightly.
+    /// Parses an operand with all following operators that bind at least as tightly as `loosest`.
     fn term(&mut self, loosest: u8, depth: usize) -> Built<Term> {
         let mut left = self.operand(depth)?;
         while let Some(token) = self.peek() {
@@ -152,7 +152,7 @@ impl<'a> Parser<'a> {
         Ok(signs.into_iter().rev().fold(exponent, |exponent, (sign, span)| signed(sign, exponent, span)))
     }
 
-    /// A number, a name, a call or parentheses, and any transposition behind it.
+    /// Parses a number, a name, a call or parentheses, with transpositions behind it.
     fn primary(&mut self, depth: usize) -> Built<Term> {
         let Some(token) = self.peek() else {
             return self.operand(depth);
@@ -235,13 +235,13 @@ fn join(left: Term, infix: Infix, right: Term) -> Term {
         }
         Infix::Sum(sign) => sum(left.into_number(), sign, right.into_number()),
         Infix::Product(factor) => product(left.into_number(), factor, right.into_number()),
-        Infix::LeftDivision => product(right.into_number(), Factor::Over, left.into_number()),
+        Infix::LeftDivision => product(right.into_number(), Factor::Divide, left.into_number()),
         Infix::Power => ExprKind::Power(Box::new(left.into_number()), Box::new(right.into_number())),
     };
     Term::number(Expr { kind, span })
 }
 
-/// `a or b`, `a and b`; a chain of one of them stays flat.
+/// Returns `a or b`, or `a and b`; a chain of one operator stays flat.
 fn conditions(left: Term, right: Term, span: Span, either: bool) -> Expr {
     let left = left.into_condition();
     let right = right.into_condition();
@@ -262,7 +262,7 @@ fn conditions(left: Term, right: Term, span: Span, either: bool) -> Expr {
     Expr { kind, span }
 }
 
-/// `a + b`; what is added to a sum joins it.
+/// Returns `a + b`; a further term extends the sum.
 pub(super) fn sum(left: Expr, sign: Sign, right: Expr) -> ExprKind {
     match left.kind {
         ExprKind::Sum(first, mut rest) => {
@@ -273,7 +273,7 @@ pub(super) fn sum(left: Expr, sign: Sign, right: Expr) -> ExprKind {
     }
 }
 
-/// `a * b`; what multiplies a product joins it.
+/// Returns `a * b`; a further factor extends the product.
 pub(super) fn product(left: Expr, factor: Factor, right: Expr) -> ExprKind {
     match left.kind {
         ExprKind::Product(first, mut rest) => {

@@ -18,7 +18,7 @@ pub(super) enum TokenKind<'a> {
 pub(super) struct Token<'a> {
     pub kind: TokenKind<'a>,
     pub span: Span,
-    /// Its words.
+    /// Words.
     pub text: &'a str,
 }
 
@@ -41,7 +41,7 @@ const REFUSED: &[(&str, &str)] = &[
     ("%", "leave the comment out"),
 ];
 
-/// The tokens of a formula.
+/// Returns the tokens of a formula.
 pub(super) fn tokens(text: &Quoted) -> Built<Vec<Token<'_>>> {
     let written = text.text.as_str();
     let mut tokens = Vec::new();
@@ -81,7 +81,7 @@ fn next<'a>(rest: &'a str, text: &Quoted, at: usize) -> Built<(TokenKind<'a>, us
     Err(Box::new(errors::fault(span, message, "not understood").help_if(help)))
 }
 
-/// `3`, `3.`, `.5`, `1e-3`, `1d3`; the point of `1.*t` belongs to the `*`.
+/// Reads a number: `3`, `3.`, `.5`, `1e-3`, `1d3`; the point of `1.*t` belongs to the `*`.
 fn number<'a>(rest: &'a str, text: &Quoted, at: usize) -> Built<(TokenKind<'a>, usize)> {
     let digits = |from: usize| {
         let tail = rest.get(from..).unwrap_or("");
