@@ -2,6 +2,7 @@
 
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic)] // a test fails by panicking
 
+use crate::support;
 use mechc::{Choice, Memory, Parsed, Severity, words};
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
@@ -306,7 +307,7 @@ fn has_nameless(text: &str) -> bool {
 
 /// Every input of the tests of single mistakes that can be put beside another one.
 fn inputs() -> Vec<Mistaken> {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/ui");
+    let root = support::root().join("tests/ui");
     let mut list = Vec::new();
     for folder in ["syntax", "names", "kinds", "values", "elements", "synonyms"] {
         let mut paths: Vec<_> =
