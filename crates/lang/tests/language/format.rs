@@ -2,8 +2,8 @@
 
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, clippy::float_cmp)] // a test fails by panicking
 
-use crate::support::{files, text_of};
 use crate::support::shape::{file_shape, shape};
+use crate::support::{files, text_of};
 use mechc::{Color, Diagnostics, Format, render};
 use mechc::{Sources, Span};
 use mechc_syntax::ast::File;
