@@ -29,9 +29,14 @@ pub fn text_of(path: impl AsRef<Path>) -> String {
     std::fs::read_to_string(root().join(path)).expect("a text")
 }
 
-/// Files of this machine, with paths relative to a folder.
-#[derive(Default)]
+/// Files of this machine, with paths relative to a folder: by default that of the project.
 pub struct Disk(PathBuf);
+
+impl Default for Disk {
+    fn default() -> Disk {
+        Disk(root())
+    }
+}
 
 impl World for Disk {
     fn read(&self, path: &Path) -> std::io::Result<Contents> {

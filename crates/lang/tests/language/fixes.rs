@@ -8,7 +8,7 @@ use crate::support::{Span, files, is_error, run_in, stem};
 use mechc::{Applicability, Code, Diagnostic, Diagnostics, Fix, Parsed, Sources, fixed};
 use std::collections::BTreeMap;
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// A text with the file it is in, or stands for.
 struct Case {

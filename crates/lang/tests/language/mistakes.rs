@@ -6,7 +6,6 @@ use crate::support;
 use mechc::{Choice, Memory, Parsed, Severity, words};
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
-use std::path::Path;
 
 /// `(line, code)` of everything that is said of a text up to its check, whichever of its mechanisms it is said of.
 fn reported(text: &str) -> Vec<(usize, &'static str)> {
