@@ -5,7 +5,7 @@
 
 use crate::support;
 
-use crate::support::named_tests::Tests;
+use crate::named_tests::Tests;
 use crate::support::{Span, files, run, stem};
 use mechc::{Code, Severity};
 use std::fs;

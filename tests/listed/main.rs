@@ -2,6 +2,8 @@
 
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic)] // a test fails by panicking
 
+#[path = "../support/named_tests.rs"]
+mod named_tests;
 #[path = "../support/mod.rs"]
 mod support;
 
@@ -14,7 +16,7 @@ mod stages;
 mod ui;
 
 fn main() {
-    let mut tests = support::named_tests::Tests::default();
+    let mut tests = named_tests::Tests::default();
     references::list(&mut tests);
     explain::list(&mut tests);
     modules::list(&mut tests);

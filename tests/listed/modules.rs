@@ -9,7 +9,7 @@ mod compiling;
 #[path = "../emitted/texts.rs"]
 mod texts;
 
-use crate::support::named_tests::{Tests, is_requested};
+use crate::named_tests::{Tests, is_requested};
 use crate::support::{files, mechanisms, stem};
 use compiling::{Emitted, POINTS, bits_of, compile, interpreted, point};
 use std::fmt::Write;

@@ -5,7 +5,7 @@
 
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, clippy::float_cmp)] // a test fails by panicking
 
-use crate::support::named_tests::Tests;
+use crate::named_tests::Tests;
 use crate::support::{Outcome, Span, files, mechanisms, run, run_number, stem};
 use assert_cmd::Command;
 use std::fs;

@@ -5,7 +5,7 @@
 
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, clippy::float_cmp)] // a test fails by panicking
 
-use crate::support::named_tests::Tests;
+use crate::named_tests::Tests;
 use crate::support::{Disk, all_rows, files, mechanisms, stem};
 use mechc::{Cancel, Choice, Compiled, Parsed, Redundant, Times};
 use mechc_engine::analysis::{self, Horizon};

@@ -3,8 +3,8 @@
 
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, clippy::float_cmp)] // a test fails by panicking
 
+use crate::named_tests::Tests;
 use crate::support::blocks::blocks;
-use crate::support::named_tests::Tests;
 use crate::support::{Span, files, run, stem};
 use std::fs;
 use std::path::{Path, PathBuf};

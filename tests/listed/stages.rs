@@ -3,7 +3,7 @@
 
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, clippy::float_cmp)] // a test fails by panicking
 
-use crate::support::named_tests::Tests;
+use crate::named_tests::Tests;
 use crate::support::{Span, files, run, stem};
 use mechc::{Choice, Memory, Parsed};
 use std::fmt::Write;

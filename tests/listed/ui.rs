@@ -4,7 +4,7 @@
 
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, clippy::float_cmp)] // a test fails by panicking
 
-use crate::support::named_tests::Tests;
+use crate::named_tests::Tests;
 use crate::support::{Outcome, Span as Times, files, run_in, stem};
 use mechc::Span;
 use std::fs;

@@ -5,10 +5,7 @@
 
 use crate::support;
 
-#[path = "../emitted/compiling.rs"]
-mod compiling;
-
-use compiling::{Emitted, POINTS, bits_of, compile, interpreted, point};
+use crate::compiling::{Emitted, POINTS, bits_of, compile, interpreted, point};
 use mechc::RustOptions;
 use std::fs;
 use std::path::{Path, PathBuf};

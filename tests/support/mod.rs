@@ -6,7 +6,6 @@ pub mod blocks;
 pub mod change_points;
 pub mod formula_reader;
 pub mod golden;
-pub mod named_tests;
 pub mod random;
 pub mod shape;
 pub mod sweeps;
@@ -19,9 +18,25 @@ use mechc::{
 };
 use std::path::{Path, PathBuf};
 
-/// Files of this machine, with paths relative to a folder.
-#[derive(Default)]
+/// The folder of the project, in which its crates are.
+pub fn root() -> PathBuf {
+    let own = Path::new(env!("CARGO_MANIFEST_DIR"));
+    own.ancestors().find(|folder| folder.join("tests/support").is_dir()).expect("the project").to_owned()
+}
+
+/// Returns the text of a file of the project.
+pub fn text_of(path: impl AsRef<Path>) -> String {
+    std::fs::read_to_string(root().join(path)).expect("a text")
+}
+
+/// Files of this machine, with paths relative to a folder: by default that of the project.
 pub struct Disk(PathBuf);
+
+impl Default for Disk {
+    fn default() -> Disk {
+        Disk(root())
+    }
+}
 
 impl World for Disk {
     fn read(&self, path: &Path) -> std::io::Result<Contents> {
@@ -232,7 +247,7 @@ pub fn files(folder: &str, ending: &str) -> Vec<PathBuf> {
 
 fn any_files(folder: &str, ending: &str) -> Vec<PathBuf> {
     let mut found = Vec::new();
-    let mut open = vec![Path::new(env!("CARGO_MANIFEST_DIR")).join(folder)];
+    let mut open = vec![root().join(folder)];
     while let Some(folder) = open.pop() {
         for entry in std::fs::read_dir(&folder).expect("the folder is there") {
             let path = entry.expect("it can be read").path();

@@ -7,6 +7,23 @@ use mechc::{
     Variants, VaryOptions, World,
 };
 
+/// A crank-rocker of two bodies.
+pub const ROCKER: &str = "mechanism rocker {
+    param crank_length = 30 mm
+    param coupler_length = 90 mm
+    param rocker_length = 70 mm
+    param pen = (45 mm, 20 mm)
+    ground { point O = (0, 0)  point C = (100 mm, 0) }
+    body crank at (0, 0, 30 deg) { point O = (0, 0)  point A = (crank_length, 0) }
+    body coupler at (26 mm, 15 mm, 40 deg) { point A = (0, 0)  point B = (coupler_length, 0)  point P = pen }
+    joint main:  revolute(ground.O, crank.O)
+    joint left:  revolute(crank.A, coupler.A)
+    joint right: revolute_revolute(coupler.B, ground.C, rocker_length)
+    driver motor: rotation(main) = 30 deg + 1 rev/s * t
+    measure height = y(coupler.P) in mm
+    analysis from 0 s to 0.9 s every 50 ms
+}";
+
 /// A mechanism for sweeps.
 pub struct Subject {
     pub parsed: Parsed,

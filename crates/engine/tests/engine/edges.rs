@@ -351,7 +351,7 @@ fn a_row_at_a_switch_does_not_depend_on_the_other_times() {
 
 #[test]
 fn dwells_that_end_at_output_times_are_followed() {
-    let text = std::fs::read_to_string("tests/edges/conjugate_cams.mech").expect("a text");
+    let text = include_str!("conjugate_cams.mech");
     for (rpm, count, every) in [
         ("-60", 320_u32, 0.005),
         ("-60", 12_u32, 0.1),

@@ -3,11 +3,10 @@
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, clippy::float_cmp)] // a test fails by panicking
 
 use crate::support::change_points::parallelogram_of_names;
-use crate::support::{Disk, Outcome, all_rows, follow};
+use crate::support::{Disk, Outcome, all_rows, follow, text_of};
 use mechc::{Cancel, Choice, Compiled, Memory, Parsed, Redundant, RunOptions, Times};
 use mechc_expr::math;
 use std::f64::consts::{FRAC_PI_2, PI};
-use std::fs;
 
 /// A row that is right may be off by this part of a number.
 const EXACT: f64 = 1e-9;
@@ -266,7 +265,7 @@ fn derivative_columns_change_no_other_bit() {
         "pf_ellipse",
     ] {
         let path = format!("tests/cases/{name}.mech");
-        let text = fs::read_to_string(&path).expect("a text");
+        let text = text_of(&path);
         let rows = |names: &[String]| {
             let choice = Choice { by: names.to_vec(), ..Choice::default() };
             let checked = Parsed::new(&path, &text).check(&choice, &Disk::default());
@@ -322,7 +321,7 @@ fn shifts_change_no_bit() {
 
 #[test]
 fn derivatives_do_not_depend_on_other_rows() {
-    let text = fs::read_to_string("tests/cases/sensitivities.mech").expect("a text");
+    let text = text_of("tests/cases/sensitivities.mech");
     let (compiled, _) = compile(&text, &by(&["turn", "base"]), Redundant::Refused);
     let times = compiled.times().expect("times");
     let (rows, _) = all_rows(&compiled, &times);

@@ -171,7 +171,7 @@ fn a_sweep_ends_at_the_variant_that_is_looked_for() {
 /// A condition may ask for what some variants do not have: a time behind their ends, a copy beyond their number.
 #[test]
 fn until_conditions_change_no_variant() {
-    let lift = include_str!("../../examples/scissor_lift.mech");
+    let lift = include_str!("../../../../examples/scissor_lift.mech");
     for (text, varied, condition) in [
         (FOUR_BAR, "speed=30rpm,120rpm,60rpm", "at(height, 0.9 s) > 1 m"),
         (lift, "cells=2,1,3", "max(y(up[1].low)) > 10 m"),

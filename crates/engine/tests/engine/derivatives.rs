@@ -3,7 +3,7 @@
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, clippy::float_cmp)] // a test fails by panicking
 
 use crate::support::random::Random;
-use crate::support::{Span, compile, files, run, stem};
+use crate::support::{Span, compile, files, run, stem, text_of};
 use mechc_expr::math;
 use mechc_expr::{Binary, ExprId, Graph, MotionLaw, Symbol, Unary};
 use mechc_ir::ConstraintSystem;
@@ -361,7 +361,7 @@ const SMOOTH: &[&str] = &[
 #[test]
 fn velocities_and_accelerations_match_differences() {
     for name in SMOOTH {
-        let text = fs::read_to_string(format!("tests/cases/{name}.mech")).expect("a text");
+        let text = text_of(format!("tests/cases/{name}.mech"));
         let times = run(name, &text, Span::default()).expect_success().column("t");
         let (first, last) = (times[0], times[times.len() - 1]);
         let h = (last - first) * 1e-4;

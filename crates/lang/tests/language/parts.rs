@@ -96,7 +96,7 @@ fn measured(text: &str) -> String {
 }
 
 /// The examples and cases with one mechanism that is determined alone, each with its name. Forces are those of the outermost frame, which
-/// `tests/engine/force_laws.rs` looks at: here nobody asks for them.
+/// `crates/engine/tests/engine/force_laws.rs` looks at: here nobody asks for them.
 fn mechanisms() -> Vec<(PathBuf, String, String)> {
     let mut found = Vec::new();
     for folder in ["examples", "tests/cases"] {

@@ -2,12 +2,11 @@
 
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, clippy::float_cmp)] // a test fails by panicking
 
-use crate::support::{Outcome, Span, compile, run};
+use crate::support::{Outcome, Span, compile, run, text_of};
 use mechc::{Choice, Memory, Parsed, RustOptions, Sources};
 use mechc_expr::math;
 use mechc_syntax as syntax;
 use std::f64::consts::PI;
-use std::fs;
 
 /// The values of measures at the start, beside declarations, with the ground's points in `ground` and a body `arm` that rests there.
 fn values(declarations: &str, ground: &str, measures: &[&str]) -> Vec<f64> {
@@ -259,7 +258,7 @@ fn drawn_four_bar_matches_its_numbers() {
 
 #[test]
 fn placed_bodies_move_as_drawn_ones() {
-    let text = fs::read_to_string("tests/cases/drawn_four_bar.mech").expect("a text");
+    let text = text_of("tests/cases/drawn_four_bar.mech");
     let numbers = [
         ("at A toward B", "at (20 mm, 10 mm, atan2(30, 10))"),
         ("length(A, B)", "hypot(10 mm, 30 mm)"),

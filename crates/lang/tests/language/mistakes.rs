@@ -2,10 +2,10 @@
 
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic)] // a test fails by panicking
 
+use crate::support;
 use mechc::{Choice, Memory, Parsed, Severity, words};
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
-use std::path::Path;
 
 /// `(line, code)` of everything that is said of a text up to its check, whichever of its mechanisms it is said of.
 fn reported(text: &str) -> Vec<(usize, &'static str)> {
@@ -306,7 +306,7 @@ fn has_nameless(text: &str) -> bool {
 
 /// Every input of the tests of single mistakes that can be put beside another one.
 fn inputs() -> Vec<Mistaken> {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/ui");
+    let root = support::root().join("tests/ui");
     let mut list = Vec::new();
     for folder in ["syntax", "names", "kinds", "values", "elements", "synonyms"] {
         let mut paths: Vec<_> =

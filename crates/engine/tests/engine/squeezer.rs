@@ -4,8 +4,7 @@
 
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, clippy::float_cmp)] // a test fails by panicking
 
-use crate::support::{Outcome, Span, run};
-use std::fs;
+use crate::support::{Outcome, Span, run, text_of};
 
 const TEXT: &str = "tests/forces/andrews_squeezer.mech";
 
@@ -69,7 +68,7 @@ const END: &[(&str, f64)] = &[
 ];
 
 fn squeezer() -> Outcome {
-    let text = fs::read_to_string(TEXT).expect("a text");
+    let text = text_of(TEXT);
     run(TEXT, &text, Span::default()).expect_success()
 }
 

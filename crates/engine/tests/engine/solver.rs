@@ -5,7 +5,7 @@
 use crate::{fuzz, support};
 
 use crate::support::random::Random;
-use crate::support::{all_rows, compile, compiled, files, stem};
+use crate::support::{all_rows, compile, compiled, files, stem, text_of};
 use mechc::{Cancel, Compiled, TOLERANCE, Times, Vectors};
 use mechc_engine::analysis::{self, Horizon};
 use mechc_engine::solver::{Batch, Bend, Lanes, Segment, Solver};
@@ -48,7 +48,7 @@ fn four_bars(n: usize) -> String {
 
 #[test]
 fn rows_do_not_depend_on_other_rows() {
-    let case = |name: &str| fs::read_to_string(format!("tests/cases/{name}.mech")).expect("a text");
+    let case = |name: &str| text_of(format!("tests/cases/{name}.mech"));
     let mut texts: Vec<(String, String)> =
         ["four_bar", "andrews", "jansen", "digger", "slots"].map(|name| (name.to_owned(), case(name))).to_vec();
     texts.push(("many".to_owned(), four_bars(150)));
@@ -118,8 +118,7 @@ fn rows_of_random_mechanisms_do_not_depend_on_other_rows() {
 
 #[test]
 fn rows_with_large_rounding_do_not_depend_on_other_rows() {
-    let text = fs::read_to_string("tests/bits/gear_under_great_forces.mech").expect("a text");
-    let compiled = compiled("gear", &text);
+    let compiled = compiled("gear", include_str!("gear_under_great_forces.mech"));
     for count in [20, 10, 2, 100] {
         assert_eq!(have_equal_bits("gear", &compiled, count), count as usize + 1);
     }

@@ -1,5 +1,5 @@
 //! `influence` and `sensitivity` of emitted code: they have the bits of the columns `q.by.NAME` of `mechc run --by NAME`.
-//! `cargo test --test engine slopes chain` looks at the text of that name.
+//! `cargo test --test program slopes chain` looks at the text of that name.
 
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, clippy::float_cmp)] // a test fails by panicking
 

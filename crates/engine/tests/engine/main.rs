@@ -2,9 +2,7 @@
 
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic)] // a test fails by panicking
 
-#[path = "../emitted/compiling.rs"]
-mod compiling;
-#[path = "../support/mod.rs"]
+#[path = "../../../../tests/support/mod.rs"]
 mod support;
 
 mod batch_results;
@@ -16,7 +14,6 @@ mod derivatives;
 mod domain_boundaries;
 mod edges;
 mod elements;
-mod emitted_inputs;
 mod even_contacts;
 mod force_laws;
 mod fuzz;
@@ -26,7 +23,6 @@ mod measure_quantities;
 mod missing_values;
 mod near_bifurcations;
 mod nearness;
-mod nested_params;
 mod order;
 mod parallel_map;
 mod parameter_derivatives;
@@ -40,7 +36,6 @@ mod result_derivatives;
 mod results;
 mod robustness;
 mod row_units;
-mod slopes;
 mod solver;
 mod squeezer;
 mod starts;

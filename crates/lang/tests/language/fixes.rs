@@ -3,11 +3,12 @@
 
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, clippy::float_cmp)] // a test fails by panicking
 
+use crate::support;
 use crate::support::{Span, files, is_error, run_in, stem};
 use mechc::{Applicability, Code, Diagnostic, Diagnostics, Fix, Parsed, Sources, fixed};
 use std::collections::BTreeMap;
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// A text with the file it is in, or stands for.
 struct Case {
@@ -110,7 +111,7 @@ fn failing_example(page: &str) -> Option<String> {
 fn cases() -> Vec<Case> {
     let pages = Code::ALL.iter().filter_map(|code| {
         Some(Case {
-            path: Path::new("crates/text/src/diag/explain").join(format!("{code}.mech")),
+            path: support::root().join("crates/text/src/diag/explain").join(format!("{code}.mech")),
             text: failing_example(code.page())?,
         })
     });

@@ -2,9 +2,9 @@
 
 #![allow(dead_code, clippy::pedantic, clippy::disallowed_methods)]
 
-#[path = "../../fuzz/src/composed.rs"]
+#[path = "../../../../fuzz/src/composed.rs"]
 pub mod composed;
-#[path = "../../fuzz/src/generate.rs"]
+#[path = "../../../../fuzz/src/generate.rs"]
 pub mod generate;
-#[path = "../../fuzz/src/oracles.rs"]
+#[path = "../../../../fuzz/src/oracles.rs"]
 pub mod oracles;

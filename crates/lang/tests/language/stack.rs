@@ -2,7 +2,7 @@
 
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, clippy::float_cmp)] // a test fails by panicking
 
-#[path = "../support/deep_texts.rs"]
+#[path = "../../../../tests/support/deep_texts.rs"]
 mod deep_texts;
 
 use deep_texts::{deep_texts, run_all_stages};

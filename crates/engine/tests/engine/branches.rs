@@ -9,10 +9,9 @@ use crate::support::{Outcome, Span, run};
 use mechc::{RunOptions, Times};
 use mechc_expr::math;
 use std::f64::consts::TAU;
-use std::fs;
 
 fn crank_rocker(every: f64, to: f64) -> support::Outcome {
-    let text = fs::read_to_string("tests/cases/four_bar.mech").expect("a text");
+    let text = support::text_of("tests/cases/four_bar.mech");
     run("four_bar", &text, Span { every: Some(every), to: Some(to) }).expect_success()
 }
 
@@ -117,7 +116,7 @@ fn dead_points_are_found_at_any_output_step() {
 
 #[test]
 fn driven_coordinates_may_start_far_from_estimates() {
-    let text = fs::read_to_string("tests/cases/slider_crank.mech").expect("a text");
+    let text = support::text_of("tests/cases/slider_crank.mech");
     let late = text.replace("from 0 s to 1 s", "from 100000 s to 100001 s");
     let early = run("slider_crank", &text, Span::default()).expect_success();
     let late = run("slider_crank", &late, Span::default()).expect_success();
@@ -130,7 +129,7 @@ fn driven_coordinates_may_start_far_from_estimates() {
 #[test]
 fn drivers_in_step_with_the_output_are_resolved() {
     // it swings into the dead point and back between any two of these times
-    let text = fs::read_to_string("tests/ui/run/four_bar_into_lock_up.mech").expect("a text");
+    let text = support::text_of("tests/ui/run/four_bar_into_lock_up.mech");
     let text = text.replace("60 deg + 90 deg/s * t", "60 deg + 60 deg * sin(360 deg * t / 1 s)^4");
     for every in [0.5, 1.0, 0.1] {
         let outcome = run("four_bar", &text, Span { every: Some(every), to: Some(4.0) });

@@ -2,8 +2,8 @@
 
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, clippy::float_cmp)] // a test fails by panicking
 
-use crate::support::files;
 use crate::support::shape::{file_shape, shape};
+use crate::support::{files, text_of};
 use mechc::{Color, Diagnostics, Format, render};
 use mechc::{Sources, Span};
 use mechc_syntax::ast::File;
@@ -68,15 +68,14 @@ fn files_with_mistakes_read_back_too() {
 #[test]
 fn formatted_files_stay_unchanged() {
     for name in ["cam_point_follower", "gear_pair", "rack_and_pinion", "drawn_phase", "translational_driver"] {
-        let path = format!("{}/tests/cases/{name}.mech", env!("CARGO_MANIFEST_DIR"));
-        let text = fs::read_to_string(path).expect("a text");
+        let text = text_of(format!("tests/cases/{name}.mech"));
         assert_eq!(formatted(name, &text), text, "{name}");
     }
 }
 
 #[test]
 fn one_of_everything() {
-    insta::assert_snapshot!(formatted("everything", include_str!("../format/everything.mech")));
+    insta::assert_snapshot!(formatted("everything", include_str!("../../../../tests/format/everything.mech")));
 }
 
 #[test]

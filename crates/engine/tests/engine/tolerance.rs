@@ -5,8 +5,8 @@
 #![allow(clippy::disallowed_methods)] // what is wanted need not have the same bits everywhere
 
 use crate::support;
+use crate::support::sweeps::ROCKER;
 
-use assert_cmd::Command;
 use mechc::{
     Cancel, Checked, Choice, Compiled, CornerReport, OutputSensitivity, Parsed, Redundant, RunOptions, SweepOptions,
     Times, Tolerance, Tolerancing,
@@ -120,7 +120,7 @@ struct Folder;
 
 impl mechc::World for Folder {
     fn read(&self, path: &std::path::Path) -> std::io::Result<mechc::Contents> {
-        Ok(mechc::Contents { bytes: std::fs::read(std::path::Path::new("examples").join(path))?.into(), version: 0 })
+        Ok(mechc::Contents { bytes: std::fs::read(support::root().join("examples").join(path))?.into(), version: 0 })
     }
 }
 
@@ -551,7 +551,7 @@ fn peaks_of_forces_and_accelerations_have_derivatives() {
         analysis from 0 s to 1 s every 0.01 s
     }";
     assert_eq!(compare(&subject(text, &[]), &["a=0.1mm"]), (7, 7), "the torque itself, and six results");
-    let claw = std::fs::read_to_string("examples/film_claw.mech").expect("an example");
+    let claw = support::text_of("examples/film_claw.mech");
     let requested =
         ["up = max(der(der(y(claw.P))))", "down = min(der(der(y(claw.P))))", "along = max(der(der(x(claw.P))))"];
     let (_, affected) = subject(&claw, &requested).affected(&["C.y=0.1mm"]);
@@ -566,7 +566,7 @@ fn peaks_of_forces_and_accelerations_have_derivatives() {
 /// What cannot go with a param makes nothing jump, whatever stands in it.
 #[test]
 fn fixed_jumps_keep_the_derivative_of_a_mean_force() {
-    let text = std::fs::read_to_string("examples/compressor.mech").expect("an example");
+    let text = support::text_of("examples/compressor.mech");
     let subject = subject(&text, &[]);
     let (_, affected) = subject.affected(&["rod_length=0.1mm"]);
     let by = |name: &str| affected.iter().find(|of| of.name == name).expect("a result").slopes[0];
@@ -805,105 +805,6 @@ fn invalid_tolerances_are_refused() {
     let (tolerances, _) = subject.affected(&["begin=1deg", "rate=1rpm"]);
     near(tolerances[0].range[1], FRAC_PI_2 / 90.0);
     assert_eq!((tolerances[0].unit.0.as_str(), tolerances[1].unit.0.as_str()), ("deg", "rpm"));
-}
-
-/// A crank-rocker of two bodies.
-const ROCKER: &str = "mechanism rocker {
-    param crank_length = 30 mm
-    param coupler_length = 90 mm
-    param rocker_length = 70 mm
-    param pen = (45 mm, 20 mm)
-    ground { point O = (0, 0)  point C = (100 mm, 0) }
-    body crank at (0, 0, 30 deg) { point O = (0, 0)  point A = (crank_length, 0) }
-    body coupler at (26 mm, 15 mm, 40 deg) { point A = (0, 0)  point B = (coupler_length, 0)  point P = pen }
-    joint main:  revolute(ground.O, crank.O)
-    joint left:  revolute(crank.A, coupler.A)
-    joint right: revolute_revolute(coupler.B, ground.C, rocker_length)
-    driver motor: rotation(main) = 30 deg + 1 rev/s * t
-    measure height = y(coupler.P) in mm
-    analysis from 0 s to 0.9 s every 50 ms
-}";
-
-fn mechc(arguments: &[&str]) -> String {
-    let output = Command::new(env!("CARGO_BIN_EXE_mechc")).args(arguments).output().expect("it runs");
-    assert!(output.status.success(), "{arguments:?}: {}", String::from_utf8_lossy(&output.stderr));
-    String::from_utf8(output.stdout).expect("text")
-}
-
-/// Of the height of the rocker's pen (m) at a time, over all variants: how many, their mean, their standard deviation, the least and the largest.
-fn spread(file: &str, at: &str, vary: &[&str]) -> (usize, f64, f64, [f64; 2]) {
-    let rows = mechc(&[&["sweep", file, "--rows", "--columns", "height", "--at", at], vary].concat());
-    // it is printed in millimetres
-    let height = |row: &str| 1e-3 * row.rsplit(',').next().expect("a cell").parse::<f64>().expect("a number");
-    let heights: Vec<f64> = rows.lines().skip(1).map(height).collect();
-    let count = heights.len() as f64;
-    let mean = heights.iter().sum::<f64>() / count;
-    let square = heights.iter().map(|height| (height - mean).powi(2)).sum::<f64>() / count;
-    let ends = [f64::min, f64::max].map(|pick| heights.iter().copied().reduce(pick).expect("a height"));
-    (heights.len(), mean, square.sqrt(), ends)
-}
-
-/// What may be off: by 0.02 mm each, from values in millimetres.
-const OFF: [(&str, f64); 4] =
-    [("crank_length", 30.0), ("coupler_length", 90.0), ("rocker_length", 70.0), ("pen.x", 45.0)];
-
-/// What `mechc tolerance` says of the height.
-fn height(file: &str, more: &[&str]) -> serde_json::Value {
-    let tol = OFF.map(|(name, _)| format!("{name}=0.02mm"));
-    let tol: Vec<&str> = tol.iter().flat_map(|tol| ["--tol", tol]).collect();
-    let table = mechc(&[&["tolerance", file, "--format", "json"], &tol[..], more].concat());
-    let table: serde_json::Value = serde_json::from_str(&table).expect("an object");
-    table["affected"].as_array().expect("a list").iter().find(|of| of["name"] == "height").expect("a measure").clone()
-}
-
-/// A table of `mechc tolerance` against a sample of a hundred thousand variants: no number of it is from the same formulas.
-#[test]
-fn tables_match_uniform_sampling() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let file = folder.path().join("a.mech").to_string_lossy().into_owned();
-    std::fs::write(&file, ROCKER).unwrap();
-    let uniform = height(&file, &[]);
-    let number = |key: &str| uniform[key].as_f64().expect("a number");
-    let (at, nominal, wanted) = (number("t").to_string(), number("nominal"), number("sigma"));
-    let ranges = OFF.map(|(name, value)| format!("{name}={}mm..{}mm", value - 0.02, value + 0.02));
-    let vary: Vec<&str> = ranges.iter().flat_map(|range| ["--vary", range]).collect();
-    // pseudo-random points leave one over the root of twice their count open, 0.7 %
-    for (count, method, near) in [("100000", "sobol", 2e-3), ("10000", "random", 0.03)] {
-        let sample = ["--method", method, "--seed", "5", "--sample", count];
-        let (found, mean, sigma, ends) = spread(&file, &at, &[&vary[..], &sample].concat());
-        assert_eq!(found.to_string(), count);
-        assert!((sigma / wanted - 1.0).abs() < near, "{sigma} instead of {wanted}");
-        assert!((mean - nominal).abs() < 2.0 * near * wanted, "{mean} instead of {nominal}");
-        for (k, end) in ends.iter().enumerate() {
-            let part = (end - nominal) / uniform["worst"][k].as_f64().expect("an end");
-            // four together come near their worst, and never beyond but for what is not linear
-            assert!((0.8..1.002).contains(&part), "{part} of the worst case");
-        }
-    }
-}
-
-/// What is spread normally, as a table of variants by Box and Muller.
-#[test]
-fn tables_match_normal_sampling() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let inside = |name: &str| folder.path().join(name).to_string_lossy().into_owned();
-    let (file, variants) = (inside("a.mech"), inside("v.csv"));
-    std::fs::write(&file, ROCKER).unwrap();
-    let normal = height(&file, &["--normal"]);
-    let mut random = support::random::Random::new(11);
-    let mut table = OFF.map(|(name, _)| format!("{name} [mm]")).join(",") + "\n";
-    for _ in 0..10_000 {
-        let row = OFF.map(|(_, value)| {
-            let (size, turn) = ((-2.0 * random.part().ln()).sqrt(), TAU * random.part());
-            (value + 0.02 / 3.0 * size * turn.cos()).to_string()
-        });
-        table += &(row.join(",") + "\n");
-    }
-    std::fs::write(&variants, table).unwrap();
-    let at = normal["t"].as_f64().expect("a time").to_string();
-    let (count, _, sigma, _) = spread(&file, &at, &["--vary", &format!("@{variants}")]);
-    let wanted = normal["sigma"].as_f64().expect("a number");
-    assert!(count == 10_000 && (sigma / wanted - 1.0).abs() < 0.03, "{sigma} instead of {wanted}");
 }
 
 /// A param that moves nothing has a derivative of nothing, whatever rounding leaves of it.

@@ -2,16 +2,15 @@
 
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, clippy::float_cmp)] // a test fails by panicking
 
-use crate::support::{Span, compile, compiled, run};
+use crate::support::{Span, compile, compiled, run, text_of};
 use mechc_ir::DeclarationKind;
 use mechc_text::vocabulary::{self, Category, KEYWORDS, Keyword, OVERVIEWS, Position, Role, SYNONYMS, Synonym, Unit};
 use proptest::prelude::*;
 use std::collections::BTreeSet;
-use std::fs;
 
 /// The words in quotes of one rule of the grammar.
 fn words_of_rule(rule: &str) -> BTreeSet<String> {
-    let grammar = fs::read_to_string("grammar/mech.pest").expect("the grammar");
+    let grammar = text_of("grammar/mech.pest");
     let from = grammar.find(&format!("\n{rule} ")).unwrap_or_else(|| panic!("no rule {rule}"));
     let text = &grammar[from + 1..];
     let text = &text[..text.find("}\n").expect("its end")];
@@ -27,7 +26,7 @@ fn the_grammar_has_the_keywords_of_the_table() {
     assert_eq!(words_of_rule("reserved"), keywords(Keyword::is_reserved));
     assert_eq!(words_of_rule("separator"), keywords(|keyword| keyword.role == Role::Separator));
     assert_eq!(words_of_rule("opener"), keywords(|keyword| keyword.role.is_opener()));
-    let grammar = fs::read_to_string("grammar/mech.pest").expect("the grammar");
+    let grammar = text_of("grammar/mech.pest");
     for keyword in KEYWORDS.iter().filter(|keyword| keyword.role != Role::Side) {
         let name = keyword.word.name;
         // what may be a name elsewhere has a rule of either kind
@@ -62,7 +61,7 @@ fn no_name_stands_twice_in_a_table() {
 
 #[test]
 fn the_dictionary_of_the_fuzzers_has_every_word() {
-    let dictionary = fs::read_to_string("fuzz/mech.dict").expect("the dictionary");
+    let dictionary = text_of("fuzz/mech.dict");
     let escaped = |name: &str| -> String {
         name.bytes().map(|b| if b.is_ascii() { char::from(b).to_string() } else { format!("\\x{b:02x}") }).collect()
     };

@@ -2,16 +2,14 @@
 
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic)] // a test fails by panicking
 
-#[path = "../support/mod.rs"]
+#[path = "../../../../tests/support/mod.rs"]
 mod support;
 
 mod dimensions;
-mod display_units;
 mod features;
 mod fixes;
 mod fmt;
 mod format;
-mod formula;
 mod generated_names;
 mod import;
 mod mistakes;
