@@ -1,7 +1,7 @@
 //! A formula of results that follows from the coordinates by operations alone.
 
+use crate::limits::curve::MOVED;
 use mechc_ir::program::{Op, Program, Register, Registers, Stage};
-use mechc_ir::tolerances::results::curve::MOVED;
 
 /// A formula along the motion, and its time derivatives.
 pub struct SmoothFormula {

@@ -8,16 +8,30 @@ use super::magnitudes::{Largest, Magnitudes};
 use super::smooth_parts::Smooth;
 use super::state_sampler::StateSampler;
 use crate::analysis::state::State;
+use crate::limits::curve::{KNOWN, ROUNDING};
+use crate::limits::guards::NEAR;
 use mechc_expr::math::{between, log10};
 use mechc_expr::{Dependence, ExprId, Graph, Node, Symbol, Unary};
 use mechc_ir::program::{Inputs, Op, Program, Range, Ranges, Register, Registers, Stage};
-use mechc_ir::tolerances::results::curve::{EVERY, KNOWN, LESS, NOTHING, ON_BRIDGE, ROUNDING, SAFETY};
-use mechc_ir::tolerances::results::guards::NEAR;
-use mechc_ir::tolerances::results::loads::MAX_AMPLIFICATION;
-use mechc_ir::tolerances::results::stretches::MOST_DIGITS;
 use mechc_ir::{ConstraintSystem, CoordinateKind};
 use rustc_hash::FxHashMap;
 use std::rc::Rc;
+
+/// Number of significant digits of a double.
+const MOST_DIGITS: u32 = 17;
+/// Largest amplification of the uncertainty of a load by a formula.
+const MAX_AMPLIFICATION: f64 = 1e200;
+/// Factor by which a second or third derivative may deviate from a straight line between two states, relative to the deviation that
+/// follows from the lower derivative at both; a parabola has 1.5.
+const SAFETY: f64 = 2.0;
+/// Factor of the deviation in a part of a cell, which falls with the square of the part.
+const LESS: f64 = 2.0;
+/// The rounding of loads is computed once per this many evaluations of a formula.
+const EVERY: usize = 16;
+/// Smaller numbers count as zero.
+const NOTHING: f64 = 1e-290;
+/// Error of velocities and accelerations on a bridge across a singular position, as a part of the largest values so far.
+const ON_BRIDGE: f64 = 1e-8;
 
 /// A variation is known with two time derivatives.
 const VARIED_ORDERS: u32 = 3;

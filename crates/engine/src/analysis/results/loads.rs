@@ -4,7 +4,13 @@
 //! but a load is any formula: between two states it may strike and be gone again. What it can be there is what its formula can be.
 
 use mechc_ir::program::{Program, Range, Ranges, Register, Registers};
-use mechc_ir::tolerances::results::loads::{LITTLE, ROUNDINGS, SEEN};
+
+/// A smooth load may exceed its predicted range between two states by this part of the largest value so far.
+const SEEN: f64 = 0.25;
+/// Margin for a load of which only its bounds are known, as a part of the largest value so far.
+const LITTLE: f64 = 1e-12;
+/// Rounding of a load between states, in multiples of its rounding at states.
+const ROUNDINGS: f64 = 4.0;
 
 /// A bound of what loads do in a cell beyond what its ends and its middle show.
 #[derive(Clone, Copy, PartialEq, Debug)]

@@ -3,9 +3,21 @@
 
 use mechc_expr::math;
 use mechc_ir::ConstraintSystem;
-use mechc_ir::tolerances::assembly::least_squares::{
-    CLOSED, DAMPING, LARGEST_STEP, LEAST_DAMPING, LEAST_GAIN, MOST_DAMPING, STEPS,
-};
+
+/// Maximum number of steps.
+const STEPS: usize = 300;
+/// Largest step, scaled: small enough to stay on the branch of the estimates.
+const LARGEST_STEP: f64 = 0.3;
+/// Initial damping.
+const DAMPING: f64 = 1e-3;
+/// Largest damping; beyond it no step helps.
+const MOST_DAMPING: f64 = 1e12;
+/// Smallest damping.
+const LEAST_DAMPING: f64 = 1e-12;
+/// Equations with smaller residuals, scaled, are satisfied.
+const CLOSED: f64 = 1e-15;
+/// The iteration ends when a step reduces the residual by less than this part.
+const LEAST_GAIN: f64 = 1e-10;
 
 /// Some equations by some coordinates at a position, both scaled.
 #[derive(Clone, Debug)]

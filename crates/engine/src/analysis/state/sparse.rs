@@ -2,8 +2,8 @@
 //! value is. The pivots are chosen for few entries and for size (H. M. Markowitz, 1957); whether they still are large
 //! enough is watched at every factorisation.
 
+use crate::limits::solver::LEAST_PIVOT;
 use crate::solver::{BlockEntry, Order};
-use mechc_ir::tolerances::solving::order::LEAST_PIVOT;
 use rustc_hash::FxHashMap;
 
 /// An order of elimination with its operations. Positions count pivots in their order.
@@ -197,8 +197,8 @@ fn is_odd(permutation: &[u32]) -> bool {
 #[cfg(test)]
 mod tests {
     use super::Plan;
+    use crate::limits::solver::LARGEST_MULTIPLIER;
     use crate::solver::BlockEntry;
-    use mechc_ir::tolerances::solving::solver::LARGEST_MULTIPLIER;
     use nalgebra::{DMatrix, DVector};
 
     /// Reproducible numbers in [−1, 1].

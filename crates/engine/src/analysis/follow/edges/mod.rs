@@ -24,6 +24,9 @@ use mechc_ir::program::Enclosure;
 use one_sided_states::OneSidedStates;
 use signals::Signals;
 
+/// Smallest part that is searched for edges in time, as a part of the span.
+const FINEST: f64 = 1e-8;
+
 /// Where a switch changes.
 #[derive(Clone, Copy, Debug)]
 pub struct Edge {

@@ -1,12 +1,12 @@
 //! Rows that are held against what comes behind them.
 
 use super::Follower;
+use super::STEPS_AHEAD;
 use crate::analysis::explain::{Stop, singular};
 use crate::analysis::follow::checkpoint::Checkpoint;
 use crate::analysis::follow::crossing::is_clear;
 use crate::analysis::state::Trust;
-use mechc_ir::tolerances::solving::rows::STEPS_AHEAD;
-use mechc_ir::tolerances::steps::march::FEWEST_STEPS_NEAR;
+use crate::limits::step_control::FEWEST_STEPS_NEAR;
 
 impl Follower {
     /// How far the motion is looked ahead from a time `t` (s): a singular position that a row is so near to that its derivatives
