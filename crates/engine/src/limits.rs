@@ -11,6 +11,8 @@ pub const TOLERANCE: f64 = 1e-12;
 pub mod assembly {
     /// Estimates agree with a driver if its residual, scaled, is at most this.
     pub(crate) const AGREES: f64 = 1e-6;
+    /// Largest step, scaled: small enough to stay on the branch of the estimates.
+    pub(crate) const LARGEST_STEP: f64 = 0.3;
 }
 
 /// Redundant equations, which are left out.
@@ -125,7 +127,7 @@ pub mod interval_search {
     /// Shortest cell, as a part of the span.
     pub(crate) const SHORTEST: f64 = 4.0 * f64::EPSILON;
     /// Ratio of successive distances from a time at which the growth of a formula is examined; the first distance is where the values are
-    /// accurate to `RELIABLE` of themselves or of the range.
+    /// reliable.
     pub(crate) const FACTOR: f64 = 16.0;
     /// Rounding of a value, as a part of it.
     pub(crate) const ROUNDING: f64 = 32.0 * f64::EPSILON;
@@ -159,6 +161,8 @@ pub mod printed {
 
 /// Values of formulas between states, and their rounding.
 pub mod curve {
+    /// Smaller numbers count as zero.
+    pub(crate) const NOTHING: f64 = 1e-290;
     /// A value between two adjacent points is resolved if its interval is at most this part of it, or at most `NOTHING`.
     pub(crate) const KNOWN: f64 = 1e-12;
     /// Rounding of a moving quantity, as a part of the largest value so far.

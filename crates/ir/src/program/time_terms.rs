@@ -2,7 +2,7 @@
 
 use super::{Op, Program, Register, Stage};
 
-/// Maximum number of these terms that are tracked per equation.
+/// Maximum number of time-dependent terms that are tracked per equation.
 const MOST_PER_ROW: usize = 8;
 
 /// A value that depends on time alone, with the equations that contain it.

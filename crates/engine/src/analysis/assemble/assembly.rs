@@ -6,7 +6,7 @@
 use super::search::{Noise, levenberg_marquardt};
 use crate::analysis::explain::{Stop, StopCause, open_loop, singular};
 use crate::analysis::state::{Fault, Horizon, Kinematics, State, behind_start};
-use crate::limits::assembly::AGREES;
+use crate::limits::assembly::{AGREES, LARGEST_STEP};
 use mechc_ir::{BodyId, ConstraintSystem, CoordinateKind, MonitorKind};
 use std::f64::consts::PI;
 
@@ -14,8 +14,6 @@ use std::f64::consts::PI;
 const EXPLICIT_STEPS: usize = 50;
 /// Maximum number of Newton steps.
 const NEWTON_STEPS: usize = 200;
-/// Largest Newton step, scaled: small enough to stay on the branch of the estimates.
-const LARGEST_STEP: f64 = 0.3;
 /// Smallest damping of a Newton step before another method is tried.
 const SMALLEST_DAMPING: f64 = 1e-3;
 /// A smaller correction, scaled, needs no further step.

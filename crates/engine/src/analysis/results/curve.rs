@@ -8,7 +8,7 @@ use super::magnitudes::{Largest, Magnitudes};
 use super::smooth_parts::Smooth;
 use super::state_sampler::StateSampler;
 use crate::analysis::state::State;
-use crate::limits::curve::{KNOWN, ROUNDING};
+use crate::limits::curve::{KNOWN, NOTHING, ROUNDING};
 use crate::limits::guards::NEAR;
 use mechc_expr::math::{between, log10};
 use mechc_expr::{Dependence, ExprId, Graph, Node, Symbol, Unary};
@@ -28,8 +28,6 @@ const SAFETY: f64 = 2.0;
 const LESS: f64 = 2.0;
 /// The rounding of loads is computed once per this many evaluations of a formula.
 const EVERY: usize = 16;
-/// Smaller numbers count as zero.
-const NOTHING: f64 = 1e-290;
 /// Error of velocities and accelerations on a bridge across a singular position, as a part of the largest values so far.
 const ON_BRIDGE: f64 = 1e-8;
 

@@ -24,7 +24,7 @@ const DIFFERENT: f64 = 1e-6;
 const OPAQUE: f64 = 1e-6;
 /// A value is reliable if rounding changes it by at most this part of itself or of the range.
 const RELIABLE: f64 = 1e-3;
-/// Largest of these distances, as a part of the span.
+/// Largest distance from a time at which the growth of a formula is examined, as a part of the span.
 const FARTHEST: f64 = 1e-5;
 /// Values that differ by at most this part of the range are equal.
 const ALIKE: f64 = 1e-9;

@@ -3,6 +3,7 @@
 
 use super::curve::{Cell, Estimate, Point, Verdict};
 use super::interval_search::{IntervalSearch, NoValueCause, Scale};
+use crate::limits::curve::NOTHING;
 use crate::limits::quadrature::{ACCURACY, ROUNDING};
 use mechc_expr::math::{integral_of_quintic, log10, pow};
 use std::cmp::Ordering;
@@ -30,8 +31,6 @@ const ALIKE: f64 = 1e-5;
 const LEAST_GROWTH: f64 = 1.03;
 /// Uncertainty of an integral near a pole, as a part of what the shortest cell may hold.
 const PART_OF_POLE: f64 = 0.02;
-/// Smaller values are zero.
-const NOTHING: f64 = 1e-290;
 
 /// Lobatto's rule of four points, exact for polynomials of degree 5, and Kronrod's extension of it to seven, of degree 9: places within a cell
 /// from −1 to 1, with the weights of both. Source: W. Gander, W. Gautschi, *Adaptive Quadrature – Revisited*, BIT 40, 2000.

@@ -1,13 +1,12 @@
 //! Equations brought as near to zero as they come, where they may be more or fewer than their unknowns, or contradict
 //! each other (K. Levenberg, 1944; D. Marquardt, 1963). Dense: for parts of a mechanism, and never in the time loop.
 
+use crate::limits::assembly::LARGEST_STEP;
 use mechc_expr::math;
 use mechc_ir::ConstraintSystem;
 
 /// Maximum number of steps.
 const STEPS: usize = 300;
-/// Largest step, scaled: small enough to stay on the branch of the estimates.
-const LARGEST_STEP: f64 = 0.3;
 /// Initial damping.
 const DAMPING: f64 = 1e-3;
 /// Largest damping; beyond it no step helps.

@@ -3,8 +3,7 @@
 // loops over lane indices read best, and vectorise best
 #![allow(clippy::needless_range_loop)]
 
-use super::{CHUNK, LANES, PerLane, ZERO};
-use super::{NEAREST, PART_OF_DISTANCE};
+use super::{CHUNK, LANES, NEAREST, PART_OF_DISTANCE, PerLane, ZERO};
 use crate::solver::VariantLanes;
 use mechc_expr::math::max;
 use mechc_ir::program::LaneValues;

@@ -1,10 +1,9 @@
 //! The data that all batches of a mechanism share. Batches are for equations that are smooth everywhere, away from singular positions; all
 //! other cases are left to variants that are computed alone.
 
-use super::NEARLY;
 use super::acceptance::{LaneStates, TrackedCoordinate, TrackedDerivatives, singular_distance};
 use super::result_queries::ResultQueries;
-use super::{CHUNK, LANES, PerLane, ZERO};
+use super::{CHUNK, LANES, NEARLY, PerLane, ZERO};
 use crate::analysis::{Started, Times};
 use crate::solver::{Solver, VariantBatch, VariantLanes};
 use crate::sweep::continuation::{CompiledSystem, ContinuationBase};

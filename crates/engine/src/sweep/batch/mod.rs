@@ -16,7 +16,7 @@ pub use runner::BatchRunner;
 
 use mechc_ir::program::LaneValues;
 
-/// Largest last correction between output times, in cells: the remaining error is its square, far below the error of guesses.
+/// Largest last correction between output times, in cells of the grid of tears: the remaining error is its square, far below the error of guesses.
 const NEARLY: f64 = 8_192.0;
 /// A variant closer to a singular position than this leaves the batch: at this distance no row is in doubt, and no step is examined inside.
 const NEAREST: f64 = 0.04;

@@ -8,8 +8,7 @@ use super::context::BatchContext;
 use super::result_queries::{Query, QueryKind, ResultQueries};
 use super::step_history::StepHistory;
 use super::stepper::{BatchStepper, LaneSolver};
-use super::{LANES, PerLane, ZERO, active_chunks};
-use super::{NEAREST, PART_OF_DISTANCE};
+use super::{LANES, NEAREST, PART_OF_DISTANCE, PerLane, ZERO, active_chunks};
 use crate::analysis::course::{Course, Place, Tower, integral_by_steps};
 use crate::analysis::{MOST_LOOKS, Sampled, Settled, Settling, SpectralIntegral, Turning};
 use crate::solver::{VariantBatch, VariantLanes};
@@ -17,7 +16,7 @@ use mechc_text::cancel::Cancel;
 use std::array::from_fn;
 
 /// Largest difference of an integral from its estimate by the steps, as a part of it; far less than a single variant allows
-/// (`results::spectral::ALIKE`), so that a variant accepted here is accepted there.
+/// (`ALIKE` in `spectral.rs`), so that a variant accepted here is accepted there.
 const ALIKE: f64 = 1e-4;
 /// Maximum number of steps.
 const MOST_STEPS: usize = 4_096;

@@ -1,7 +1,6 @@
 //! The values along a motion that the results of a mechanism need, and their evaluation in lanes.
 
-use super::FEWEST_STEPS;
-use super::{CHUNK, LANES, PerLane, ZERO};
+use super::{CHUNK, FEWEST_STEPS, LANES, PerLane, ZERO};
 use crate::analysis::{Computed, Sampled, SmoothFormula, SmoothFormulas, Started, Times, moved};
 use crate::limits::curve::MOVED;
 use crate::solver::{Solver, VariantLanes};

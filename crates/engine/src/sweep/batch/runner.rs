@@ -1,11 +1,10 @@
 //! Runs a batch of variants: collects their rows and finds their results.
 
-use super::FEWEST_STEPS;
 use super::context::BatchContext;
 use super::result_finder::ResultFinder;
 use super::row_collector::{RowBuffer, RowCollector};
 use super::stepper::{BatchStepper, LaneSolver};
-use super::{LANES, PerLane};
+use super::{FEWEST_STEPS, LANES, PerLane};
 use mechc_text::cancel::Cancel;
 use std::sync::Arc;
 

@@ -2,11 +2,10 @@
 //! lie on a grid (`math/grid.rs`), so an exact solution on the same branch has the bits that it has alone. Only accepted steps are taken; a
 //! variant whose steps are rejected too often leaves the batch.
 
-use super::NEARLY;
 use super::acceptance::{LaneStates, Rejections, TrackedDerivatives, check_step};
 use super::context::{BatchContext, RowPlan};
 use super::row_collector::RowCollector;
-use super::{CHUNK, LANES, PerLane, ZERO, active_chunks};
+use super::{CHUNK, LANES, NEARLY, PerLane, ZERO, active_chunks};
 use crate::limits::step_control::CRUMB;
 use crate::solver::{Solver, VariantBatch, VariantLanes};
 use mechc_expr::math::{slope_weights, weigh};

@@ -1,8 +1,7 @@
 //! Validity of the derivatives of results, which do not exist at kinks and jumps that depend on the variable and where several extrema are
 //! equal. Each method takes a derivative and returns it where it is valid; elsewhere the result has no value.
 
-use super::{ENDS, Extremum, Reduced, Slopes};
-use super::{NOTHING, SAME};
+use super::{ENDS, Extremum, NOTHING, Reduced, SAME, Slopes};
 use crate::lower::switching::SwitchingFunction;
 use mechc_expr::{Binary, Comparison, ExprId, Graph, Node, Symbol, Unary};
 use mechc_ir::ReductionKind;

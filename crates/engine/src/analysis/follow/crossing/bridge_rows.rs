@@ -1,8 +1,7 @@
 //! Rows on a bridge: from its curve where that is exact, or else solved for from there.
 
-use super::Crossing;
 use super::bridge::Bridge;
-use super::{CERTAIN, EXACT, SOLVABLE};
+use super::{CERTAIN, Crossing, EXACT, SOLVABLE};
 use crate::analysis::explain::{Stop, StopCause};
 use crate::analysis::follow::step::Step;
 use crate::analysis::state::{Kinematics, State};

@@ -1,10 +1,9 @@
 //! A way over the singular position that the steps have come up to is looked for.
 
-use super::CLEAR;
 use super::bridge::Bridge;
 use super::end_of_reach::end_of_reach;
 use super::singular_times::{settle_times, singular_time};
-use super::{Crossing, is_clear};
+use super::{CLEAR, Crossing, is_clear};
 use crate::analysis::explain::singular;
 use crate::analysis::follow::step::Step;
 use crate::analysis::state::Kinematics;

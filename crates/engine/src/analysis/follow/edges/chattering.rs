@@ -1,7 +1,6 @@
 //! Switches that go back and forth without effect.
 
-use super::Edges;
-use super::FINEST;
+use super::{Edges, FINEST};
 use crate::analysis::follow::step::Step;
 use crate::analysis::state::{Kinematics, aslant};
 use mechc_ir::program::Register;

@@ -1,8 +1,7 @@
 //! Edges of time, which are looked for before a step.
 
-use super::FINEST;
 use super::chattering::may_change;
-use super::{Edge, Edges};
+use super::{Edge, Edges, FINEST};
 use crate::analysis::explain::{Stop, StopCause};
 use crate::analysis::state::Kinematics;
 use mechc_expr::math::{Halving, bisect};

@@ -1,8 +1,7 @@
 //! A row whose derivatives are in doubt, so near to a singular position that rounding may have spoiled them: held against the way
 //! over that position, or against itself.
 
-use super::Follower;
-use super::STEPS_AHEAD;
+use super::{Follower, STEPS_AHEAD};
 use crate::analysis::explain::Stop;
 use crate::analysis::follow::crossing::is_clear;
 use crate::analysis::state::{Kinematics, State, Trust, are_small};

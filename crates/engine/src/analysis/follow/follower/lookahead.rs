@@ -1,7 +1,6 @@
 //! Rows that are held against what comes behind them.
 
-use super::Follower;
-use super::STEPS_AHEAD;
+use super::{Follower, STEPS_AHEAD};
 use crate::analysis::explain::{Stop, singular};
 use crate::analysis::follow::checkpoint::Checkpoint;
 use crate::analysis::follow::crossing::is_clear;

@@ -1,8 +1,7 @@
 //! Scaling and factoring of the blocks.
 
-use super::LARGEST_DENSE;
 use super::factors::{Factors, borne_out};
-use super::{BlockLu, Factored, Form, Part};
+use super::{BlockLu, Factored, Form, LARGEST_DENSE, Part};
 use crate::analysis::state::dense::factor_dense;
 use crate::analysis::state::sparse::Plan;
 use crate::limits::solver::LARGEST_MULTIPLIER;
