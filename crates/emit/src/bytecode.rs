@@ -7,10 +7,10 @@ use super::operations::{binary, callee, callee_of_two, unary};
 use super::print::{Head, Page};
 use super::runtime_files::RuntimeDeps;
 use super::text::literal;
+use mechc_engine::limits::solver::LARGEST_MULTIPLIER;
 use mechc_engine::solver::{Instruction, Segment, from_bits};
 use mechc_expr::{Binary, Unary};
 use mechc_ir::program::{Column, Op, Register, codes};
-use mechc_ir::tolerances::solving::solver::LARGEST_MULTIPLIER;
 use rustc_hash::FxHashMap;
 use std::collections::BTreeMap;
 

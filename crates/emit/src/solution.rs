@@ -8,11 +8,11 @@ use super::operand::{Arguments, Operand};
 use super::print::Page;
 use super::text::literal;
 use super::{EmittedMotion, TranslationUnit};
+use mechc_engine::limits::solver::LARGEST_MULTIPLIER;
 use mechc_engine::solver::{Instruction, Segment, Solver};
 use mechc_ir::With;
 use mechc_ir::layout::{ColumnContent, row_contents};
 use mechc_ir::program::{Column, Register};
-use mechc_ir::tolerances::solving::solver::LARGEST_MULTIPLIER;
 use rustc_hash::FxHashMap;
 
 /// Source of the solver's function.

@@ -32,6 +32,7 @@ mod forces;
 mod homotopy;
 mod ids;
 pub mod layout;
+pub mod limits;
 mod monitors;
 mod print;
 pub mod program;
@@ -41,7 +42,6 @@ mod rows;
 mod scopes;
 mod sparse;
 pub mod structure;
-pub mod tolerances;
 mod validate;
 mod variations;
 

@@ -10,7 +10,7 @@
 
 use super::scopes::{Leaf, Scope, as_leaf, without_leaves};
 use super::{Check, ConstraintSystem};
-use crate::tolerances::checks::MISSES;
+use crate::limits::MISSES;
 use mechc_expr::{Comparison, ExprId, Graph, Symbol, Unary};
 use mechc_text::source::Span;
 use rustc_hash::FxHashMap;

@@ -3,9 +3,21 @@
 //! The search uses the values of parameters. Its result is an estimate, which does not enter the equations.
 
 use mechc_expr::{ExprId, Graph, Node, Symbol};
-use mechc_ir::tolerances::assembly::estimates::{CANDIDATES, MOST_STEPS, PLACES, PLACES_OF_TWO, REFINED, SAME};
 use mechc_ir::{ConstraintSystem, OpenContact};
 use std::f64::consts::PI;
+
+/// Samples of one argument over one turn.
+const PLACES: usize = 720;
+/// Samples of each of two arguments over one turn.
+const PLACES_OF_TWO: usize = 120;
+/// Number of the best samples that are refined.
+const CANDIDATES: usize = 8;
+/// Accuracy of a refined estimate.
+const REFINED: f64 = 1e-7;
+/// Maximum number of descent steps.
+const MOST_STEPS: usize = 1000;
+/// Mismatches that differ by less than this part of the largest are equal.
+const SAME: f64 = 1e-12;
 
 /// The sum of squares of a joint's rows as a function of its arguments, with all other coordinates at their estimates.
 struct Mismatch<'l> {

@@ -7,7 +7,7 @@ use crate::names::Case;
 use crate::params::{FieldType, Params};
 use crate::print::Page;
 use crate::text::{literal, unit};
-use mechc_ir::tolerances::steps::march::FEWEST_STEPS;
+use mechc_engine::limits::step_control::FEWEST_STEPS;
 
 /// Documentation that holds for all functions.
 const ABOUT: &str = "\

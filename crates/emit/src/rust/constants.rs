@@ -5,9 +5,9 @@ use crate::print::Page;
 use crate::solution::Solution;
 use crate::tables::numbers;
 use crate::text::{constant, literal, one_line};
+use mechc_engine::limits::step_control::{FEWEST_STEPS, SMALLEST_STEP};
 use mechc_expr::VARIED_TABLE;
 use mechc_ir::program::{Column, STAGES};
-use mechc_ir::tolerances::steps::march::{FEWEST_STEPS, SMALLEST_STEP};
 
 /// Number of coordinates of Newton's method beyond which a table holds them.
 const MOST_TEARS_IN_LINE: usize = 64;

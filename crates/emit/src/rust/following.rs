@@ -8,6 +8,7 @@ use super::state_size::Work;
 use super::{Writer, equations};
 use crate::Following;
 use crate::equations::{Equations, FunctionSpec, Given};
+use crate::limits::follow::{LARGEST_SHIFT_OF_INPUT, LARGEST_TURN_OF_INPUT};
 use crate::names::{Case, Names};
 use crate::params::Params;
 use crate::print::{Head, Page};
@@ -17,7 +18,6 @@ use crate::tables::Tables;
 use crate::text::{literal, one_line, unit};
 use mechc_ir::Input;
 use mechc_ir::program::Register;
-use mechc_ir::tolerances::emitted::follow::{LARGEST_SHIFT_OF_INPUT, LARGEST_TURN_OF_INPUT};
 use rustc_hash::FxHashMap;
 use std::cell::RefCell;
 

@@ -4,14 +4,14 @@
 //! size is too small.
 
 use super::Writer;
+use crate::limits::assemble::{FIRST_PARTS, MOST_PARTS};
+use crate::limits::close::{MOST_SHORTER, MOST_TRIALS};
+use crate::limits::follow::MOST_STEPS_TO_FOLLOW;
+use crate::limits::looks::MOST_LOOKS;
+use crate::limits::reach::MOST_BRANCHES;
+use crate::limits::step::MOST_STEPS;
 use crate::solution::Solution;
-use mechc_ir::tolerances::emitted::assemble::{FIRST_PARTS, MOST_PARTS};
-use mechc_ir::tolerances::emitted::close::{MOST_SHORTER, MOST_TRIALS};
-use mechc_ir::tolerances::emitted::follow::MOST_STEPS_TO_FOLLOW;
-use mechc_ir::tolerances::emitted::reach::MOST_BRANCHES;
-use mechc_ir::tolerances::emitted::rims::MOST_LOOKS;
-use mechc_ir::tolerances::emitted::step::MOST_STEPS;
-use mechc_ir::tolerances::steps::rims::MOST_HALVINGS;
+use mechc_engine::limits::domain_boundaries::MOST_HALVINGS;
 
 /// Bytes of a word.
 const WORD: usize = 8;

@@ -26,6 +26,7 @@ mod follow;
 mod results;
 mod state;
 
+pub use crate::limits::TOLERANCE;
 pub use assemble::{Moved, Request, Solving, Started, Unassembled, with_parts};
 pub use explain::errors::length as length_in_words;
 pub use explain::{
@@ -35,7 +36,6 @@ pub use explain::{
 pub use follow::{
     ContinuationOptions, Follower, PathOutcome, continue_from, follow_to, lead, start, start_from, start_of_paths,
 };
-pub use mechc_ir::tolerances::TOLERANCE;
 pub use results::course;
 pub use results::{
     Answers, Computed, MOST_LOOKS, ResultQuery, Sampled, Settled, Settling, SmoothFormula, SmoothFormulas,

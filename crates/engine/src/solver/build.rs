@@ -8,13 +8,13 @@ use super::symbolic_values::SymbolicValues;
 use super::tape::Value;
 use super::tear::{Tearing, tear};
 use super::{Component, Instruction, MOST_OPERATIONS, PROLOGUE, Pivot, Purpose, Segment, Solver, Tear, Turn, Values};
+use crate::limits::solver::CELL;
 use mechc_expr::Symbol;
 use mechc_expr::math::power_of_two_below;
 use mechc_ir::ConstraintSystem;
 use mechc_ir::layout::RowLayout;
 use mechc_ir::program::{Program, Register};
 use mechc_ir::structure::{Block, Determined};
-use mechc_ir::tolerances::solving::build::CELL;
 use rustc_hash::FxHashSet;
 
 /// Returns the width of a grid cell for a coordinate (m or rad) with this scale.

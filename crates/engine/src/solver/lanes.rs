@@ -3,12 +3,15 @@
 
 use super::predictor::Bend;
 use super::{Instruction, LARGEST_MULTIPLIER, Solver, Tear, from_bits};
+use crate::limits::lanes::{BORDER, ITERATIONS, LARGEST_CORRECTION};
 use mechc_expr::math::grid::{bound_at_first, going_on, next_point, on_grid};
 use mechc_expr::math::{self, Vectors, WIDE};
 use mechc_ir::program::{LaneMachine, LaneValues, Machine, Program, Register, Registers};
-use mechc_ir::tolerances::solving::lanes::{BORDER, ITERATIONS, LARGEST_CORRECTION, MOST_TURNED};
 use std::array::from_fn;
 use std::ops::Range;
+
+/// Largest number of values per row that is transposed from columns: more would not stay in the cache.
+const MOST_TURNED: usize = 2_048;
 
 /// The number of lanes in a chunk, which are executed together: that of the widest vector registers.
 pub const CHUNK: usize = WIDE;

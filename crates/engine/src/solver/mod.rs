@@ -44,11 +44,14 @@ pub(crate) use pivoting::{Equations, Pivoting};
 pub use predictor::Bend;
 pub(crate) use variants::{VariantBatch, VariantLanes};
 
+use crate::limits::solver::LARGEST_MULTIPLIER;
 use mechc_ir::layout::RowLayout;
 use mechc_ir::program::{Program, Register};
 use mechc_ir::structure::Determined;
-use mechc_ir::tolerances::solving::solver::{LARGEST_MULTIPLIER, MOST_OPERATIONS};
 use std::ops::Range;
+
+/// Maximum number of operations of an elimination that is compiled.
+const MOST_OPERATIONS: usize = 30_000_000;
 
 /// The instructions that solve a constraint system at given times: position, velocity, acceleration, measures.
 #[derive(Clone, Debug)]

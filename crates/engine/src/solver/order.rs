@@ -1,7 +1,12 @@
 //! The order in which the unknowns of a block are eliminated, with pivots chosen for few entries and for size (H. M. Markowitz, *Management Science*
 //! 3, 1957).
 
-use mechc_ir::tolerances::solving::order::{CANDIDATES, LEAST_PIVOT, THRESHOLD};
+use crate::limits::solver::LEAST_PIVOT;
+
+/// Smallest pivot when it is chosen, as a part of the largest entry in its column.
+const THRESHOLD: f64 = 0.25;
+/// Number of rows among which a pivot is chosen.
+const CANDIDATES: usize = 4;
 
 /// An entry of a block.
 #[derive(Clone, Copy, Debug)]

@@ -4,10 +4,13 @@ use super::constant_folding::{ConstantFolder, Results};
 use super::schedule::EvalTime;
 use super::tape::{Tape, Value};
 use super::{Instruction, RowLayout, Tear};
+use crate::limits::solver::CELL;
 use mechc_ir::ConstraintSystem;
 use mechc_ir::program::{Op, Program, Register, Stage};
-use mechc_ir::tolerances::solving::build::WIDEST_CELL;
 use rustc_hash::FxHashMap;
+
+/// Widest cell within which the sine is a parabola up to rounding.
+const WIDEST_CELL: f64 = 8.0 * CELL;
 
 /// The values of a program's registers, and the instructions that compute them.
 pub(super) struct SymbolicValues<'s> {

@@ -1,8 +1,10 @@
 //! Tearing: chooses the coordinates of a block that Newton solves for, so that all others follow by assignment (compare H. Elmqvist, M. Otter,
 //! *Methods for tearing systems of equations*, 1994).
 
-use mechc_ir::tolerances::solving::tear::CANDIDATES;
 use std::collections::BTreeSet;
+
+/// Number of rows among which a tear is chosen.
+const CANDIDATES: usize = 64;
 
 /// The result of tearing a block. Rows and columns are counted within the block.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]

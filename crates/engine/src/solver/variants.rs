@@ -4,8 +4,10 @@ use super::lanes::{CHUNK, LaneEnvironment, Lanes};
 use super::{Pivot, Solver};
 use mechc_expr::math::{Vectors, max};
 use mechc_ir::program::{LaneValues, Program, Register, Registers};
-use mechc_ir::tolerances::solving::variants::CERTAIN_MULTIPLIER;
 use std::ops::Range;
+
+/// A multiplier up to this part of the largest one is accepted for any start of Newton's method.
+const CERTAIN_MULTIPLIER: f64 = 0.99;
 
 /// The index of a column that is not kept.
 const NOT_KEPT: u32 = u32::MAX;

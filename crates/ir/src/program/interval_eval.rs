@@ -4,10 +4,13 @@
 //! these values; the excess vanishes with the width of the intervals.
 
 use super::{Column, Machine, Op, Program, Register, Registers, Stage};
-use crate::tolerances::results::interval_eval::MOST_PIECES;
-use crate::tolerances::steps::interval_eval::POLE_MARGIN;
 use mechc_expr::{Binary, Comparison, Unary, binary_value, compare, piece, unary_value};
 use std::f64::consts::{FRAC_PI_2, PI};
+
+/// Maximum number of table pieces that a range covers; beyond it nothing is known of the columns.
+const MOST_PIECES: f64 = 64.0;
+/// Distance from a pole (rad) within which a tangent may be on either side of it.
+const POLE_MARGIN: f64 = 1e-9;
 
 /// A closed interval.
 #[derive(Clone, Copy, PartialEq, Debug)]

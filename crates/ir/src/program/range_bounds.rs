@@ -5,10 +5,20 @@
 
 use super::interval_eval::{Interval, backward_slice, binary_range, enclose, unary_range};
 use super::{Op, Program, Register, Registers, Stage};
-use crate::tolerances::results::range_bounds::{
-    HIGH_POWER, VANISHES, WIDEST, WIDEST_POWER, WIDEST_RATIO, WIDEST_VALUE,
-};
 use mechc_expr::{Binary, Unary};
+
+/// Largest change of the argument of a resolved function (rad or a pure number): its series converges with the first few terms.
+const WIDEST: f64 = 1.0;
+/// Largest change of a resolved bounded function.
+const WIDEST_VALUE: f64 = 0.5;
+/// Largest factor of change of a divisor or radicand.
+const WIDEST_RATIO: f64 = 2.0;
+/// Largest factor of change of a resolved power.
+const WIDEST_POWER: f64 = 256.0;
+/// An exponential or a high power that is at most this is resolved, whatever its argument does.
+const VANISHES: f64 = 1e-40;
+/// Lowest high power.
+const HIGH_POWER: u32 = 8;
 
 /// An interval that holds all values of a formula.
 #[derive(Clone, Copy, PartialEq, Debug)]

@@ -1,7 +1,9 @@
 //! Time-dependent terms of the position equations, such as the right side of a driver.
 
 use super::{Op, Program, Register, Stage};
-use crate::tolerances::steps::time_terms::MOST_PER_ROW;
+
+/// Maximum number of time-dependent terms that are tracked per equation.
+const MOST_PER_ROW: usize = 8;
 
 /// A value that depends on time alone, with the equations that contain it.
 #[derive(Clone, PartialEq, Eq, Debug)]

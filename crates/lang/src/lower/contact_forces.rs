@@ -5,8 +5,12 @@ use super::frames::Vector;
 use crate::model::{JointId, JointKind, Named, Profile};
 use mechc_expr::{ExprId, Symbol, Unary};
 use mechc_ir::ContactForce;
-use mechc_ir::tolerances::contacts::{CLOSED, PLACES};
 use std::f64::consts::PI;
+
+/// A profile is closed if the squared distance of its ends is at most this part of twice its area.
+const CLOSED: f64 = 1e-12;
+/// Samples of a profile that determine its orientation.
+const PLACES: u32 = 90;
 
 impl Lowering<'_> {
     /// Returns the normal forces of all contacts.

@@ -6,8 +6,10 @@ use crate::model::{
     Declared, EquationForm, EquationId, Force, Frame, JointId, Load, Mass, Mechanism, Named, PartId, Quantity,
 };
 use mechc_expr::{ExprId, Symbol};
-use mechc_ir::tolerances::loads::AIMLESS;
 use mechc_ir::{self as ir, ConstraintSystem, DeclarationId, Forces};
+
+/// A distance between two bodies up to this part of the larger body has no direction: rounding would determine it.
+const AIMLESS: f64 = 1e-6;
 
 /// The force and moment that a joint exerts on one body, in the ground's frame.
 #[derive(Clone, Copy)]

@@ -29,7 +29,6 @@ use crate::model::{
 };
 pub use continuation::{TimeOnPath, lower_continuation};
 use mechc_expr::{Comparison, Dependence, ExprId, Graph, Symbol, TIME_SIGNAL};
-use mechc_ir::tolerances::scales::size::FAR_FRAME;
 use mechc_ir::{
     self as ir, Body, Condition, ConstraintSystem, Coordinate, CoordinateKind, Declaration, DeclarationId,
     DeclarationKind, Fit, Forces, IdVec, Measure, Monitor, OpenContact, Owner, Param, Row, RowUnit, Units, Variations,
@@ -37,6 +36,9 @@ use mechc_ir::{
 };
 use numbering::Numbering;
 use rustc_hash::{FxHashMap, FxHashSet};
+
+/// Distance of a frame from its body, in sizes of the body, from which the frame is far away.
+const FAR_FRAME: f64 = 10.0;
 
 /// Order of time derivatives in a reduced formula from which its reduction needs third derivatives.
 const HOLDS_JERK: u8 = 2;

@@ -6,9 +6,15 @@
 
 use super::Lowering;
 use mechc_expr::{Binary, Comparison, ExprId, Graph, Node, Symbol, Unary};
-use mechc_ir::tolerances::DEFAULT_SPAN;
-use mechc_ir::tolerances::jumps::{LATER_AT_ONCE, LATER_AT_REST, LATER_ROUNDING};
+use mechc_ir::limits::DEFAULT_SPAN;
 use mechc_ir::{ConstraintSystem, Coordinate};
+
+/// The condition of a load is zero if its change over this part of the span exceeds its value: the load jumps here.
+const LATER_AT_ONCE: f64 = 1e-12;
+/// The condition of a load is zero where it comes to rest if the change of its rate over this part of the span exceeds the rate.
+const LATER_AT_REST: f64 = 1e-8;
+/// A value is rounding if it is below this part of what it would be with all coordinates and rates at their largest.
+const LATER_ROUNDING: f64 = 1e-12;
 
 impl Lowering<'_> {
     /// Returns a formula of the motion with its jumps decided for the time just after the state.

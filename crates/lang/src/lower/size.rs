@@ -6,9 +6,17 @@
 use super::used_features::UsedFeatures;
 use crate::model::{Body, Curve, Frame, JointKind, Mechanism, Named};
 use mechc_expr::{ExprId, Symbol};
-use mechc_ir::tolerances::scales::size::{IN_PROPORTION, MANY_POINTS, PLACES_ON_CURVE, SMALLEST};
 
 use rustc_hash::FxHashMap;
+
+/// Frames with more points are measured by their bounding box, so that the time stays linear.
+const MANY_POINTS: usize = 500;
+/// Largest ratio of the size from features without equations to that from the others for which the former counts.
+const IN_PROPORTION: f64 = 10.0;
+/// Smaller sizes (m) are zero.
+const SMALLEST: f64 = 1e-12;
+/// Samples that represent a whole curve.
+const PLACES_ON_CURVE: u32 = 16;
 
 /// Returns the size of each body (m): the largest distance between two of its features.
 ///

@@ -15,9 +15,13 @@ mod validity;
 use super::Lowering;
 use crate::model::quotient;
 use mechc_expr::{Comparison, ExprId, Symbol, Unary};
-use mechc_ir::tolerances::results::slopes::{NOTHING, SAME};
 use mechc_ir::{Outcome, Reduction, ReductionKind, Units};
 use rustc_hash::FxHashMap;
+
+/// A formula has the value of an extremum at its time if it differs by at most this part of its range.
+const SAME: f64 = 1e-6;
+/// A parameter does not affect a formula if doubling it would change the formula by at most this part of its range.
+const NOTHING: f64 = 1e-12;
 
 /// The first and the last time of the analysis or of a window.
 const ENDS: [ReductionKind; 2] = [ReductionKind::First, ReductionKind::Last];

@@ -7,8 +7,13 @@ use super::frames::Vector;
 use crate::model::{Frame, JointId, JointKind, PartId, PointId, Profile, Quantity};
 use mechc_expr::{Binary, Comparison, ExprId, Symbol, Unary};
 use mechc_ir::ConstraintSystem;
-use mechc_ir::tolerances::determinacy::velocities::{NOTHING, ROUNDING};
 use std::f64::consts::PI;
+
+/// Distances below this part of the mechanism's size, and speeds below this part of it per duration of the analysis, are zero; the
+/// inverse is the largest distance of an instant centre, in sizes of the mechanism.
+const NOTHING: f64 = 1e-9;
+/// Relative rotations up to this many roundings of the fastest motion are zero.
+const ROUNDING: f64 = 64.0;
 
 /// The point in which two bodies touch.
 struct Contact {

@@ -6,12 +6,36 @@
 use super::search::{Noise, levenberg_marquardt};
 use crate::analysis::explain::{Stop, StopCause, open_loop, singular};
 use crate::analysis::state::{Fault, Horizon, Kinematics, State, behind_start};
-use mechc_ir::tolerances::assembly::newton::{
-    AGREES, BESIDE, EXPLICIT_STEPS, LARGEST_DENSE, LARGEST_STEP, MOVED, NEARBY, NEWTON_STEPS, OPEN_NEARBY,
-    PERTURBATIONS, SETTLED, SINGULAR_START, SMALLEST_DAMPING, VANISHING_TANGENT, WITHOUT_SLOPE,
-};
+use crate::limits::assembly::{AGREES, LARGEST_STEP};
 use mechc_ir::{BodyId, ConstraintSystem, CoordinateKind, MonitorKind};
 use std::f64::consts::PI;
+
+/// Maximum number of passes over the explicit coordinates; each pass resolves those that depend on the previous one.
+const EXPLICIT_STEPS: usize = 50;
+/// Maximum number of Newton steps.
+const NEWTON_STEPS: usize = 200;
+/// Smallest damping of a Newton step before another method is tried.
+const SMALLEST_DAMPING: f64 = 1e-3;
+/// A smaller correction, scaled, needs no further step.
+const SETTLED: f64 = 1e-7;
+/// Systems up to this size are assembled as a whole by least squares, larger ones block by block.
+const LARGEST_DENSE: usize = 300;
+/// Sizes of the perturbations of estimates, scaled, one attempt after another.
+const PERTURBATIONS: [f64; 6] = [0.01, 0.05, 0.1, 0.2, 0.4, 0.8];
+/// A start closer to a singular position than this is singular: there q is accurate only to the square root of the tolerance.
+const SINGULAR_START: f64 = 1e-5;
+/// Times at which the neighborhood of a singular start is examined, as parts of the span.
+const NEARBY: [f64; 4] = [3e-3, -3e-3, 1e-2, -1e-2];
+/// Distance along a free motion at which the neighborhood of a singular start is examined, scaled.
+const BESIDE: f64 = 0.02;
+/// Positions that differ by less than this, scaled, are equal.
+const MOVED: f64 = 1e-4;
+/// Equations with smaller residuals are almost satisfied.
+const OPEN_NEARBY: f64 = 1e-9;
+/// A tangent shorter than this, in sizes of its body, vanishes.
+const VANISHING_TANGENT: f64 = 1e-7;
+/// An equation whose slope is below this part of the slope nearby fixes nothing.
+const WITHOUT_SLOPE: f64 = 1e-5;
 
 /// Displacement of the bodies from their estimates in assembly.
 #[derive(Clone, Copy, PartialEq, Debug, Default)]

@@ -7,11 +7,23 @@
 use super::search::{Noise, levenberg_marquardt};
 use crate::analysis::state::{Kinematics, State};
 use mechc_ir::structure::Determined;
-use mechc_ir::tolerances::assembly::branches::{
-    AS_NEAR, LARGEST_LOOP, LARGEST_SYSTEM, MOST_LOOPS, RANDOM_STARTS, SAME, TURNED_OVER,
-};
 use mechc_ir::{BodyId, ConstraintSystem, CoordinateKind};
 use std::f64::consts::{PI, TAU};
+
+/// A body of a loop that turns by more than this (rad) during assembly was drawn in the other orientation.
+const TURNED_OVER: f64 = std::f64::consts::FRAC_PI_2;
+/// Another position is an alternative if it is at most this many times as far from the estimates as the chosen one.
+const AS_NEAR: f64 = 2.0;
+/// Positions that differ by less than this, scaled, are equal.
+const SAME: f64 = 1e-3;
+/// Largest number of coordinates of a loop whose alternatives are searched for.
+const LARGEST_LOOP: usize = 60;
+/// Largest system in which alternatives are searched for: each search evaluates the whole system.
+const LARGEST_SYSTEM: usize = 300;
+/// Maximum number of loops in which alternatives are searched for.
+const MOST_LOOPS: usize = 8;
+/// Number of random starts of the search.
+const RANDOM_STARTS: usize = 8;
 
 /// Reason why the assembled position may not be the intended one.
 #[derive(Clone, Copy, PartialEq, Debug)]

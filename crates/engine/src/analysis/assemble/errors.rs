@@ -3,9 +3,14 @@
 use super::assembly::Moved;
 use super::branches::{Doubt, FarBody, Off};
 use crate::analysis::explain::errors::{at, degrees, length};
-use mechc_ir::tolerances::determinacy::fits::{LARGEST_MISFIT, MOVED, NOTHING};
+use crate::limits::printed::NOTHING;
 use mechc_ir::{ConstraintSystem, DeclarationKind, Fit, JointKind};
 use mechc_text::diag::{Applicability, Code, Diagnostic, Fix, readable};
+
+/// A pose is suggested for a body that assembly has moved by more than this, scaled.
+const MOVED: f64 = 1e-6;
+/// Largest misfit of a gear pair, as a part of the larger radius.
+const LARGEST_MISFIT: f64 = 1e-6;
 
 /// Returns a warning about the doubt that the assembled position is the intended one.
 ///

@@ -11,9 +11,11 @@ use mechc_expr::{ExprId, Symbol};
 use mechc_ir::PartStart;
 use mechc_ir::program::Program;
 use mechc_ir::structure::{Block, Determined};
-use mechc_ir::tolerances::assembly::parts::LARGEST;
 use mechc_text::cancel::Cancel;
 use std::sync::Arc;
+
+/// Largest block that is solved to start parts.
+const LARGEST: usize = 300;
 
 /// Request for the coordinates of a part that is solved alone.
 pub struct Request {

@@ -9,11 +9,15 @@ use super::freedom::{FreeMotion, Freedom, motions_as_drawn};
 use super::redundancy::{Dependent, dependents, times_nearby};
 use super::sharing::{along_motion, shared};
 use crate::analysis::state::Horizon;
+use crate::limits::assembly::AGREES;
 use mechc_ir::structure::{self, Determined, Refused, Subsystem};
-use mechc_ir::tolerances::assembly::newton::AGREES;
-use mechc_ir::tolerances::determinacy::determine::{LARGEST, LARGEST_ALLOWED};
 use mechc_ir::{ConstraintSystem, DeclarationKind, Homotopy, JointKind};
 use mechc_text::diag::{Diagnostic, Diagnostics};
+
+/// Largest part that is examined with values: its equations form a dense matrix.
+const LARGEST: usize = 600;
+/// Largest part if redundant equations are allowed: that takes some seconds.
+const LARGEST_ALLOWED: usize = 1500;
 
 /// Shows that a system is determined, where need be without the equations that are redundant.
 ///

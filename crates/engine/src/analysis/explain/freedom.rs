@@ -7,9 +7,19 @@ use super::orthonormal::Orthonormal;
 use super::proposals::Proposals;
 use super::redundancy::basis_of;
 use mechc_ir::structure::Subsystem;
-use mechc_ir::tolerances::determinacy::freedom::{ANGLE_SHARE, ASSEMBLED, LOOSE, MOVES, TOLD};
 use mechc_ir::{BodyId, ConstraintSystem, CoordinateKind, DeclarationKind, IdVec};
 use nalgebra::DVector;
+
+/// Largest residual of an assembled position; free motions are only reported at one.
+const ASSEMBLED: f64 = 1e-8;
+/// A coordinate moves if its share of the free motions exceeds this.
+const MOVES: f64 = 1e-6;
+/// A coordinate with at least this share is not constrained at all.
+const LOOSE: f64 = 1.0 - 1e-9;
+/// Free motions are described by angles whose share is at least this part of the largest.
+const ANGLE_SHARE: f64 = 0.01;
+/// Maximum number of reported motions.
+const TOLD: usize = 3;
 
 /// Motion of the bodies in a degree of freedom that equations leave: at whichever speed, and either way.
 #[derive(Clone, PartialEq, Debug)]

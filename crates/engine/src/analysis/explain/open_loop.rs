@@ -8,10 +8,26 @@ use super::evaluator::Evaluator;
 use crate::analysis::state::Linear;
 use mechc_expr::math;
 use mechc_ir::structure::{Block, Determined, Subsystem};
-use mechc_ir::tolerances::determinacy::open_loop::{
-    ALONG, CLOSED, FAR, IN_LENGTH, LARGEST, LIGHT, PULLS, TAKES_PART, WIDE,
-};
 use mechc_ir::{BodyId, ConstraintSystem, CoordinateKind, DeclarationId, DeclarationKind, JointKind, PointId};
+
+/// Maximum number of equations that are examined together.
+const LARGEST: usize = 600;
+/// A force takes part in the balance of a link if it exceeds this part of the largest force.
+const PULLS: f64 = 0.1;
+/// An equation is part of the loop if its share of the residual exceeds this part of the largest.
+const TAKES_PART: f64 = 0.01;
+/// Weight reduction of one joint, so that the loop opens there.
+const LIGHT: f64 = 1e4;
+/// A link is too short or too long if at least this part of the force acts along it.
+const ALONG: f64 = 0.3;
+/// Larger gaps, in sizes of the mechanism, are not shown.
+const FAR: f64 = 10.0;
+/// A loop is open in length if the gap exceeds this part of the gap in angles, scaled.
+const IN_LENGTH: f64 = 0.1;
+/// A joint may be reported as open if its gap is this part of the widest.
+const WIDE: f64 = 0.3;
+/// Smaller gaps, scaled, are closed.
+const CLOSED: f64 = 1e-6;
 
 /// A loop that does not close.
 #[derive(Clone, Debug)]

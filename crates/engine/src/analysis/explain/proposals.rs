@@ -3,13 +3,23 @@
 use super::evaluator::Evaluator;
 use super::orthonormal::Orthonormal;
 use mechc_expr::math;
-use mechc_ir::tolerances::determinacy::freedom::{COINCIDE, DANGLING, MOST_POINTS, SUGGESTED, TAKEN};
 use mechc_ir::{
     Axis, AxisId, BodyId, ConstraintSystem, Declaration, DeclarationKind, IdVec, JointKind, Point, PointId,
 };
 use nalgebra::DVector;
 use rustc_hash::FxHashMap;
 use std::collections::hash_map::Entry;
+
+/// A driver fixes a freedom if its quantity changes at this rate along it.
+const TAKEN: f64 = 1e-3;
+/// Points that are drawn closer than this, in sizes of the mechanism, may be intended to coincide.
+const COINCIDE: f64 = 0.02;
+/// Distance within which two points that no joint uses may be intended to coincide, in sizes of the mechanism.
+const DANGLING: f64 = 0.15;
+/// Maximum number of suggested joints.
+const SUGGESTED: usize = 3;
+/// Maximum number of points that are compared with each other.
+const MOST_POINTS: usize = 1000;
 
 /// Data from which proposals are made.
 pub struct Proposals<'p, 's> {

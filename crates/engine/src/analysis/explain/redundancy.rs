@@ -7,10 +7,21 @@
 use super::errors;
 use super::evaluator::Evaluator;
 use super::orthonormal::Basis;
+use crate::limits::redundancy::{LARGEST_OPENING, TAKES_PART};
 use mechc_ir::structure::Subsystem;
-use mechc_ir::tolerances::determinacy::redundancy::{
-    DEPENDENT, HEAVY, MOST_EXCHANGES, NEARBY, OPEN, PASSES, TAKES_PART, YIELDING,
-};
+
+/// Equations are dependent below this residual: an assembled position is accurate to the square root of rounding.
+const DEPENDENT: f64 = 1e-6;
+/// Rows on which others depend with a larger weight are eliminated last: without them the others are far from dependent.
+const HEAVY: f64 = 5.0;
+/// Maximum number of row exchanges.
+const MOST_EXCHANGES: usize = 30;
+/// Weight reduction of the equations whose minimum residual is computed; the residual of the others is smaller by the square of this.
+const YIELDING: f64 = 100.0;
+/// Number of restarts of that least-squares method.
+const PASSES: usize = 4;
+/// Times at which the equations are examined, as parts of the span after the first time.
+const NEARBY: [f64; 3] = [1.3e-3, 3.1e-3, 7.7e-3];
 
 /// An equation that depends on others.
 #[derive(Clone, Debug)]
@@ -75,10 +86,10 @@ fn judged(
         let holds = |limit: f64| met.residual.iter().all(|open| open.abs() <= limit);
         let rows: Vec<u32> = dependents.iter().map(|dependent| dependent.row as u32).collect();
         let all = evaluator.linear(&rows, &part.columns, None, t)?.residual;
-        if holds(OPEN) && all.iter().all(|open| open.abs() <= OPEN) {
+        if holds(LARGEST_OPENING) && all.iter().all(|open| open.abs() <= LARGEST_OPENING) {
             continue;
         }
-        let limit = if is_singular() { OPEN.sqrt() } else { OPEN };
+        let limit = if is_singular() { LARGEST_OPENING.sqrt() } else { LARGEST_OPENING };
         // the kept equations may lead to another branch than all together
         if kept.len() >= part.columns.len() && all_hold(evaluator, part, &before, t)? {
             continue;
@@ -106,7 +117,7 @@ fn judged(
 fn all_hold(evaluator: &mut Evaluator<'_>, part: &Subsystem, from: &[f64], t: f64) -> Option<bool> {
     let q = std::mem::replace(&mut evaluator.q, from.to_vec());
     let met = evaluator.assemble(&part.rows, &part.columns, None, t)?;
-    let hold = met.residual.iter().all(|open| open.abs() <= OPEN);
+    let hold = met.residual.iter().all(|open| open.abs() <= LARGEST_OPENING);
     if !hold {
         evaluator.q = q;
     }
@@ -122,7 +133,7 @@ fn closes(evaluator: &mut Evaluator<'_>, kept: &[u32], row: usize, part: &Subsys
     let q = evaluator.q.clone();
     let all: Vec<u32> = kept.iter().copied().chain([row as u32]).collect();
     let met = evaluator.assemble(&all, &part.columns, None, t)?;
-    let closes = met.residual.iter().all(|open| open.abs() <= OPEN);
+    let closes = met.residual.iter().all(|open| open.abs() <= LARGEST_OPENING);
     if !closes {
         evaluator.q = q;
     }

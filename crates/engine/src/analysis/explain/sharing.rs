@@ -8,15 +8,27 @@ use super::evaluator::Evaluator;
 use super::orthonormal::Basis;
 use super::redundancy::basis_of;
 use crate::analysis::state::{Horizon, Linear, aslant};
+use crate::limits::redundancy::{LARGEST_OPENING, TAKES_PART};
 use mechc_expr::{Dependence, ExprId, Graph, Node, Symbol};
 use mechc_ir::ConstraintSystem;
+use mechc_ir::limits::DEFAULT_SPAN;
 use mechc_ir::structure::Subsystem;
-use mechc_ir::tolerances::DEFAULT_SPAN;
-use mechc_ir::tolerances::determinacy::redundancy::{OPEN, TAKES_PART};
-use mechc_ir::tolerances::determinacy::sharing::{
-    APART, FIRST_STEP, FRESH, LARGEST_STEP, LONGEST_STEP, MOST_STEPS, MOST_WORK,
-};
 use rustc_hash::FxHashSet;
+
+/// First step along the motion, as a part of the span.
+const FIRST_STEP: f64 = 1e-3;
+/// Longest step, as a part of the span: long enough to pass a rest.
+const LONGEST_STEP: f64 = 1.0 / 32.0;
+/// Largest motion of a coordinate in a step, scaled.
+const LARGEST_STEP: f64 = 0.3;
+/// Largest deviation of the end of a step from its prediction, scaled; beyond it the step is on another branch.
+const APART: f64 = 0.1;
+/// Distance between the examined positions, scaled.
+const FRESH: f64 = 0.03;
+/// Maximum number of steps: enough for the whole motion of something that turns once or twice.
+const MOST_STEPS: usize = 200;
+/// Maximum work of all steps, as rows times the square of coordinates: about a second.
+const MOST_WORK: usize = 1_000_000_000;
 
 /// A formula whose forces are not determined, with the rows that share what they exert in any way.
 #[derive(Clone, Debug)]
@@ -257,7 +269,7 @@ pub(super) fn along_motion(
     };
     let assembled = |evaluator: &mut Evaluator<'_>, t: f64| {
         let met = evaluator.assemble(&part.rows, &part.columns, None, t)?;
-        let is_met = met.residual.iter().all(|open| open.abs() <= OPEN.sqrt());
+        let is_met = met.residual.iter().all(|open| open.abs() <= LARGEST_OPENING.sqrt());
         let there = evaluator.linear(&part.rows, &part.columns, None, t);
         there.filter(|_| is_met)
     };

@@ -3,11 +3,28 @@
 use super::errors::{self, StartVerdict};
 use super::stop::{SingularPosition, Stop, StopCause, Warning, WarningCause};
 use crate::analysis::state::{Fault, Horizon, Kinematics, Singular, State};
+use crate::limits::singular::NEAR_FOLD;
 use mechc_ir::program::BoundaryRegisters;
-use mechc_ir::tolerances::singular::reasons::{
-    CUSP, FLAT, NEAR, NEAR_FOLD, PARABOLA, STEPS_AHEAD, TAKES_PART, TOLD, VANISHED, WEIGHTS,
-};
 use mechc_ir::{ConstraintSystem, DeclarationId, DeclarationKind, JointKind, Monitor, MonitorKind};
+
+/// A position closer to a singular one than this is called singular, or as close as steps could get.
+const NEAR: f64 = 1e-2;
+/// A relative curvature below this is called zero near a singular position.
+const FLAT: f64 = 1e-3;
+/// A curve has a cusp if its radius of curvature is below this part of its body's size, and its tangent vanishes.
+const CUSP: f64 = 1e-2;
+/// A formula has reached the end of a function's domain, or a pole, if at most this part of its terms is left.
+const VANISHED: f64 = 1e-6;
+/// A formula that ends is the explanation if it does so within this many of the last steps.
+const STEPS_AHEAD: f64 = 1000.0;
+/// Largest deviation from a parabola, which is four times as large at twice the distance from zero, for an event function.
+const PARABOLA: f64 = 0.25;
+/// Smallest share that is reported of an equation in a dependency or a coordinate in a free motion, as a part of the largest.
+const TOLD: f64 = 0.1;
+/// Resolution of shares, in parts of the largest: rounding must not order equal shares.
+const WEIGHTS: f64 = 1e6;
+/// A driver takes part in a dependency if its share exceeds this part of the largest.
+const TAKES_PART: f64 = 1e-3;
 
 /// Returns why no step leads on from the last accepted state, where even one as small as `h` (s) towards `target` (s) failed.
 pub fn find_stop(kinematics: &mut Kinematics, state: &State, fault: Fault, [h, target]: [f64; 2]) -> Box<Stop> {

@@ -8,10 +8,16 @@ use mechc_ir::ConstraintSystem;
 use mechc_ir::layout::RowLayout;
 use mechc_ir::program::Program;
 use mechc_ir::structure::Determined;
-use mechc_ir::tolerances::assembly::lead::{KINK, KINK_OFFSET, MOST_KINKS};
 use mechc_text::cancel::Cancel;
 use mechc_text::diag::Diagnostics;
 use std::sync::Arc;
+
+/// Distance before and behind a kink at which the mechanism is examined, as a part of the path.
+const KINK_OFFSET: f64 = 1e-9;
+/// Largest difference of the positions before and behind a kink, scaled.
+const KINK: f64 = 1e-6;
+/// Maximum number of kinks on one path.
+const MOST_KINKS: usize = 1000;
 
 /// Horizon of a continuation: a fraction of the path, from 0 to 1, stands for time.
 pub(super) const WAY: Horizon = Horizon { from: 0.0, span: 1.0 };

@@ -4,7 +4,17 @@
 
 use crate::analysis::explain::{Warning, singular};
 use crate::analysis::state::{Kinematics, State};
-use mechc_ir::tolerances::singular::misses::{EVEN, FALLS, FAR, OF_LENGTHS, WITHIN};
+
+/// Distance from a change point, as a part of the lengths, within which it is reported: drawings are rounded so.
+const WITHIN: f64 = 5e-4;
+/// Error of the lengths, as a part of the square of the driver's motion in which the mechanism turns away.
+const OF_LENGTHS: f64 = 1.0 / 3.0;
+/// A position farther from a singular one than this is far away.
+const FAR: f64 = 0.1;
+/// Largest least singular value, as a part of the largest one before: some mechanisms are never far away.
+const FALLS: f64 = 0.4;
+/// Largest relative change of the speed of drivers meanwhile.
+const EVEN: f64 = 0.3;
 
 /// Watches for change points that a motion just misses.
 pub struct NearMisses {

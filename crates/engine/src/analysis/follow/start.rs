@@ -11,11 +11,17 @@ use mechc_expr::math;
 use mechc_ir::layout::RowLayout;
 use mechc_ir::program::Program;
 use mechc_ir::structure::Determined;
-use mechc_ir::tolerances::assembly::drive::{AS_DRAWN, CLEARLY, MOST_TURNS};
 use mechc_ir::{Homotopy, RowUnit};
 use mechc_text::cancel::Cancel;
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
+
+/// A closure that moves nothing farther than this, scaled, agrees with the drawing.
+const AS_DRAWN: f64 = 0.01;
+/// A closure by another direction is taken if its motion is shorter by this factor.
+const CLEARLY: f64 = 0.5;
+/// Maximum number of whole turns.
+const MOST_TURNS: f64 = 100.0;
 
 /// Assembles a mechanism at the first time of a horizon, from its estimates.
 ///

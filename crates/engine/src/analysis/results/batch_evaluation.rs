@@ -1,7 +1,7 @@
 //! Smooth formulas as operations on the coordinates, for evaluation in batches.
 
+use crate::limits::curve::MOVED;
 use mechc_ir::program::{Op, Program, Register, Registers, Stage};
-use mechc_ir::tolerances::results::curve::MOVED;
 
 /// A formula along the motion, and its time derivatives.
 pub struct SmoothFormula {

@@ -4,8 +4,28 @@
 //! In a cell between two steps the second derivative stays close to the straight line between its ends, as far as the quintic through both is
 //! accurate; this bounds where the slope may pass zero.
 
+use crate::limits::interval_search;
 use mechc_expr::math::{along, between, integral_of_quintic, quintic, value_and_derivatives};
-use mechc_ir::tolerances::solving::course::{AWAY, CERTAIN, ITERATIONS, MARGIN, RESTS, SAFETY, STEEP, STEPS_TO_KINK};
+
+/// Factor by which a second derivative may deviate from the straight line between its ends, relative to the quintic in the middle of a
+/// cell: as much as results of a single variant allow for half a cell.
+const SAFETY: f64 = 6.0;
+/// The largest extremum is unambiguous if all others are below it by this part of the range.
+const MARGIN: f64 = 1e-5;
+/// An end is an extremum if the slope there would change the formula over the analysis by this part of its range.
+const STEEP: f64 = 1e-3;
+/// Smallest distance of an extremum from an end, as a part of the span.
+const AWAY: f64 = 1e-4;
+/// Largest terms of a sum, in multiples of its range or of what the second derivative causes over the span: beyond it rounding shifts
+/// the time of an extremum.
+const CERTAIN: f64 = 250.0;
+/// A formula is at rest if it deviates from its start by at most this part of the size of its terms: a quarter of the bound for a
+/// single variant (`limits::interval_search::ROUNDING`).
+const RESTS: f64 = 0.25 * interval_search::ROUNDING;
+/// Number of corrections of a time on the curve between two steps.
+const ITERATIONS: usize = 3;
+/// A length is smooth along steps if at least this many of them, at its greatest speed, separate it from zero.
+const STEPS_TO_KINK: f64 = 2.0;
 
 /// Value, slope and second derivative at a time.
 pub type Tower = [f64; 3];

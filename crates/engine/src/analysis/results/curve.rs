@@ -10,16 +10,22 @@ use super::magnitudes::{Largest, Magnitudes};
 use super::smooth_parts::Smooth;
 use super::state_sampler::StateSampler;
 use crate::analysis::state::State;
+use crate::limits::curve::{KNOWN, NOTHING, ROUNDING};
+use crate::limits::guards::NEAR;
 pub(super) use enclosure::{Cell, Verdict};
 use mechc_expr::math::log10;
 use mechc_expr::{Dependence, ExprId, Graph, Node, Symbol, Unary};
 use mechc_ir::program::{Inputs, Op, Program, Range, Ranges, Register, Registers, Stage};
-use mechc_ir::tolerances::results::curve::{EVERY, KNOWN, NOTHING, ON_BRIDGE, ROUNDING};
-use mechc_ir::tolerances::results::guards::NEAR;
-use mechc_ir::tolerances::results::stretches::MOST_DIGITS;
 use mechc_ir::{ConstraintSystem, CoordinateKind};
 use rustc_hash::FxHashMap;
 use std::rc::Rc;
+
+/// Number of significant digits of a double.
+const MOST_DIGITS: u32 = 17;
+/// The rounding of loads is computed once per this many evaluations of a formula.
+const EVERY: usize = 16;
+/// Error of velocities and accelerations on a bridge across a singular position, as a part of the largest values so far.
+const ON_BRIDGE: f64 = 1e-8;
 
 /// Number of orders of a variation: its value and two time derivatives.
 const VARIED_ORDERS: u32 = 3;

@@ -8,16 +8,38 @@ use super::curve::{Cell, Estimate, Point, Verdict};
 use super::extremum_refinement::{MOST_LOOKS, Sampled, Settling, Turning};
 use super::interval_search::{IntervalSearch, NoValueCause, Scale};
 use crate::analysis::state::State;
+use crate::limits::curve::KNOWN;
+use crate::limits::extremum::TIMES;
+use crate::limits::interval_search::{FACTOR, SHORTEST};
 use mechc_expr::math::{between, median};
 use mechc_ir::program::Range;
-use mechc_ir::tolerances::results::curve::KNOWN;
-use mechc_ir::tolerances::results::extremum::{
-    APART, BESIDE, CERTAIN, CLOSER, CONVERGES, FARTHEST, FINEST, GAP, GAP_OF_VALUES, ITERATIONS, TIMES, TIMES_OF_VALUES,
-};
-use mechc_ir::tolerances::results::probe::{FACTOR, SHORTEST};
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 use std::rc::Rc;
+
+/// A cell that can improve the extremum by at most this part of the range is not divided.
+const GAP: f64 = 1e-11;
+/// Bound like `GAP` for formulas without derivative.
+const GAP_OF_VALUES: f64 = 1e-9;
+/// Accuracy of a time, as a part of the span.
+const CERTAIN: f64 = 1e-13;
+/// The vertex of a parabola through three points is accepted up to this many point distances from the middle point.
+const FARTHEST: f64 = 2.0;
+/// Factor by which the three points approach each other in each step.
+const CLOSER: f64 = 0.1;
+/// Smallest distance of the three points, as a part of the span.
+const FINEST: f64 = 1e-4;
+/// Maximum number of corrections of a time.
+const ITERATIONS: usize = 100;
+/// Bound like `TIMES` for a formula whose slope is unknown.
+const TIMES_OF_VALUES: f64 = 1e-6;
+/// A value at a threshold differs from the limit of one side if the difference exceeds this part of the range.
+const APART: f64 = 1e-6;
+/// A formula is unbounded if its gain between successive positions, whose distances shrink by equal factors, does not shrink by this
+/// factor; it converges if its distance from the limit does.
+const CONVERGES: f64 = 0.97;
+/// An edge this close behind an extremum with the same value, as a part of the span, is the extremum.
+const BESIDE: f64 = 1e-7;
 
 /// The largest value of a formula, or the largest of its negative.
 #[derive(Clone, Debug)]

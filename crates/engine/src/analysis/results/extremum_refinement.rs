@@ -3,7 +3,19 @@
 
 use mechc_expr::math::grid::{bound_at_first, going_on, next_point, on_grid};
 use mechc_expr::math::power_of_two_below;
-use mechc_ir::tolerances::results::turns::{APART, BORDER, CELL, FARTHEST, ITERATIONS, MOST_CELLS};
+
+/// Width of a cell of the time grid, as a part of the span, rounded down to a power of two.
+const CELL: f64 = 1.0 / 16_777_216.0;
+/// Times farther from 0 than this many cells have no grid.
+const MOST_CELLS: f64 = 1_125_899_906_842_624.0;
+/// A correction within this distance of half a cell, in cells, leads to a border of two cells: the rounding of corrections is smaller.
+const BORDER: f64 = 1.0 / 4_096.0;
+/// Maximum number of corrections, two of which may be at a border.
+const ITERATIONS: u32 = 8;
+/// Largest distance of the refined extremum from the start, in cells.
+const FARTHEST: f64 = 4_096.0;
+/// Distance on both sides at which slopes are taken for an unknown second derivative, in cells.
+const APART: f64 = 64.0;
 
 /// The value and time derivatives of a formula at a time; those that do not exist are NaN.
 #[derive(Clone, Copy, Debug)]

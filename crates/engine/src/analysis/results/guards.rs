@@ -4,12 +4,15 @@
 //! power, a quotient or `atan2` passes zero. Each of these is a guard: an argument that changes with the motion, and a threshold. Between crossings
 //! of its guards a formula is as smooth as the motion.
 
+use crate::limits::guards::NEAR;
 use mechc_expr::{Binary, Comparison, ExprId, Graph, Node, Unary};
 use mechc_ir::ConstraintSystem;
 use mechc_ir::program::{Op, Program, Ranges, Register, Registers, Restriction, Stage};
-use mechc_ir::tolerances::results::guards::{NEAR, NOISE};
 use rustc_hash::FxHashMap;
 use std::f64::consts::PI;
+
+/// An argument may be on either side of its threshold within this many times its rounding.
+const NOISE: f64 = 8.0;
 
 /// A threshold in a formula.
 #[derive(Clone, Debug)]

@@ -4,14 +4,32 @@ use super::curve::{Cell, Curve, Estimate, Point, Shift, Verdict};
 use super::state_sampler::StateSampler;
 use crate::analysis::follow::SmoothSegment;
 use crate::analysis::state::State;
+use crate::limits::extremum::TIMES;
+use crate::limits::interval_search::{FACTOR, ROUNDING, SHORTEST};
 use mechc_expr::math::{enclose_root, power_of_two_below};
 use mechc_ir::program::Range;
-use mechc_ir::tolerances::results::extremum::TIMES;
-use mechc_ir::tolerances::results::probe::{
-    ALIKE, DIFFERENT, FACTOR, FARTHEST, MOST_CELLS, MOST_OF_A_STEP, NOTHING, OPAQUE, RELIABLE, ROUNDING, SHORT,
-    SHORTEST, SOLVED,
-};
 use std::rc::Rc;
+
+/// Maximum number of cells that are divided for one formula; a cell whose middle has to be solved for counts as several.
+const MOST_CELLS: usize = 400_000;
+/// Additional cells for each step of the motion.
+const MOST_OF_A_STEP: usize = 4_000;
+/// Number of cells that a cell counts as if its middle has to be solved for.
+const SOLVED: usize = 20;
+/// Longest short cell, as a part of the span.
+const SHORT: f64 = 1e-3;
+/// A guard within rounding matters if the values on both sides of it differ by more than this part of the range.
+const DIFFERENT: f64 = 1e-6;
+/// Longest interval without solution, or with values hidden by rounding, as a part of the span.
+const OPAQUE: f64 = 1e-6;
+/// A value is reliable if rounding changes it by at most this part of itself or of the range.
+const RELIABLE: f64 = 1e-3;
+/// Largest distance from a time at which the growth of a formula is examined, as a part of the span.
+const FARTHEST: f64 = 1e-5;
+/// Values that differ by at most this part of the range are equal.
+const ALIKE: f64 = 1e-9;
+/// Smaller values are zero: rounding of the root of the smallest square is as large.
+const NOTHING: f64 = 1e-150;
 
 /// The scale of a formula, which decides what counts as a difference.
 #[derive(Clone, Copy, PartialEq, Debug)]

@@ -4,7 +4,13 @@
 //! may have a short pulse between two states. The range of its formula bounds it there.
 
 use mechc_ir::program::{Program, Range, Ranges, Register, Registers};
-use mechc_ir::tolerances::results::loads::{LITTLE, ROUNDINGS, SEEN};
+
+/// A smooth load may exceed its predicted range between two states by this part of the largest value so far.
+const SEEN: f64 = 0.25;
+/// Margin for a load of which only its bounds are known, as a part of the largest value so far.
+const LITTLE: f64 = 1e-12;
+/// Rounding of a load between states, in multiples of its rounding at states.
+const ROUNDINGS: f64 = 4.0;
 
 /// A bound of the deviation of loads in a cell from the values at its ends and in its middle.
 #[derive(Clone, Copy, PartialEq, Debug)]

@@ -38,8 +38,6 @@ use interval_search::NoValueCause;
 use magnitudes::Largest;
 use mechc_expr::{ExprId, Graph, Node, Symbol};
 use mechc_ir::structure::Determined;
-use mechc_ir::tolerances::results::places::SHORTEST;
-use mechc_ir::tolerances::results::stretches::{CHUNK, FEW, NUMBERS};
 use mechc_ir::{ConstraintSystem, Outcome, Reduction, ReductionKind};
 use mechc_text::cancel::Cancel;
 use mechc_text::diag::{Diagnostic, Diagnostics};
@@ -50,6 +48,15 @@ pub use spectral::{Settled, SpectralIntegral};
 use state_sampler::StateSampler;
 use std::sync::Arc;
 use validity::SingularIntervals;
+
+/// Parts of a step shorter than this part of it are not divided.
+const SHORTEST: f64 = 1e-2;
+/// Number of steps in a chunk.
+const CHUNK: usize = 4096;
+/// Maximum number of coordinates of all steps in a chunk.
+const NUMBERS: usize = 4_000_000;
+/// Number of certain digits below which the accuracy is reported.
+const FEW: u32 = 6;
 
 /// Returns a diagnostic for each requested time outside the interval (s) of the analysis.
 #[must_use]

@@ -3,13 +3,34 @@
 
 use super::curve::{Cell, Estimate, Point, Verdict};
 use super::interval_search::{IntervalSearch, NoValueCause, Scale};
+use crate::limits::curve::NOTHING;
+use crate::limits::quadrature::{ACCURACY, ROUNDING};
 use mechc_expr::math::{integral_of_quintic, log10, pow};
-use mechc_ir::tolerances::results::quadrature::{
-    ACCURACY, ALIKE, DIVERGES, FARTHER, LEAST_GROWTH, LOOKS, NOTHING, PART_OF_POLE, POLE_DISTANCE, ROUNDING, SAFETY,
-    STEEPEST, SURER,
-};
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
+
+/// Safety factor of the error of a cell, relative to the improvement by halving it.
+const SAFETY: f64 = 8.0;
+/// The error of the finer of two rules is smaller than that of the coarser by the square root of this many times their difference,
+/// relative to the variation in the cell.
+const SURER: f64 = 1e4;
+/// The total error is computed each time this many cells have been divided.
+const LOOKS: usize = 16;
+/// An integral diverges if the shortest cells hold this part of it, and the formula grows fast enough towards them.
+const DIVERGES: f64 = 1e-9;
+/// Distances from a shortest cell at which the growth of a formula is examined, in lengths of the cell.
+const FARTHER: [f64; 2] = [64.0, 256.0];
+/// An integral diverges if the formula grows like a power of the distance from a pole with at least this exponent.
+const STEEPEST: f64 = 0.95;
+/// Largest distance from a pole, as a part of the span, at which a formula is a single power of the distance: halving the distance
+/// changes the growth factor, which is at least `LEAST_GROWTH`, by at most `ALIKE`. At smaller distances the rounding of times shows.
+const POLE_DISTANCE: f64 = 1e-8;
+/// Two growth factors that differ by at most this belong to one power.
+const ALIKE: f64 = 1e-5;
+/// Smallest growth factor at a pole when the distance is halved.
+const LEAST_GROWTH: f64 = 1.03;
+/// Uncertainty of an integral near a pole, as a part of what the shortest cell may hold.
+const PART_OF_POLE: f64 = 0.02;
 
 /// Inner nodes of Lobatto's rule of four points, exact for polynomials of degree 5, and of Kronrod's extension to seven, of degree 9, in a cell
 /// from −1 to 1, with the weights of both. Source: W. Gander, W. Gautschi, *Adaptive Quadrature – Revisited*, BIT 40, 2000.

@@ -9,13 +9,17 @@ use super::quadrature::Integral;
 use super::state_sampler::StateSampler;
 use crate::analysis::follow::SmoothSegment;
 use crate::analysis::state::{State, shortly_after};
+use crate::limits::curve::ROUNDING;
+use crate::limits::extremum::TIMES;
+use crate::limits::interval_search::{FACTOR, SHORTEST};
 use mechc_expr::math::median;
 use mechc_ir::ReductionKind;
-use mechc_ir::tolerances::results::curve::ROUNDING;
-use mechc_ir::tolerances::results::extremum::TIMES;
-use mechc_ir::tolerances::results::probe::{FACTOR, SHORTEST};
-use mechc_ir::tolerances::results::stretches::{LARGEST, SMALL};
 use std::rc::Rc;
+
+/// A value without certain digits is 0 if its error is at most this part of the largest value so far.
+const SMALL: f64 = 1e-6;
+/// Larger values overflow.
+const LARGEST: f64 = 1e300;
 
 /// A formula in a window of the motion, and its reductions.
 pub(super) struct FormulaReductions {

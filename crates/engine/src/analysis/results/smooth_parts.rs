@@ -7,9 +7,15 @@ use super::magnitudes::{Largest, Magnitudes};
 use crate::analysis::state::State;
 use mechc_expr::{Binary, ExprId, Graph, Node, Symbol, Unary};
 use mechc_ir::program::{Program, Ranges, Register, Registers, Stage};
-use mechc_ir::tolerances::results::smooth::{MOST_FACTORS, WIDEST_OF_ALL, WIDEST_TURN};
 use mechc_ir::{ConstraintSystem, CoordinateKind};
 use rustc_hash::FxHashMap;
+
+/// Maximum number of factors.
+const MOST_FACTORS: u32 = 6;
+/// Largest rotation of a body in a cell (rad) for which the sine of the angle is bounded.
+const WIDEST_TURN: f64 = 0.25;
+/// Largest rotation of any body in a cell (rad) for which positions within are bounded.
+const WIDEST_OF_ALL: f64 = 0.5;
 
 /// The kind of a formula.
 #[derive(Clone, Copy, PartialEq, Debug)]

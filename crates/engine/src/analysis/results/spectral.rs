@@ -5,11 +5,19 @@
 
 use super::curve::{Cell, Estimate};
 use super::interval_search::IntervalSearch;
+use crate::limits::quadrature::{ACCURACY, ROUNDING};
 use mechc_expr::math::cos;
-use mechc_ir::tolerances::results::quadrature::{ACCURACY, ROUNDING};
-use mechc_ir::tolerances::results::spectral::{ALIKE, FIRST, LAST, LESS};
 use std::f64::consts::PI;
 use std::sync::OnceLock;
+
+/// Smallest number of intervals of the rule, as a power of two.
+const FIRST: usize = 6;
+/// Largest number of intervals of the rule, as a power of two.
+const LAST: usize = 12;
+/// The rule converges if doubling the intervals changes it by at most this part of the previous change.
+const LESS: f64 = 0.1;
+/// Largest difference from the integral of the dense output, as a part of it: beyond it something narrow has been missed.
+const ALIKE: f64 = 1e-2;
 
 /// An integral with a growing number of sample times.
 #[derive(Clone, Debug)]

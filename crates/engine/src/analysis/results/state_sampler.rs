@@ -1,15 +1,24 @@
 //! States within a segment of the motion, solved for on request.
 
+use super::NUMBERS;
 use super::sensitivities::Sensitivities;
 use crate::analysis::follow::{SelectedRows, SingleRow, SmoothSegment, quintic_between, state_of_row};
 use crate::analysis::state::{Kinematics, State};
 use crate::solver::{Batch, Solver};
 use mechc_expr::math::along;
 use mechc_ir::program::{Ranges, Register, Stage};
-use mechc_ir::tolerances::results::places::{ITERATIONS, LITTLE, SOLVABLE, WITHIN};
-use mechc_ir::tolerances::results::stretches::NUMBERS;
 use rustc_hash::FxHashMap;
 use std::sync::Arc;
+
+/// Maximum number of corrections of a position, where the solver cannot be used.
+const ITERATIONS: usize = 10;
+/// Fraction of a step at which its dense output is verified; no symmetry of the motion maps it to the middle. The output is rejected if
+/// a moving quantity deviates by more than `LITTLE` of itself, and by more than a parabola could.
+const WITHIN: f64 = 0.381_966;
+/// Largest deviation of a state from the dense output of its step, as a part of its size.
+const LITTLE: f64 = 1e-9;
+/// A position closer to a singular one than this is taken from the bridge across it.
+const SOLVABLE: f64 = 4e-3;
 
 /// A solver of states between the ends of segments.
 pub(super) struct StateSampler {

@@ -1,7 +1,7 @@
 //! LU of a small dense matrix, where the fixed order of a block would lose digits. The factors are kept in place, for any number of
 //! right sides and for the transposed matrix (`math/blocks.rs` keeps none).
 
-use mechc_ir::tolerances::solving::order::LEAST_PIVOT;
+use crate::limits::solver::LEAST_PIVOT;
 
 /// Factors a matrix in place by LU with partial pivoting, row by row; returns the smallest pivot.
 pub fn factor_dense(a: &mut [f64], pivots: &mut [u32], n: usize) -> f64 {

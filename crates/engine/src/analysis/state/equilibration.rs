@@ -11,9 +11,19 @@
 
 use mechc_expr::math;
 use mechc_ir::structure::Block;
-use mechc_ir::tolerances::scales::yardstick::{FAR_FRAME, LEAST_LEVER, ROUNDING, ROW_NORM, SWEEPS};
 use mechc_ir::{BodyId, ConstraintSystem, CoordinateKind, DeclarationKind, IdVec, JointKind, PointId};
 use std::ops::Range;
+
+/// Number of sweeps over rows and columns; the remaining factor is irrelevant.
+const SWEEPS: usize = 12;
+/// Norm of equilibrated rows: that of a joint's equation in the coordinates of one of its bodies, with the other body fixed.
+const ROW_NORM: f64 = 0.5;
+/// A centroid counts if it is this many times as far from the origin of the frame as the features are from it.
+const FAR_FRAME: f64 = 4.0;
+/// Smallest lever of an axis along which another body can approach the features of this one, in sizes of the smaller body.
+const LEAST_LEVER: f64 = 0.1;
+/// A moment about a centroid below this part of its terms is rounding.
+const ROUNDING: f64 = 1e-10;
 
 /// No entry, or no body.
 const NONE: u32 = u32::MAX;

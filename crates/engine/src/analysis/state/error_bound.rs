@@ -3,7 +3,14 @@
 //! The verdict uses the state of the row alone, so it does not depend on how the state was reached, nor on the other output times.
 
 use super::kinematics::{Kinematics, State};
-use mechc_ir::tolerances::solving::trust::{ACCELERATION, ACCURACY, FAR, SLOW, VELOCITY};
+use crate::limits::error_bound::{ACCURACY, SLOW};
+
+/// A velocity is in doubt if its error may exceed this, relative to its size or 1.
+const VELOCITY: f64 = 1e-8;
+/// An acceleration is in doubt if its error may exceed this, relative to its size or 1.
+const ACCELERATION: f64 = 4e-7;
+/// Distance from a singular position beyond which rounding stays small.
+const FAR: f64 = 1.5e-3;
 
 /// Accuracy of the numbers of a row.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]

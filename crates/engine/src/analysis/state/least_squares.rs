@@ -1,11 +1,22 @@
 //! Least squares: brings equations as near to zero as possible; they may be more or fewer than their unknowns, or contradict each other (K.
 //! Levenberg, 1944; D. Marquardt, 1963). Dense: for parts of a mechanism, and never in the time loop.
 
+use crate::limits::assembly::LARGEST_STEP;
 use mechc_expr::math;
 use mechc_ir::ConstraintSystem;
-use mechc_ir::tolerances::assembly::least_squares::{
-    CLOSED, DAMPING, LARGEST_STEP, LEAST_DAMPING, LEAST_GAIN, MOST_DAMPING, STEPS,
-};
+
+/// Maximum number of steps.
+const STEPS: usize = 300;
+/// Initial damping.
+const DAMPING: f64 = 1e-3;
+/// Largest damping; beyond it no step helps.
+const MOST_DAMPING: f64 = 1e12;
+/// Smallest damping.
+const LEAST_DAMPING: f64 = 1e-12;
+/// Equations with smaller residuals, scaled, are satisfied.
+const CLOSED: f64 = 1e-15;
+/// The iteration ends when a step reduces the residual by less than this part.
+const LEAST_GAIN: f64 = 1e-10;
 
 /// Some equations by some coordinates at a position, both scaled.
 #[derive(Clone, Debug)]

@@ -1,9 +1,13 @@
 //! Output times, and the time span of an analysis.
 
+use crate::limits::edges::{AHEAD, LONGEST_AHEAD, SLACK};
 use mechc_expr::math::neighbours;
-use mechc_ir::tolerances::DEFAULT_SPAN;
-use mechc_ir::tolerances::steps::edges::{AHEAD, LONGEST_AHEAD, SLACK};
-use mechc_ir::tolerances::steps::times::{AT_THE_LAST, MOST};
+use mechc_ir::limits::DEFAULT_SPAN;
+
+/// An output time within this part of a step from the last time is the last time.
+const AT_THE_LAST: f64 = 1e-9;
+/// Larger numbers of steps are not exact.
+const MOST: f64 = 9e15;
 
 /// Output times, ascending.
 #[derive(Clone, PartialEq, Debug)]

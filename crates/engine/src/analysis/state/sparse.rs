@@ -1,8 +1,8 @@
 //! LU of a block in an order that is fixed once: which entries arise, and which operations make them, is decided before any value is computed. The
 //! pivots are chosen for few entries and for size (H. M. Markowitz, 1957); every factorisation checks that they still are large enough.
 
+use crate::limits::solver::LEAST_PIVOT;
 use crate::solver::{BlockEntry, Order};
-use mechc_ir::tolerances::solving::order::LEAST_PIVOT;
 use rustc_hash::FxHashMap;
 
 /// An order of elimination with its operations. Positions count pivots in their order.
@@ -196,8 +196,8 @@ fn is_odd(permutation: &[u32]) -> bool {
 #[cfg(test)]
 mod tests {
     use super::Plan;
+    use crate::limits::solver::LARGEST_MULTIPLIER;
     use crate::solver::BlockEntry;
-    use mechc_ir::tolerances::solving::solver::LARGEST_MULTIPLIER;
     use nalgebra::{DMatrix, DVector};
 
     /// Reproducible numbers in [−1, 1].

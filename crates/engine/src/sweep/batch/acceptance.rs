@@ -3,11 +3,17 @@
 // loops over lane indices read best, and vectorise best
 #![allow(clippy::needless_range_loop)]
 
-use super::{CHUNK, LANES, PerLane, ZERO};
+use super::{CHUNK, LANES, NEAREST, PART_OF_DISTANCE, PerLane, ZERO};
 use crate::solver::VariantLanes;
 use mechc_expr::math::max;
 use mechc_ir::program::LaneValues;
-use mechc_ir::tolerances::solving::variants::{LARGEST_CHANGE, LARGEST_GAP, LARGEST_MOTION, NEAREST, PART_OF_DISTANCE};
+
+/// Largest motion in a step, scaled.
+const LARGEST_MOTION: f64 = 0.5;
+/// Largest deviation of velocities and accelerations at both ends of a step from the change of positions, scaled.
+const LARGEST_GAP: f64 = 1e-3;
+/// Largest factor by which a determinant changes in a step.
+const LARGEST_CHANGE: f64 = 2.0;
 
 /// The states of all lanes at one time.
 #[derive(Clone)]

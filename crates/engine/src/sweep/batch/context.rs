@@ -3,17 +3,25 @@
 
 use super::acceptance::{LaneStates, TrackedCoordinate, TrackedDerivatives, singular_distance};
 use super::result_queries::ResultQueries;
-use super::{CHUNK, LANES, PerLane, ZERO};
+use super::{CHUNK, LANES, NEARLY, PerLane, ZERO};
 use crate::analysis::{Started, Times};
 use crate::solver::{Solver, VariantBatch, VariantLanes};
 use crate::sweep::continuation::{CompiledSystem, ContinuationBase};
 use mechc_expr::math::Vectors;
 use mechc_ir::CoordinateKind;
 use mechc_ir::program::{LaneMachine, LaneValues, Op, Program, Register, Registers, Stage};
-use mechc_ir::tolerances::solving::variants::{
-    BESIDE, CERTAIN_RESIDUAL, DENSE_MOTION, DENSE_PART_OF_SPAN, NEARLY, RESIDUAL_OF_STEP,
-};
 use std::sync::Arc;
+
+/// Largest residual, relative to that of a variant on its own: rounding leaves orders of magnitude less.
+const CERTAIN_RESIDUAL: f64 = 1e-3;
+/// Largest residual between output times, relative to that of a variant on its own.
+const RESIDUAL_OF_STEP: f64 = 1e4;
+/// Largest distance of dense rows, as a part of the span; their velocities alone extrapolate and judge steps.
+const DENSE_PART_OF_SPAN: f64 = 1.0 / 64.0;
+/// Largest motion between dense rows at the start, scaled.
+const DENSE_MOTION: f64 = 0.04;
+/// Relative change of parameters for difference quotients of the mechanism's position.
+const BESIDE: f64 = 1e-6;
 
 /// The data that all batches of a mechanism share: its solvers, its requests, and its nominal state.
 pub struct BatchContext {

@@ -16,6 +16,15 @@ pub use runner::BatchRunner;
 
 use mechc_ir::program::LaneValues;
 
+/// Largest last correction between output times, in cells of the grid of tears: the remaining error is its square, far below the error of guesses.
+const NEARLY: f64 = 8_192.0;
+/// A variant closer to a singular position than this leaves the batch: at this distance no row is in doubt, and no step is examined inside.
+const NEAREST: f64 = 0.04;
+/// Largest first correction, as a part of the distance to a singular position: other branches are farther away.
+const PART_OF_DISTANCE: f64 = 0.25;
+/// Minimum number of steps over the span.
+const FEWEST_STEPS: f64 = 16.0;
+
 /// The number of variants in a batch.
 pub const LANES: usize = 32;
 

@@ -8,14 +8,18 @@ use super::context::BatchContext;
 use super::result_queries::{Query, QueryKind, ResultQueries};
 use super::step_history::StepHistory;
 use super::stepper::{BatchStepper, LaneSolver};
-use super::{LANES, PerLane, ZERO, active_chunks};
+use super::{LANES, NEAREST, PART_OF_DISTANCE, PerLane, ZERO, active_chunks};
 use crate::analysis::course::{Course, Place, Tower, integral_by_steps};
 use crate::analysis::{MOST_LOOKS, Sampled, Settled, Settling, SpectralIntegral, Turning};
 use crate::solver::{VariantBatch, VariantLanes};
-use mechc_ir::tolerances::solving::course::{ALIKE, MOST_STEPS};
-use mechc_ir::tolerances::solving::variants::{NEAREST, PART_OF_DISTANCE};
 use mechc_text::cancel::Cancel;
 use std::array::from_fn;
+
+/// Largest difference of an integral from its estimate by the steps, as a part of it; far less than a single variant allows
+/// (`ALIKE` in `spectral.rs`), so that a variant accepted here is accepted there.
+const ALIKE: f64 = 1e-4;
+/// Maximum number of steps.
+const MOST_STEPS: usize = 4_096;
 
 /// Finds the results of a batch.
 pub(super) struct ResultFinder {

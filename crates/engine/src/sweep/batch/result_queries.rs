@@ -1,18 +1,19 @@
 //! The values along a motion that the results of a mechanism need, and their evaluation in lanes.
 
-use super::{CHUNK, LANES, PerLane, ZERO};
+use super::{CHUNK, FEWEST_STEPS, LANES, PerLane, ZERO};
 use crate::analysis::{Computed, Sampled, SmoothFormula, SmoothFormulas, Started, Times, moved};
+use crate::limits::curve::MOVED;
 use crate::solver::{Solver, VariantLanes};
 use mechc_expr::ExprId;
 use mechc_expr::math::Vectors;
 use mechc_ir::program::{LaneMachine, LaneValues, Op, Register};
 use mechc_ir::structure::Determined;
-use mechc_ir::tolerances::results::curve::MOVED;
-use mechc_ir::tolerances::solving::course::FEWEST_STEPS_OF_LENGTHS;
-use mechc_ir::tolerances::solving::variants::FEWEST_STEPS;
 use mechc_ir::{ConstraintSystem, ReductionKind};
 use std::array::from_fn;
 use std::sync::Arc;
+
+/// Minimum number of steps over the span if formulas contain lengths.
+const FEWEST_STEPS_OF_LENGTHS: f64 = 64.0;
 
 /// The queries that the results of a mechanism consist of.
 pub(super) struct ResultQueries {

@@ -4,8 +4,7 @@ use super::context::BatchContext;
 use super::result_finder::ResultFinder;
 use super::row_collector::{RowBuffer, RowCollector};
 use super::stepper::{BatchStepper, LaneSolver};
-use super::{LANES, PerLane};
-use mechc_ir::tolerances::solving::variants::FEWEST_STEPS;
+use super::{FEWEST_STEPS, LANES, PerLane};
 use mechc_text::cancel::Cancel;
 use std::sync::Arc;
 

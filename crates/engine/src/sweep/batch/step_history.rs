@@ -7,8 +7,12 @@ use super::{LANES, PerLane, ZERO};
 use crate::analysis::course::{Tower, find_bends};
 use crate::solver::VariantLanes;
 use mechc_expr::math::{along, quintic};
-use mechc_ir::tolerances::solving::course::{EVERY, WAYS};
 use std::array::from_fn;
+
+/// Number of ways in which the size of terms is estimated.
+const WAYS: usize = 3;
+/// The size of terms is estimated at every this many steps.
+const EVERY: usize = 4;
 
 /// The states of a batch at all its steps.
 #[derive(Default)]

@@ -5,13 +5,21 @@
 use super::acceptance::{LaneStates, Rejections, TrackedDerivatives, check_step};
 use super::context::{BatchContext, RowPlan};
 use super::row_collector::RowCollector;
-use super::{CHUNK, LANES, PerLane, ZERO, active_chunks};
+use super::{CHUNK, LANES, NEARLY, PerLane, ZERO, active_chunks};
+use crate::limits::step_control::CRUMB;
 use crate::solver::{Solver, VariantBatch, VariantLanes};
 use mechc_expr::math::{slope_weights, weigh};
 use mechc_ir::program::LaneValues;
-use mechc_ir::tolerances::solving::variants::{ALIKE, CALM_STEPS, NEARLY, PARTS_OF_WAY, PATIENCE};
-use mechc_ir::tolerances::steps::march::CRUMB;
 use std::array::from_fn;
+
+/// Relative difference up to which steps have the same length.
+const ALIKE: f64 = 1e-9;
+/// Maximum number of times that one variant may shorten the steps of its batch.
+const PATIENCE: u32 = 16;
+/// Number of steps after a rejected one before longer ones are tried.
+const CALM_STEPS: u32 = 6;
+/// Numbers of continuation steps to a variant's parameters, tried in turn.
+const PARTS_OF_WAY: [u32; 6] = [1, 2, 4, 8, 16, 32];
 
 /// The largest number of states that a motion is extrapolated from.
 const MAX_NODES: usize = 4;

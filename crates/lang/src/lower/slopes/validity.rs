@@ -1,14 +1,31 @@
 //! Validity of the derivatives of results, which do not exist at kinks and jumps that depend on the variable and where several extrema are
 //! equal. Each method takes a derivative and returns it where it is valid; elsewhere the result has no value.
 
-use super::{ENDS, Extremum, Reduced, Slopes};
+use super::{ENDS, Extremum, NOTHING, Reduced, SAME, Slopes};
 use crate::lower::switching::SwitchingFunction;
 use mechc_expr::{Binary, Comparison, ExprId, Graph, Node, Symbol, Unary};
 use mechc_ir::ReductionKind;
-use mechc_ir::tolerances::results::slopes::{
-    ALONE, BESIDE, DEVIATIONS, DIGITS, FLAT, LAST_DIGITS, LEAST_STEP, LEFT_OF_HALF, MOVED, NOTHING, SAME,
-};
 use rustc_hash::FxHashMap;
+
+/// Bound like `SAME` for a formula at rest, as a part of its size.
+const DIGITS: f64 = 1e-9;
+/// An extremum is flat if its rate would change it over the analysis by at most this part of its range.
+const FLAT: f64 = 1e-3;
+/// Distance from its extremum at which a formula without rate is examined, as a part of the analysis.
+const BESIDE: f64 = 3e-4;
+/// An extremum is isolated if a move by this part of its range changes it alike on both sides.
+const MOVED: f64 = 1e-6;
+/// Largest difference between both sides of an isolated extremum, as a part of the change.
+const ALONE: f64 = 0.01;
+/// Range of a formula, in standard deviations.
+const DEVIATIONS: f64 = 4.0;
+/// A formula of results is smooth if halving the step reduces its deviation from a straight line to at most this part: a quarter for a
+/// smooth one, half at a kink.
+const LEFT_OF_HALF: f64 = 0.35;
+/// Smallest change of a parameter, as the change of the formula that this part of the parameter's size causes.
+const LEAST_STEP: f64 = 1e-9;
+/// Changes below this part of a value are rounding.
+const LAST_DIGITS: f64 = 1e-13;
 
 impl Slopes<'_, '_> {
     /// Keeps the derivative of a formula of results if it is the derivative to both sides. The second difference of a smooth formula falls

@@ -10,7 +10,7 @@ pub use determinacy::*;
 pub use motion::*;
 pub use singularity::*;
 
-use mechc_ir::tolerances::determinacy::words::NOTHING;
+use crate::limits::printed::NOTHING;
 use mechc_ir::{ConstraintSystem, CoordinateKind, DeclarationId};
 use mechc_text::diag::{Diagnostic, readable};
 

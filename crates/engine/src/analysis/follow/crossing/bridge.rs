@@ -1,10 +1,10 @@
 //! Path over a singular position: curves between states on both sides of it.
 
 use super::refined_bridge::RefinedBridge;
+use super::{EXACT, SOLVABLE};
 use crate::analysis::follow::step::{Step, quintic_between};
 use crate::analysis::state::{Kinematics, State};
 use mechc_expr::math::boundary;
-use mechc_ir::tolerances::singular::bridge::{EXACT, SOLVABLE};
 
 /// A curve that is looked for once.
 #[derive(Clone, Debug, Default)]

@@ -1,12 +1,14 @@
 //! Rows on a bridge: from its curve where that is exact, or else solved for from there.
 
-use super::Crossing;
 use super::bridge::Bridge;
+use super::{CERTAIN, Crossing, EXACT, SOLVABLE};
 use crate::analysis::explain::{Stop, StopCause};
 use crate::analysis::follow::step::Step;
 use crate::analysis::state::{Kinematics, State};
-use mechc_ir::tolerances::singular::bridge::{CERTAIN, EXACT, OPEN, SOLVABLE};
-use mechc_ir::tolerances::solving::trust::SLOW;
+use crate::limits::error_bound::SLOW;
+
+/// Largest residuals of velocities and accelerations on the curve, scaled, relative to 1 or a part of the fastest motion.
+const OPEN: [f64; 2] = [1e-8, 1e-6];
 
 impl Crossing {
     /// Writes the row of a time on a bridge, if it is on one; where the bridge is not passed, on its way up to the singular position.

@@ -3,13 +3,26 @@
 use super::bridge::Bridge;
 use super::end_of_reach::end_of_reach;
 use super::singular_times::{settle_times, singular_time};
-use super::{Crossing, is_clear};
+use super::{CLEAR, Crossing, is_clear};
 use crate::analysis::explain::singular;
 use crate::analysis::follow::step::Step;
 use crate::analysis::state::Kinematics;
-use mechc_ir::tolerances::singular::bridge::{
-    BEYOND, CLEAR, LARGEST_BETWEEN, LARGEST_CORRECTION, NEARLY_CLEAR, PLACES, STEP_BACK, STEPS_BACK,
-};
+
+/// The first state beyond is accepted if it is no closer to a singular position than this part of the limit.
+const NEARLY_CLEAR: f64 = 0.3;
+/// Maximum number of steps back from a start near a singular position.
+const STEPS_BACK: usize = 64;
+/// Length of a step back, scaled.
+const STEP_BACK: f64 = 2e-3;
+/// Distances beyond the singular position at which the first state is searched for, as parts of the path up to it.
+const BEYOND: [f64; 4] = [0.7, 1.0, 2.0, 4.0];
+/// Largest correction of the prediction beyond, as a part of the path: other branches are farther away.
+const LARGEST_CORRECTION: f64 = 0.05;
+/// Largest correction of the curve over the bridge at positions between, as a part of the path. A curve that joins two branches has
+/// larger ones, even if the branches touch.
+const LARGEST_BETWEEN: f64 = 1e-4;
+/// Positions at which the curve over the bridge is verified, as parts of the path.
+const PLACES: [f64; 3] = [0.25, 0.5, 0.75];
 
 impl Crossing {
     /// Returns a bridge over the singular position that the steps have come up to, if the motion goes on there. A motion that begins next

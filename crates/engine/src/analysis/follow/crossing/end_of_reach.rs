@@ -8,9 +8,27 @@
 use super::bridge::Bridge;
 use crate::analysis::state::Kinematics;
 use mechc_expr::math::boundary;
-use mechc_ir::tolerances::singular::reach::{
-    CONTRACTS, CORRECTIONS, MARGIN, NARROWER, PARABOLAS, PARABOLAS_IN_TIME, ROUNDING, SAMPLES, SETTLED, TAKES_PART,
-};
+
+/// Maximum number of corrections of a position near the curve.
+const CORRECTIONS: usize = 60;
+/// Largest ratio of a correction to the previous one.
+const CONTRACTS: f64 = 0.7;
+/// A smaller correction, scaled, does not affect λ.
+const SETTLED: f64 = 1e-13;
+/// A correction that no longer shrinks is rounding if it is below this many times the rounding.
+const ROUNDING: f64 = 1e3;
+/// Number of times within the bridge at which the direction of the free motion is evaluated.
+const SAMPLES: usize = 9;
+/// Number of parabolas that search for an extremum in time near the singular position.
+const PARABOLAS_IN_TIME: usize = 2;
+/// Number of parabolas that search for an extremum along the free motion.
+const PARABOLAS: usize = 3;
+/// Width of each parabola, as a part of the previous one.
+const NARROWER: f64 = 0.05;
+/// Rows take part in a dependency from this part of the largest share on.
+const TAKES_PART: f64 = 0.1;
+/// Values within this many times the residual tolerance are not distinguished from zero.
+const MARGIN: f64 = 4.0;
 
 /// A function's extremum near a place.
 struct Extremum {

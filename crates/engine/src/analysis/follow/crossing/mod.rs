@@ -15,9 +15,19 @@ use super::step::Step;
 use super::warnings::Warnings;
 use crate::analysis::explain::{Stop, singular};
 use crate::analysis::state::{Fault, Kinematics, State};
+use crate::limits::singular::CLEAR_PIVOT;
 pub use bridge::Bridge;
-use mechc_ir::tolerances::scales::linear::CLEAR_PIVOT;
-use mechc_ir::tolerances::singular::bridge::{CERTAIN, CLEAR};
+
+/// A state closer than this to a singular position is not clear of it.
+///
+/// Rounding in Φ is multiplied by 1/σ in q, and by 1/σ again in each derivative: 8e-3 leaves nine digits.
+const CLEAR: f64 = 8e-3;
+/// A state closer than this to a singular position cannot be solved for: rounding by 1/σ² exceeds the promised accuracy.
+const SOLVABLE: f64 = 1e-3;
+/// Closest distance to a singular position at which solving leaves more than eight digits of accelerations.
+const EXACT: f64 = 4e-3;
+/// Accuracy of the time of a singular position, as a part of the bridge.
+const CERTAIN: f64 = 1e-6;
 
 /// Returns whether the position that was factored is clear of every singular one.
 pub fn is_clear(kinematics: &mut Kinematics) -> bool {

@@ -4,7 +4,13 @@
 
 use crate::analysis::follow::step::Step;
 use crate::analysis::state::{Kinematics, State};
-use mechc_ir::tolerances::singular::finer::{EXACT, OUTWARD, STEPS};
+
+/// Distance of the outer states from the ends of the bridge, as a part of its length.
+const OUTWARD: f64 = 0.7;
+/// Number of steps to an outer state.
+const STEPS: usize = 8;
+/// Accuracy of the velocities and accelerations of the curve where they can be solved for, relative to their size or 1, scaled.
+const EXACT: f64 = 2e-9;
 
 /// Conditions: value, slope and curvature at four times.
 const CONDITIONS: usize = 12;

@@ -1,13 +1,24 @@
 //! Times at which a motion on a bridge comes to the singular position.
 
+use super::CERTAIN;
 use super::bridge::Bridge;
 use crate::analysis::follow::step::Step;
 use crate::analysis::state::{Determinant, Kinematics};
 use mechc_expr::math::{GoldenSection, boundary};
-use mechc_ir::tolerances::singular::bridge::{
-    BEYOND_ZERO, CERTAIN, LOOKS, NEARLY_ZERO, NEWTON_STEPS, PLACES_BETWEEN, SPREAD,
-};
 use std::convert::Infallible;
+
+/// Number of samples of a bridge to find a singular position that is reached twice.
+const PLACES_BETWEEN: usize = 24;
+/// A determinant changes its sign, rather than touches zero, if it is below this part of its values at the ends.
+const BEYOND_ZERO: f64 = -1e-6;
+/// A more accurate curve decides where the determinant is below this part.
+const NEARLY_ZERO: f64 = 1e-2;
+/// Number of samples of an even contact to find its minimum.
+const LOOKS: usize = 80;
+/// Number of Newton steps to the minimum.
+const NEWTON_STEPS: usize = 8;
+/// Distance of the two points of a difference quotient, as a part of the bridge.
+const SPREAD: f64 = 0.08;
 
 /// The minimum's slope by central differences of sixth order, and its curvature, by the distance of the places in `SPREAD`.
 const SLOPE: [f64; 3] = [45.0 / 60.0, -9.0 / 60.0, 1.0 / 60.0];

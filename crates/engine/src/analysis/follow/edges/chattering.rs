@@ -1,10 +1,18 @@
 //! Switches that go back and forth without effect.
 
-use super::Edges;
+use super::{Edges, FINEST};
 use crate::analysis::follow::step::Step;
 use crate::analysis::state::{Kinematics, aslant};
 use mechc_ir::program::Register;
-use mechc_ir::tolerances::steps::edges::{AT_REST, FINEST, LONGEST_REST, NUDGE, ROUNDING};
+
+/// Longest time for which a chattering switch is ignored, as a part of the span.
+const LONGEST_REST: f64 = 1e-2;
+/// A motion of at most this size, scaled, is rest.
+const AT_REST: f64 = 1e-12;
+/// A motion of at most this many units in the last place is rest.
+const ROUNDING: f64 = 64.0;
+/// Change of coordinates for the difference quotient of a switch, scaled.
+const NUDGE: f64 = 1e-6;
 
 /// A switch that has gone back and forth without anything to show for it: two branches that agree to rounding. It is left
 /// alone for a while, and for longer each time.

@@ -13,11 +13,23 @@ use crate::analysis::explain::{Stop, StopCause, errors};
 use crate::analysis::follow::step::{Step, write_prediction};
 use crate::analysis::follow::warnings::Warnings;
 use crate::analysis::state::{Fault, Kinematics, State, shortly_after};
+use crate::limits::domain_boundaries::{FARTHEST, MOMENT, MOST_HALVINGS, ROUNDING};
 use mechc_expr::math::{Halving, bisect};
-use mechc_ir::tolerances::steps::rims::{
-    FARTHEST, FINEST, FINEST_BETWEEN, KNOWN, LAST_MOMENT, MOMENT, MOMENT_OF_MOTION, MOST_HALVINGS, MOST_PARTS,
-    MOST_PARTS_BETWEEN, ROUNDING,
-};
+
+/// Smallest part that is searched, as a part of the span.
+const FINEST: f64 = 1e-8;
+/// Maximum number of parts in one step.
+const MOST_PARTS: usize = 2000;
+/// Smallest part of a step that is searched, as a part of the step.
+const FINEST_BETWEEN: f64 = 1e-4;
+/// Maximum number of parts of a step.
+const MOST_PARTS_BETWEEN: usize = 500;
+/// Bound like `MOMENT` for an event function of the motion, as a part of the span: positions are accurate to their tolerance.
+const MOMENT_OF_MOTION: f64 = 1e-9;
+/// Distance of the last step from a boundary that ends the motion, in units in the last place of the time.
+const LAST_MOMENT: f64 = 16.0;
+/// An event function is resolved if rounding is below this part of it.
+const KNOWN: f64 = 1e-6;
 
 /// Finds the domain boundaries that a motion comes to, and judges whether it goes on there.
 pub(super) struct DomainBoundaries {

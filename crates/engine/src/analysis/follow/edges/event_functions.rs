@@ -2,9 +2,14 @@
 
 use crate::analysis::follow::step::Step;
 use crate::analysis::state::{Kinematics, shortly_after};
+use crate::limits::domain_boundaries::{MOST_HALVINGS, ROUNDING};
 use mechc_expr::math::{Halving, about, along, bisect, farthest};
 use mechc_ir::program::{BoundaryRegisters, Enclosure};
-use mechc_ir::tolerances::steps::rims::{BEHIND, MOST_HALVINGS, MOST_WIDER, ROUNDING};
+
+/// Distance behind a boundary at which its event function is examined, as a part of the span.
+const BEHIND: f64 = 1e-9;
+/// Maximum number of doublings of a part whose end cannot be distinguished from a zero.
+const MOST_WIDER: u32 = 12;
 
 /// Path along which event functions are evaluated.
 #[derive(Clone, Copy)]

@@ -23,6 +23,9 @@ use mechc_ir::program::Enclosure;
 use one_sided_states::OneSidedStates;
 use signals::Signals;
 
+/// Smallest part that is searched for edges in time, as a part of the span.
+const FINEST: f64 = 1e-8;
+
 /// A change of a switch.
 #[derive(Clone, Copy, Debug)]
 pub struct Edge {

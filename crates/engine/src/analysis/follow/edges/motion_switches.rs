@@ -5,8 +5,12 @@ use super::{Edge, Edges};
 use crate::analysis::follow::step::Step;
 use crate::analysis::state::{Fault, Kinematics};
 use mechc_expr::math::{Halving, about, enclose_root, farthest};
-use mechc_ir::tolerances::steps::edges::{FINEST_BETWEEN, MOST_PARTS_BETWEEN};
 use std::cell::Cell;
+
+/// Smallest part of a step that is examined, as a part of the step.
+const FINEST_BETWEEN: f64 = 2e-4;
+/// Maximum number of parts of a step.
+const MOST_PARTS_BETWEEN: usize = 500;
 
 impl Edges {
     /// Returns the switch of the motion whose edge the position that was just set has passed, on the way from a time (s).

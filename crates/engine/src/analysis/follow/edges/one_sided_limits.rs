@@ -5,9 +5,22 @@
 //! without bound as the distance vanishes is not finite there.
 
 use crate::analysis::state::State;
-use mechc_ir::tolerances::jumps::{ACCELERATION_JUMP, POSITION_JUMP, REST, VELOCITY_JUMP};
-use mechc_ir::tolerances::steps::limits::{EXACT, FEWEST, GROWTH, MISPLACED, MOST, NEAREST, UNCERTAIN};
+use crate::limits::domain_boundaries::GROWTH;
+use crate::limits::jumps::{ACCELERATION_JUMP, POSITION_JUMP, REST, VELOCITY_JUMP};
 use mechc_ir::{ConstraintSystem, CoordinateKind};
+
+/// Number of distances that are examined.
+const MOST: usize = 16;
+/// Number of distances with resolved values that a decision requires.
+const FEWEST: usize = 3;
+/// Smallest distance, in units in the last place of the time.
+const NEAREST: f64 = 64.0;
+/// Error of the time of an edge that is hidden by rounding, as a part of the span.
+const MISPLACED: f64 = 1e-8;
+/// Amplification of rounding in computed values.
+const UNCERTAIN: f64 = 64.0;
+/// A change of acceleration is significant if rounding is at most this part of it.
+const EXACT: f64 = 0.1;
 
 /// Comparison of the two sides.
 #[derive(Clone, Copy, PartialEq, Debug)]

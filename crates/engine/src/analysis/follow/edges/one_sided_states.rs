@@ -4,10 +4,19 @@ use crate::analysis::explain::{Stop, StopCause};
 use crate::analysis::follow::step::{Step, write_prediction};
 use crate::analysis::follow::warnings::Warnings;
 use crate::analysis::state::{Fault, Kinematics, State, shortly_after};
+use crate::limits::edges::{AHEAD, FARTHEST_AHEAD};
+use crate::limits::jumps::{ACCELERATION_JUMP, POSITION_JUMP, REST, VELOCITY_JUMP};
 use mechc_ir::layout::{ColumnKind, columns};
-use mechc_ir::tolerances::jumps::{ACCELERATION_JUMP, POSITION_JUMP, REST, VELOCITY_JUMP};
-use mechc_ir::tolerances::steps::edges::{AHEAD, FARTHEST_AHEAD, ITERATIONS, LAST_DIGITS, TAKES_PART, UNCERTAIN};
 use mechc_ir::{ConstraintSystem, CoordinateKind, DeclarationId};
+
+/// Values below this part of the largest velocity or acceleration so far are rounding.
+const LAST_DIGITS: f64 = 1e-9;
+/// Amplification of the rounding of an edge's time in computed values.
+const UNCERTAIN: f64 = 16.0;
+/// An equation takes part in a jump if its residual is at least this part of the largest.
+const TAKES_PART: f64 = 1e-2;
+/// Maximum number of corrections of a position at an edge.
+const ITERATIONS: usize = 4;
 
 /// The lowest derivative that jumps at an edge.
 #[derive(Clone, Copy, Debug)]

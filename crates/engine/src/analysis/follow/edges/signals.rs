@@ -5,7 +5,15 @@ use crate::analysis::follow::step::Step;
 use crate::analysis::state::{Fault, Kinematics, State};
 use mechc_expr::math::Halving;
 use mechc_ir::program::{Enclosure, Signal};
-use mechc_ir::tolerances::steps::signals::{FINEST, MOST_PARTS, NEGLIGIBLE_MOTION, NUDGE};
+
+/// Largest effect on the mechanism, scaled, by which a signal may leave its values at the ends of a part of a step.
+const NEGLIGIBLE_MOTION: f64 = 0.03;
+/// Smallest part that is examined, as a part of the step.
+const FINEST: f64 = 1e-6;
+/// Maximum number of parts.
+const MOST_PARTS: usize = 100;
+/// Relative change of a signal for its difference quotient.
+const NUDGE: f64 = 1e-6;
 
 /// Terms of the equations that time alone decides, with bounds on what may go unnoticed.
 pub(super) struct Signals {

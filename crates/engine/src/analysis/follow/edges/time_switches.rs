@@ -1,11 +1,13 @@
 //! Edges of time, which are sought before a step.
 
 use super::chattering::may_change;
-use super::{Edge, Edges};
+use super::{Edge, Edges, FINEST};
 use crate::analysis::explain::{Stop, StopCause};
 use crate::analysis::state::Kinematics;
 use mechc_expr::math::{Halving, bisect};
-use mechc_ir::tolerances::steps::edges::{FINEST, MOST_PARTS};
+
+/// Maximum number of parts in one step: a formula that stays on its edge is never decided.
+const MOST_PARTS: usize = 2000;
 
 impl Edges {
     /// Returns the first edge of time from a time on, at which all switches have been evaluated, up to another.

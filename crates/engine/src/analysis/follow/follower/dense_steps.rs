@@ -6,7 +6,7 @@ use crate::analysis::follow::crossing::is_clear;
 use crate::analysis::follow::rows::Place;
 use crate::analysis::follow::step::{Accepted, reject_near_singular};
 use crate::analysis::state::{Fault, Trust};
-use mechc_ir::tolerances::steps::march::{LARGEST_BETWEEN, LARGEST_CORRECTION};
+use crate::limits::step_control::{LARGEST_BETWEEN, LARGEST_CORRECTION};
 
 impl Follower {
     /// Returns whether a step may go over several output times: the state is clear of singular positions.

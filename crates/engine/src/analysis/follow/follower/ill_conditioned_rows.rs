@@ -1,14 +1,20 @@
 //! Rows whose derivatives are in doubt, so near to a singular position that rounding may have spoiled them: compared with the path over
 //! that position, or with themselves.
 
-use super::Follower;
+use super::{Follower, STEPS_AHEAD};
 use crate::analysis::explain::Stop;
 use crate::analysis::follow::crossing::is_clear;
 use crate::analysis::state::{Kinematics, State, Trust, are_small};
+use crate::limits::solver::CELL;
 use mechc_expr::math::GOLDEN;
 use mechc_ir::layout::RowLayout;
-use mechc_ir::tolerances::solving::doubt::{CELL, NEAREST_BRANCH, PLACES, RIGHT};
-use mechc_ir::tolerances::solving::rows::STEPS_AHEAD;
+
+/// Largest deviation of a row from an exact one, relative to its size or 1: in position, velocity and acceleration.
+const RIGHT: [f64; 3] = [1e-9, 1e-8, 1e-6];
+/// Number of starts from which a row is solved again.
+const PLACES: usize = 16;
+/// Largest correction of a position on a bridge, as a part of its distance from the singular position, scaled.
+const NEAREST_BRANCH: f64 = 0.05;
 
 /// The range of no values.
 const NOTHING: [f64; 2] = [f64::INFINITY, f64::NEG_INFINITY];

@@ -1,12 +1,11 @@
 //! Rows that are compared with what comes behind them.
 
-use super::Follower;
+use super::{Follower, STEPS_AHEAD};
 use crate::analysis::explain::{Stop, singular};
 use crate::analysis::follow::checkpoint::Checkpoint;
 use crate::analysis::follow::crossing::is_clear;
 use crate::analysis::state::Trust;
-use mechc_ir::tolerances::solving::rows::STEPS_AHEAD;
-use mechc_ir::tolerances::steps::march::FEWEST_STEPS_NEAR;
+use crate::limits::step_control::FEWEST_STEPS_NEAR;
 
 impl Follower {
     /// Returns the time (s) up to which the motion is looked ahead from a time `t`: a singular position so near to a row that its

@@ -20,12 +20,15 @@ use super::warnings::Warnings;
 use crate::analysis::assemble::Started;
 use crate::analysis::explain::{Stop, Warning, singular};
 use crate::analysis::state::{Fault, Kinematics, State, Times, Trust, behind_start};
+use crate::limits::step_control::{FEWEST_STEPS_NEAR, MOST_STEPS};
 use crate::solver::Solver;
 use mechc_ir::ConstraintSystem;
-use mechc_ir::tolerances::DEFAULT_SPAN;
-use mechc_ir::tolerances::steps::march::{FEWEST_STEPS_NEAR, MOST_STEPS};
+use mechc_ir::limits::DEFAULT_SPAN;
 pub use segments::SmoothSegment;
 use std::sync::Arc;
+
+/// Number of steps behind a row that cannot be printed, to explain why.
+const STEPS_AHEAD: usize = 1_000;
 
 /// A motion in progress: rows at ascending times, computed without allocating.
 pub struct Follower {

@@ -7,8 +7,20 @@ use mechc_expr::ExprId;
 use mechc_expr::math::{Halving, about, along, farthest};
 use mechc_ir::layout::RowLayout;
 use mechc_ir::program::{Program, Ranges, Register, Registers, Stage};
-use mechc_ir::tolerances::contacts::{CORRECTIONS, FINEST_BETWEEN, MOST_BETWEEN, PULLS, STRIKES, WIDEST_BETWEEN};
 use mechc_ir::{ConstraintSystem, LoadForce};
+
+/// A contact pulls if its force exceeds this part of the largest force of the row; less is rounding.
+const PULLS: f64 = 1e-9;
+/// Widest part of a step that is examined for contact forces, as a part of the step.
+const WIDEST_BETWEEN: f64 = 0.125;
+/// Parts are halved where a load may exceed its values at both ends by more than this part of the largest value so far.
+const STRIKES: f64 = 0.05;
+/// Smallest part, as a part of the step.
+const FINEST_BETWEEN: f64 = 1.0 / 256.0;
+/// Maximum number of parts of a step.
+const MOST_BETWEEN: usize = 128;
+/// Corrections of a position on the curve of a step.
+const CORRECTIONS: usize = 2;
 
 /// Monitor of a load.
 struct LoadMonitor {

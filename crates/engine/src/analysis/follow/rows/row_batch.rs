@@ -5,18 +5,32 @@ use super::single_row::SingleRow;
 use crate::analysis::follow::checkpoint::Checkpoint;
 use crate::analysis::follow::step::Step;
 use crate::analysis::state::{Kinematics, State, are_alike};
+use crate::limits::step_control::LARGEST_CORRECTION;
 use crate::solver::{Batch, Bend, Lanes, Pivoting, Solver};
 use mechc_expr::math::{WIDE, numbers_to_cache_line};
 use mechc_ir::layout::RowLayout;
-use mechc_ir::tolerances::solving::rows::{ENOUGH, LANES, REFINED, SAME_TIME, SHORT};
-#[cfg(feature = "threads")]
-use mechc_ir::tolerances::solving::rows::{MOST_THREADS, WORTH_A_THREAD};
-use mechc_ir::tolerances::steps::march::LARGEST_CORRECTION;
 use std::sync::Arc;
 #[cfg(feature = "threads")]
 use std::sync::{Mutex, PoisonError};
 #[cfg(feature = "threads")]
 use std::thread::Builder;
+
+/// Number of times in a batch.
+const LANES: usize = 16;
+/// Smallest number of operations of a solver that is worth a thread.
+#[cfg(feature = "threads")]
+const WORTH_A_THREAD: usize = 20_000;
+/// Maximum number of threads.
+#[cfg(feature = "threads")]
+const MOST_THREADS: usize = 8;
+/// A step below this part of the span is short.
+const SHORT: f64 = 1e-4;
+/// Times that differ by at most this part of the step are equal.
+const SAME_TIME: f64 = 1e-9;
+/// Number of rows within a step that show the accuracy of its dense output.
+const ENOUGH: u64 = 4;
+/// Largest change of a row that is solved again, relative to its size or 1.
+const REFINED: f64 = 1e-8;
 
 /// Rows within a step, a few at a time.
 pub struct RowBatch {

@@ -10,11 +10,14 @@ mod step_length;
 mod touch;
 
 use crate::analysis::state::{Fault, Kinematics, State};
+use crate::limits::step_control::{LARGEST_BETWEEN, LARGEST_MOTION};
 use branch::Branch;
 pub use branch::Signs;
 use mechc_expr::math::{GOLDEN, along, parabola, predicted, quintic};
-use mechc_ir::tolerances::steps::march::{LARGEST_BETWEEN, LARGEST_MOTION, NEAREST};
 use step_length::Length;
+
+/// Closest distance to a singular position at the end of a step.
+const NEAREST: f64 = 1e-6;
 
 /// The state, the state that is tried from there, and the way between.
 pub struct Step {

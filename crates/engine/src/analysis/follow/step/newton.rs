@@ -2,8 +2,17 @@
 
 use super::Step;
 use crate::analysis::state::{Fault, Kinematics};
-use mechc_ir::tolerances::scales::linear::CLEAR_PIVOT;
-use mechc_ir::tolerances::steps::march::{ILL, ITERATIONS, LARGEST_CORRECTION, LATER_CORRECTION, SETTLED};
+use crate::limits::singular::CLEAR_PIVOT;
+use crate::limits::step_control::LARGEST_CORRECTION;
+
+/// Largest later correction, as a part of the largest first one.
+const LATER_CORRECTION: f64 = 0.25;
+/// Maximum number of corrections of a step.
+const ITERATIONS: usize = 4;
+/// A smaller correction needs no further one, since convergence is quadratic.
+const SETTLED: f64 = 1e-7;
+/// Closer to a singular position than this, more digits are required.
+const ILL: f64 = 0.01;
 
 impl Step {
     /// Corrects the state that is tried, and finds its derivatives.

@@ -2,11 +2,11 @@
 
 use super::Accepted;
 use crate::analysis::state::Kinematics;
-use mechc_ir::tolerances::DEFAULT_SPAN;
-use mechc_ir::tolerances::steps::march::{
+use crate::limits::step_control::{
     CALM_BETWEEN, CALM_CORRECTION, CRUMB, FEWEST_STEPS, FEWEST_STEPS_NEAR, LARGEST_BETWEEN, LARGEST_CORRECTION,
     SMALLEST_STEP,
 };
+use mechc_ir::limits::DEFAULT_SPAN;
 
 /// The length of the next step, as far as the error is known.
 pub struct Length {

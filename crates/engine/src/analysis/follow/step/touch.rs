@@ -7,7 +7,15 @@
 use super::{Step, reject_near_singular};
 use crate::analysis::state::{Fault, Kinematics};
 use mechc_expr::math::GoldenSection;
-use mechc_ir::tolerances::steps::touch::{DEEP, SECTIONS, SHALLOW};
+
+/// A determinant that falls within a step to this part of the lesser value at the ends may touch zero there. Shorter steps distinguish:
+/// near a zero they find it, and over a mere minimum their ends approach it.
+const DEEP: f64 = 0.01;
+/// Largest part of the greater value at the ends to which a determinant falls if it may touch zero: a parabola falls to a fifth if
+/// golden section takes its zero for the minimum.
+const SHALLOW: f64 = 0.5;
+/// Maximum number of sections of a step.
+const SECTIONS: usize = 60;
 
 impl Step {
     /// Refuses a step of length `h` within which a determinant comes so near to zero that it may touch it. The curve between

@@ -5,9 +5,15 @@ use crate::analysis::results::guards::Crossing;
 use crate::analysis::results::loads::Hidden;
 use mechc_expr::math::between;
 use mechc_ir::program::Range;
-use mechc_ir::tolerances::results::curve::{LESS, SAFETY};
-use mechc_ir::tolerances::results::loads::MAX_AMPLIFICATION;
 use std::rc::Rc;
+
+/// Largest amplification of the uncertainty of a load by a formula.
+const MAX_AMPLIFICATION: f64 = 1e200;
+/// Factor by which a second or third derivative may deviate from a straight line between two states, relative to the deviation that
+/// follows from the lower derivative at both; a parabola has 1.5.
+const SAFETY: f64 = 2.0;
+/// Factor of the deviation in a part of a cell, which falls with the square of the part.
+const LESS: f64 = 2.0;
 
 /// The interval between two points of one step of the motion.
 #[derive(Clone)]

@@ -1,10 +1,12 @@
 //! Residuals of the equations at a position.
 
 use super::{Kinematics, State};
+use crate::limits::redundancy::LARGEST_OPENING;
 use mechc_ir::program::{Program, Register, Registers};
-use mechc_ir::tolerances::checks::LARGEST_OPENING;
-use mechc_ir::tolerances::scales::kinematics::ROUNDING;
 use mechc_ir::{MonitorKind, Owner};
+
+/// Rounding of a term, as a part of it.
+const ROUNDING: f64 = 8.0 * f64::EPSILON;
 
 impl Kinematics {
     /// Returns the residual of a row's velocity and acceleration equation with the derivatives of another state, scaled; the

@@ -10,8 +10,11 @@ use mechc_ir::ConstraintSystem;
 use mechc_ir::layout::{self, ColumnContent};
 use mechc_ir::program::{Program, Register, Registers, Stage};
 use mechc_ir::structure::Determined;
-use mechc_ir::tolerances::scales::kinematics::TRUSTED;
 use std::sync::Arc;
+
+/// Closest distance to a singular position at which derivatives with respect to inputs and parameters are computed: they grow there,
+/// and each order amplifies rounding.
+const TRUSTED: f64 = 1e-3;
 
 /// Data for derivatives by inputs and parameters.
 #[derive(Clone)]

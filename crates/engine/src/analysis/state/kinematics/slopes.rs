@@ -4,7 +4,12 @@ use super::Kinematics;
 use super::residuals::largest_term;
 use crate::analysis::state::aslant;
 use mechc_ir::program::Stage;
-use mechc_ir::tolerances::scales::kinematics::{BESIDE, NO_SLOPE};
+
+/// The slope of a row, times the size of a coordinate, is rounding up to this part of the row's largest term: the terms of the slope
+/// may be larger than those.
+const NO_SLOPE: f64 = 256.0 * f64::EPSILON;
+/// Distance from a position at which the slope of a curved row is evaluated, scaled.
+const BESIDE: f64 = 0.1;
 
 impl Kinematics {
     /// Measures the slopes at a position, at the time that was set, by which nearness to a singular position is judged. Slopes of some rows are also

@@ -1,13 +1,17 @@
 //! Scaling and factoring of the blocks.
 
 use super::factors::{Factors, borne_out};
-use super::{BlockLu, Factored, Form, Part};
+use super::{BlockLu, Factored, Form, LARGEST_DENSE, Part};
 use crate::analysis::state::dense::factor_dense;
 use crate::analysis::state::sparse::Plan;
+use crate::limits::solver::LARGEST_MULTIPLIER;
 use crate::solver::BlockEntry;
 use mechc_expr::math::GOLDEN;
-use mechc_ir::tolerances::scales::linear::{LARGEST_DENSE, PLANS, SMALLEST_PIVOT};
-use mechc_ir::tolerances::solving::solver::LARGEST_MULTIPLIER;
+
+/// A block with a smaller pivot, scaled, is singular.
+const SMALLEST_PIVOT: f64 = 1e-14;
+/// Number of stored orders of elimination, so that one suits most of a motion.
+const PLANS: u32 = 4;
 
 impl BlockLu {
     /// Chooses orders of elimination by the values that were factored last. Allocates.

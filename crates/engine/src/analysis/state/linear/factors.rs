@@ -3,8 +3,11 @@
 use super::{Form, Part};
 use crate::analysis::state::dense::{solve_dense, solve_dense_transposed};
 use crate::analysis::state::equilibration::{Centroid, Equilibration};
-use mechc_ir::tolerances::scales::linear::ALIKE;
-use mechc_ir::tolerances::solving::order::LEAST_PIVOT;
+use crate::limits::solver::LEAST_PIVOT;
+
+/// Largest ratio between the distances to a singular position in the scales of the solver and in those of the equilibration for which
+/// the former are used.
+const ALIKE: f64 = 10.0;
 
 /// The factors of all blocks.
 #[derive(Clone, Copy)]

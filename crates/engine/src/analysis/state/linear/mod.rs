@@ -5,6 +5,11 @@
 //! fixed (`sparse`); where that loses digits a small block is factored densely with partial pivoting, and a large one gets
 //! another order. Between blocks the solution is substituted forward, so that cost grows with the number of blocks.
 
+/// Number of coordinates of a block that is no chain yet.
+const A_FEW: f64 = 24.0;
+/// Largest block that is factored densely.
+const LARGEST_DENSE: usize = 100;
+
 /// The factors, borrowed separately from the workspace.
 macro_rules! factors {
     ($lu:expr) => {
@@ -34,7 +39,6 @@ use super::sparse::Plan;
 use factors::Factors;
 use mechc_expr::{Dependence, ExprId, Symbol};
 use mechc_ir::structure::Block;
-use mechc_ir::tolerances::scales::linear::{A_FEW, LARGEST_DENSE};
 use mechc_ir::{ConstraintSystem, CoordinateKind};
 pub use nearness::Singular;
 use std::ops::Range;

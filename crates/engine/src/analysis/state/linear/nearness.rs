@@ -2,7 +2,10 @@
 
 use super::factors::{Factors, normalize};
 use super::{BlockLu, Part};
-use mechc_ir::tolerances::scales::linear::PIVOT_MARGIN;
+
+/// A block has no singular value below a limit if its smallest pivot is this many times the limit: pivots of rows of unit norm
+/// overestimate it by little.
+const PIVOT_MARGIN: f64 = 100.0;
 
 /// A smallest singular value with its vectors.
 pub struct Singular {
