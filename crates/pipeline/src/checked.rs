@@ -223,6 +223,13 @@ impl Checked {
         Checked { start_solver, is_continued, check_options: Arc::new(check_options), ..checked }
     }
 
+    /// Returns the mechanism with params of the given names as symbols of its models, too, without a model of its own.
+    pub(crate) fn with_open_params(&self, names: &[String]) -> Checked {
+        let mut options = (*self.check_options).clone();
+        options.open.extend(names.iter().filter(|name| !self.check_options.open.contains(name)).cloned());
+        Checked { check_options: Arc::new(options), model: None, ..self.clone() }
+    }
+
     /// Returns the model with more params set, whose formulas are in `sources`.
     pub(crate) fn model_with(
         &self,

@@ -4,6 +4,7 @@
 use crate::batch::{BatchEvaluator, Query, QueryResult};
 use crate::continuation::{Continuation, Outcome};
 use crate::option_reader::unusable;
+use crate::param_table::{Binder, Bindings, bindings_of};
 use crate::{Checked, Compiled, Redundant, RequestedTimes, RunOptions, Variants};
 use mechc_engine::analysis::{Answers, ResultQuery, Times};
 use mechc_engine::sweep::{LANES, Levels, Points, Varying};
@@ -87,12 +88,12 @@ struct Shared {
     checked: Checked,
     compiled: Compiled,
     continuation: Continuation,
-    /// Nominal values of all params of the model (SI).
-    nominal: Vec<f64>,
+    /// Nominal values of all params.
+    nominal: Bindings,
     /// For each input, the index of the first of its params.
     inputs: Vec<usize>,
     /// The params that queries set, if there are any.
-    params: Option<Variants>,
+    params: Option<Binder>,
     adjusting: EvaluatorOptions,
     /// Number of columns.
     columns: usize,
@@ -101,7 +102,7 @@ struct Shared {
 }
 
 /// The last params of a query, with the values of all params that they lead to.
-type LastParams = Option<(Vec<f64>, Values)>;
+type LastParams = Option<(Vec<f64>, Bindings)>;
 
 impl Checked {
     /// Makes an evaluator of a sound mechanism.
@@ -144,9 +145,9 @@ impl Checked {
                 unknown(name, "param")
             });
         }
-        let nominal = model.params.iter().map(|param| param.value).collect();
+        let nominal = bindings_of(model);
         let batch = BatchEvaluator::new(model.continued.iter().filter_map(|param| param.param).collect());
-        let params = self.params_to_adjust(&adjusting.params)?;
+        let params = self.params_to_adjust(&adjusting.params)?.map(|params| Binder::new(&checked, &params));
         let (source, redundant) = (checked.clone(), adjusting.redundant);
         let continuation = Continuation::new(move |options| source.nominal(redundant, options));
         let (adjusting, columns) = (adjusting.clone(), compiled.columns().len());
@@ -191,7 +192,7 @@ impl MechanismEvaluator {
         cancel: &Cancel,
         row: impl FnMut(&[f64]),
     ) -> Result<Answers, Error> {
-        let (values, analysis) = self.0.values(params)?;
+        let Bindings { values, analysis } = self.0.bind(params)?;
         let query = self.0.query(values, times.over(analysis)?.times()?, inputs);
         self.0.follow(&query, cancel, row)
     }
@@ -230,9 +231,6 @@ impl MechanismEvaluator {
     }
 }
 
-/// The values of all params (SI), and first time, last time and step of the analysis (s), if there is one.
-type Values = (Vec<f64>, Option<[f64; 3]>);
-
 impl Shared {
     fn error(&self, why: Diagnostic) -> Error {
         Error::new(why, self.checked.sources())
@@ -260,9 +258,9 @@ impl Shared {
         };
         let current = match last.take().filter(|(params, _)| is_equal(params)) {
             Some(current) => current,
-            None => (point.params.clone(), self.values(&point.params)?),
+            None => (point.params.clone(), self.bind(&point.params)?),
         };
-        let (values, analysis) = &last.insert(current).1;
+        let Bindings { values, analysis } = &last.insert(current).1;
         let at = point.t.unwrap_or_else(|| analysis.map_or(0.0, |[from, ..]| from));
         if let Some([from, ..]) = analysis.filter(|[from, ..]| point.inputs.is_empty() && at < *from) {
             let message =
@@ -312,13 +310,9 @@ impl Shared {
         Ok(results.and_then(ResultQuery::answer).unwrap_or_default())
     }
 
-    /// Returns the values of all params of the model (SI), inputs at their nominal values, and first time, last time and step of the analysis (s).
-    fn values(&self, params: &[f64]) -> Result<Values, Error> {
-        let Some(variants) = &self.params else { return Ok((self.nominal.clone(), self.compiled.analysis())) };
-        let (model, diagnostics) = self.checked.model_with(variants.read_settings(params), variants.sources());
-        let model = model.ok_or_else(|| Error::new(first_error(diagnostics), variants.sources()))?;
-        let analysis = model.analysis.map(|analysis| [analysis.from, analysis.to, analysis.every]);
-        Ok((model.params.iter().map(|param| param.value).collect(), analysis))
+    /// Binds params (SI), inputs at their nominal values.
+    fn bind(&self, params: &[f64]) -> Result<Bindings, Error> {
+        self.params.as_ref().map_or_else(|| Ok(self.nominal.clone()), |binder| binder.bind(params))
     }
 }
 

@@ -26,6 +26,7 @@ mod model_import;
 mod option_reader;
 mod options;
 pub mod output;
+mod param_table;
 mod parameters;
 mod parsed;
 mod part_backtrace;

@@ -348,9 +348,10 @@ impl Checker<'_> {
         let Some((span, from, to, every)) = found else {
             return;
         };
-        let start = self.constant(from, "the start of the analysis", Dimension::TIME);
-        let end = self.constant(to, "the end of the analysis", Dimension::TIME);
-        let step = self.constant(every, "the step of the analysis", Dimension::TIME);
+        // other values of params may lead to other times, which are judged again then
+        let [start, end, step] = [(from, "the start"), (to, "the end"), (every, "the step")].map(|(e, which)| {
+            self.constant_by(e, &format!("{which} of the analysis"), Dimension::TIME, GuardKind::Finite)
+        });
         if let Some((_, value)) = step
             && value <= 0.0
         {

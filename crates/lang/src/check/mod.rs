@@ -62,6 +62,7 @@ pub use free_names::name_of;
 pub use inputs::InputOverrides;
 pub use library::{Library, LibraryFile, LibraryMechanism, LookupError};
 pub use options::{CheckOptions, ParamOverride};
+pub use overrides::override_matches;
 pub use results::UNTIL;
 pub use samples::{Column, variants};
 pub use settable_inputs::SettableInputs;

@@ -32,7 +32,8 @@ impl Checker<'_> {
 }
 
 /// Returns whether the path of an override names `full`, or all copies of it if the path leaves the indices out. Spaces are ignored.
-pub(super) fn override_matches(full: &str, path: &str) -> bool {
+#[must_use]
+pub fn override_matches(full: &str, path: &str) -> bool {
     let path: String = path.chars().filter(|c| !c.is_whitespace()).collect();
     if path == full {
         return true;

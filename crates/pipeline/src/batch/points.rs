@@ -1,4 +1,4 @@
-//! Query points of an evaluator in lanes: inputs and params differ, and the time is the same. As in a sweep (`eligibility.rs`), points that
+//! Query points of an evaluator in lanes: inputs and params differ, and the time is the same. As in a sweep (`plan.rs`), points that
 //! the batch rejects are computed alone.
 
 use crate::continuation::Continuation;

@@ -4,12 +4,13 @@
 mod spec;
 mod topology_groups;
 
-pub(crate) use topology_groups::TopologyGroups;
+pub(crate) use topology_groups::TopologyGroup;
 
 pub use spec::{Variants, VaryOptions};
 
 use crate::batch::{BatchLanes, BatchPlan, Requested};
 use crate::continuation::Outcome;
+use crate::param_table::{Binder, Bindings};
 use crate::{Checked, Compiled, Redundant, RequestedTimes, RunOptions, Vectors};
 use mechc_engine::analysis::{Answers, ResultQuery, Started, Stop, Times};
 use mechc_engine::sweep::{BatchRunner, BufferPool, CHUNK, LANES, Status, Swept, VariantOutcome};
@@ -20,7 +21,7 @@ use mechc_text::cancel::Cancel;
 use mechc_text::diag::{Code, Diagnostic, Diagnostics, Error};
 use std::ops::Range;
 use std::sync::{Arc, OnceLock};
-use topology_groups::{OutputMapping, OutputNames};
+use topology_groups::{OutputMapping, OutputNames, TopologyGroups};
 
 /// Target size of a block in numbers: half a megabyte, which fits into the cache of a core.
 const NUMBERS: u64 = 1 << 16;
@@ -203,6 +204,7 @@ impl Checked {
             checked: self.clone(),
             groups,
             variants: variants.clone(),
+            binder: Binder::new(self, variants),
             options: options.clone(),
             result_count,
             until,
@@ -242,6 +244,8 @@ struct SweepContext {
     checked: Checked,
     groups: TopologyGroups,
     variants: Variants,
+    /// Binds the params of variants.
+    binder: Binder,
     options: SweepOptions,
     /// Number of results, that of the search condition included.
     result_count: usize,
@@ -409,16 +413,8 @@ impl SweepContext {
     fn results_of(&self, params: &[f64]) -> Option<ResultValues> {
         let options = self.run_options();
         let group = self.groups.group_of(params, &self.checked, &self.variants);
-        let (model, _) = self.checked.model_with(self.variants.read_settings(params), self.variants.sources());
-        let model = model?;
-        let times = self
-            .options
-            .times
-            .over(model.analysis.map(|analysis| [analysis.from, analysis.to, analysis.every]))
-            .ok()?
-            .times()
-            .ok()?;
-        let values: Vec<f64> = model.params.iter().map(|param| param.value).collect();
+        let Bindings { values, analysis } = self.binder.bind(params).ok()?;
+        let times = self.options.times.over(analysis).and_then(|times| times.times()).ok()?;
         let Outcome::Started(mut started) = group.continuation.start_values(&values, &times, &options) else {
             return None;
         };
@@ -448,7 +444,9 @@ impl SweepContext {
             }
             let requested = Requested { times: &self.options.times, columns, results };
             let options = self.run_options();
-            BatchPlan::new(&self.checked, &self.variants, self.first, &self.groups, &requested, &options)
+            let group = self.groups.only().filter(|_| !self.checked.has_given_inputs())?;
+            let table = self.binder.table(&self.variants.values(self.first))?;
+            BatchPlan::new(table, group, &requested, &options)
         };
         self.plan.get_or_init(new).as_ref()
     }
@@ -468,10 +466,12 @@ impl SweepContext {
     fn new_without_until(&self, until: usize) -> SweepContext {
         let checked = self.checked.without_until();
         let groups = self.groups.without_result(until, &checked, &self.variants, self.first);
+        let binder = Binder::new(&checked, &self.variants);
         SweepContext {
             checked,
             groups,
             variants: self.variants.clone(),
+            binder,
             options: self.options.clone(),
             result_count: self.result_count - 1,
             until: None,
@@ -502,15 +502,8 @@ impl SweepContext {
             return self.run_by_all_stages(params, variant);
         }
         let group = self.groups.group_of(params, &self.checked, &self.variants);
-        let settings = self.variants.read_settings(params);
-        let (model, diagnostics) = self.checked.model_with(settings, self.variants.sources());
-        let model = model.ok_or_else(|| VariantStop::of(&diagnostics))?;
-        let times = self
-            .options
-            .times
-            .over(model.analysis.map(|analysis| [analysis.from, analysis.to, analysis.every]))?
-            .times()?;
-        let values: Vec<f64> = model.params.iter().map(|param| param.value).collect();
+        let Bindings { values, analysis } = self.binder.bind(params)?;
+        let times = self.options.times.over(analysis)?.times()?;
         match group.continuation.start_values(&values, &times, &options) {
             Outcome::Started(started) => self.follow(*started, &times, &options, &group.outputs, variant),
             Outcome::CannotStart(stop, system) => Err(VariantStop::new(&stop, system.system())),
