@@ -33,7 +33,7 @@ pub(crate) struct Requested<'r> {
 
 /// Lanes of variants, with the registers of their guards.
 pub(crate) struct BatchLanes {
-    pub team: BatchRunner,
+    pub runner: BatchRunner,
     params: Vec<PerLane>,
     registers: Vec<PerLane>,
 }
@@ -99,7 +99,7 @@ impl BatchPlan {
     /// Returns lanes for variants to follow.
     pub fn lanes(&self) -> BatchLanes {
         let params = self.values.iter().map(|&value| LaneValues([value; LANES])).collect();
-        BatchLanes { team: BatchRunner::new(&self.batch), params, registers: self.guards.registers_of_lanes() }
+        BatchLanes { runner: BatchRunner::new(&self.batch), params, registers: self.guards.registers_of_lanes() }
     }
 
     /// Returns the number of rows of each variant.
@@ -130,7 +130,7 @@ impl BatchPlan {
         for (eligible, varying) in eligible.iter_mut().zip(varying.chunks_exact(width)) {
             *eligible &= varying.iter().all(|value| value.is_finite() && *value != 0.0);
         }
-        lanes.team.follow(&lanes.params, eligible, room, cancel)
+        lanes.runner.follow(&lanes.params, eligible, room, cancel)
     }
 }
 

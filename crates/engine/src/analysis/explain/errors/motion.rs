@@ -1,4 +1,4 @@
-//! Diagnostics of a motion that cannot go on: formulas without a value, jumps, excessive speed.
+//! Diagnostics of a motion that cannot continue: formulas without a value, jumps, excessive speed.
 
 use super::{at, in_units, named_all, short, with_places};
 use crate::analysis::state::Unknown;

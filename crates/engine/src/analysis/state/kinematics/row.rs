@@ -27,7 +27,8 @@ pub(super) struct Varied {
     scoped: SubsystemFactors,
 }
 
-/// Returns whether a column holds what is not known at every position: forces, and what is differentiated by something else than time.
+/// Returns whether a column may have no value at a position where the mechanism has one: reactions and efforts, derivatives by inputs and
+/// parameters, and measures that hold either.
 fn may_be_missing(system: &ConstraintSystem, holds: &ColumnContent) -> bool {
     let is_of_solution = |id: ExprId| {
         let dependence = system.graph().dependence(id);
