@@ -31,8 +31,7 @@ impl Trust {
     /// Judges a state that was just computed.
     ///
     /// Rounding leaves an error of eps/σ in `q`, with σ the smallest singular value of a block of the scaled `Φ_q`. The equations
-    /// amplify it in the derivatives, near a dead point by 1/σ. Near a bifurcation they do not, but the error of the position
-    /// still causes errors of eps/σ² in velocities and of eps/σ³ in accelerations.
+    /// amplify it in the derivatives, near a dead point by 1/σ; near a bifurcation velocities are off by eps/σ², accelerations by eps/σ³.
     pub fn of(kinematics: &mut Kinematics, state: &State) -> Trust {
         let sigma = kinematics.nearness(f64::EPSILON.sqrt() / ACCURACY.sqrt());
         let uncertain = f64::EPSILON / sigma * kinematics.amplification(state);

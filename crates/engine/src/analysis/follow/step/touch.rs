@@ -1,8 +1,7 @@
 //! A determinant that touches zero within a step, without changing its sign: a singular position of even order.
 //!
-//! Such zeros arise where two zeros of one block coincide, or a driver turns back at its dead point. The signs at both ends of the step
-//! agree. Before such a position the determinant falls at a decreasing rate, so the line through its last two values predicts a zero too
-//! early; only steps with such a prediction are searched.
+//! Such zeros arise where two zeros of one block coincide, or a driver turns back at its dead point. Before them the determinant falls at a
+//! decreasing rate, so the line through its last two values predicts a zero too early; only steps with such a prediction are searched.
 
 use super::{Step, reject_near_singular};
 use crate::analysis::state::{Fault, Kinematics};

@@ -27,8 +27,7 @@ pub(super) struct Varied {
     scoped: SubsystemFactors,
 }
 
-/// Returns whether a column may have no value at a position where the mechanism has one: reactions and efforts, derivatives by inputs and
-/// parameters, and measures that hold either.
+/// Returns whether a column may lack a value at a valid position: reactions, efforts, derivatives by inputs or params, measures of either.
 fn may_be_missing(system: &ConstraintSystem, holds: &ColumnContent) -> bool {
     let is_of_solution = |id: ExprId| {
         let dependence = system.graph().dependence(id);
