@@ -142,7 +142,7 @@ fn lane_results_match_single_runs() {
     let alone = subject.sweep(&subject.variants(&requested), &SweepOptions::default());
     let beside = subject.sweep(&subject.variants(&requested), &subject.all_columns());
     // results are in doubt earlier than rows
-    assert!(alone.batched > 8 && alone.batched <= batched, "{} of {batched}", alone.batched);
+    assert!(alone.abreast > 8 && alone.abreast <= batched, "{} of {batched}", alone.abreast);
     assert_eq!(alone.statuses, beside.statuses);
     for (alone, beside) in alone.results.iter().zip(&beside.results) {
         assert!(have_equal_bits(alone, beside), "{alone:?} {beside:?}");
@@ -165,7 +165,7 @@ fn threads_vectors_and_columns_change_no_bit() {
     let variants = subject.variants(&sampled(&["rod=2..4", "lever=1.4..4", "arm=0.5..1.5"], 100, Method::Sobol));
     let all = subject.all_columns();
     let whole = subject.sweep(&variants, &SweepOptions { jobs: Some(1), ..all.clone() });
-    assert!((20..100).contains(&whole.batched), "{}", whole.batched);
+    assert!((20..100).contains(&whole.abreast), "{}", whole.abreast);
     for name in Vectors::NAMES {
         let Some(vectors) = Vectors::named(name) else { continue };
         for jobs in [1, 2, 16] {
@@ -278,7 +278,7 @@ fn close_rows_match_single_runs() {
         // positions of the last body, and its velocities
         for columns in [vec![7, 8, 9], vec![18, 19]] {
             let swept = subject.sweep(&variants, &SweepOptions { columns: Some(columns.clone()), ..all.clone() });
-            assert!(swept.batched >= least, "{} of {:?}", swept.batched, swept.statuses);
+            assert!(swept.abreast >= least, "{} of {:?}", swept.abreast, swept.statuses);
             assert_eq!((&swept.statuses, &swept.lengths), (&whole.statuses, &whole.lengths));
             for (column, from) in swept.columns.iter().zip(&columns) {
                 assert!(have_equal_bits(column, &whole.columns[*from]), "column {from} of {requested:?}");
@@ -305,7 +305,7 @@ fn individual_zeros_and_times_match_single_runs() {
     let all = subject.sweep(&variants, &subject.all_columns());
     let times = mechc::RequestedTimes { at: vec![1.5, 3.0], ..mechc::RequestedTimes::default() };
     let some = subject.sweep(&variants, &SweepOptions { times, ..subject.all_columns() });
-    assert_eq!((some.batched, &some.lengths), (9, &vec![2; 9]));
+    assert_eq!((some.abreast, &some.lengths), (9, &vec![2; 9]));
     let rows = all.lengths[0];
     for (some, all) in some.columns.iter().zip(&all.columns) {
         let wanted: Vec<f64> = (0..9).flat_map(|k| [all[k * rows + 3], all[k * rows + 6]]).collect();
