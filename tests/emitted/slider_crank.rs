@@ -1895,14 +1895,14 @@ impl<M: Solved> Solution<M> {
 }
 
 pub mod grid {
-// The grid on which Newton's iteration goes from point to point.
+// The grid on which Newton's iteration moves from point to point.
 //
-// It goes to the point next to the solution, as often as that takes, and ends where all corrections stay in their cells: so where it began
-// leaves no trace. Of a coordinate on the border of two cells, to rounding, either point may say that the other one is nearer, or that
-// it is so itself. Therefore such a border is judged from one side alone. All coordinates whose corrections end next to a border
-// go to the even one of the two points, the others stay; and from there each goes to where its correction leads, for good.
+// The iteration ends at the point nearest to the solution, where all corrections stay within their cells, so its start leaves no
+// trace. If a coordinate is on the border of two cells, rounding may make either point the nearer one, seen from itself or from the
+// other. Therefore such a border is judged from one side alone: all coordinates whose corrections end next to a border go to the
+// even one of the two points, the others stay; from there each goes where its correction leads, and stays there.
 
-/// The grid point next to a value.
+/// Returns the grid point nearest to a value.
 #[must_use]
 #[inline]
 pub fn on_grid(x: f64, cell: f64) -> f64 {
@@ -1911,16 +1911,16 @@ pub fn on_grid(x: f64, cell: f64) -> f64 {
     (x + rounding) - rounding
 }
 
-/// The largest correction, in cells, with which an iteration ends that has met no border; one that is no farther from half a cell than
-/// `border` leads to one.
+/// Returns the largest correction, in cells, with which an iteration that has met no border ends. A correction within `border` of half
+/// a cell is at a border.
 #[must_use]
 #[inline]
 pub fn bound_at_first(border: f64) -> f64 {
     0.5 - border
 }
 
-/// How an iteration goes on whose largest correction, in cells, is beyond its bound: the bound that it has then; and the cells, in cells,
-/// among whose points those coordinates go on that are next to a border.
+/// Returns, for an iteration whose largest correction exceeds `bound` (both in cells), its next bound; and the spacing, in cells, of the
+/// points to which coordinates next to a border go.
 #[must_use]
 #[inline]
 pub fn going_on(largest: f64, bound: f64, border: f64) -> (f64, f64) {
@@ -1931,7 +1931,7 @@ pub fn going_on(largest: f64, bound: f64, border: f64) -> (f64, f64) {
     (if is_at_border { 0.5 } else { next }, if is_at_border { 2.0 } else { 1.0 })
 }
 
-/// The grid point that a coordinate goes on to, from one and its correction there.
+/// Returns the next grid point of a coordinate, from the current one and the correction there.
 #[must_use]
 #[inline]
 pub fn next_point(x: f64, delta: f64, cell: f64, cells: f64, border: f64) -> f64 {
@@ -1944,8 +1944,8 @@ pub fn next_point(x: f64, delta: f64, cell: f64, cells: f64, border: f64) -> f64
 pub mod hermite {
 // The quintic through two states of which value, velocity and acceleration are known (Hermite).
 
-/// The coefficients of the third, fourth and fifth power of a curve in the part of its step, by what its parabola at the beginning
-/// leaves at the end of value, slope and half the curvature, all by the part of the step.
+/// Returns the coefficients of the third, fourth and fifth power of the quintic in the fraction of its step. The arguments are what the
+/// initial parabola lacks at the end in value, slope and half the curvature, with respect to that fraction.
 #[must_use]
 #[inline]
 pub fn higher_terms([value, slope, bend]: [f64; 3]) -> [f64; 3] {
@@ -1955,8 +1955,8 @@ pub fn higher_terms([value, slope, bend]: [f64; 3]) -> [f64; 3] {
     [cubic, quartic, quintic]
 }
 
-/// What the motion since a state that lies a time `back` before adds to the parabola of now, `u` times as long ahead as that is back. A
-/// state is value, velocity and acceleration.
+/// Returns what the quintic through the current state and the one a time `back` before adds to the current parabola, a time `u * back`
+/// ahead. A state is value, velocity and acceleration.
 #[must_use]
 #[inline]
 pub fn bend_ahead([x, v, a]: [f64; 3], [y, w, b]: [f64; 3], back: f64, u: f64) -> f64 {
@@ -1970,10 +1970,10 @@ pub fn bend_ahead([x, v, a]: [f64; 3], [y, w, b]: [f64; 3], back: f64, u: f64) -
 }
 
 pub mod neighbours {
-// Places that are neighbours, to the last bits.
+// Searches that end at neighbouring doubles.
 
-/// Where something ceases to hold that holds at the first of two places and not at the second: two neighbouring doubles, or what
-/// so many halvings leave of the interval.
+/// Returns neighbouring doubles of which `holds` is true at the first and false at the second, as at the two given places; or
+/// the interval that `most` halvings leave.
 #[must_use]
 pub fn bisect([mut near, mut far]: [f64; 2], most: usize, mut holds: impl FnMut(f64) -> bool) -> [f64; 2] {
     for _ in 0..most {
@@ -1991,7 +1991,7 @@ pub fn bisect([mut near, mut far]: [f64; 2], most: usize, mut holds: impl FnMut(
     [near, far]
 }
 
-/// A time on the later side of whatever is meant to happen at `t` (s), off by so many units in its last place.
+/// Returns a time (s) after any event that is meant to happen at `t`, later by about `slack` units in its last place.
 #[must_use]
 pub fn shortly_after(t: f64, slack: f64) -> f64 {
     t + slack * f64::EPSILON * t.abs() + f64::MIN_POSITIVE
@@ -2911,34 +2911,34 @@ fn jumps<M: Timed>(from: &Solution<M>, at: &Solution<M>, m: &M, work: &mut Work)
 pub mod blocks {
 // Sparse linear equations that fall apart into blocks, each solved by elimination with partial pivoting.
 //
-// For places where an order of elimination that was fixed beforehand loses digits. All scaling is by powers of two, which
-// round nothing.
+// They serve positions at which an order of elimination that was fixed beforehand loses digits. All scaling is by powers of
+// two, which round nothing.
 
-/// Equations for as many unknowns, and how they fall apart: a block's equations hold its own unknowns and those of the blocks
-/// before it.
+/// The structure of a square system in block triangular form: a block's equations hold its own unknowns and those of earlier
+/// blocks.
 #[derive(Clone, Copy, Debug)]
 pub struct Blocks<'b> {
-    /// How many equations each block has.
+    /// The number of equations of each block.
     pub sizes: &'b [usize],
     /// The equations, block by block.
     pub rows: &'b [usize],
     /// The unknowns, block by block.
     pub columns: &'b [usize],
-    /// Where the entries of each equation begin, and where those of the last one end.
+    /// The index of the first entry of each equation, then the number of entries.
     pub starts: &'b [usize],
     /// The unknown of each entry.
     pub entries: &'b [usize],
     /// By unknown: its place in `columns`.
     pub places: &'b [usize],
-    /// By unknown: the power of two that it is measured by.
+    /// By unknown: its unit, a power of two.
     pub units: &'b [f64],
 }
 
-/// Solves for `x`: the values of the entries times `x` are `right`, which is given by equation.
+/// Solves `A x = right`, where `values` are the entries of `A` and `right` is given by equation.
 ///
-/// `work` holds as many numbers as the largest block has entries, and one more for each of its equations. Writes for each block
-/// whether its determinant is negative, and gives the smallest pivot, beside rows whose largest entry is about 1; what is not a
-/// number wins.
+/// `work` has at least [`work_of`] numbers for the largest block; with fewer, the solution stops there. Writes for each block
+/// whether its determinant is negative. Returns the smallest pivot, of rows scaled so that their largest entry is in [1, 2); NaN
+/// wins.
 pub fn solve(
     blocks: &Blocks<'_>,
     values: &[f64],
@@ -2975,13 +2975,13 @@ pub fn solve(
     smallest
 }
 
-/// How many numbers the work for a block of a size takes.
+/// Returns the number of `f64` that [`solve`] needs as `work` for a block of `size` equations.
 #[must_use]
 pub const fn work_of(size: usize) -> usize {
     size * (size + 2)
 }
 
-/// A matrix row by row.
+/// Returns the rows of a row-major matrix.
 fn lines(matrix: &mut [f64], width: usize) -> impl Iterator<Item = &mut [f64]> {
     let mut left = matrix;
     core::iter::from_fn(move || {
@@ -2991,7 +2991,7 @@ fn lines(matrix: &mut [f64], width: usize) -> impl Iterator<Item = &mut [f64]> {
     })
 }
 
-/// One equation of the block whose unknowns begin at a place, scaled, with what is known brought to the right.
+/// Writes an equation of the block whose unknowns begin at `first` into `line`, scaled, with known terms on the right side.
 fn fill(blocks: &Blocks<'_>, row: usize, first: usize, values: &[f64], right: &[f64], x: &[f64], line: &mut [f64]) {
     line.fill(0.0);
     let (mut sum, mut largest) = (right.get(row).copied().unwrap_or(f64::NAN), 0.0);
@@ -3016,7 +3016,7 @@ fn fill(blocks: &Blocks<'_>, row: usize, first: usize, values: &[f64], right: &[
         *last = sum;
     }
     if largest > 0.0 && largest.is_finite() {
-        // two over the power of two that is not above it
+        // the inverse of the largest power of two that is not above the largest entry
         let factor = 1.0 / f64::from_bits(largest.to_bits() & 0x7ff0_0000_0000_0000);
         for entry in line {
             *entry *= factor;
@@ -3024,8 +3024,8 @@ fn fill(blocks: &Blocks<'_>, row: usize, first: usize, values: &[f64], right: &[
     }
 }
 
-/// Elimination with partial pivoting of rows that end with their right sides; gives the smallest pivot, and whether the
-/// determinant is negative.
+/// Solves rows that end with their right sides by elimination with partial pivoting. Returns the smallest pivot, and whether
+/// the determinant is negative.
 fn eliminate(matrix: &mut [f64], x: &mut [f64]) -> (f64, bool) {
     let width = x.len() + 1;
     let (mut smallest, mut is_negative) = (f64::INFINITY, false);

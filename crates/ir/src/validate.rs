@@ -31,11 +31,16 @@ impl ConstraintSystem {
         let declarations = self.rows.iter().map(|row| ("row", row.declaration));
         let declarations = declarations
             .chain(self.checks.iter().map(|check| ("check", check.declaration)))
-            .chain(self.watches.iter().map(|watch| ("watch", watch.declaration)))
+            .chain(self.watches.iter().map(|monitor| ("monitor", monitor.declaration)))
             .chain(self.fits.iter().map(|fit| ("fit", fit.declaration)))
             .chain(self.contact_forces().iter().map(|press| ("press", press.declaration)))
             .chain(self.open_contacts.iter().map(|contact| ("contact", contact.declaration)))
-            .chain(self.domain_boundaries.iter().flat_map(|boundary| &boundary.declarations).map(|id| ("rim", *id)))
+            .chain(
+                self.domain_boundaries
+                    .iter()
+                    .flat_map(|boundary| &boundary.declarations)
+                    .map(|id| ("domain boundary", *id)),
+            )
             .chain(self.parts_with_derivatives.iter().flat_map(|part| &part.declarations).map(|id| ("part", *id)));
         for (what, declaration) in declarations {
             ensure(declaration.index() < self.declarations.len(), || format!("a {what} of no declaration"))?;

@@ -430,7 +430,7 @@ impl ConstraintSystem {
         self.is_negligible(bend, scale, size)
     }
 
-    /// Returns the condition for the time derivative, which excludes coincidences: `|D_p Φ̇| ≤ ε ‖Φ_q‖ (Σ |q̇_p| + Σ |q_p| Σ |q̇|)`.
+    /// Returns the condition for the rate of a left-out equation, which rejects coincidental zeros of `D_p Φ`: `|D_p Φ̇| ≤ ε ‖Φ_q‖ (Σ |q̇_p| + Σ |q_p| Σ |q̇|)`.
     fn rate_holds_nearby(&mut self, variations: &mut Variations, check: usize, variation: u32) -> ExprId {
         let Check { phi, scale, .. } = self.checks[check];
         let (by, _) = variations.list[variation as usize].by;

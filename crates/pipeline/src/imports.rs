@@ -27,7 +27,7 @@ pub(crate) fn read(parsed: &Parsed, world: &dyn World) -> Imports {
     let mut reading = ImportReader {
         world,
         sources: parsed.sources().clone(),
-        numbers: FxHashMap::from_iter([(world.identity(&root.path), Ok(0))]),
+        indices: FxHashMap::from_iter([(world.identity(&root.path), Ok(0))]),
         files: vec![root],
         diagnostics: Diagnostics::default(),
     };
@@ -73,7 +73,7 @@ struct ImportReader<'w> {
     world: &'w dyn World,
     sources: Sources,
     /// For the identity of each file, its index in `files`, or why it cannot be read.
-    numbers: FxHashMap<PathBuf, Result<usize, Box<Diagnostic>>>,
+    indices: FxHashMap<PathBuf, Result<usize, Box<Diagnostic>>>,
     files: Vec<LibraryFile>,
     diagnostics: Diagnostics,
 }
@@ -82,22 +82,22 @@ impl ImportReader<'_> {
     fn read_uses(&mut self, at: usize) {
         let read = Arc::clone(&self.files[at].read);
         let user = self.files[at].path.to_string_lossy().into_owned();
-        let number = |used: &ast::UsedFile| used.path.as_ref().and_then(|path| self.number(&user, path));
-        self.files[at].uses = read.tree.uses.iter().map(number).collect::<Vec<_>>();
+        let index = |used: &ast::UsedFile| used.path.as_ref().and_then(|path| self.file_index(&user, path));
+        self.files[at].uses = read.tree.uses.iter().map(index).collect::<Vec<_>>();
     }
 
-    /// Returns the index of the file that a text names; reads it at the first time.
-    fn number(&mut self, user: &str, named: &ast::Name) -> Option<usize> {
+    /// Returns the index of the file that a text names, and reads it if it is new; `None`, with a diagnostic, if it cannot be read.
+    fn file_index(&mut self, user: &str, named: &ast::Name) -> Option<usize> {
         let path = world::normalize_path(&world::beside(user, &named.text));
         // a path back to the current folder normalises to nothing, and is valid
         let path = if path.as_os_str().is_empty() && !named.text.is_empty() { PathBuf::from(".") } else { path };
         let identity = self.world.identity(&path);
-        if !self.numbers.contains_key(&identity) {
-            let number = self.read_file(&path);
-            self.numbers.insert(identity.clone(), number);
+        if !self.indices.contains_key(&identity) {
+            let index = self.read_file(&path);
+            self.indices.insert(identity.clone(), index);
         }
-        match self.numbers.get(&identity)? {
-            Ok(number) => Some(*number),
+        match self.indices.get(&identity)? {
+            Ok(index) => Some(*index),
             Err(why) => {
                 self.diagnostics.push(at_use(why, named, &path, self.world));
                 None
@@ -120,7 +120,7 @@ impl ImportReader<'_> {
     }
 }
 
-/// Reports a file that can be read and holds neither mechanisms nor names of files.
+/// Reports a file that can be read and has neither mechanisms nor `use` lines.
 fn no_mechanisms(shown: &str) -> Diagnostic {
     Diagnostic::new(Code::E0101, format!("`{shown}` holds no mechanism")).help(format!(
         "a file that is used begins with `use` or `mechanism`: `mechc check {shown}` says where it does not"

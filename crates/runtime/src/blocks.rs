@@ -1,33 +1,33 @@
 // Sparse linear equations that fall apart into blocks, each solved by elimination with partial pivoting.
 //
-// For places where an order of elimination that was fixed beforehand loses digits. All scaling is by powers of two, which
-// round nothing.
+// They serve positions at which an order of elimination that was fixed beforehand loses digits. All scaling is by powers of
+// two, which round nothing.
 
-/// Equations for as many unknowns, and how they fall apart: a block's equations hold its own unknowns and those of the blocks
-/// before it.
+/// The structure of a square system in block triangular form: a block's equations hold its own unknowns and those of earlier
+/// blocks.
 #[derive(Clone, Copy, Debug)]
 pub struct Blocks<'b> {
-    /// How many equations each block has.
+    /// The number of equations of each block.
     pub sizes: &'b [usize],
     /// The equations, block by block.
     pub rows: &'b [usize],
     /// The unknowns, block by block.
     pub columns: &'b [usize],
-    /// Where the entries of each equation begin, and where those of the last one end.
+    /// The index of the first entry of each equation, then the number of entries.
     pub starts: &'b [usize],
     /// The unknown of each entry.
     pub entries: &'b [usize],
     /// By unknown: its place in `columns`.
     pub places: &'b [usize],
-    /// By unknown: the power of two that it is measured by.
+    /// By unknown: its unit, a power of two.
     pub units: &'b [f64],
 }
 
-/// Solves for `x`: the values of the entries times `x` are `right`, which is given by equation.
+/// Solves `A x = right`, where `values` are the entries of `A` and `right` is given by equation.
 ///
-/// `work` holds as many numbers as the largest block has entries, and one more for each of its equations. Writes for each block
-/// whether its determinant is negative, and gives the smallest pivot, beside rows whose largest entry is about 1; what is not a
-/// number wins.
+/// `work` has at least [`work_of`] numbers for the largest block; with fewer, the solution stops there. Writes for each block
+/// whether its determinant is negative. Returns the smallest pivot, of rows scaled so that their largest entry is in [1, 2); NaN
+/// wins.
 pub fn solve(
     blocks: &Blocks<'_>,
     values: &[f64],
@@ -64,13 +64,13 @@ pub fn solve(
     smallest
 }
 
-/// How many numbers the work for a block of a size takes.
+/// Returns the number of `f64` that [`solve`] needs as `work` for a block of `size` equations.
 #[must_use]
 pub const fn work_of(size: usize) -> usize {
     size * (size + 2)
 }
 
-/// A matrix row by row.
+/// Returns the rows of a row-major matrix.
 fn lines(matrix: &mut [f64], width: usize) -> impl Iterator<Item = &mut [f64]> {
     let mut left = matrix;
     core::iter::from_fn(move || {
@@ -80,7 +80,7 @@ fn lines(matrix: &mut [f64], width: usize) -> impl Iterator<Item = &mut [f64]> {
     })
 }
 
-/// One equation of the block whose unknowns begin at a place, scaled, with what is known brought to the right.
+/// Writes an equation of the block whose unknowns begin at `first` into `line`, scaled, with known terms on the right side.
 fn fill(blocks: &Blocks<'_>, row: usize, first: usize, values: &[f64], right: &[f64], x: &[f64], line: &mut [f64]) {
     line.fill(0.0);
     let (mut sum, mut largest) = (right.get(row).copied().unwrap_or(f64::NAN), 0.0);
@@ -105,7 +105,7 @@ fn fill(blocks: &Blocks<'_>, row: usize, first: usize, values: &[f64], right: &[
         *last = sum;
     }
     if largest > 0.0 && largest.is_finite() {
-        // two over the power of two that is not above it
+        // the inverse of the largest power of two that is not above the largest entry
         let factor = 1.0 / f64::from_bits(largest.to_bits() & 0x7ff0_0000_0000_0000);
         for entry in line {
             *entry *= factor;
@@ -113,8 +113,8 @@ fn fill(blocks: &Blocks<'_>, row: usize, first: usize, values: &[f64], right: &[
     }
 }
 
-/// Elimination with partial pivoting of rows that end with their right sides; gives the smallest pivot, and whether the
-/// determinant is negative.
+/// Solves rows that end with their right sides by elimination with partial pivoting. Returns the smallest pivot, and whether
+/// the determinant is negative.
 fn eliminate(matrix: &mut [f64], x: &mut [f64]) -> (f64, bool) {
     let width = x.len() + 1;
     let (mut smallest, mut is_negative) = (f64::INFINITY, false);

@@ -1,11 +1,11 @@
-// The grid on which Newton's iteration goes from point to point.
+// The grid on which Newton's iteration moves from point to point.
 //
-// It goes to the point next to the solution, as often as that takes, and ends where all corrections stay in their cells: so where it began
-// leaves no trace. Of a coordinate on the border of two cells, to rounding, either point may say that the other one is nearer, or that
-// it is so itself. Therefore such a border is judged from one side alone. All coordinates whose corrections end next to a border
-// go to the even one of the two points, the others stay; and from there each goes to where its correction leads, for good.
+// The iteration ends at the point nearest to the solution, where all corrections stay within their cells, so its start leaves no
+// trace. If a coordinate is on the border of two cells, rounding may make either point the nearer one, seen from itself or from the
+// other. Therefore such a border is judged from one side alone: all coordinates whose corrections end next to a border go to the
+// even one of the two points, the others stay; from there each goes where its correction leads, and stays there.
 
-/// The grid point next to a value.
+/// Returns the grid point nearest to a value.
 #[must_use]
 #[inline]
 pub fn on_grid(x: f64, cell: f64) -> f64 {
@@ -14,16 +14,16 @@ pub fn on_grid(x: f64, cell: f64) -> f64 {
     (x + rounding) - rounding
 }
 
-/// The largest correction, in cells, with which an iteration ends that has met no border; one that is no farther from half a cell than
-/// `border` leads to one.
+/// Returns the largest correction, in cells, with which an iteration that has met no border ends. A correction within `border` of half
+/// a cell is at a border.
 #[must_use]
 #[inline]
 pub fn bound_at_first(border: f64) -> f64 {
     0.5 - border
 }
 
-/// How an iteration goes on whose largest correction, in cells, is beyond its bound: the bound that it has then; and the cells, in cells,
-/// among whose points those coordinates go on that are next to a border.
+/// Returns, for an iteration whose largest correction exceeds `bound` (both in cells), its next bound; and the spacing, in cells, of the
+/// points to which coordinates next to a border go.
 #[must_use]
 #[inline]
 pub fn going_on(largest: f64, bound: f64, border: f64) -> (f64, f64) {
@@ -34,7 +34,7 @@ pub fn going_on(largest: f64, bound: f64, border: f64) -> (f64, f64) {
     (if is_at_border { 0.5 } else { next }, if is_at_border { 2.0 } else { 1.0 })
 }
 
-/// The grid point that a coordinate goes on to, from one and its correction there.
+/// Returns the next grid point of a coordinate, from the current one and the correction there.
 #[must_use]
 #[inline]
 pub fn next_point(x: f64, delta: f64, cell: f64, cells: f64, border: f64) -> f64 {

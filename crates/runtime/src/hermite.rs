@@ -1,7 +1,7 @@
 // The quintic through two states of which value, velocity and acceleration are known (Hermite).
 
-/// The coefficients of the third, fourth and fifth power of a curve in the part of its step, by what its parabola at the beginning
-/// leaves at the end of value, slope and half the curvature, all by the part of the step.
+/// Returns the coefficients of the third, fourth and fifth power of the quintic in the fraction of its step. The arguments are what the
+/// initial parabola lacks at the end in value, slope and half the curvature, with respect to that fraction.
 #[must_use]
 #[inline]
 pub fn higher_terms([value, slope, bend]: [f64; 3]) -> [f64; 3] {
@@ -11,8 +11,8 @@ pub fn higher_terms([value, slope, bend]: [f64; 3]) -> [f64; 3] {
     [cubic, quartic, quintic]
 }
 
-/// What the motion since a state that lies a time `back` before adds to the parabola of now, `u` times as long ahead as that is back. A
-/// state is value, velocity and acceleration.
+/// Returns what the quintic through the current state and the one a time `back` before adds to the current parabola, a time `u * back`
+/// ahead. A state is value, velocity and acceleration.
 #[must_use]
 #[inline]
 pub fn bend_ahead([x, v, a]: [f64; 3], [y, w, b]: [f64; 3], back: f64, u: f64) -> f64 {

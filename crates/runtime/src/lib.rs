@@ -1,4 +1,4 @@
-//! Mathematics that emitted code carries along, as it stands here: each file is self-contained but for what it names of its neighbours.
+//! Mathematics that emitted code includes verbatim: each file refers to nothing but the neighbouring files that it names.
 
 #![no_std]
 
@@ -15,7 +15,7 @@ pub mod sine_and_cosine;
 /// Sine and cosine for loops over many angles.
 pub mod without_branches;
 
-/// The texts of these files, for code that carries them along.
+/// Texts of these files, for inclusion in emitted code.
 pub mod sources {
     /// Sparse linear equations in blocks.
     pub const BLOCKS: &str = include_str!("blocks.rs");

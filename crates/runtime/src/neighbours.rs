@@ -1,7 +1,7 @@
-// Places that are neighbours, to the last bits.
+// Searches that end at neighbouring doubles.
 
-/// Where something ceases to hold that holds at the first of two places and not at the second: two neighbouring doubles, or what
-/// so many halvings leave of the interval.
+/// Returns neighbouring doubles of which `holds` is true at the first and false at the second, as at the two given places; or
+/// the interval that `most` halvings leave.
 #[must_use]
 pub fn bisect([mut near, mut far]: [f64; 2], most: usize, mut holds: impl FnMut(f64) -> bool) -> [f64; 2] {
     for _ in 0..most {
@@ -19,7 +19,7 @@ pub fn bisect([mut near, mut far]: [f64; 2], most: usize, mut holds: impl FnMut(
     [near, far]
 }
 
-/// A time on the later side of whatever is meant to happen at `t` (s), off by so many units in its last place.
+/// Returns a time (s) after any event that is meant to happen at `t`, later by about `slack` units in its last place.
 #[must_use]
 pub fn shortly_after(t: f64, slack: f64) -> f64 {
     t + slack * f64::EPSILON * t.abs() + f64::MIN_POSITIVE

@@ -149,7 +149,7 @@ impl Writer<'_> {
 
     pub fn boundaries(&self) -> impl Iterator<Item = &BoundaryRegisters> {
         let is_input_driven = self.equations.is_input_driven;
-        self.unit.program.outputs.rims.iter().filter(move |boundary| boundary.on_time && !is_input_driven)
+        self.unit.program.outputs.domain_boundaries.iter().filter(move |boundary| boundary.on_time && !is_input_driven)
     }
 
     /// Prints the search for times at which formulas of time reach the boundary of their domain, if any may.

@@ -362,7 +362,7 @@ impl<A: LaneEnvironment<P>, const W: usize, const P: usize> Run<'_, A, W, P> {
         has_settled
     }
 
-    /// Does a Newton step in a chunk of lanes (`math/grid.rs`). A lane that has converged does not move any more, whatever the others do.
+    /// Does a Newton step in a chunk of lanes (`crates/runtime/src/grid.rs`). A converged lane no longer moves, whatever the others do.
     #[inline(always)]
     fn newton_step_in(&mut self, chunk: usize, tears: &[Tear], iteration: usize) -> bool {
         let loose_bound = self.env.loose_bound();

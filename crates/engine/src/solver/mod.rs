@@ -9,7 +9,7 @@
 //!   dead-code elimination and register allocation. Velocity and acceleration share the factors.
 //!
 //! A tear's iterates lie on a grid, coarse compared with rounding and fine compared with convergence: the last Newton step begins at the grid point
-//! nearest to the solution. So the numbers do not depend on the initial guess (`math/grid.rs`).
+//! nearest to the solution. So the numbers do not depend on the initial guess (`crates/runtime/src/grid.rs`).
 //!
 //! The instructions run at several times or for several variants, as [`Lanes`]; each lane has the bits that it has alone.
 //!

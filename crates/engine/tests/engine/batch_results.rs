@@ -89,7 +89,7 @@ fn compare(subject: &Subject, requested: &VaryOptions) -> (usize, usize) {
     (block.answered, complete)
 }
 
-/// What this way is for: if all were found alone nobody would notice.
+/// Requires that results of plain variants take the batch path: the other tests pass even if each is found alone.
 #[test]
 fn results_of_plain_variants_are_found_side_by_side() {
     let ranges = ["rod=3.4..3.6", "lever=2.9..3.1", "base=3.9..4.1", "pen_x=0..2"];
@@ -151,7 +151,7 @@ fn extrema_in_doubt_are_found_alone() {
     }
 }
 
-/// Where the branch is in doubt, or the motion stops, results are those alone.
+/// Results match single runs where the branch is in doubt or the motion stops.
 #[test]
 fn results_near_singularities_match_single_runs() {
     let subject = of(FOUR_BAR, &KINDS[..4]);
@@ -250,7 +250,7 @@ fn rests_are_found_in_batches() {
     assert_eq!(complete, 9);
 }
 
-/// What is not smooth, is nested, or has a window goes alone; beside rows as without them.
+/// Results that are not smooth, are nested or have a window run alone, with rows and without.
 #[test]
 fn ineligible_results_run_alone() {
     let requested = sampled(&["rod=3.4..3.6", "lever=2.9..3.1"], 6);
@@ -296,7 +296,7 @@ fn threads_vectors_rows_and_shares_change_no_bit_of_results() {
     }
 }
 
-/// What is looked for ends a sweep at the same variant.
+/// A sweep with `until` ends at the same variant as single runs.
 #[test]
 fn the_variant_that_is_looked_for_is_the_same() {
     let until = Choice { until: Some("max(y(coupler.pen)) > 2.45".to_owned()), ..Choice::default() };

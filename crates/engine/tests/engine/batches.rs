@@ -51,15 +51,15 @@ fn compare(subject: &Subject, requested: &VaryOptions) -> (Vec<(Status, usize)>,
     compare_all(subject, &subject.variants(requested))
 }
 
-/// What this way is for: if all variants went alone nobody would notice.
+/// Requires that plain variants take the batch path: the other tests pass even if every variant runs alone.
 #[test]
 fn plain_variants_are_batched() {
     let ranges = ["rod=3.4..3.6", "lever=2.9..3.1", "base=3.9..4.1", "speed=1..3", "pen_x=-1..2"];
     for every in ["0.05", "1.575"] {
         let subject = subject(&four_bar(TURNS, every), Choice::default());
         for method in [Method::Sobol, Method::Random] {
-            let (found, abreast) = compare(&subject, &sampled(&ranges, 40, method));
-            assert_eq!((count(&found, Status::Ok), abreast), (40, 40), "every {every}: {found:?}");
+            let (found, batched) = compare(&subject, &sampled(&ranges, 40, method));
+            assert_eq!((count(&found, Status::Ok), batched), (40, 40), "every {every}: {found:?}");
         }
     }
 }
@@ -70,11 +70,11 @@ fn batched_linkages_match_single_runs() {
     let mut all = 0;
     for every in ["0.15", "1.05"] {
         let subject = subject(&four_bar(TURNS, every), Choice::default());
-        let (found, abreast) = compare(&subject, &sampled(&ranges, 96, Method::Sobol));
+        let (found, batched) = compare(&subject, &sampled(&ranges, 96, Method::Sobol));
         assert!(found.len() >= 3, "{found:?}");
-        all += abreast;
+        all += batched;
         // one that leaves its lane has not been taken for another one that did not
-        assert!(abreast <= count(&found, Status::Ok), "{found:?}");
+        assert!(batched <= count(&found, Status::Ok), "{found:?}");
     }
     assert!(all > 20, "{all} went side by side");
 }
@@ -87,8 +87,8 @@ fn at_change_points_no_branch_is_guessed() {
         let subject = subject(&four_bar(TURNS, every), Choice::default());
         // arm + base = rod + lever, arm + rod = base + lever, arm + lever = base + rod
         for requested in [about("lever", 1.5), about("rod", 6.0), about("lever", 6.5), about("arm", 2.5)] {
-            let (found, abreast) = compare(&subject, &vary(&[&requested]));
-            assert!(count(&found, Status::Ok) >= abreast, "{requested}: {found:?}");
+            let (found, batched) = compare(&subject, &vary(&[&requested]));
+            assert!(count(&found, Status::Ok) >= batched, "{requested}: {found:?}");
             assert!(found.iter().any(|(status, _)| !status.is_complete()), "{requested}: {found:?}");
         }
         // a parallelogram, or nearly one
@@ -117,7 +117,7 @@ fn batches_stop_at_dead_points_as_single_runs_do() {
     assert!(stopped > 20, "{stopped} stopped");
 }
 
-/// Where it can just be assembled, and where it just cannot.
+/// Variants on both sides of the end of reach match single runs.
 #[test]
 fn batches_assemble_at_the_end_of_reach() {
     let subject = subject(&four_bar(TURNS, "0.5"), Choice::default());
@@ -125,8 +125,8 @@ fn batches_assemble_at_the_end_of_reach() {
     let (sin, cos) = mechc_expr::math::sin_cos(0.5);
     let way = mechc_expr::math::hypot(4.0 - cos, sin);
     for requested in [about("rod", way - 3.0), about("lever", way - 3.5), about("rod", way + 3.0)] {
-        let (found, abreast) = compare(&subject, &vary(&[&requested]));
-        assert!(count(&found, Status::Ok) >= abreast && found.len() >= 2, "{requested}: {found:?}");
+        let (found, batched) = compare(&subject, &vary(&[&requested]));
+        assert!(count(&found, Status::Ok) >= batched && found.len() >= 2, "{requested}: {found:?}");
     }
 }
 
@@ -137,26 +137,26 @@ fn lane_results_match_single_runs() {
     let results = results.iter().map(|&result| result.to_owned()).collect();
     let subject = subject(&four_bar(TURNS, "0.45"), Choice { results, ..Choice::default() });
     let requested = sampled(&["rod=2..4", "lever=2..4", "pen_x=-1..2"], 24, Method::Sobol);
-    let (found, abreast) = compare(&subject, &requested);
-    assert!(abreast > 8 && abreast <= count(&found, Status::Ok), "{abreast} of {found:?}");
+    let (found, batched) = compare(&subject, &requested);
+    assert!(batched > 8 && batched <= count(&found, Status::Ok), "{batched} of {found:?}");
     let alone = subject.sweep(&subject.variants(&requested), &SweepOptions::default());
     let beside = subject.sweep(&subject.variants(&requested), &subject.all_columns());
     // results are in doubt earlier than rows
-    assert!(alone.abreast > 8 && alone.abreast <= abreast, "{} of {abreast}", alone.abreast);
+    assert!(alone.abreast > 8 && alone.abreast <= batched, "{} of {batched}", alone.abreast);
     assert_eq!(alone.statuses, beside.statuses);
     for (alone, beside) in alone.results.iter().zip(&beside.results) {
         assert!(have_equal_bits(alone, beside), "{alone:?} {beside:?}");
     }
 }
 
-/// One that stops, or is not even a mechanism, beside others: they do not feel it.
+/// A variant that stops, or is no valid mechanism, does not change the others.
 #[test]
 fn leaving_a_lane_does_not_affect_others() {
     let subject = subject(&four_bar(TURNS, "0.315"), Choice::default());
     let rods = ["3.5", "0", "-3.4", "9", "1.9", "3.6", "1e300", "3.45", "2.2", "0.1"];
     let requested = [format!("rod={}", rods.join(",")), "lever=3,0,2.95".to_owned()];
-    let (found, abreast) = compare(&subject, &vary(&[&requested[0], &requested[1]]));
-    assert!(found.len() >= 3 && abreast >= 5, "{abreast} of {found:?}");
+    let (found, batched) = compare(&subject, &vary(&[&requested[0], &requested[1]]));
+    assert!(found.len() >= 3 && batched >= 5, "{batched} of {found:?}");
 }
 
 #[test]
@@ -240,19 +240,19 @@ fn shared_values_match_single_runs() {
     let rods = locking.chain(turning).map(|rod| format!("{rod}")).collect::<Vec<_>>().join(",");
     for more in ["pen_x=1", "pen_x=1,2", "arm=1,0.95", "speed=2,1.9"] {
         for requested in [[more, &format!("rod={rods}")], [&format!("rod={rods}"), more]] {
-            let (found, abreast) = compare(&subject, &vary(&requested));
-            assert!(abreast >= 40 && count(&found, Status::Ok) < 150 && found.len() == 2, "{abreast} of {found:?}");
+            let (found, batched) = compare(&subject, &vary(&requested));
+            assert!(batched >= 40 && count(&found, Status::Ok) < 150 && found.len() == 2, "{batched} of {found:?}");
         }
     }
 }
 
-/// Of so many numbers none is kept but the times.
+/// A motion with so many rows keeps no numbers but the times.
 #[test]
 fn long_motions_match_single_runs() {
     let subject = subject(&four_bar(TURNS, "0.00008"), Choice::default());
     assert!(subject.all_columns().columns.expect("all").len() * 39_375 > 1 << 20);
-    let (found, abreast) = compare(&subject, &vary(&["rod=3.4,3.5,3.6"]));
-    assert_eq!((count(&found, Status::Ok), abreast), (3, 3));
+    let (found, batched) = compare(&subject, &vary(&["rod=3.4,3.5,3.6"]));
+    assert_eq!((count(&found, Status::Ok), batched), (3, 3));
 }
 
 /// Rows that are near to each other are led on by velocities alone: they are the same ones, also where variants are much faster than the file's own
@@ -272,8 +272,8 @@ fn close_rows_match_single_runs() {
     ] {
         let subject = subject(&text, Choice::default());
         let (variants, all) = (subject.variants(&requested), subject.all_columns());
-        let (found, abreast) = compare_all(&subject, &variants);
-        assert!(abreast >= least, "{abreast} of {found:?}");
+        let (found, batched) = compare_all(&subject, &variants);
+        assert!(batched >= least, "{batched} of {found:?}");
         let whole = subject.sweep(&variants, &all);
         // positions of the last body, and its velocities
         for columns in [vec![7, 8, 9], vec![18, 19]] {
@@ -295,10 +295,10 @@ fn individual_zeros_and_times_match_single_runs() {
     let text = text.replace("point pen = (pen_x, rise / 2)", "point pen = P + (pen_x, 0)");
     let subject = subject(&text, Choice::default());
     for requested in [["P.x=0,0.1,-0.2", "pen_x=0.5,0"], ["P.x=-0.1,0", "P.y=0,0.2"], ["speed=0,1,2", "rod=3.4,3.5"]] {
-        let (found, abreast) = compare(&subject, &vary(&requested));
+        let (found, batched) = compare(&subject, &vary(&requested));
         assert!(
-            abreast >= 1 && abreast < found.iter().map(|(_, count)| count).sum(),
-            "{requested:?}: {abreast} of {found:?}"
+            batched >= 1 && batched < found.iter().map(|(_, count)| count).sum(),
+            "{requested:?}: {batched} of {found:?}"
         );
     }
     let variants = subject.variants(&vary(&["rod=3.3..3.7:9"]));
@@ -323,13 +323,13 @@ fn events_in_batches_match_single_runs() {
         ("(base, 0)", "(4 + arm * lever / 100, 0)"),
     ] {
         let text = four_bar(TURNS, "0.5").replace(from, to);
-        let (found, abreast) =
+        let (found, batched) =
             compare(&subject(&text, Choice::default()), &vary(&["arm=1,1.05,1.21,1.4,2.1", "lever=3,3.1"]));
-        assert_eq!(abreast, 0, "{to}: {found:?}");
+        assert_eq!(batched, 0, "{to}: {found:?}");
     }
 }
 
-/// What this way does not look at goes alone.
+/// Variants that batches do not support run alone.
 #[test]
 fn complex_variants_run_alone() {
     let plain = four_bar(TURNS, "0.5");
@@ -358,7 +358,7 @@ fn complex_variants_run_alone() {
     }
 }
 
-/// The same where variants have other times; gives how many went side by side.
+/// Compares as [`compare`] does, for variants with other times; returns the number of variants that ran in batches.
 fn compare_one_by_one(subject: &Subject, requested: &VaryOptions) -> usize {
     compare(subject, requested).1
 }

@@ -91,7 +91,7 @@ fn same_place(a: &[f64], b: &[f64]) -> bool {
 
 const TURN: &str = "input turn = 30 deg";
 
-/// Where the motion of a driver comes to that goes from the own input to another one.
+/// Returns the last row of a motion whose driver leads from the text's input to another one.
 fn followed(text: impl Fn(&str, &str) -> String, target: f64) -> Vec<f64> {
     let text = text("", &format!("30 deg + ({target} deg - 30 deg) * t / 1 s"));
     let (rows, messages) = run(&compiled(&text, &[], None), &Times::listed(0.0, vec![0.0, 1.0]));
@@ -133,7 +133,7 @@ fn time_changes_with_the_inputs() {
     // 30 deg at 0 s by its own input, 300 deg - 100 deg at 5 s by the other
     let led = compiled(&both, &["turn=300 deg - 40 deg/s * t"], None);
     assert!(same_place(&first_row(&led, 5.0), &followed(text, 200.0)));
-    // what nobody is told keeps its formula
+    // an input that is not set keeps its formula
     let two = text("input turn = 30 deg\n input more = 20 deg/s * t", "turn + more");
     assert!(same_place(&first_row(&compiled(&two, &["turn=100 deg"], None), 5.0), &followed(text, 200.0)));
 }
@@ -230,7 +230,7 @@ fn inputs_are_continued_to_numbers() {
     let mut sources = Sources::default();
     let file = sources.add("four_bar.mech", text);
     let tree = syntax::parse(&sources, file).tree;
-    // time goes from 1 s to 3 s, and nobody says anything of the other input: 21 deg are added at first, and 63 deg at last
+    // time goes from 1 s to 3 s, and the other input is not set: 21 deg are added at first, and 63 deg at last
     let inputs = vec![("turn".to_owned(), 250_f64.to_radians())];
     let lead = Some(check::ContinuationPath { times: [1.0, 3.0], inputs });
     let surroundings = check::CheckOptions { continuation: lead, ..check::CheckOptions::default() };
@@ -278,8 +278,8 @@ fn parallelogram(name: &str, input: &str) -> String {
     )
 }
 
-/// What is said on a way, with the parts of it at which that is.
-fn said_on_the_way(compiled: &Compiled, pass_bifurcations: bool) -> (Vec<(String, f64)>, Vec<f64>) {
+/// Returns the messages of a continuation, and the fractions of its path at which they occur.
+fn messages_on_path(compiled: &Compiled, pass_bifurcations: bool) -> (Vec<(String, f64)>, Vec<f64>) {
     let options = RunOptions { pass_bifurcations, ..RunOptions::default() };
     let (run, messages) = compiled.run(&Times::listed(0.0, vec![0.0]), &options);
     let row = run.expect("it starts").next().expect("a row").expect("it stands");
@@ -293,7 +293,7 @@ fn said_on_the_way(compiled: &Compiled, pass_bifurcations: bool) -> (Vec<(String
 #[test]
 fn bifurcations_that_are_passed_on_the_way_are_reported() {
     let led = compiled(&parallelogram("m", "45 deg"), &["turn=405 deg"], None);
-    let (reported, row) = said_on_the_way(&led, true);
+    let (reported, row) = messages_on_path(&led, true);
     let wanted = [(PI, 0.375), (2.0 * PI, 0.875)];
     assert_eq!(reported.len(), wanted.len(), "{reported:?}");
     for ((message, part), (place, at)) in reported.iter().zip(wanted) {
@@ -305,13 +305,13 @@ fn bifurcations_that_are_passed_on_the_way_are_reported() {
     // it is the parallelogram still
     assert!((row[3] - 405_f64.to_radians()).abs() < 1e-12 && (row[9] - row[3]).abs() < 1e-9, "{row:?}");
     // where they are not passed the way ends there
-    let (reported, _) = said_on_the_way(&led, false);
+    let (reported, _) = messages_on_path(&led, false);
     assert!(
         reported.len() == 1 && reported[0].0.starts_with("E0612") && (reported[0].1 - 0.375).abs() < 1e-6,
         "{reported:?}"
     );
     let short = compiled(&parallelogram("m", "45 deg"), &["turn=170 deg"], None);
-    assert!(said_on_the_way(&short, true).0.is_empty());
+    assert!(messages_on_path(&short, true).0.is_empty());
 }
 
 #[test]

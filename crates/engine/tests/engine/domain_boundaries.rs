@@ -44,7 +44,7 @@ fn time_of(diagnostic: &Diagnostic) -> f64 {
     diagnostic.data.get("t").and_then(serde_json::Value::as_f64).expect("a time")
 }
 
-/// What a formula in a variable, with a zero at `c`, does there: the code that is told, and a word of its message.
+/// Formulas in a variable `U` with a zero at `C`, each with the code that is reported there and a word of its message.
 const KINDS: &[(&str, Option<(&str, &str)>)] = &[
     ("0.3 * sqrt((U - C)^2)", Some(("E0609", "velocity"))),
     ("0.1 * acos(cos(3 * (U - C)))", Some(("E0609", "velocity"))),

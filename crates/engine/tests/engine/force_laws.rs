@@ -21,7 +21,7 @@ use texts::{Forces, Seat, Text};
 
 /// Sums that vanish are as small as this part of their largest term.
 const BALANCED: f64 = 1e-9;
-/// As often as each mechanism gets other masses and loads.
+/// The number of sets of masses and loads for each mechanism.
 const SEEDS: u64 = 4;
 
 /// A table with all reactions and efforts.

@@ -1,4 +1,4 @@
-//! What makes texts for the fuzzer, which knows nothing of the lints here.
+//! The generator of texts for the fuzzer, which is not subject to the lints here.
 
 #![allow(dead_code, clippy::pedantic, clippy::disallowed_methods)]
 

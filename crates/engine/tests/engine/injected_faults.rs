@@ -56,11 +56,11 @@ enum Shape {
     Chain(usize),
     FourBar,
     SliderCrank,
-    /// As a four-bar, whose coupler is a massless link.
+    /// A four-bar whose coupler is a massless link.
     Linked,
 }
 
-/// What a mechanism is drawn from.
+/// The random choices that define a mechanism.
 #[derive(Clone, Debug)]
 struct Plan {
     shape: Shape,
@@ -70,7 +70,7 @@ struct Plan {
     /// The first crank's angle at the start, and its speed [deg, deg/s].
     start: f64,
     speed: f64,
-    /// Where the ground's first point lies (mm).
+    /// The ground's first point (mm).
     origin: [f64; 2],
     /// Decides the order of the declarations.
     order: Vec<u32>,
@@ -133,7 +133,7 @@ struct Body {
     name: String,
     /// [mm, mm, deg]
     pose: [f64; 3],
-    /// Whether it is only spoken of.
+    /// True if the body is only referred to.
     is_missing: bool,
     /// Word, name, and what follows the `=`.
     features: Vec<[String; 3]>,
@@ -145,7 +145,7 @@ struct Joint {
     name: String,
     kind: String,
     sides: [(usize, String); 2],
-    /// What follows the sides.
+    /// The text after the sides.
     rest: String,
 }
 
@@ -317,12 +317,12 @@ fn distance([x, y]: [f64; 2], [to_x, to_y]: [f64; 2]) -> f64 {
 
 // ---- breaks
 
-/// What the diagnosis of a break must be.
+/// The diagnostic that a fault must have.
 struct Expected {
     code: &'static str,
     /// Names of declarations of which at least one must have a label.
     on: Vec<String>,
-    /// What the help must hold.
+    /// Text that the help must contain.
     help: Option<String>,
 }
 
@@ -335,7 +335,7 @@ fn outcome(draft: &Draft) -> Outcome {
     run("machine.mech", &draft.text(), Span::default())
 }
 
-/// What is broken is told.
+/// Checks that the injected fault is reported.
 fn reported(draft: &Draft, expected: &Expected) -> Result<(), TestCaseError> {
     let outcome = outcome(draft);
     let text = draft.text();
@@ -365,7 +365,7 @@ fn reported(draft: &Draft, expected: &Expected) -> Result<(), TestCaseError> {
     }
 }
 
-/// Where declarations of some names stand; `machine` is the mechanism's own name.
+/// Returns the ranges of the declarations of some names; `machine` is the mechanism's own name.
 fn places(text: &str, names: &[String]) -> Vec<std::ops::Range<usize>> {
     let mut sources = Sources::default();
     let file = sources.add("machine.mech", text);
@@ -550,7 +550,7 @@ fn a_body_misspelt() {
     });
 }
 
-/// A joint names a body that is none.
+/// A joint names a body that does not exist.
 fn misspelt(spell: fn(&str) -> String) {
     broken(ALL, |draft, plan| {
         let joint = plan.which.index(draft.joints.len());

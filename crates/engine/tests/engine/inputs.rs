@@ -110,7 +110,7 @@ fn lines_may_end_in_carriage_returns() {
 #[test]
 fn sample_headers_report_missing_columns() {
     let of = |header: &str| {
-        // a column that is none of an input's may hold anything
+        // a column that belongs to no input may have any contents
         let (choice, world) = reported(&[], Some(&format!("{header}\n0,zero\n1,one\n")));
         let checked = Parsed::new("machine.mech", &machine(INPUTS, ["turn", "feed"])).check(&choice, &world);
         let reported: Vec<String> = checked

@@ -7,7 +7,7 @@ use crate::support::{Outcome, Span, run};
 use mechc_expr::math::{atan2, hypot, sin_cos, sqrt};
 use std::f64::consts::{PI, TAU};
 
-/// How far a number may be from the closed form, as a part of the largest of its column.
+/// Largest deviation from the closed form, as a part of the largest number of the column.
 const EXACT: f64 = 1e-11;
 
 fn outcome(text: &str) -> Outcome {
@@ -147,7 +147,7 @@ fn eccentric(start: &str, tappet: &str, joint: &str) -> String {
     )
 }
 
-/// Where the point of a tappet is that stays so far (m) from the disc's centre, and how fast it moves.
+/// Returns the position and velocity of a tappet's point that keeps the distance `reach` (m) from the disc's centre.
 fn lift(reach: f64, phi: f64) -> (f64, f64) {
     let (sin, cos) = sin_cos(phi);
     let root = sqrt(reach * reach - 1e-4 * cos * cos);

@@ -71,7 +71,7 @@ fn a_table_that_a_driver_leaves_stays_an_error() {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(24))]
 
-    /// What is not finite is told of the declaration that holds it.
+    /// A value that is not finite is reported at the declaration of its formula.
     #[test]
     fn the_declaration_that_holds_a_formula_is_named(which in 0..4_usize, at in 0.15..1.9_f64, kind in 0..3_usize) {
         let broken = ["sqrt(abs(t - AT))", "1e-3 / (t - AT)", "sqrt(AT - t)"][kind].replace("AT", &at.to_string());

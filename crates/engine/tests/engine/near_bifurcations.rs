@@ -9,9 +9,9 @@ use mechc::{Diagnostics, RunOptions, Times};
 use mechc_expr::math;
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// What is promised of a row in place, velocity and acceleration, beside its size or 1.
+/// Promised error of a row's position, velocity and acceleration, relative to its size or 1.
 const RIGHT: [f64; 3] = [1e-9, 1e-8, 1e-6];
-/// How far before the change point the crank is (rad).
+/// Angles of the crank before the change point (rad).
 const DISTANCES: [f64; 13] = [1e-2, 5e-3, 2e-3, 1e-3, 5e-4, 3e-4, 1e-4, 3e-5, 1e-5, 5e-6, 2e-6, 1e-6, 3e-7];
 
 /// A linkage whose crank turns by a law; its change point is where the crank is at `level`.
@@ -68,7 +68,7 @@ impl Linkage {
         Linkage { text, is_slider, length, law, level }
     }
 
-    /// What columns hold at a time, each with its derivatives.
+    /// Returns the exact columns at a time (s), each with its derivatives.
     fn truth(&self, t: f64) -> Vec<(&'static str, [f64; 3])> {
         let [angle, speed, bend] = self.law.at(t);
         let (sin, cos) = math::sin_cos(angle);

@@ -9,18 +9,18 @@ use proptest::prelude::*;
 use proptest::test_runner::{Config, RngSeed, TestRunner};
 use std::fmt::Write;
 
-/// The same mechanism, written otherwise.
+/// Changes to the text of a mechanism that keep its motion.
 #[derive(Clone, Copy, Debug)]
 struct Change {
-    /// What a length is multiplied by.
+    /// Factor of all lengths.
     unit: f64,
-    /// Where the origin goes (in lengths of the mechanism).
+    /// New origin (in lengths of the mechanism).
     origin: [f64; 2],
-    /// How far frames are moved within their bodies.
+    /// Distance by which frames move within their bodies.
     frame: f64,
-    /// How far from its first point each body has one that nothing uses.
+    /// Distance from each body's first point to an unused one.
     unused: Option<f64>,
-    /// What the size of one body that may be of any is multiplied by.
+    /// Factor of the size of one body whose size is free.
     size: f64,
 }
 
@@ -199,7 +199,7 @@ fn angles(outcome: &Outcome) -> Vec<f64> {
     outcome.rows.iter().flat_map(|row| names.iter().map(|&(_, k)| row[k]).collect::<Vec<f64>>()).collect()
 }
 
-/// Whether a mechanism goes the same way however it is written.
+/// Checks that a mechanism has the same motion in every way of writing it.
 fn goes_the_same_way(write: impl Fn(Change) -> String) -> Result<(), TestCaseError> {
     let (plain, codes) = outcome(&write(NONE));
     prop_assert!(codes.is_empty(), "{}\n{}", plain.text(), write(NONE));
@@ -218,7 +218,7 @@ fn goes_the_same_way(write: impl Fn(Change) -> String) -> Result<(), TestCaseErr
     Ok(())
 }
 
-/// Whether it goes on whatever the size of one of its bodies.
+/// Checks that the motion continues for every size of one of its bodies.
 fn goes_on_at_any_size(factors: &[f64], write: impl Fn(Change) -> String) -> Result<(), TestCaseError> {
     for &size in factors {
         let text = write(Change { size, ..NONE });
@@ -355,7 +355,7 @@ fn many_small_four_bars_far_apart_are_not_near_a_singular_position() {
     assert_eq!(outcome.rows.len(), 7);
 }
 
-/// What rounding leaves of the slope of such an equation is none, wherever the body stands.
+/// A slope that is only rounding counts as zero, wherever the body is.
 #[test]
 fn trivial_equations_fix_nothing() {
     const IDENTITIES: [&str; 6] = [

@@ -11,9 +11,9 @@ use std::sync::{Arc, Mutex};
 use std::thread;
 use std::time::{Duration, Instant};
 
-/// What fails takes so long.
+/// Time after which a test fails.
 const PATIENCE: Duration = Duration::from_secs(300);
-/// What must not happen has so long to do so.
+/// Time in which an event must not happen.
 const WHILE: Duration = Duration::from_millis(50);
 
 #[test]

@@ -70,7 +70,7 @@ fn lifted(mount: &str, more: &str) -> String {
     )
 }
 
-/// What the lever says of itself, by its own angle and that angle's rate.
+/// Checks the lever's own measures against its angle and the rate of that angle.
 fn is_as_alone(table: &Table, angle: &str) {
     let rate = format!("{angle}.d");
     holds(table, "p.gain", &[angle], |x| cos(x[0]));

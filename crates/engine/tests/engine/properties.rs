@@ -1,4 +1,4 @@
-//! What must hold of any formula and any mechanism: random ones, the same on every run.
+//! Properties of every formula and every mechanism: random ones, the same on every run.
 
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, clippy::float_cmp)] // a test fails by panicking
 
@@ -13,7 +13,7 @@ use rustc_hash::FxHashMap;
 use std::f64::consts::{PI, TAU};
 use std::fs;
 
-/// As many cases, the same ones on every run, and no files.
+/// Returns a configuration with `cases` cases, the same on every run, and no files.
 fn config(cases: u32) -> Config {
     Config { cases, failure_persistence: None, rng_seed: RngSeed::Fixed(20), ..Config::default() }
 }
@@ -21,7 +21,7 @@ fn config(cases: u32) -> Config {
 const X: Symbol = Symbol::Coordinate { index: 0, order: 0 };
 const Y: Symbol = Symbol::Coordinate { index: 1, order: 0 };
 
-/// A formula as written, that nobody has simplified.
+/// A formula as written, without simplification.
 #[derive(Clone, Debug)]
 enum Tree {
     Constant(f64),
@@ -454,7 +454,7 @@ fn conditions(side: BoxedStrategy<Tree>) -> impl Strategy<Value = Condition> {
     })
 }
 
-/// What has no value, or none that rounding leaves, is no case; most must be one.
+/// Skips cases without a value, or with rounding alone; most must have one.
 fn mostly_valued(config: Config) -> Config {
     Config { max_global_rejects: config.cases, ..config }
 }
@@ -733,7 +733,7 @@ impl FourBar {
 struct SliderCrank {
     crank: f64,
     rod: f64,
-    /// Of the guide, to the left of the crank's axis.
+    /// Offset of the guide to the left of the crank's axis.
     offset: f64,
     /// The slider is before the crank's axis, or behind it.
     before: bool,

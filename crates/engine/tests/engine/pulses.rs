@@ -11,7 +11,7 @@ const STEPS: [f64; 4] = [10.0, 1.0, 0.1, 0.013];
 const MIDDLE: f64 = 5.05;
 const WIDTH: f64 = 5e-4;
 
-/// When a pulse of height 1 first comes to this (s).
+/// Returns the time (s) at which a pulse of height 1 first reaches `height`.
 fn reaches(height: f64) -> f64 {
     MIDDLE - WIDTH * (-math::ln(height)).sqrt()
 }

@@ -1,4 +1,4 @@
-//! What rows of `Φ` are measured in, against what their formulas tell: two ways that know nothing of each other.
+//! Units of the rows of `Φ` against the dimensions of their formulas, which are derived independently.
 
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, clippy::float_cmp)] // a test fails by panicking
 
@@ -55,7 +55,7 @@ fn dimension_of_symbol(system: &ConstraintSystem, symbol: Symbol) -> Known {
     }
 }
 
-/// Of a sum: what one term does not tell another one does.
+/// Returns the dimension of a sum, from any term whose dimension is known; `None` if two differ.
 fn alike(a: Known, b: Known) -> Known {
     match (a, b) {
         (Some(a), Some(b)) => a.is(b).then_some(a),
@@ -63,7 +63,7 @@ fn alike(a: Known, b: Known) -> Known {
     }
 }
 
-/// How many rows there are, and how many of them have formulas that tell a dimension, which is the one they say.
+/// Checks each row whose formula has a known dimension; returns the number of rows, and of checked rows.
 fn compared(name: &str, system: &ConstraintSystem) -> [usize; 2] {
     let reported =
         system.rows().iter().enumerate().filter_map(|(k, row)| Some((k, row, dimension_of(system, row.phi)?)));

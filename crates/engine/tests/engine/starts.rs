@@ -65,12 +65,12 @@ impl Cam {
         Cam { base, waves, kind }
     }
 
-    /// Whether its follower turns; else it goes straight.
+    /// Returns whether the follower turns; else it slides.
     fn turns(&self) -> bool {
         matches!(self.kind, Kind::Swinging { .. } | Kind::SwingingFlat { .. })
     }
 
-    /// Where the follower is with the cam turned by an angle, in SI: an angle or a height.
+    /// Returns the follower's angle (rad) or height (m) with the cam turned by an angle.
     fn follower(&self, turned: f64) -> f64 {
         self.touch(turned) * if self.turns() { 1.0 } else { 1e-3 }
     }

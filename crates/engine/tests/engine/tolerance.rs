@@ -34,7 +34,7 @@ fn subject(text: &str, results: &[&str]) -> Subject {
     subject_with(text, Choice { results: results.iter().map(|&of| of.to_owned()).collect(), ..Choice::default() })
 }
 
-/// What is refused, as it is told.
+/// Returns the messages of an error.
 fn reported(why: mechc::Error) -> String {
     why.diagnostics.into_iter().map(|diagnostic| diagnostic.message).collect::<Vec<_>>().join("; ")
 }

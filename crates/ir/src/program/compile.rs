@@ -70,7 +70,8 @@ impl Program {
             layout.emit_all(Stage::Measures, system.derivative_columns().iter().map(|column| column.value));
         // boundaries are evaluated after time and position alone
         (layout.register_of, layout.comparisons) = (at_position, comparisons);
-        outputs.rims = system.domain_boundaries().iter().map(|rim| layout.rim(rim)).collect();
+        outputs.domain_boundaries =
+            system.domain_boundaries().iter().map(|boundary| layout.domain_boundary(boundary)).collect();
         layout.finish(outputs)
     }
 }
@@ -199,10 +200,10 @@ impl<'s> Layout<'s> {
         }
     }
 
-    fn rim(&mut self, rim: &ir::DomainBoundary) -> BoundaryRegisters {
-        let moves = self.graph.dependence(rim.gauge).highest_order().is_some();
-        let terms = self.emit_all(Stage::Rims, self.graph.terms(rim.gauge));
-        let registers = self.emit_all(Stage::Rims, [rim.gauge, rim.slope]);
+    fn domain_boundary(&mut self, boundary: &ir::DomainBoundary) -> BoundaryRegisters {
+        let moves = self.graph.dependence(boundary.gauge).highest_order().is_some();
+        let terms = self.emit_all(Stage::DomainBoundaries, self.graph.terms(boundary.gauge));
+        let registers = self.emit_all(Stage::DomainBoundaries, [boundary.gauge, boundary.slope]);
         BoundaryRegisters { gauge: registers[0], slope: registers[1], terms, on_time: !moves }
     }
 

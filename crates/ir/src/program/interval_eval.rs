@@ -7,7 +7,7 @@ use super::{Column, Machine, Op, Program, Register, Registers, Stage};
 use mechc_expr::{Binary, Comparison, Unary, binary_value, compare, piece, unary_value};
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// Maximum number of table pieces that a range covers; beyond it nothing is known of the columns.
+/// Maximum number of table pieces that an interval may span; beyond it the enclosure of a column is the whole line.
 const MOST_PIECES: f64 = 64.0;
 /// Distance from a pole (rad) within which a tangent may be on either side of it.
 const POLE_MARGIN: f64 = 1e-9;
@@ -68,11 +68,14 @@ impl Enclosure {
 
     /// Creates the enclosure of domain boundaries: those that depend on time alone, or all others.
     #[must_use]
-    pub fn of_rims(program: &Program, registers: &Registers, on_time: bool) -> Enclosure {
-        let rims = program.outputs.rims.iter().filter(|rim| rim.on_time == on_time);
-        let roots: Vec<Register> = rims.flat_map(|rim| [rim.gauge, rim.slope]).collect();
-        let stages: &[Stage] =
-            if on_time { &[Stage::Rims, Stage::Time] } else { &[Stage::Rims, Stage::Position, Stage::Time] };
+    pub fn of_domain_boundaries(program: &Program, registers: &Registers, on_time: bool) -> Enclosure {
+        let boundaries = program.outputs.domain_boundaries.iter().filter(|boundary| boundary.on_time == on_time);
+        let roots: Vec<Register> = boundaries.flat_map(|boundary| [boundary.gauge, boundary.slope]).collect();
+        let stages: &[Stage] = if on_time {
+            &[Stage::DomainBoundaries, Stage::Time]
+        } else {
+            &[Stage::DomainBoundaries, Stage::Position, Stage::Time]
+        };
         Enclosure {
             operations: backward_slice(program, &roots, stages),
             ..Enclosure::for_registers(program, registers, &[])

@@ -40,7 +40,7 @@ impl Stage {
     /// stages a formula takes the branch that the equations are on.
     #[must_use]
     pub fn can_switch(self) -> bool {
-        !matches!(self, Stage::Prologue | Stage::Forces | Stage::Variation | Stage::Measures | Stage::Rims)
+        !matches!(self, Stage::Prologue | Stage::Forces | Stage::Variation | Stage::Measures | Stage::DomainBoundaries)
     }
 }
 
@@ -66,7 +66,7 @@ pub enum Stage {
     /// The measures; needs all derivatives of `q`.
     Measures,
     /// The domain boundaries, where they are evaluated; needs `q̇`.
-    Rims,
+    DomainBoundaries,
 }
 
 /// All stages, in the order of evaluation.
@@ -80,7 +80,7 @@ pub const STAGES: [Stage; 10] = [
     Stage::Forces,
     Stage::Variation,
     Stage::Measures,
-    Stage::Rims,
+    Stage::DomainBoundaries,
 ];
 
 /// A column of a spline table.
@@ -241,7 +241,7 @@ pub struct Outputs {
     /// Quantities that keep their signs along a branch.
     pub watches: Vec<Register>,
     /// Domain boundaries.
-    pub rims: Vec<BoundaryRegisters>,
+    pub domain_boundaries: Vec<BoundaryRegisters>,
     /// Terms of the sum of each row, which scale its rounding.
     pub terms: Vec<Vec<Register>>,
 }
@@ -302,8 +302,8 @@ impl Outputs {
         let sides = self.right_sides.iter().map(|side| &side.entries);
         let more_lists = sides.chain(&self.terms).chain(varied).chain(slopes);
         lists.into_iter().chain(more).chain(more_lists).flatten().for_each(|&register| show(register));
-        for rim in &self.rims {
-            [rim.gauge, rim.slope].iter().chain(&rim.terms).for_each(|&register| show(register));
+        for boundary in &self.domain_boundaries {
+            [boundary.gauge, boundary.slope].iter().chain(&boundary.terms).for_each(|&register| show(register));
         }
     }
 }

@@ -27,7 +27,7 @@ pub(crate) struct Requested<'r> {
 
 /// Lanes of variants, with the registers of the guards.
 pub(crate) struct BatchLanes {
-    pub team: BatchRunner,
+    pub runner: BatchRunner,
     params: Vec<PerLane>,
     registers: Vec<PerLane>,
 }
@@ -51,7 +51,7 @@ impl BatchPlan {
     /// Returns lanes for variants to follow.
     pub fn lanes(&self) -> BatchLanes {
         let params = self.table.checked().values.iter().map(|&value| LaneValues([value; LANES])).collect();
-        BatchLanes { team: BatchRunner::new(&self.batch), params, registers: self.table.lane_registers() }
+        BatchLanes { runner: BatchRunner::new(&self.batch), params, registers: self.table.lane_registers() }
     }
 
     /// Returns the number of rows of each variant.
@@ -78,6 +78,6 @@ impl BatchPlan {
             }
         }
         let eligible = self.table.admits_lanes(&mut lanes.registers, &lanes.params, varying);
-        lanes.team.follow(&lanes.params, eligible, room, cancel)
+        lanes.runner.follow(&lanes.params, eligible, room, cancel)
     }
 }

@@ -40,7 +40,7 @@ struct Cache {
 /// Query points in lanes.
 pub(crate) struct PointLanes {
     batch: Arc<BatchContext>,
-    team: BatchRunner,
+    runner: BatchRunner,
     params: Vec<PerLane>,
     /// For each column, a number for each point.
     columns: Vec<Numbers>,
@@ -77,7 +77,7 @@ impl BatchEvaluator {
             column.make_room(queries.len().min(LANES));
         }
         let room = RowBuffer { columns: &mut lanes.columns, before: 0, rows: 1 };
-        lanes.accepted = lanes.team.follow(&lanes.params, points.map(|point| point.is_some()), room, &options.cancel);
+        lanes.accepted = lanes.runner.follow(&lanes.params, points.map(|point| point.is_some()), room, &options.cancel);
         Some(lanes)
     }
 
@@ -108,7 +108,7 @@ impl BatchEvaluator {
         let cache = cache.as_mut()?;
         let batch = Arc::clone(cache.batch.as_ref()?);
         let new = || PointLanes {
-            team: BatchRunner::new(&batch),
+            runner: BatchRunner::new(&batch),
             batch,
             params: Vec::new(),
             columns: vec![Numbers::default(); columns],

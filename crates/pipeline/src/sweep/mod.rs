@@ -136,7 +136,7 @@ impl Blocks {
 
 /// A sweep in progress: an iterator over what is made of its blocks, in the order of the variants.
 pub struct Sweep<T> {
-    crew: ParallelMap<(T, Option<EndReason>)>,
+    blocks: ParallelMap<(T, Option<EndReason>)>,
     end: Option<EndReason>,
 }
 
@@ -220,7 +220,7 @@ impl Checked {
                 Some((make(swept), end))
             }
         };
-        Ok(Sweep { crew: ParallelMap::new(jobs, 0..blocks.count(), start), end: None })
+        Ok(Sweep { blocks: ParallelMap::new(jobs, 0..blocks.count(), start), end: None })
     }
 }
 
@@ -230,10 +230,10 @@ impl<T: Send + 'static> Iterator for Sweep<T> {
     /// Returns what is made of the next block; `None` after the last block, and after the one with the variant that is searched for. A
     /// cancelled sweep ends with a block of the variants that were done.
     fn next(&mut self) -> Option<T> {
-        let (made, end) = self.crew.next()?;
+        let (made, end) = self.blocks.next()?;
         self.end = end;
         if end.is_some() {
-            self.crew.end();
+            self.blocks.end();
         }
         Some(made)
     }
@@ -269,7 +269,7 @@ struct Worker {
 
 /// Variants that a batch has followed.
 struct BatchOutput<'d> {
-    team: &'d BatchRunner,
+    runner: &'d BatchRunner,
     /// For each lane, true if the variant has all its rows, or all its results if no rows are requested.
     accepted: [bool; LANES],
     /// Rows of each variant.
@@ -290,9 +290,9 @@ impl<'d> BatchOutput<'d> {
         let (count, rows) = (params.len() / context.width(), plan.rows());
         let before = block.columns.first().map_or(0, |column| column.len());
         let accepted = plan.follow(lanes, params, block.room(count, rows), &context.options.cancel);
-        let team = &lanes.team;
-        let is_whole = (0..count).all(|lane| accepted[lane] && context.has_all_results(team, lane));
-        BatchOutput { team, accepted, rows, pending: (!is_whole).then(|| block.take_rows_from(before)) }
+        let runner = &lanes.runner;
+        let is_whole = (0..count).all(|lane| accepted[lane] && context.has_all_results(runner, lane));
+        BatchOutput { runner, accepted, rows, pending: (!is_whole).then(|| block.take_rows_from(before)) }
     }
 }
 
@@ -355,7 +355,7 @@ impl SweepContext {
         let count = params.len() / width;
         if let Some(output) = output.filter(|output| output.pending.is_none()) {
             block.push_batch((count, output.rows), params);
-            let results = (0..count).filter_map(|lane| output.team.results(lane));
+            let results = (0..count).filter_map(|lane| output.runner.results(lane));
             results.for_each(|results| block.push_batch_results(results));
             return None;
         }
@@ -379,13 +379,13 @@ impl SweepContext {
     }
 
     /// Returns whether a batch has computed all that is requested of a variant, and none is searched for.
-    fn has_all_results(&self, team: &BatchRunner, lane: usize) -> bool {
-        self.result_count == 0 || self.until.is_none() && team.results(lane).is_some()
+    fn has_all_results(&self, runner: &BatchRunner, lane: usize) -> bool {
+        self.result_count == 0 || self.until.is_none() && runner.results(lane).is_some()
     }
 
     /// Adds a variant to a block, given by its params, and the lane of a batch that has its rows. Returns the result of the search condition.
     fn push_one(&self, block: &mut Swept, params: &[f64], of_batch: Option<(&BatchOutput<'_>, usize)>) -> Option<f64> {
-        let of_batch = of_batch.and_then(|(output, lane)| match output.team.results(lane) {
+        let of_batch = of_batch.and_then(|(output, lane)| match output.runner.results(lane) {
             Some(results) => Some((output, lane, ResultValues { values: results.to_vec(), digits: 0 }, true)),
             None => Some((output, lane, self.results_of(params)?, false)),
         });

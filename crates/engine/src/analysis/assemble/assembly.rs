@@ -324,7 +324,7 @@ fn refuse_vanishing_tangents(kinematics: &mut Kinematics, q: &[f64], t: f64) -> 
         system.monitors()[*k].kind == MonitorKind::Tangents && kinematics.monitored(*k).abs() < VANISHING_TANGENT
     };
     match (0..system.monitors().len()).find(vanishes) {
-        Some(watch) => Err(StopCause::NoContact { watch }.at(t)),
+        Some(monitor) => Err(StopCause::NoContact { monitor }.at(t)),
         None => Ok(()),
     }
 }

@@ -120,7 +120,7 @@ fn farthest(
     moved
 }
 
-/// Returns the loops, in their order of solution. Coordinates that follow from drivers and joints without iteration belong to no loop.
+/// Returns the loops in their order of solution, each with the explicit blocks that follow from it. Blocks that depend on no loop are in none.
 fn loops(determined: &Determined) -> Vec<Loop> {
     let system = determined.system();
     let mut loops: Vec<Loop> = Vec::new();

@@ -256,7 +256,7 @@ impl Started {
         self.kinematics.is_plain()
     }
 
-    /// By row of `Φ`: what may be left of it at the start.
+    /// By row of `Φ`: its largest residual at the start.
     #[must_use]
     pub fn bounds(&mut self) -> Vec<f64> {
         self.kinematics.restore(&self.state);

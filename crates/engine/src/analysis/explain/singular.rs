@@ -75,7 +75,7 @@ pub fn without_value(system: &ConstraintSystem, fault: Fault) -> StopCause {
     match fault {
         Fault::NotFinite { row } => StopCause::NotFinite { declarations: vec![system.rows()[row].declaration] },
         Fault::Condition { index } => StopCause::Condition { index },
-        Fault::Monitor { index } => StopCause::NoContact { watch: index },
+        Fault::Monitor { index } => StopCause::NoContact { monitor: index },
         Fault::Check { index } => StopCause::RedundantRow { check: index },
         Fault::Singular
         | Fault::Uncertain
@@ -86,7 +86,7 @@ pub fn without_value(system: &ConstraintSystem, fault: Fault) -> StopCause {
     }
 }
 
-/// Returns the monitor of a contact that ends where the position was set.
+/// Returns the index of the monitor of the contact that ends at the current position.
 fn contact_that_ends(kinematics: &Kinematics, fault: Fault, sigma: f64) -> Option<usize> {
     let monitors = kinematics.system().monitors();
     match fault {
@@ -116,8 +116,8 @@ fn singular_position(kinematics: &Kinematics, state: &State, singular: &Singular
     }
 }
 
-/// Returns the time at which a motion that grows as before a fold comes to it: there q* − q goes as √(t* − t), so that t* − t is q̇ / 2q̈.
-/// Returns the time of the state if that is not as near as steps could come.
+/// Returns the time (s) of a fold ahead: there q* − q ∝ √(t* − t), so t* − t = q̇ / 2q̈. Returns the time of the state if the fold is not ahead
+/// or is too far.
 fn time_of_fold(span: f64, state: &State, right: &[f64]) -> f64 {
     let fastest = (0..right.len()).max_by(|&a, &b| right[a].abs().total_cmp(&right[b].abs()));
     let left = fastest.map_or(0.0, |k| 0.5 * state.qd[k] / state.qdd[k]);
@@ -135,9 +135,9 @@ pub fn end_of_contact(kinematics: &Kinematics, index: usize, t: f64) -> Box<Stop
     // with `T` the tangent and `B` its derivative the radius is T²/B across; where the argument alone rests it is no less than usual
     let tangent = kinematics.monitored(index);
     if kind == MonitorKind::Tangents && is_flat && tangent * tangent < CUSP * curvature {
-        StopCause::Undercut { watch: index }.at(t)
+        StopCause::Undercut { monitor: index }.at(t)
     } else {
-        StopCause::NoContact { watch: index }.at(t)
+        StopCause::NoContact { monitor: index }.at(t)
     }
 }
 
@@ -177,23 +177,23 @@ pub fn warn_of_miss(kinematics: &mut Kinematics, state: &State, within: f64, t: 
     moves_bodies.then_some(Warning { t, cause: WarningCause::NearChangePoint { joints, columns, within } })
 }
 
-/// Returns the monitor of a line of centres that vanishes, or nearly so, where the position was set.
+/// Returns the index of the monitor of a line of centres that vanishes, or nearly so, at the current position.
 pub fn centers_that_meet(kinematics: &Kinematics) -> Option<usize> {
     vanishing(kinematics, MonitorKind::LineOfCenters)
 }
 
-/// Returns the monitor of a kind whose quantity vanishes, or nearly so, where the position was set.
+/// Returns the index of the monitor of a kind whose quantity vanishes, or nearly so, at the current position.
 fn vanishing(kinematics: &Kinematics, kind: MonitorKind) -> Option<usize> {
     let monitors = kinematics.system().monitors();
     (0..monitors.len()).find(|&k| monitors[k].kind == kind && kinematics.monitored(k).abs() < FLAT)
 }
 
-/// Returns the joint at whose contact the relative curvature vanishes, or nearly so, where the position was set.
+/// Returns the joint at whose contact the relative curvature vanishes, or nearly so, at the current position.
 fn flat_contact(kinematics: &Kinematics) -> Option<DeclarationId> {
     vanishing(kinematics, MonitorKind::Curvature).map(|k| kinematics.system().monitors()[k].declaration)
 }
 
-/// Returns the stop where so many steps did not get to `target` (s).
+/// Returns the stop of a motion that did not reach `target` (s) within `steps` steps.
 pub fn find_stop_of_haste(kinematics: &mut Kinematics, state: &State, steps: u64, target: f64) -> Box<Stop> {
     let determined = kinematics.determined();
     let system = determined.system();
@@ -203,7 +203,7 @@ pub fn find_stop_of_haste(kinematics: &mut Kinematics, state: &State, steps: u64
     }
 }
 
-/// Returns the stop at a domain boundary that a state has come to, or so near to it that no step leads on.
+/// Returns the stop at the nearest domain boundary, if the state has reached it or nearly so.
 fn boundary_reached(kinematics: &mut Kinematics, state: &State) -> Option<Box<Stop>> {
     kinematics.restore(state);
     let span = kinematics.span();
@@ -226,7 +226,7 @@ fn boundary_reached(kinematics: &mut Kinematics, state: &State) -> Option<Box<St
     })
 }
 
-/// Returns the time (s) until an event function touches zero, behind which its formula goes on with a corner; `None` if it goes through zero.
+/// Returns the time (s) until an event function touches zero without a change of sign, at a corner of its formula; `None` if it crosses zero.
 fn corner_ahead(kinematics: &mut Kinematics, boundary: &BoundaryRegisters, state: &State) -> Option<f64> {
     let [gauge, slope] = gauge_at(kinematics, boundary, state, 0.0);
     let left = -2.0 * gauge / slope;
@@ -235,7 +235,7 @@ fn corner_ahead(kinematics: &mut Kinematics, boundary: &BoundaryRegisters, state
     (left > 0.0 && (before / gauge - 4.0).abs() < PARABOLA).then_some(left)
 }
 
-/// Returns an event function and its slope where a state is extrapolated by its velocity over a time (s).
+/// Returns an event function and its slope a time `after` (s) later, at constant velocity.
 fn gauge_at(kinematics: &mut Kinematics, boundary: &BoundaryRegisters, state: &State, after: f64) -> [f64; 2] {
     let q: Vec<f64> = state.q.iter().zip(&state.qd).map(|(q, qd)| q + after * qd).collect();
     kinematics.set_time(state.t + after);
@@ -245,13 +245,13 @@ fn gauge_at(kinematics: &mut Kinematics, boundary: &BoundaryRegisters, state: &S
     kinematics.gauge(boundary)
 }
 
-/// Returns why a formula has no value at a time, the position being as it is.
+/// Returns why a formula has no value at a time (s), at the position of the state.
 fn fault_at(kinematics: &mut Kinematics, state: &State, t: f64) -> Option<Fault> {
     kinematics.set_time(t);
     kinematics.set_position(&state.q).err()
 }
 
-/// Returns the stop at a position so near to a singular one that its derivatives are not known.
+/// Returns the stop at a position so near to a singular one that rounding hides its derivatives.
 pub fn uncertain(system: &ConstraintSystem, left: &[f64], t: f64) -> Box<Stop> {
     StopCause::Uncertain { declarations: declarations_in(system, left) }.at(t)
 }
@@ -288,13 +288,13 @@ fn heaviest_driver(system: &ConstraintSystem, left: &[f64]) -> Option<usize> {
     drivers.max_by(|&a, &b| left[a].abs().total_cmp(&left[b].abs()))
 }
 
-/// Returns the joints and constraints that the dependency is made of, those that weigh most first.
+/// Returns the joints and constraints of the dependency, by decreasing weight.
 fn joints_in(system: &ConstraintSystem, left: &[f64]) -> Vec<DeclarationId> {
     let all = declarations_in(system, left);
     all.into_iter().filter(|&k| system.declarations()[k].kind != DeclarationKind::Driver).collect()
 }
 
-/// Returns the declarations of the dependency, those that weigh most first.
+/// Returns the declarations of the dependency, by decreasing weight.
 fn declarations_in(system: &ConstraintSystem, left: &[f64]) -> Vec<DeclarationId> {
     let largest = left.iter().fold(0.0, |m: f64, w| m.max(w.abs()));
     let mut rows: Vec<usize> = (0..left.len()).filter(|&row| left[row].abs() > TOLD * largest).collect();

@@ -45,12 +45,12 @@ pub enum StopCause {
     /// A contact ends.
     NoContact {
         /// Index of the monitor of the contact.
-        watch: usize,
+        monitor: usize,
     },
     /// A flat follower touches a cusp.
     Undercut {
         /// Index of the monitor of the contact.
-        watch: usize,
+        monitor: usize,
     },
     /// A redundant equation that was left out does not hold any more.
     RedundantRow {
@@ -220,8 +220,8 @@ impl StopCause {
             StopCause::NotFinite { declarations } => errors::formula_not_finite(system, declarations, t),
             StopCause::Condition { index } => errors::condition(system, &system.conditions()[*index], t),
             StopCause::Load { index, broken } => errors::load_not_finite(system, &system.loads()[*index], *broken, t),
-            StopCause::NoContact { watch } => errors::no_contact(system, *watch, t),
-            StopCause::Undercut { watch } => errors::undercut(system, *watch, t),
+            StopCause::NoContact { monitor } => errors::no_contact(system, *monitor, t),
+            StopCause::Undercut { monitor } => errors::undercut(system, *monitor, t),
             StopCause::RedundantRow { check } => errors::ceases_to_hold(system, *check, t),
             StopCause::RedundantRowAtStart { check } => errors::does_not_hold(system, *check, t),
             StopCause::LockUp { driver, singular } => {

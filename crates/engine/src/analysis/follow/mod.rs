@@ -5,7 +5,7 @@
 //! Motion ────┼── Edges      what may happen between the ends of a step
 //!            ├── Crossing   the way over a singular position
 //!            ├── RowSelection     which equations are solved, where there are more than are needed
-//!            └── Rows       which row comes next, and what it is worth
+//!            └── Rows       which row comes next, and its accuracy
 //! ```
 //!
 //! Each owner's fields are its own; what it needs of others is an argument. `Follower` puts them in order.

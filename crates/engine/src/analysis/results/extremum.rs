@@ -41,7 +41,7 @@ const CONVERGES: f64 = 0.97;
 /// An edge this close behind an extremum with the same value, as a part of the span, is the extremum.
 const BESIDE: f64 = 1e-7;
 
-/// The largest value of a formula, or the largest of its negative.
+/// The search for the largest value of a formula or, by its negative, for the least.
 #[derive(Clone, Debug)]
 pub(super) struct Extremum {
     /// 1, or −1 for the least value.
@@ -615,8 +615,8 @@ impl IntervalSearch<'_> {
         }
     }
 
-    /// Returns whether the upper bound of a cell hardly exceeds the larger of its ends. If that may be the extremum of the formula, which has no
-    /// derivatives, the end is recorded with the top near it.
+    /// Returns whether a formula without derivatives exceeds the larger end of a cell by no more than the gap. If that end may be the extremum,
+    /// records it and the top near it.
     fn is_done_by_values(&mut self, cell: &Cell, upper: f64, extremum: &mut Extremum, scale: Scale) -> bool {
         let [a, b] = extremum.values(cell);
         let is_small = upper <= f64::max(a, b).min(extremum.best) + scale.gap(GAP_OF_VALUES);

@@ -1,5 +1,5 @@
 //! LU of a small dense matrix, where the fixed order of a block would lose digits. The factors are kept in place, for any number of
-//! right sides and for the transposed matrix (`math/blocks.rs` keeps none).
+//! right sides and for the transposed matrix (`crates/runtime/src/blocks.rs` keeps none).
 
 use crate::limits::solver::LEAST_PIVOT;
 
@@ -40,7 +40,7 @@ pub fn factor_dense(a: &mut [f64], pivots: &mut [u32], n: usize) -> f64 {
     smallest
 }
 
-/// Solves for the right side `b`, which becomes the solution.
+/// Solves `A x = b` with the factors and pivots of [`factor_dense`]; `b` becomes `x`.
 pub fn solve_dense(a: &[f64], pivots: &[u32], b: &mut [f64]) {
     let n = b.len();
     for (k, &pivot) in pivots.iter().enumerate() {

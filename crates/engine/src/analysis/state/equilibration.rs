@@ -229,7 +229,7 @@ impl Equilibration {
         &mut self.nearby_slopes[position]
     }
 
-    /// Measures the slopes where the position was set: `slope` gives each by its position in the pattern, and `rounding` gives the rounding
+    /// Measures the slopes at the current position: `slope` gives each by its position in the pattern, and `rounding` gives the rounding
     /// of a row. A slope counts as zero if its product with the size of its coordinate does not exceed that.
     pub fn measure(&mut self, slope: impl Fn(usize) -> f64, rounding: impl Fn(usize) -> f64) {
         for k in 0..self.parts.len() {

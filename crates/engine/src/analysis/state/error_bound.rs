@@ -15,6 +15,7 @@ const FAR: f64 = 1.5e-3;
 /// Accuracy of the numbers of a row.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Trust {
+    /// All numbers have the promised digits.
     Certain,
     /// The position is known; velocities or accelerations may be wrong, if rounding happens to add up.
     Doubtful,
@@ -29,9 +30,8 @@ impl Trust {
 
     /// Judges a state that was just computed.
     ///
-    /// `q` is known to eps/σ, and a position that is wrong by so much has derivatives that are wrong by as much again as the
-    /// equations amplify, which near a dead point is 1/σ too. Near a bifurcation nothing is amplified, but the wrong position
-    /// still has velocities that are wrong by eps/σ², and accelerations by eps/σ³.
+    /// Rounding leaves an error of eps/σ in `q`, with σ the smallest singular value of a block of the scaled `Φ_q`. The equations
+    /// amplify it in the derivatives, near a dead point by 1/σ; near a bifurcation velocities are off by eps/σ², accelerations by eps/σ³.
     pub fn of(kinematics: &mut Kinematics, state: &State) -> Trust {
         let sigma = kinematics.nearness(f64::EPSILON.sqrt() / ACCURACY.sqrt());
         let uncertain = f64::EPSILON / sigma * kinematics.amplification(state);

@@ -117,7 +117,7 @@ impl Plan {
         (smallest, largest)
     }
 
-    /// Returns the pivots, of which the first has the sign that the order gives to their product.
+    /// Returns the pivots, the first negated if the permutation is odd: their product is the determinant.
     pub fn signed_pivots<'v>(&'v self, values: &'v [f64]) -> impl Iterator<Item = f64> + 'v {
         let sign = |k: usize| if k == 0 && self.is_odd { -1.0 } else { 1.0 };
         self.pivots.iter().enumerate().map(move |(k, &slot)| sign(k) * values[slot as usize])

@@ -1,5 +1,5 @@
 //! Steps a batch of variants, a lane for each: from the nominal parameters to those of each variant, then from time to time. Newton's iterates
-//! lie on a grid (`math/grid.rs`), so an exact solution on the same branch has the bits that it has alone. Only accepted steps are taken; a
+//! lie on a grid (see `mechc_runtime::grid`), so an exact solution on the same branch has the bits that it has alone. Only accepted steps are taken; a
 //! variant whose steps are rejected too often leaves the batch.
 
 use super::acceptance::{LaneStates, Rejections, TrackedDerivatives, check_step};

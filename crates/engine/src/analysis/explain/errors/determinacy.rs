@@ -113,7 +113,7 @@ fn take_away(declaration: &Declaration) -> String {
     format!("take the {} `{}` away", declaration.kind.noun(), declaration.name)
 }
 
-/// Suggests what to write instead of a redundant joint, constraint or driver.
+/// Suggests a replacement for a redundant joint, constraint or driver.
 fn mend(system: &ConstraintSystem, group: &[Dependent]) -> String {
     let index = declaration_of(system, group);
     let declaration = &system.declarations()[index];
@@ -269,7 +269,7 @@ pub fn shared_force(system: &ConstraintSystem, shared: &[Shared]) -> Option<Diag
     )
 }
 
-/// Returns the diagnostic of a part with so many equations that redundant ones are not sought.
+/// Returns the diagnostic of a part that has too many equations for a search of redundant ones.
 pub fn too_large(mut diagnostic: Diagnostic, rows: usize, limit: usize) -> Diagnostic {
     diagnostic.help.clear();
     diagnostic

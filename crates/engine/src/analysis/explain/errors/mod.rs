@@ -106,7 +106,7 @@ pub fn with_places(
     diagnostic
 }
 
-/// Returns the bodies of coordinates and what happens to them, in a sentence; the contacts and meshes if no coordinate belongs to a body.
+/// Returns the bodies of coordinates and their fate, in a sentence; the contacts and meshes if no coordinate belongs to a body.
 pub fn owners(system: &ConstraintSystem, columns: &[usize], what: &str) -> String {
     let of_bodies: Vec<usize> = columns.iter().copied().filter(|&k| system.body_of(k).is_some()).collect();
     let (columns, noun) = if of_bodies.is_empty() { (columns, "contacts") } else { (of_bodies.as_slice(), "bodies") };

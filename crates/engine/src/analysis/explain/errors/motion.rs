@@ -1,4 +1,4 @@
-//! Diagnostics of a motion that cannot go on: formulas without a value, jumps, excessive speed.
+//! Diagnostics of a motion that cannot continue: formulas without a value, jumps, excessive speed.
 
 use super::{at, in_units, named_all, short, with_places};
 use crate::analysis::state::Unknown;
@@ -189,6 +189,7 @@ pub fn acceleration_jump(
         .datum("t", t)
 }
 
+/// Returns the diagnostic of a motion that no step continues at `t` (s); `driver` is the row of the fastest driver.
 pub fn cannot_follow(system: &ConstraintSystem, t: f64, driver: Option<usize>) -> Diagnostic {
     let message = format!("the motion cannot be followed beyond {}", at(t));
     let diagnostic = Diagnostic::new(Code::E0604, message)

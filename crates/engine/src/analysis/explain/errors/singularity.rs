@@ -19,10 +19,10 @@ pub enum StartVerdict {
 
 /// Returns the diagnostic of a contact where a tangent vanishes, or of gears whose centres meet.
 pub fn no_contact(system: &ConstraintSystem, index: usize, t: f64) -> Diagnostic {
-    let watch = &system.monitors()[index];
-    let joint = &system.declarations()[watch.declaration];
+    let monitor = &system.monitors()[index];
+    let joint = &system.declarations()[monitor.declaration];
     let diagnostic = |message: String| Diagnostic::new(Code::E0607, message).datum("t", t);
-    match watch.kind {
+    match monitor.kind {
         MonitorKind::LineOfCenters => diagnostic(format!("the centres of `{}` meet at {}", joint.name, at(t)))
             .at(joint.span, "there is no line of centres")
             .help("hold the gears apart by a carrier"),

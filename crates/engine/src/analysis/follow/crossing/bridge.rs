@@ -6,7 +6,7 @@ use crate::analysis::follow::step::{Step, quintic_between};
 use crate::analysis::state::{Kinematics, State};
 use mechc_expr::math::boundary;
 
-/// A curve that is looked for once.
+/// A refined curve, for which a single search is made.
 #[derive(Clone, Debug, Default)]
 enum Sought {
     #[default]
@@ -32,14 +32,14 @@ pub struct Bridge {
     pub at: f64,
     /// Time at which another one is reached, or the same one once more by a motion that turns back just beyond it (s).
     pub again: Option<f64>,
-    /// Curve for rows that the quintic is not exact enough for.
+    /// Refined curve over the whole bridge, for rows for which the quintic is not exact enough.
     finer: Sought,
-    /// Curve over a shorter path, for rows that no other curve is exact enough for.
+    /// Refined curve over the part nearest to the singular position, for rows that `finer` cannot give.
     narrow: Sought,
 }
 
 impl Bridge {
-    /// Returns the bridge between two states. It clones them, since bridges are rare.
+    /// Creates a bridge between two states. It clones them, since bridges are rare.
     pub fn new(from: &State, to: &State) -> Bridge {
         let (from, to) = (from.clone(), to.clone());
         Bridge { at: from.t, from, to, again: None, finer: Sought::Pending, narrow: Sought::Pending }
@@ -50,7 +50,7 @@ impl Bridge {
         self.to.t - self.from.t
     }
 
-    /// Returns the state at a time between, by the quintic with value, slope and curvature of both ends.
+    /// Returns the state at a time (s) between the ends, by the quintic with value, slope and curvature of both.
     pub fn state_at(&self, t: f64) -> State {
         let h = self.length();
         let x = (t - self.from.t) / h;
@@ -71,19 +71,19 @@ impl Bridge {
         state
     }
 
-    /// Returns the state at a time by the most exact curve that has been found.
+    /// Returns the state at a time (s) by the best curve found so far, else by the quintic.
     pub fn best_state_at(&self, t: f64) -> State {
         let finer = self.finer.curve().or(self.narrow.curve());
         finer.map_or_else(|| self.state_at(t), |finer| finer.state_at(t))
     }
 
-    /// Returns the state at a time by the finer curve over the whole bridge, if that is exact.
+    /// Returns the state at a time (s) by the refined curve over the whole bridge; `None` if it is not exact.
     pub fn finer_state_at(&mut self, kinematics: &mut Kinematics, step: &mut Step, t: f64) -> Option<State> {
         self.look_for_finer(kinematics, step);
         self.finer.curve().map(|finer| finer.state_at(t))
     }
 
-    /// Returns the state at a time by a curve over the narrowest part of the bridge, if only that is exact.
+    /// Returns the state at a time (s) by the refined curve over the nearest part; `None` unless that curve alone is exact.
     pub fn narrow_state_at(&mut self, kinematics: &mut Kinematics, step: &mut Step, t: f64) -> Option<State> {
         self.look_for_narrow(kinematics, step);
         self.narrow.curve().map(|narrow| narrow.state_at(t))
@@ -101,8 +101,8 @@ impl Bridge {
         }
     }
 
-    /// Looks for a curve over a shorter path if no curve over the whole bridge is exact: a motion that turns back near the singular
-    /// position stays there for long.
+    /// Looks for a refined curve over the part of the bridge that is nearest to the singular position, if none over the whole bridge is
+    /// exact: a motion that turns back there stays near it for a long time.
     fn look_for_narrow(&mut self, kinematics: &mut Kinematics, step: &mut Step) {
         if self.finer.curve().is_none()
             && let Sought::Pending = self.narrow
@@ -112,7 +112,7 @@ impl Bridge {
         }
     }
 
-    /// Returns a curve between the states whose nearness to the singular position is `nearest`, if one is exact.
+    /// Returns a refined curve between the two states whose nearness to the singular position is `nearest`; `None` if it is not exact.
     fn narrow_curve(&self, kinematics: &mut Kinematics, step: &mut Step, nearest: f64) -> Option<RefinedBridge> {
         let mut is_near = |t: f64| {
             kinematics.restore(&self.state_at(t));
@@ -130,8 +130,8 @@ impl Bridge {
     }
 }
 
-/// Returns what a third derivative that is given at both ends too adds to that of the quintic `c`, which leaves only a few digits of it.
-/// The polynomial that is added is x³ (1 − x)³ (α + β x): it changes neither value, slope nor curvature at the ends.
+/// Returns the correction to the third derivative of the quintic `c`, which has only a few digits, from its given values at both ends. It is
+/// that of the polynomial x³ (1 − x)³ (α + β x), which changes neither value, slope nor curvature at the ends.
 fn third_gain(h: f64, third: [f64; 2], c: [f64; 6], x: f64) -> f64 {
     let cube = h * h * h;
     let at_start = (cube * third[0] - 6.0 * c[3]) / 6.0;

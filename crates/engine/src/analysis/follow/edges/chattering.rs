@@ -63,7 +63,7 @@ impl Edges {
         }
     }
 
-    /// Returns whether a switch that changes where the position was set stands on its edge all the time, so that rounding decides:
+    /// Returns whether a switch that changes at the current position stands on its edge all the time, so that rounding decides:
     /// what it is decided by neither is off the edge nor has it moved since the state.
     pub fn rests(&mut self, kinematics: &mut Kinematics, step: &Step, switch: usize) -> bool {
         let switch = kinematics.switches()[switch];

@@ -1,4 +1,4 @@
-//! States on both sides of an edge, at its time, and what jumps between them.
+//! States on both sides of an edge, at its time, and the jumps between them.
 
 use crate::analysis::explain::{Stop, StopCause};
 use crate::analysis::follow::step::{Step, write_prediction};
@@ -37,7 +37,7 @@ struct Pace {
     hardest: f64,
 }
 
-/// The earlier side of the edge that is being crossed, and what there is to compare the later one with.
+/// The earlier side of the edge that is being crossed, and the data to compare the later one with.
 pub(super) struct OneSidedStates {
     before: State,
     row_before: Vec<f64>,
@@ -130,7 +130,7 @@ impl OneSidedStates {
         Ok([UNCERTAIN * velocity, UNCERTAIN * acceleration])
     }
 
-    /// Returns what jumps by more than some velocity and acceleration, scaled, and more than rounding.
+    /// Returns the jumps that exceed rounding and some velocity and acceleration, scaled.
     fn compare(&self, kinematics: &Kinematics, now: &State, [velocity, acceleration]: [f64; 2]) -> Option<Jump> {
         let (before, system) = (&self.before, kinematics.system());
         let scaled = |k: usize, value: f64| value.abs() / kinematics.linear().column_scale(k);

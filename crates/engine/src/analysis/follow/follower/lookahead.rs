@@ -1,4 +1,4 @@
-//! Rows that are compared with what comes behind them.
+//! Rows that are compared with the motion behind them.
 
 use super::{Follower, STEPS_AHEAD};
 use crate::analysis::explain::{Stop, singular};

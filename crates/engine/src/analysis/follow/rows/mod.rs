@@ -1,4 +1,4 @@
-//! A row for each output time: which one comes next, what it holds, and what it is worth.
+//! A row for each output time: which one comes next, its contents, and its accuracy.
 
 mod force_monitor;
 mod missing_values;

@@ -1,8 +1,7 @@
 //! A determinant that touches zero within a step, without changing its sign: a singular position of even order.
 //!
-//! It comes from two zeros of one block that coincide, or from a driver that turns back gently in its dead point. Both ends of the step
-//! show nothing. But before such a place a determinant falls, ever more slowly, so the line through its last two values meets zero before
-//! it does. Only a step on which that happens is examined.
+//! Such zeros arise where two zeros of one block coincide, or a driver turns back at its dead point. Before them the determinant falls at a
+//! decreasing rate, so the line through its last two values predicts a zero too early; only steps with such a prediction are searched.
 
 use super::{Step, reject_near_singular};
 use crate::analysis::state::{Fault, Kinematics};
@@ -18,8 +17,8 @@ const SHALLOW: f64 = 0.5;
 const SECTIONS: usize = 60;
 
 impl Step {
-    /// Refuses a step of length `h` within which a determinant comes so near to zero that it may touch it. The curve between
-    /// the ends must have been drawn; the factors of its end are left as they are.
+    /// Rejects a step of length `h` (s) within which a determinant comes so near to zero that it may touch it; `motion` is the largest motion
+    /// of the step, scaled. Requires the curve between the ends.
     pub fn look_for_touch(&mut self, kinematics: &mut Kinematics, h: f64, motion: f64) -> Result<(), Fault> {
         if !self.branch.may_touch(kinematics, h, motion) {
             return Ok(());
@@ -37,7 +36,7 @@ impl Step {
         Ok(())
     }
 
-    /// Searches the least determinant of a block on the curve by golden section.
+    /// Searches the curve for the least determinant of a block by golden section; fails if it comes close enough to zero.
     fn search(&mut self, kinematics: &mut Kinematics, block: usize, h: f64) -> Result<(), Fault> {
         let (at_low, at_high) = self.branch.at_ends(block);
         let deep = DEEP * f64::min(at_low, at_high);
@@ -58,7 +57,7 @@ impl Step {
         Ok(())
     }
 
-    /// Factors at a place of the curve, given as a part of the step.
+    /// Factors at a point of the curve, at the fraction `x` of the step.
     fn factor_within(&mut self, kinematics: &mut Kinematics, h: f64, x: f64) -> Result<(), Fault> {
         self.set_on_curve(kinematics, h, x)?;
         kinematics.factor()?;

@@ -31,7 +31,7 @@ impl Kinematics {
         self.all_finite(state)
     }
 
-    /// Returns the speed that a row prescribes, scaled (1/s); the derivatives where the position was set must have been computed.
+    /// Returns the speed that a row prescribes, scaled (1/s); the derivatives at the current position must have been computed.
     pub fn prescribed_speed(&self, row: usize) -> f64 {
         self.registers.get(self.program.outputs.nu()[row]).abs() / self.linear.row_norm(row)
     }

@@ -193,7 +193,7 @@ impl Kinematics {
         }
     }
 
-    /// Returns an entry of Φ where the position was set.
+    /// Returns an entry of Φ at the current position.
     pub fn phi(&self, row: usize) -> f64 {
         self.registers.get(self.program.outputs.phi[row])
     }
@@ -252,7 +252,7 @@ impl Kinematics {
         self.linear.choose_orders();
     }
 
-    /// Factors Φ_q where the position was set.
+    /// Factors Φ_q at the current position.
     pub fn factor(&mut self) -> Result<(), Fault> {
         let (registers, outputs) = (&self.registers, &self.program.outputs);
         let coordinates = self.program.inputs.coordinates[0];

@@ -10,7 +10,7 @@ const ROUNDING: f64 = 8.0 * f64::EPSILON;
 
 impl Kinematics {
     /// Returns the residual of a row's velocity and acceleration equation with the derivatives of another state, scaled; the
-    /// derivatives where the position was set must just have been computed.
+    /// derivatives at the current position must just have been computed.
     pub fn left_open(&self, row: usize, state: &State) -> (f64, f64) {
         let outputs = &self.program.outputs;
         let open = |x: &[f64], right: Register| {
@@ -19,18 +19,18 @@ impl Kinematics {
         (open(&state.qd, outputs.nu()[row]), open(&state.qdd, outputs.gamma()[row]))
     }
 
-    /// Returns the number of the first equation that was left out and does not hold where the position was set.
+    /// Returns the number of the first equation that was left out and does not hold at the current position.
     pub fn broken_check(&self) -> Option<usize> {
         let mut open = self.system().checks().iter().enumerate().map(|(k, check)| self.check(k).abs() / check.scale);
         open.position(|open| open.is_nan() || open > LARGEST_OPENING)
     }
 
-    /// Returns `Φ` of an equation that was left out, by its number among the checks, where the position was set.
+    /// Returns `Φ` of an equation that was left out, by its number among the checks at the current position.
     pub fn check(&self, index: usize) -> f64 {
         self.registers.get(self.program.outputs.checks[index])
     }
 
-    /// Returns a monitored quantity relative to its scale, where the position was set.
+    /// Returns a monitored quantity relative to its scale at the current position.
     pub fn monitored(&self, index: usize) -> f64 {
         self.registers.get(self.program.outputs.watches[index]) / self.system().monitors()[index].scale
     }
@@ -42,7 +42,7 @@ impl Kinematics {
         }
     }
 
-    /// Returns the coordinates `θ` of lines of centres that point away from the other centre, where the position was set.
+    /// Returns the coordinates `θ` of lines of centres that point away from the other centre at the current position.
     pub fn turned_lines(&self) -> Vec<usize> {
         let system = self.system();
         let is_turned =
@@ -112,7 +112,7 @@ impl Kinematics {
         self.steps(row).fold(self.largest_term_of(row), f64::max)
     }
 
-    /// Returns the largest term of a row where the position was set.
+    /// Returns the largest term of a row at the current position.
     pub(super) fn largest_term_of(&self, row: usize) -> f64 {
         largest_term(&self.program, &self.registers, row)
     }
@@ -135,7 +135,7 @@ impl Kinematics {
         })
     }
 
-    /// By row, what is left of `Φ_q x = b`.
+    /// Returns, by row, the residual of `Φ_q x = b`.
     pub(super) fn write_open(&self, right: &[Register], x: &[f64], open: &mut [f64]) {
         for (row, open) in open.iter_mut().enumerate() {
             *open = self.left(row, x) - self.registers.get(right[row]);

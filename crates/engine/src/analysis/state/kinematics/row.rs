@@ -27,7 +27,7 @@ pub(super) struct Varied {
     scoped: SubsystemFactors,
 }
 
-/// Returns whether a column holds what is not known at every position: forces, and what is differentiated by something else than time.
+/// Returns whether a column may lack a value at a valid position: reactions, efforts, derivatives by inputs or params, measures of either.
 fn may_be_missing(system: &ConstraintSystem, holds: &ColumnContent) -> bool {
     let is_of_solution = |id: ExprId| {
         let dependence = system.graph().dependence(id);

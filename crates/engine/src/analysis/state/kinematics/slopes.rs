@@ -77,7 +77,7 @@ impl Kinematics {
         self.program.run(Stage::Position, &mut self.registers);
     }
 
-    /// Returns the norm of a row of the scaled Φ_q where the position was set.
+    /// Returns the norm of a row of the scaled Φ_q at the current position.
     fn slope(&self, row: usize) -> f64 {
         let pattern = self.system().phi_q();
         let scaled = pattern

@@ -51,17 +51,17 @@ impl Kinematics {
 
     /// Returns the domain boundaries, at which the domains of functions end.
     pub fn boundaries(&self) -> &[BoundaryRegisters] {
-        &self.program.outputs.rims
+        &self.program.outputs.domain_boundaries
     }
 
     /// Returns workspaces for proofs about domain boundaries of time, and of the motion.
     pub fn enclosures_of_boundaries(&self) -> [Enclosure; 2] {
-        [true, false].map(|on_time| Enclosure::of_rims(&self.program, &self.registers, on_time))
+        [true, false].map(|on_time| Enclosure::of_domain_boundaries(&self.program, &self.registers, on_time))
     }
 
     /// Returns the event function of a domain boundary and its slope where time, position and velocity were set.
     pub fn gauge(&mut self, boundary: &BoundaryRegisters) -> [f64; 2] {
-        self.program.run(Stage::Rims, &mut self.registers);
+        self.program.run(Stage::DomainBoundaries, &mut self.registers);
         [boundary.gauge, boundary.slope].map(|register| self.registers.get(register))
     }
 
