@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from mechc.asking import names_of
+from mechc.requests import names_of
 from mechc.errors import AnalysisError, UsageError
 from mechc.tables import Run
-from mechc.values import elements, first_twice, meant, plain, refused, texts, usage
+from mechc.values import elements, first_duplicate, missing_value, normalized, suggestion, texts, usage
 
 if TYPE_CHECKING:
     from mechc.mechanism import Mechanism
@@ -56,7 +56,7 @@ class Jacobian:
         columns = [f"{name}.by.{by}" for by in self._by]
         if name not in self.run or any(column not in self.run for column in columns):
             known = [*self._names, *(known for known in self.run if not self.run._derived(known)[1] and known not in (name, "t"))]
-            hint = meant(name, known) if isinstance(name, str) else None
+            hint = suggestion(name, known) if isinstance(name, str) else None
             raise KeyError(f"there are no derivatives of {name!r}" + (f"; {hint}" if hint else ""))
         return np.column_stack([self.run[column] for column in columns])
 
@@ -69,12 +69,12 @@ class Jacobian:
         return f"<Jacobian: {len(self._names)} results and {self.run.rows} rows by {', '.join(self._by)}>"
 
 
-def jacobian(m: Mechanism, by: Any, asked: dict[str, Any]) -> Jacobian:
-    """The derivatives of what is asked for."""
-    asked = {**asked, "by": _names(by), "slopes": True}
-    run = m._ran(asked, True)
+def jacobian(m: Mechanism, by: Any, request: dict[str, Any]) -> Jacobian:
+    """Computes the derivatives of results and columns."""
+    request = {**request, "by": _names(by), "slopes": True}
+    run = m._execute(request, True)
     everything = run._results
-    by_all = _found(run)
+    by_all = _variables(run)
     own = len(everything) // (len(by_all) + 1)
     values = [np.nan if value is None else value for _, value, _ in everything]
     results = np.array(values[own:]).reshape(own, len(by_all)) if own else np.empty((0, len(by_all)))
@@ -84,17 +84,17 @@ def jacobian(m: Mechanism, by: Any, asked: dict[str, Any]) -> Jacobian:
 
 
 def _names(by: Any) -> list[str]:
-    found = [plain(name) for name in texts("by", by)]
-    if not found:
+    evaluated = [normalized(name) for name in texts("by", by)]
+    if not evaluated:
         raise usage("it is not said what it is by", "as in `by=['rod_length']`")
-    twice = first_twice(found)
+    twice = first_duplicate(evaluated)
     if twice is not None:
         raise usage(f"`by` names `{twice}` twice", "each derivative is there once")
-    return found
+    return evaluated
 
 
-def _found(run: Run) -> list[str]:
-    """What derivatives are by, in the order of the columns: a name without a number is that of all copies."""
+def _variables(run: Run) -> list[str]:
+    """Returns the variables of the derivatives in the order of the columns; a name in ``by`` without a number refers to all copies."""
     behind = [by for _, by in map(run._derived, run) if by]
     return list(dict.fromkeys(behind))
 
@@ -127,14 +127,14 @@ class Objective:
         lacking = [name for name, slope in zip(self.by, gradient) if np.isnan(slope)]
         if lacking:
             message = f"result `{self._name}` has no derivative by {', '.join(f'`{name}`' for name in lacking)} here"
-            raise refused(message, "its value alone is `f.value(x)`, for methods that take no gradient")
+            raise missing_value(message, "its value alone is `f.value(x)`, for methods that take no gradient")
         return value, gradient
 
     def _both(self, x: ArrayLike) -> tuple[float, Array]:
         try:
             results, slopes, *_ = self._evaluate(x)
             if np.isnan(results[self._place]):
-                raise refused(f"result `{self._name}` has no value here", "`failed=` gives one to such places")
+                raise missing_value(f"result `{self._name}` has no value here", "`failed=` gives one to such places")
         except AnalysisError:
             if self._failed is None:
                 raise
@@ -180,21 +180,21 @@ class Residuals:
 
     def _both(self, x: ArrayLike) -> tuple[Array, Array]:
         try:
-            found = self._evaluate(x)
+            evaluated = self._evaluate(x)
             if self._times is None:
-                self._times = self._times_that_stay(x, found.times)
+                self._times = self._times_that_stay(x, evaluated.times)
         except AnalysisError:
             if self._failed is None:
                 raise
             return np.full(self._wanted.size, self._failed), np.zeros((self._wanted.size, len(self.by)))
-        if not np.array_equal(found.times, self._times):
+        if not np.array_equal(evaluated.times, self._times):
             raise _times_move()
-        if found.rows.shape != self._wanted.shape:
-            raise usage(f"there are {len(found.times)} times, and targets for {self._wanted.shape[0]}")
-        return (found.rows - self._wanted).ravel(), found.slopes_of_rows.reshape(-1, len(self.by))
+        if evaluated.rows.shape != self._wanted.shape:
+            raise usage(f"there are {len(evaluated.times)} times, and targets for {self._wanted.shape[0]}")
+        return (evaluated.rows - self._wanted).ravel(), evaluated.slopes_of_rows.reshape(-1, len(self.by))
 
     def _times_that_stay(self, x: ArrayLike, times: Array) -> Array:
-        """The times at a place; refuses those that are others a little beside it, of which the derivatives know nothing."""
+        """Returns the times; refuses times that change with the params, which the derivatives do not take into account."""
         if not self._evaluate.has_own_times:
             with contextlib.suppress(AnalysisError):
                 if not np.array_equal(self._evaluate(np.asarray(elements("x", x)) * (1 + BESIDE) + BESIDE).times, times):
@@ -210,7 +210,7 @@ class Residuals:
         return self._both(x)[1].copy()
 
 
-#: So far beside a place is looked whether times are others there, of the values and in SI.
+#: Step, relative and in SI, of the second point at which the times of an analysis are compared.
 BESIDE = 1e-6
 
 
@@ -218,8 +218,8 @@ def _times_move() -> UsageError:
     return usage("the times of the analysis go with the params, and targets are for times that stay", "say them: `at=[0.0, 0.1, …]`")
 
 
-class Found(NamedTuple):
-    """What an evaluation gives."""
+class Evaluated(NamedTuple):
+    """The output of an evaluation."""
 
     #: Of shape (results,).
     results: Array
@@ -237,31 +237,31 @@ class Evaluation:
     """Results and columns with their derivatives at values of params; the last of them is kept, since optimisers ask for value and
     derivatives one after the other."""
 
-    def __init__(self, m: Mechanism, by: Any, columns: Sequence[str], asked: dict[str, Any]) -> None:
+    def __init__(self, m: Mechanism, by: Any, columns: Sequence[str], request: dict[str, Any]) -> None:
         self.by = _names(by)
-        self._made_of = m, self.by, columns, asked
-        params = _params(m, self.by, asked["set"])
+        self._arguments = m, self.by, columns, request
+        params = _params(m, self.by, request["set"])
         for name in self.by:
             if name not in params:
                 copies = names_of(name, params)
-                help = f"as in `by={copies!r}`" if copies else meant(name, params) or f"the params are {', '.join(params)}"
+                help = f"as in `by={copies!r}`" if copies else suggestion(name, params) or f"the params are {', '.join(params)}"
                 raise usage(f"`{name}` is several params" if copies else f"there is no param `{name}`", help)
         self.x0 = np.array([params[name] for name in self.by])
         self.x0.setflags(write=False)
         patterns = [*columns, *(f"{column}.by.{name}" for column in columns for name in self.by), "t"]
-        asked = {**asked, "by": self.by, "slopes": True, "columns": patterns}
-        self._evaluator = m._evaluator(asked, self.by)
+        request = {**request, "by": self.by, "slopes": True, "columns": patterns}
+        self._evaluator = m._evaluator(request, self.by)
         places = {name: place for place, name in enumerate(self._evaluator.columns)}
         self._time = places["t"]
         #: Whether times are asked for, which stay whatever the params.
-        self.has_own_times = bool(asked["at"])
+        self.has_own_times = bool(request["at"])
         self._columns = [places[column] for column in columns]
         self._slopes = [[places[f"{column}.by.{name}"] for name in self.by] for column in columns]
         self.results = [name for name, _ in self._evaluator.results]
         self.results = self.results[: len(self.results) // (len(self.by) + 1)]
-        self._last: tuple[bytes, Found] | None = None
+        self._last: tuple[bytes, Evaluated] | None = None
 
-    def __call__(self, x: ArrayLike) -> Found:
+    def __call__(self, x: ArrayLike) -> Evaluated:
         x = np.asarray(elements("x", x))
         if x.size != len(self.by):
             raise usage(f"{x.size} values are given for {len(self.by)} params", f"these are {', '.join(self.by)}, in that order")
@@ -274,19 +274,19 @@ class Evaluation:
         if not len(numbers):
             # times alone have no results
             numbers = np.full(own * (1 + len(self.by)), np.nan)
-        found = Found(
+        evaluated = Evaluated(
             numbers[:own],
             numbers[own:].reshape(own, len(self.by)),
             rows[:, self._time],
             rows[:, self._columns],
             rows[:, self._slopes] if self._columns else np.empty((len(rows), 0, len(self.by))),
         )
-        self._last = x.tobytes(), found
-        return found
+        self._last = x.tobytes(), evaluated
+        return evaluated
 
     def __reduce__(self) -> tuple[Any, ...]:
         # it is compiled anew where it is unpacked
-        return Evaluation, self._made_of
+        return Evaluation, self._arguments
 
 
 def _params(m: Mechanism, by: Sequence[str], set: Sequence[str]) -> Mapping[str, float]:
@@ -297,29 +297,29 @@ def _params(m: Mechanism, by: Sequence[str], set: Sequence[str]) -> Mapping[str,
             raise usage(f"`{name}` is set, and is one of the params that `x` holds", "leave it out of one of the two: optimisers begin where you say")
     if not names:
         return m.params
-    text, path, files, mechanism, own, leaves_out = m._packed()
+    text, path, files, mechanism, own, leaves_out = m._pickled()
     kept = [setting for setting in own if setting.partition("=")[0] not in names]
     return type(m)(text, path, files, False, mechanism, [*kept, *set], leaves_out).params
 
 
-def objective(m: Mechanism, result: str, by: Any, failed: float | None, asked: dict[str, Any]) -> Objective:
+def objective(m: Mechanism, result: str, by: Any, failed: float | None, request: dict[str, Any]) -> Objective:
     """A result as a function of params."""
-    evaluation = Evaluation(m, by, [], asked)
+    evaluation = Evaluation(m, by, [], request)
     if result not in evaluation.results:
-        hint = meant(result, evaluation.results) or "add one: `results={'stroke': 'max(x(P)) - min(x(P))'}`"
+        hint = suggestion(result, evaluation.results) or "add one: `results={'stroke': 'max(x(P)) - min(x(P))'}`"
         raise usage(f"there is no result `{result}`", hint)
     return Objective(evaluation, evaluation.results.index(result), failed)
 
 
 def residuals(
-    m: Mechanism, columns: Any, wanted: ArrayLike, by: Any, failed: float | None, asked: dict[str, Any]
+    m: Mechanism, columns: Any, wanted: ArrayLike, by: Any, failed: float | None, request: dict[str, Any]
 ) -> Residuals:
     """Columns less what they ought to be, as a function of params."""
     names = texts("columns", columns)
     known = m.columns
     for name in names:
         if name not in known:
-            raise usage(f"there is no column `{name}`", meant(name, known))
+            raise usage(f"there is no column `{name}`", suggestion(name, known))
     if not names:
         raise usage("it is not said of which columns", "as in `m.residuals(['px', 'py'], points, by=…)`")
     # what the caller does with theirs later is of no concern here
@@ -327,4 +327,4 @@ def residuals(
     targets = targets.reshape(-1, len(names)) if targets.ndim == 1 and targets.size % len(names) == 0 else targets
     if targets.ndim != 2 or targets.shape[1] != len(names):
         raise usage(f"targets of shape {targets.shape} are given for {len(names)} columns", "a row for each time is wanted")
-    return Residuals(Evaluation(m, by, names, asked), names, targets, failed)
+    return Residuals(Evaluation(m, by, names, request), names, targets, failed)

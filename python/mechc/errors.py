@@ -67,12 +67,12 @@ class MechcError(Exception):
         return None if found is None else tuple(found)
 
     def _datum(self, name: str) -> Any:
-        """What the first error has as data."""
+        """Returns a datum of the first error."""
         found = (of.get("data", {}).get(name) for of in self.diagnostics if of.get("severity") == "error")
         return next(found, None)
 
     def __reduce__(self) -> tuple[Any, ...]:
-        # what holds it may be in its `partial`, and comes behind it
+        # `partial` may refer to the error itself, so the state is restored after the object exists
         return type(self), (self.text, self.diagnostics), dict(self.__dict__)
 
 
@@ -93,9 +93,9 @@ class FileError(MechcError, OSError):
 
     def __init__(self, text: str = "", diagnostics: list[dict[str, Any]] | None = None) -> None:
         super().__init__(text, diagnostics)
-        told = next((of["data"] for of in self.diagnostics if "file" in of.get("data", {})), {})
-        self.filename = told.get("file")
-        self.errno = told.get("errno")
+        data = next((of["data"] for of in self.diagnostics if "file" in of.get("data", {})), {})
+        self.filename = data.get("file")
+        self.errno = data.get("errno")
         if self.errno in errno.errorcode:
             self.strerror = os.strerror(self.errno)
 
@@ -135,36 +135,36 @@ class MechcWarning(UserWarning):
         self.diagnostics = [] if diagnostics is None else diagnostics
 
 
-_OF_BLAME = {"input": InputError, "usage": UsageError, "analysis": AnalysisError, "files": FileError}
-_OF_CODE = {"E0601": NotAssembled, "E0602": LockUp, "E0603": Bifurcation}
+_CLASSES_BY_KIND = {"input": InputError, "usage": UsageError, "analysis": AnalysisError, "files": FileError}
+_CLASSES_BY_CODE = {"E0601": NotAssembled, "E0602": LockUp, "E0603": Bifurcation}
 
 
-#: Calls from here are none of the user's.
-_OWN = os.path.dirname(os.path.abspath(__file__)) + os.sep
+#: The folder of the package, whose frames are not the user's.
+_PACKAGE = os.path.dirname(os.path.abspath(__file__)) + os.sep
 
 
 def warn(warning: MechcWarning) -> None:
     """Warns at the line that calls into the package, however deep within it this is called."""
     frame, level = sys._getframe(1), 2
-    while frame.f_back is not None and frame.f_code.co_filename.startswith(_OWN):
+    while frame.f_back is not None and frame.f_code.co_filename.startswith(_PACKAGE):
         frame, level = frame.f_back, level + 1
     warnings.warn(warning, stacklevel=level)
 
 
-def _said(lines: list[str]) -> list[dict[str, Any]]:
-    """Diagnostics as data."""
+def _parsed(lines: list[str]) -> list[dict[str, Any]]:
+    """Parses diagnostics."""
     return [json.loads(line) for line in lines]
 
 
-def _raised(lines: list[str], text: str, blame: str, code: str) -> MechcError:
-    """The exception for diagnostics of the library."""
-    said = _said(lines)
-    # where no way leads, why it cannot be assembled from its estimates either is what is behind that
-    codes = [code, *(of["code"] for of in said if of["severity"] == "error")]
-    kind = next((_OF_CODE[code] for code in codes if code in _OF_CODE), _OF_BLAME.get(blame, MechcError))
-    return kind(text, said)
+def _exception_from(lines: list[str], text: str, kind: str, code: str) -> MechcError:
+    """Returns the exception for diagnostics of the library."""
+    diagnostics = _parsed(lines)
+    # if the continuation and the assembly from the estimates both fail, the code of the latter comes second
+    codes = [code, *(of["code"] for of in diagnostics if of["severity"] == "error")]
+    cls = next((_CLASSES_BY_CODE[code] for code in codes if code in _CLASSES_BY_CODE), _CLASSES_BY_KIND.get(kind, MechcError))
+    return cls(text, diagnostics)
 
 
-def _warned(lines: list[str], text: str) -> None:
-    """Warns of what is said."""
-    warn(MechcWarning(text, _said(lines)))
+def _warn(lines: list[str], text: str) -> None:
+    """Issues diagnostics as a warning."""
+    warn(MechcWarning(text, _parsed(lines)))

@@ -12,7 +12,7 @@ from pathlib import Path
 
 from mechc import values
 from mechc.errors import FileError
-from mechc.values import said
+from mechc.values import diagnostic_of
 
 #: Lines of a file that may hold the mark by which one that was written here is known.
 HEAD = 6
@@ -20,11 +20,11 @@ HEAD = 6
 
 def path_of(path: str | os.PathLike[str]) -> Path:
     """A path that was handed over, of what is to be written."""
-    told = values.path_of("path", path)
-    if not told:
+    name = values.path_of("path", path)
+    if not name:
         # it would be taken for the folder that we are in
         raise values.usage("`path` is empty, and that of a file or folder is wanted", "`'.'` is the folder that you are in")
-    return Path(told)
+    return Path(name)
 
 
 def write(path: Path, text: str) -> Path:
@@ -94,7 +94,7 @@ def write_all(folder: Path, files: list[tuple[str, str]], mark: str) -> Path:
 
 
 def _cannot(path: Path, why: str, help: str | None = None, number: int | None = None) -> FileError:
-    return FileError(*said("E0702", f"cannot write `{path}`: {why}", help, {"file": str(path), "errno": number}))
+    return FileError(*diagnostic_of("E0702", f"cannot write `{path}`: {why}", help, {"file": str(path), "errno": number}))
 
 
 def _umask() -> int:

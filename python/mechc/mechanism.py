@@ -7,14 +7,14 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from mechc import asking, exports, notebook
+from mechc import exports, notebook, requests
 from mechc._mechc import seconds
-from mechc.asking import with_options
+from mechc.requests import with_options
 from mechc.derivatives import Jacobian, Objective, Residuals, jacobian, objective, residuals
 from mechc.errors import MechcError, MechcWarning, warn
 from mechc.running import Running
-from mechc.tolerances import Tolerance, told
-from mechc.values import Value, mapping, many, number, path_of, sound, usage, whole
+from mechc.tolerances import Tolerance, tolerance_of
+from mechc.values import Value, as_list, checked_text, mapping, number, path_of, usage, whole_number
 
 #: What files hold: texts or bytes.
 Files = Mapping[Any, "str | bytes"]
@@ -54,8 +54,8 @@ def parse(
         if not isinstance(contents, (str, bytes, bytearray, memoryview)):
             raise usage(f"the file {path!r} is an object of {type(contents).__name__}", "give its text, or its bytes")
         name_of_it = path_of("files", path)
-        held[name_of_it] = sound(name_of_it, contents).encode() if isinstance(contents, str) else bytes(contents)
-    return _made(sound("text", text), path_of("name", name), held, False, mechanism, set, allow_redundant)
+        held[name_of_it] = checked_text(name_of_it, contents).encode() if isinstance(contents, str) else bytes(contents)
+    return _made(checked_text("text", text), path_of("name", name), held, False, mechanism, set, allow_redundant)
 
 
 def _listed(files: Any) -> Mapping[Any, Any]:
@@ -76,12 +76,12 @@ def _made(
     if mechanism is not None and not isinstance(mechanism, str):
         raise usage(f"{mechanism!r} is no name of a mechanism")
     if mechanism is not None:
-        sound("mechanism", mechanism)
-    given, leaves_out = [], asking.flag("allow_redundant", allow_redundant)
+        checked_text("mechanism", mechanism)
+    given, leaves_out = [], requests.flag("allow_redundant", allow_redundant)
     if set is not None and mapping("set", set):
         # which unit a number has is known when the mechanism is
         plain = Mechanism(text, path, files, from_disk, mechanism, [], leaves_out)
-        given = asking.settings("set", set, {}, plain._param_units)
+        given = requests.settings("set", set, {}, plain._param_units)
     return Mechanism(text, path, files, from_disk, mechanism, given, leaves_out)
 
 
@@ -114,7 +114,7 @@ class Mechanism(Running):
         ``j.results`` is of shape (results, params), in SI; ``j["travel"]`` of shape (rows, params), along the motion. Its options are
         those that :meth:`run` has by the same names.
         """
-        asked = self._asked(
+        request = self._request(
             values,
             set=set,
             inputs=inputs,
@@ -126,7 +126,7 @@ class Mechanism(Running):
             tolerance=tolerance,
             pass_bifurcations=pass_bifurcations,
         )
-        return jacobian(self, by, asked)
+        return jacobian(self, by, request)
 
     @with_options
     def objective(
@@ -152,7 +152,7 @@ class Mechanism(Running):
         params in that order (SI); the mechanism is led from its own params to them, along the branch, so that a value does not depend
         on those that were asked for before. ``failed`` is the value where it does not get there; an error is raised where nothing is said.
         """
-        asked = self._asked(
+        request = self._request(
             values,
             set=set,
             inputs=inputs,
@@ -165,7 +165,7 @@ class Mechanism(Running):
         )
         if not isinstance(result, str):
             raise usage(f"{result!r} is no name of a result")
-        return objective(self, sound("result", result), by, _replacing(failed), asked)
+        return objective(self, checked_text("result", result), by, _replacing(failed), request)
 
     @with_options
     def residuals(
@@ -192,12 +192,12 @@ class Mechanism(Running):
         then ``scipy.optimize.least_squares(f, f.x0, jac=f.jacobian)``. ``at`` must rise. ``failed`` is
         what all residuals are where it does not get there; an error is raised where nothing is said.
         """
-        at = None if at is None else many("at", at)
+        at = None if at is None else as_list("at", at)
         if at is not None and len(at) > 1:
             times = [seconds(time) if isinstance(time, str) else number("at", time) for time in at]
             if any(a >= b for a, b in zip(times, times[1:])):
                 raise usage("the times of `at` do not rise", "each is to stand once, in order, as its target does")
-        asked = self._asked(
+        request = self._request(
             values,
             set=set,
             inputs=inputs,
@@ -208,7 +208,7 @@ class Mechanism(Running):
             tolerance=tolerance,
             pass_bifurcations=pass_bifurcations,
         )
-        return residuals(self, columns, wanted, by, _replacing(failed), asked)
+        return residuals(self, columns, wanted, by, _replacing(failed), request)
 
     @with_options
     def tolerance(
@@ -237,7 +237,7 @@ class Mechanism(Running):
         ends = mapping("tol", tol)
         if not ends:
             raise usage("`tol` says which params may be off", "as in `tol={'rod_length': '0.05 mm'}`")
-        asked = self._asked(
+        request = self._request(
             values,
             set=set,
             inputs=inputs,
@@ -248,9 +248,9 @@ class Mechanism(Running):
             tolerance=tolerance,
             pass_bifurcations=pass_bifurcations,
         )
-        listed = [asking.off(name, ends, asking.unit_of(name, self._param_units)) for name, ends in ends.items()]
-        is_normal, is_verified = asking.flag("normal", normal), asking.flag("verify", verify)
-        return told(*self._tolerance(asked, listed, is_normal, is_verified))
+        listed = [requests.tolerance_option(name, ends, requests.unit_of(name, self._param_units)) for name, ends in ends.items()]
+        is_normal, is_verified = requests.flag("normal", normal), requests.flag("verify", verify)
+        return tolerance_of(*self._tolerance(request, listed, is_normal, is_verified))
 
     def to_rust(
         self,
@@ -265,18 +265,18 @@ class Mechanism(Running):
         The text where no path is given; a ``.rs`` file, or a whole crate in a folder. ``sensitivities`` adds derivatives by params,
         ``lanes`` so many variants at once, ``ffi`` a header for C, to a crate.
         """
-        asked = {
-            "sensitivities": asking.flag("sensitivities", sensitivities),
-            "lanes": None if lanes is None else whole("lanes", lanes, 1),
-            "ffi": asking.flag("ffi", ffi),
+        request = {
+            "sensitivities": requests.flag("sensitivities", sensitivities),
+            "lanes": None if lanes is None else whole_number("lanes", lanes, 1),
+            "ffi": requests.flag("ffi", ffi),
         }
         if path is None or exports.path_of(path).suffix == ".rs":
             if ffi:
                 raise usage("functions for C are a part of a crate", "name a folder for it")
-            text = self._rust(asked)
+            text = self._rust(request)
             return text if path is None else self._written(path, text)
         folder = exports.path_of(path)
-        files, mark = self._crate(asked, folder.resolve().name or self.name)
+        files, mark = self._crate(request, folder.resolve().name or self.name)
         return exports.write_all(folder, files, mark)
 
     def to_latex(self, path: str | os.PathLike[str] | None = None) -> str | Path:
@@ -309,13 +309,13 @@ class Mechanism(Running):
         A motion that stops is shown up to there, one that cannot be assembled as it comes nearest to that. Why is raised behind that, as
         :meth:`run` raises it, with the path as ``partial``; with ``strict=False`` it is a warning.
         """
-        file, is_strict = exports.path_of(path), asking.flag("strict", strict)
+        file, is_strict = exports.path_of(path), requests.flag("strict", strict)
         if file.suffix not in (".html", ".svg"):
             raise usage(f"`{file}` is neither a page nor a picture", "its ending is `.html` or `.svg`")
-        asked = self._asked(
+        request = self._request(
             values, set=set, inputs=inputs, from_=from_, to=to, every=every, pass_bifurcations=pass_bifurcations
         )
-        page, picture, error = self._seen(asked)
+        page, picture, error = self._visualize(request)
         written = self._written(file, page if file.suffix == ".html" else picture)
         if error is not None and is_strict:
             error.partial = written
@@ -327,14 +327,14 @@ class Mechanism(Running):
     def _written(self, path: str | os.PathLike[str], text: str) -> Path:
         """Writes a file, which is none that it was read from."""
         file = exports.path_of(path)
-        _, own, used, *_ = self._packed()
+        _, own, used, *_ = self._pickled()
         exports.refuse_what_was_read(file, [own, *used])
         return exports.write(file, text)
 
     def _repr_html_(self) -> str:
         """The moving page, for notebooks, with why the motion stops, if it does; where there is no motion, why there is none."""
         try:
-            return notebook.shown(self, self._asked({}))
+            return notebook.shown(self, self._request({}))
         except MechcError as error:
             return notebook.without_motion(self, error)
 
@@ -350,7 +350,7 @@ class Mechanism(Running):
         raise AttributeError(f"a mechanism does not change: {instead}")
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return _again, self._packed()
+        return _unpickle, self._pickled()
 
     def __copy__(self) -> Mechanism:
         return self
@@ -359,7 +359,7 @@ class Mechanism(Running):
         return self
 
 
-def _again(
+def _unpickle(
     text: str, path: Any, files: dict[Any, bytes], mechanism: str | None, set: list[str], allow_redundant: bool
 ) -> Mechanism:
     return Mechanism(text, path, files, False, mechanism, set, allow_redundant)

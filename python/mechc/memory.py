@@ -1,4 +1,4 @@
-"""How much memory there is: what takes more is refused before it is begun, since a system that gives what it has not ends who asks for it."""
+"""Refuses computations that do not fit into free memory before they begin, since a system that overcommits kills the process later."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ import os
 from mechc.errors import TooLarge
 from mechc.values import usage
 
-#: How to have less at once, by what is asked for.
+#: Help for each kind of computation: how to need less memory.
 _INSTEAD = {
     "run": "ask for fewer columns (`columns=…`), or for fewer times (`every=…`, `at=…`)",
     "sweep": "read it batch by batch: `for batch in pyarrow.RecordBatchReader.from_stream(sweep)`; "
@@ -17,13 +17,13 @@ _INSTEAD = {
     "at": "ask for fewer elements at once",
 }
 
-#: What takes less is not looked at (bytes).
+#: Rows up to this size are not checked (bytes).
 SMALL = 64 << 20
 
-#: So many columns each mechanism has at the least: the time, and the three coordinates of a body with both derivatives.
+#: Least number of columns of a mechanism: the time, and the three coordinates of a body with both derivatives.
 LEAST = 10
 
-#: What holds the limits of this process, and what it has of them: of groups of processes, as containers are, in both versions.
+#: Files with limit, usage and statistics of the control group of this process, of both versions.
 _GROUPS = (
     ("/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory.current", "/sys/fs/cgroup/memory.stat"),
     (
@@ -42,7 +42,7 @@ def refuse_beyond(rows: int, columns: int, of: str) -> None:
 
 
 def refuse_elements(count: int) -> None:
-    """Refuses elements that do not fit into the memory that is free, whatever mechanism they are of."""
+    """Refuses elements that do not fit into free memory, whatever the mechanism."""
     if 8 * count * LEAST > SMALL:
         free = _free()
         if free is not None and 8 * count * LEAST > free:
@@ -50,12 +50,12 @@ def refuse_elements(count: int) -> None:
 
 
 def too_many(count: int, free: int | None = None) -> TooLarge:
-    """That elements do not fit into memory, before it is known how many columns they have."""
+    """Returns the error for elements that do not fit into memory, before their number of columns is known."""
     return too_large(count, LEAST, "at", free, " or more")
 
 
 def too_large(rows: int, columns: int, of: str, free: int | None = None, more: str = "") -> TooLarge:
-    """That rows of numbers do not fit into memory, and what to do instead."""
+    """Returns the error for rows of numbers that do not fit into memory."""
     beside = "" if free is None else f", and {_size(max(free, 0))} of memory are free"
     message = f"{rows} rows of {columns} columns{more} take {_size(8 * rows * columns)}{more}{beside}"
     error = usage(message, _INSTEAD[of], TooLarge)
@@ -64,7 +64,7 @@ def too_large(rows: int, columns: int, of: str, free: int | None = None, more: s
 
 
 def _free() -> int | None:
-    """How many bytes can be had; nothing where that is not known."""
+    """Returns the number of free bytes; ``None`` if it is not known."""
     known = [free for free in (_of_machine(), *map(_of_group, _GROUPS), _of_process()) if free is not None]
     return min(known, default=None)
 
@@ -109,7 +109,7 @@ def _read(file: str) -> str:
 
 
 def _size(bytes: int) -> str:
-    """A number of bytes, to be read."""
+    """Formats a number of bytes."""
     for of, unit in ((10**12, "TB"), (10**9, "GB"), (10**6, "MB")):
         if bytes >= of:
             count = bytes / of

@@ -12,11 +12,11 @@ LARGEST = 300_000
 ROWS = (400, 200, 100, 50, 25, 12)
 
 
-def shown(m: Any, asked: dict[str, Any]) -> str:
+def shown(m: Any, request: dict[str, Any]) -> str:
     """The page in a sandboxed frame, with a picture for readers whose scripts are off; of what is too large for that the picture alone.
     Below it stands why the motion ends before its time, if it does."""
     for rows in ROWS:
-        page, picture, error = m._seen(asked, rows)
+        page, picture, error = m._visualize(request, rows)
         why = "" if error is None else f"<pre>{html.escape(str(error))}</pre>"
         text = framed(page, picture) + why
         if len(text.encode()) <= LARGEST:

@@ -18,11 +18,11 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from mechc._mechc import __version__
-from mechc.asking import flag, with_options
+from mechc.requests import flag, with_options
 from mechc.errors import FileError, MechcError
 from mechc.running import Running
 from mechc.sweep import Sweep
-from mechc.values import path_of, said, usage, whole
+from mechc.values import diagnostic_of, path_of, usage, whole_number
 
 if TYPE_CHECKING:
     import pyarrow
@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 
     from mechc.mechanism import Mechanism
 
-#: The file that says what the whole is.
+#: The file that describes the whole sweep.
 WHOLE = "sweep.json"
 
 #: Where nothing is said there are so many shares, or as many as tasks; each has so many variants at the least, for it begins with some milliseconds,
@@ -73,15 +73,15 @@ class Shares:
 
 
 def _of_a_mechanism(asks: Callable[..., Shares]) -> Callable[..., Shares]:
-    """Refuses what is no mechanism, before it is asked for its params."""
+    """Decorates a function of a mechanism: any other object is refused."""
 
     @functools.wraps(asks)
-    def asked(m: Mechanism, /, *arguments: Any, **keywords: Any) -> Shares:
+    def wrapper(m: Mechanism, /, *arguments: Any, **keywords: Any) -> Shares:
         if not isinstance(m, Running):
             raise usage(f"an object of {type(m).__name__} is no mechanism", "`mechc.load(path)` makes one of a file")
         return asks(m, *arguments, **keywords)
 
-    return asked
+    return wrapper
 
 
 @_of_a_mechanism
@@ -111,18 +111,18 @@ def sweep(
     import ray
     import ray.data
 
-    whole_sweep, share = _whole(m, options), None if share is None else whole("share", share, 1)
-    concurrency = None if concurrency is None else whole("concurrency", concurrency, 1)
+    whole_sweep, share = _whole_sweep(m, options), None if share is None else whole_number("share", share, 1)
+    concurrency = None if concurrency is None else whole_number("concurrency", concurrency, 1)
     # workers may stand in other folders
     name = path_of("out", out)
     name = name if "://" in name or filesystem is not None else os.path.abspath(name)
     fs, root = _opened(name, filesystem)
-    with _told_of(name):
+    with _file_errors(name):
         fs.create_dir(root, recursive=True)
-        known = _known(fs, root)
+        existing = _read_manifest(fs, root)
     count = whole_sweep.variants
-    share = share or (known["share"] if known else _usual_share(whole_sweep, _most_tasks(concurrency)))
-    told = {
+    share = share or (existing["share"] if existing else _usual_share(whole_sweep, _most_tasks(concurrency)))
+    manifest = {
         "mechc": __version__,
         "mechanism": m.name,
         "variants": count,
@@ -130,8 +130,8 @@ def sweep(
         "columns": [{"name": column, "unit": unit} for column, unit in whole_sweep.units.items()],
         "sweep": _fingerprint(whole_sweep),
     }
-    with _told_of(name):
-        _tell(fs, root, told, known)
+    with _file_errors(name):
+        _write_manifest(fs, root, manifest, existing)
     ranges = [(first, min(first + share, count)) for first in range(0, count, share)]
     there = _there(fs, root)
     missing = [of for of in ranges if _name(*of) not in there]
@@ -162,14 +162,14 @@ def share(packed: bytes, first: int, last: int) -> Iterator[Any]:
     import pyarrow
 
     of = pickle.loads(packed)
-    first, last = whole("first", first), whole("last", last)
+    first, last = whole_number("first", first), whole_number("last", last)
     if not first <= last <= of.variants:
         raise usage(f"there are {of.variants} variants, and a share from {first} to {last} is none of them")
     yield from pyarrow.RecordBatchReader.from_stream(_part(of, first, last))
 
 
 def _usual_share(of: Sweep, tasks: int) -> int:
-    """How many variants a file has, where nothing is said: 1, 2 or 5 with zeros."""
+    """Returns the default number of variants of a file: 1, 2 or 5 times a power of ten."""
     round_ones = [digit * 10**zeros for zeros in range(20) for digit in (1, 2, 5)]
     wanted = next(share for share in round_ones if share >= max(of.variants / max(SHARES, tasks), LEAST_SHARE))
     most = MOST_NUMBERS / (of._sweep.rows_of_a_variant * len(of.columns))
@@ -188,13 +188,13 @@ def _most_tasks(concurrency: int | None) -> int:
 
 
 def _part(of: Sweep, first: int, last: int) -> Sweep:
-    """Some variants of a sweep, on the one core that a task has."""
-    m, asked, more, _ = of._made_of
-    return Sweep(m, asked, {**more, "skip": more["skip"] + first, "take": last - first, "jobs": 1})
+    """Returns a range of the variants of a sweep, computed on one core."""
+    m, request, variation, _ = of._arguments
+    return Sweep(m, request, {**variation, "skip": variation["skip"] + first, "take": last - first, "jobs": 1})
 
 
 def _make(row: dict[str, int], *, packed: Any, folder: str, filesystem: Any = None) -> dict[str, int]:
-    """Makes a share, and writes its file."""
+    """Computes a share and writes its file."""
     import pyarrow
     from pyarrow import parquet
 
@@ -222,8 +222,8 @@ def _make(row: dict[str, int], *, packed: Any, folder: str, filesystem: Any = No
     return {"first": first, "last": last, "made": 1}
 
 
-#: The sweep of this worker: it is unpacked, checked and proven once for all of its shares.
-_KNOWN: dict[str, Sweep] = {}
+#: The sweep of this worker, unpickled and compiled once for all of its shares.
+_SWEEPS: dict[str, Sweep] = {}
 
 
 def _unpacked(packed: Any) -> Sweep:
@@ -231,13 +231,13 @@ def _unpacked(packed: Any) -> Sweep:
 
     (reference,) = packed
     key = reference.hex()
-    if key not in _KNOWN:
-        _KNOWN.clear()
-        _KNOWN[key] = pickle.loads(ray.get(reference))
-    return _KNOWN[key]
+    if key not in _SWEEPS:
+        _SWEEPS.clear()
+        _SWEEPS[key] = pickle.loads(ray.get(reference))
+    return _SWEEPS[key]
 
 
-def _whole(m: Mechanism, options: dict[str, Any]) -> Sweep:
+def _whole_sweep(m: Mechanism, options: dict[str, Any]) -> Sweep:
     for name in ("jobs", "skip", "take", "until", "progress"):
         if options.get(name) is not None:
             raise usage(f"`{name}` is not for sweeps of shares", "leave it out; `share` says how many variants a task computes")
@@ -247,53 +247,53 @@ def _whole(m: Mechanism, options: dict[str, Any]) -> Sweep:
 
 
 def _fingerprint(of: Sweep) -> dict[str, Any]:
-    """What decides each bit of a sweep, as JSON."""
+    """Returns all inputs of a sweep that its bits depend on, as JSON; texts and files by their hashes."""
     import hashlib
 
     def mark(contents: bytes) -> str:
         return "sha256:" + hashlib.sha256(contents).hexdigest()
 
-    m, asked, more, _ = of._made_of
-    text, own, files, mechanism, set, allow_redundant = m._packed()
+    m, request, variation, _ = of._arguments
+    text, own, files, mechanism, set, allow_redundant = m._pickled()
     # wherever the text is, and from wherever it is named: what it names lies beside it
     beside = {os.path.relpath(path, os.path.dirname(own) or "."): contents for path, contents in files.items()}
     beside.pop(os.path.basename(own), None)
-    vary = [of if isinstance(of, str) else f"@{os.path.basename(of[0])} {mark(of[1])}" for of in more["vary"]]
+    vary = [of if isinstance(of, str) else f"@{os.path.basename(of[0])} {mark(of[1])}" for of in variation["vary"]]
     return {
         "text": mark(text.encode()),
         "files": {path: mark(contents) for path, contents in sorted(beside.items())},
         "choice": {"mechanism": mechanism, "set": set, "allow_redundant": allow_redundant},
-        "asked": _said(asked),
-        "variants": {**_said(more), "vary": vary},
+        "asked": _given_options(request),
+        "variants": {**_given_options(variation), "vary": vary},
     }
 
 
-def _said(options: dict[str, Any]) -> dict[str, Any]:
-    """What of options was said; a number 0 was."""
+def _given_options(options: dict[str, Any]) -> dict[str, Any]:
+    """Returns the options that are given; a number 0 is."""
     return {name: value for name, value in options.items() if value is not None and value is not False and value != []}
 
 
-def _known(fs: pyarrow.fs.FileSystem, root: str) -> dict[str, Any] | None:
-    """What a folder says of the whole, if it does."""
+def _read_manifest(fs: pyarrow.fs.FileSystem, root: str) -> dict[str, Any] | None:
+    """Reads the manifest of a folder, if there is one."""
     place = f"{root}/{WHOLE}"
     if fs.get_file_info(place).type == 0:
         return None
     with fs.open_input_stream(place) as stream:
         contents = stream.read()
     try:
-        known = json.loads(contents)
+        existing = json.loads(contents)
     except ValueError:
-        known = None
-    if not isinstance(known, dict) or not isinstance(known.get("share"), int) or known["share"] < 1:
+        existing = None
+    if not isinstance(existing, dict) or not isinstance(existing.get("share"), int) or existing["share"] < 1:
         raise usage(f"the folder has a `{WHOLE}` that says nothing of a sweep", "name another folder")
-    return known
+    return existing
 
 
-def _tell(fs: pyarrow.fs.FileSystem, root: str, told: dict[str, Any], known: dict[str, Any] | None) -> None:
-    """Says what the whole is; refuses a folder of another one."""
+def _write_manifest(fs: pyarrow.fs.FileSystem, root: str, manifest: dict[str, Any], existing: dict[str, Any] | None) -> None:
+    """Writes the manifest of a sweep; refuses a folder with another one."""
     place = f"{root}/{WHOLE}"
-    if known is not None:
-        differ = list(_differing(known, json.loads(json.dumps(told))))
+    if existing is not None:
+        differ = list(_differing(existing, json.loads(json.dumps(manifest))))
         if differ:
             shown = "; ".join(differ[:MOST_DIFFERING]) + ("; …" if len(differ) > MOST_DIFFERING else "")
             raise usage(f"the folder holds another sweep: {shown}", "name another folder")
@@ -302,16 +302,16 @@ def _tell(fs: pyarrow.fs.FileSystem, root: str, told: dict[str, Any], known: dic
         raise usage(f"the folder has shares and no `{WHOLE}` that says what of", "name another folder")
     beside = f"{root}/.{WHOLE}.{uuid.uuid4().hex}"
     with fs.open_output_stream(beside) as stream:
-        stream.write(json.dumps(told, indent=1).encode())
+        stream.write(json.dumps(manifest, indent=1).encode())
     fs.move(beside, place)
 
 
-#: So many things that differ are told.
+#: Largest number of differences in a message.
 MOST_DIFFERING = 4
 
 
 def _differing(there: Any, here: Any, name: str = "") -> Iterator[str]:
-    """What differs between a sweep that is there and one that is asked for, in words."""
+    """Returns the differences between the manifest in the folder and the requested one, in words."""
     if there == here:
         return
     if isinstance(there, dict) and isinstance(here, dict):
@@ -320,13 +320,13 @@ def _differing(there: Any, here: Any, name: str = "") -> Iterator[str]:
     elif isinstance(there, str) and isinstance(here, str) and there.startswith("sha256:"):
         yield f"`{name}` is another"
     else:
-        told = ["nothing" if value is None else json.dumps(value, ensure_ascii=False) for value in (there, here)]
-        yield f"`{name}` is {told[0]} there, and {told[1]} here"
+        texts = ["nothing" if value is None else json.dumps(value, ensure_ascii=False) for value in (there, here)]
+        yield f"`{name}` is {texts[0]} there, and {texts[1]} here"
 
 
 @contextlib.contextmanager
-def _told_of(folder: str) -> Iterator[None]:
-    """What a file system says of a folder, as the package says it."""
+def _file_errors(folder: str) -> Iterator[None]:
+    """Converts errors of a file system to :class:`mechc.FileError`."""
     try:
         yield
     except MechcError:
@@ -334,7 +334,7 @@ def _told_of(folder: str) -> Iterator[None]:
     except (OSError, ImportError) as error:
         why = (error.strerror if isinstance(error, OSError) else None) or str(error)
         data = {"file": folder, "errno": getattr(error, "errno", None)}
-        raise FileError(*said("E0702", f"cannot write into `{folder}`: {why}", None, data)) from error
+        raise FileError(*diagnostic_of("E0702", f"cannot write into `{folder}`: {why}", None, data)) from error
 
 
 def _there(fs: pyarrow.fs.FileSystem, root: str) -> set[str]:
@@ -344,7 +344,7 @@ def _there(fs: pyarrow.fs.FileSystem, root: str) -> set[str]:
 
 
 def _clear(fs: pyarrow.fs.FileSystem, root: str, made: list[tuple[int, int]]) -> None:
-    """Removes what workers that died have left beside shares that others have made since."""
+    """Removes temporary files of workers that died, if their shares exist now."""
     left = tuple(f".{_name(*of)}." for of in made)
     for name in _there(fs, root):
         if name.startswith(left):
@@ -361,7 +361,7 @@ def _opened(folder: str, filesystem: Any = None) -> tuple[pyarrow.fs.FileSystem,
         return filesystem, folder.rstrip("/")
     place = folder if "://" in folder else os.path.abspath(folder)
     try:
-        with _told_of(folder):
+        with _file_errors(folder):
             fs, root = FileSystem.from_uri(place)
     except ValueError as error:
         # what it says of others than files

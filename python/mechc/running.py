@@ -7,18 +7,18 @@ import os
 from collections.abc import Mapping
 from typing import Any
 
-from mechc import asking
-from mechc.asking import flag, with_options
-from mechc.described import Described
+from mechc import requests
+from mechc.requests import flag, with_options
+from mechc.properties import MechanismProperties
 from mechc.sweep import Sweep
 from mechc.tables import Run
-from mechc.values import Value, first_twice, texts, usage
+from mechc.values import Value, first_duplicate, texts, usage
 
 #: More variants than this are asked about, as the command does.
 MANY = 1_000_000_000
 
 
-class Running(Described):
+class Running(MechanismProperties):
     """A mechanism that can be run."""
 
     @with_options
@@ -59,7 +59,7 @@ class Running(Described):
         ``strict=False`` they are given, and ``run.status`` says why it stopped. Where no way leads to what is set or told, it is assembled
         from the text's estimates, which may be another branch: that is a warning, and ``run.status`` is ``"reassembled"``.
         """
-        asked = self._asked(
+        request = self._request(
             values,
             set=set,
             inputs=inputs,
@@ -77,11 +77,11 @@ class Running(Described):
             pass_bifurcations=pass_bifurcations,
             allow_redundant=allow_redundant,
         )
-        return self._ran(asked, flag("strict", strict))
+        return self._execute(request, flag("strict", strict))
 
-    def _ran(self, asked: dict[str, Any], is_strict: bool) -> Run:
-        told = self._run(asked)
-        run = Run(told["table"], self.name, told["results"], told["status"], told["stopped"], told["error"])
+    def _execute(self, request: dict[str, Any], is_strict: bool) -> Run:
+        output = self._run(request)
+        run = Run(output["table"], self.name, output["results"], output["status"], output["stopped"], output["error"])
         return _unless(is_strict, run)
 
     @with_options
@@ -130,7 +130,7 @@ class Running(Described):
         variants are done and how many there are. More than 10⁹ variants are computed with ``yes=True`` alone. The other options are those of
         :meth:`run`.
         """
-        asked = self._asked(
+        request = self._request(
             values,
             set=set,
             inputs=inputs,
@@ -146,7 +146,7 @@ class Running(Described):
             pass_bifurcations=pass_bifurcations,
             allow_redundant=allow_redundant,
         )
-        more = asking.varied(
+        variation = requests.sweep_request(
             self._param_units,
             vary,
             variants,
@@ -158,10 +158,10 @@ class Running(Described):
             jobs=jobs,
             skip=skip,
             take=take,
-            asked=asked,
+            request=request,
         )
-        sweep, is_meant = Sweep(self, asked, more, progress), flag("yes", yes)
-        twice = first_twice(sweep.columns)
+        sweep, is_meant = Sweep(self, request, variation, progress), flag("yes", yes)
+        twice = first_duplicate(sweep.columns)
         if twice is not None:
             help = "the table has columns of its own: `variant`, `status`, `stopped`; give that param or result another name"
             raise usage(f"two columns of the table would be called `{twice}`", help)
@@ -179,8 +179,8 @@ class Running(Described):
         """
         is_strict, columns = flag("strict", options.pop("strict", True)), texts("columns", options.get("columns"))
         # what the caller names has been looked at, and what is named here is none of the caller's
-        asked = {**options, "strict": False, "reactions": True, "columns": columns or None}
-        run = Running.run.__wrapped__(self, **asked)  # type: ignore[attr-defined]
+        request = {**options, "strict": False, "reactions": True, "columns": columns or None}
+        run = Running.run.__wrapped__(self, **request)  # type: ignore[attr-defined]
         if not columns:
             plain = {*self.columns}
             names = [name for name in run if name == "t" or run._derived(name)[0] not in plain]

@@ -7,7 +7,7 @@ import time
 from typing import TYPE_CHECKING, Any
 
 from mechc.tables import Swept
-from mechc.values import usage, whole
+from mechc.values import usage, whole_number
 
 if TYPE_CHECKING:
     import polars
@@ -23,11 +23,11 @@ class Sweep:
     ``pyarrow.RecordBatchReader.from_stream(sweep)`` batch by batch, in bounded memory. ``sweep.read()`` gives all of it as numpy columns.
     """
 
-    def __init__(self, mechanism: Mechanism, asked: dict[str, Any], more: dict[str, Any], progress: Any = None) -> None:
+    def __init__(self, mechanism: Mechanism, request: dict[str, Any], variation: dict[str, Any], progress: Any = None) -> None:
         if progress not in (None, False, True) and not callable(progress):
             raise usage(f"`progress` is {progress!r}", "give `True`, or a function of how many variants are done and how many there are")
-        self._made_of = mechanism, asked, more, progress
-        self._sweep = mechanism._sweep(asked, more)
+        self._arguments = mechanism, request, variation, progress
+        self._sweep = mechanism._sweep(request, variation)
 
     @property
     def columns(self) -> list[str]:
@@ -56,13 +56,13 @@ class Sweep:
     def settings(self, variant: int) -> dict[str, str]:
         """The params of a variant, as ``set`` takes them, those among them that are set for all: ``m.run(lead=True, set=sweep.settings(7))`` is
         its motion, to the bit."""
-        texts = [*self._made_of[1]["set"], *self._sweep.settings(whole("variant", variant))]
+        texts = [*self._arguments[1]["set"], *self._sweep.settings(whole_number("variant", variant))]
         return dict(text.split("=", 1) for text in texts)
 
     def read(self) -> Swept:
         """Computes all of it: its columns as numpy arrays, of shape (rows,). What does not fit into memory is refused
         (:class:`mechc.TooLarge`): as a stream it is read batch by batch."""
-        return Swept(self._sweep._table(self._told()))
+        return Swept(self._sweep._table(self._progress_callback()))
 
     def to_polars(self) -> polars.DataFrame:
         """All of it as a polars frame."""
@@ -78,10 +78,10 @@ class Sweep:
         return self._sweep.__arrow_c_schema__()
 
     def __arrow_c_stream__(self, requested_schema: object = None) -> object:
-        return self._sweep._stream(self._told())
+        return self._sweep._stream(self._progress_callback())
 
-    def _told(self) -> Any:
-        progress = self._made_of[3]
+    def _progress_callback(self) -> Any:
+        progress = self._arguments[3]
         if progress is True:
             # programs without a console have no standard error
             return _Line() if sys.stderr is not None else None
@@ -91,7 +91,7 @@ class Sweep:
         return f"<Sweep of {self._made_of[0].name}: {len(self)} variants, {len(self.columns)} columns>"
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return Sweep, self._made_of
+        return Sweep, self._arguments
 
 
 class _Line:

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mechc import _mechc
-from mechc.values import meant, texts
+from mechc.values import suggestion, texts
 
 if TYPE_CHECKING:
     import pandas
@@ -70,7 +70,7 @@ class Rows(Mapping[str, Any]):
             return known
         place = self._places.get(name)
         if place is None:
-            hint = meant(name, self._places)
+            hint = suggestion(name, self._places)
             raise KeyError(f"there is no column {name!r}" + (f"; {hint}" if hint else ""))
         column = self._table.column(place)
         array = np.array(column, dtype=object) if isinstance(column, list) else np.asarray(column)
@@ -212,10 +212,10 @@ class Run(Rows):
     def __reduce__(self) -> tuple[Any, ...]:
         # the error may have this run for its `partial`, and comes behind it
         packed = self._contents(), self._name, self._results, self.status, self.stopped
-        return _run_again, packed, {"error": self.error}
+        return _unpickle_run, packed, {"error": self.error}
 
 
-def _run_again(contents: tuple[Any, ...], *rest: Any) -> Run:
+def _unpickle_run(contents: tuple[Any, ...], *rest: Any) -> Run:
     return Run(_rows(contents), *rest, None)
 
 
@@ -227,8 +227,8 @@ class Swept(Rows):
         return f"<Swept: {rows} rows × {columns} columns>"
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return _swept_again, (self._contents(),)
+        return _unpickle_swept, (self._contents(),)
 
 
-def _swept_again(contents: tuple[Any, ...]) -> Swept:
+def _unpickle_swept(contents: tuple[Any, ...]) -> Swept:
     return Swept(_rows(contents))

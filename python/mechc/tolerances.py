@@ -1,4 +1,4 @@
-"""What small errors of params make of measures and results."""
+"""Deviations of measures and results that tolerances of params cause."""
 
 from __future__ import annotations
 
@@ -124,8 +124,8 @@ class Tolerance:
         return pandas.DataFrame(self.to_dict())
 
 
-def told(params: list[Any], quantities: list[dict[str, Any]], tried: Any) -> Tolerance:
-    """What the library found."""
+def tolerance_of(params: list[Any], quantities: list[dict[str, Any]], tried: Any) -> Tolerance:
+    """Creates the result from that of the library."""
     names = [name for name, *_ in params]
 
     def by_param(values: Any) -> Any:

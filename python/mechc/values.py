@@ -25,19 +25,19 @@ Value = Union[float, int, str, "np.floating[Any]", "np.integer[Any]"]
 
 
 def usage(message: str, help: str | None = None, kind: type[UsageError] = UsageError) -> UsageError:
-    """Wrong usage, as the command says it."""
-    return kind(*said("E0706", message, help))
+    """Returns the error for wrong usage."""
+    return kind(*diagnostic_of("E0706", message, help))
 
 
-def refused(message: str, help: str) -> AnalysisError:
-    """A number that cannot be had."""
-    return AnalysisError(*said("N0604", message, help))
+def missing_value(message: str, help: str) -> AnalysisError:
+    """Returns the error for a result or derivative without a value."""
+    return AnalysisError(*diagnostic_of("N0604", message, help))
 
 
-def said(
+def diagnostic_of(
     code: str, message: str, help: str | None = None, data: dict[str, Any] | None = None
 ) -> tuple[str, list[dict[str, Any]]]:
-    """A message as the library has one: its text, and itself as data."""
+    """Returns an error message as printed text, and as diagnostics."""
     diagnostic = {
         "code": code,
         "severity": "error",
@@ -54,8 +54,8 @@ def said(
     return text, [diagnostic]
 
 
-def sound(name: str, text: str) -> str:
-    """A text that can be written: half of a pair of surrogates is no character, and no file and no message holds it."""
+def checked_text(name: str, text: str) -> str:
+    """Returns a text; one with a lone surrogate is refused, as it cannot be encoded."""
     if not text.isascii():
         try:
             text.encode()
@@ -66,7 +66,7 @@ def sound(name: str, text: str) -> str:
 
 
 def number(name: str, value: Any) -> float:
-    """A finite number; ``name`` is what it is for."""
+    """Returns a finite number; ``name`` is that of the argument in messages."""
     if isinstance(value, (bool, np.bool_)) or isinstance(value, (str, bytes)):
         raise usage(f"`{name}` is {value!r}, which is no number")
     if isinstance(value, np.ndarray) and value.ndim > 0:
@@ -84,13 +84,13 @@ def number(name: str, value: Any) -> float:
 
 
 def _refuse_masked(name: str, values: Any) -> None:
-    """What is masked is no number, whatever stands below the mask."""
+    """Refuses arrays with masked elements."""
     if isinstance(values, np.ma.MaskedArray) and np.ma.is_masked(values):
         raise usage(f"`{name}` has elements that are masked", "only numbers can be computed with")
 
 
-def whole(name: str, value: Any, least: int = 0) -> int:
-    """A whole number from ``least`` on."""
+def whole_number(name: str, value: Any, least: int = 0) -> int:
+    """Returns a whole number that is at least ``least``."""
     if isinstance(value, (bool, np.bool_)):
         raise usage(f"`{name}` is {value!r}, and a whole number is wanted")
     try:
@@ -105,12 +105,12 @@ def whole(name: str, value: Any, least: int = 0) -> int:
     return found
 
 
-def written(name: str, value: Any, unit: str) -> str:
-    """A value as a formula; a number gets the unit."""
+def formula_of(name: str, value: Any, unit: str) -> str:
+    """Returns a value as a formula; a number gets the unit."""
     if isinstance(value, str):
         if not value.strip():
             raise usage(f"`{name}` is an empty text", "give a number in SI, or a text with a unit")
-        return sound(name, value)
+        return checked_text(name, value)
     if isinstance(value, (Between, list, tuple)):
         help = f"what varies is said to a sweep: `m.sweep(vary={{'{name}': …}})`"
         raise usage(f"`{name}` is {_shown(value)}, and one value is wanted", help)
@@ -118,7 +118,7 @@ def written(name: str, value: Any, unit: str) -> str:
     return f"{text}{unit}" if unit.startswith("/") else f"{text} {unit}".rstrip()
 
 
-#: What mappings are like, by the options that take them.
+#: Examples of mappings, by the options that take them.
 _EXAMPLES = {
     "set": "{'leg[1].la': '180 mm'}",
     "inputs": "{'theta': '20 deg'}",
@@ -131,21 +131,21 @@ _EXAMPLES = {
 
 
 def mapping(option: str, given: Any) -> dict[str, Any]:
-    """A mapping from names, whatever kind of one it is."""
+    """Returns a mapping from names as a dictionary."""
     if not isinstance(given, Mapping):
         raise usage(f"`{option}` is {_shown(given)}, and a mapping is wanted", f"as in `{option}={_EXAMPLES[option]}`")
     found = dict(given)
     for name, value in found.items():
         if not isinstance(name, str):
             raise usage(f"`{option}` has {_shown(name)}, which is no name", f"as in `{option}={_EXAMPLES[option]}`")
-        sound(option, name)
+        checked_text(option, name)
         if isinstance(value, str):
-            sound(name, value)
+            checked_text(name, value)
     return found
 
 
 def path_of(name: str, value: Any, help: str | None = None) -> str:
-    """A path: a text, bytes, or whatever stands for one."""
+    """Returns a path as a text."""
     try:
         path = os.fsdecode(os.fspath(value))
     except TypeError:
@@ -160,8 +160,8 @@ def path_of(name: str, value: Any, help: str | None = None) -> str:
     return path
 
 
-def many(name: str, values: Any) -> list[Any]:
-    """Some values: a list, an array, or a single one."""
+def as_list(name: str, values: Any) -> list[Any]:
+    """Returns a list, an array of one dimension, or a single value as a list."""
     if isinstance(values, str) or not isinstance(values, Iterable):
         return [values]
     if isinstance(values, np.ndarray):
@@ -174,24 +174,24 @@ def many(name: str, values: Any) -> list[Any]:
 
 
 def texts(name: str, values: Any) -> list[str]:
-    """Some texts, or one."""
+    """Returns a list of texts, or a single text, as a list."""
     if values is None:
         return []
-    found = many(name, values)
+    found = as_list(name, values)
     for text in found:
         if not isinstance(text, str):
             raise usage(f"`{name}` has {_shown(text)}, and texts are wanted")
-        sound(name, text)
+        checked_text(name, text)
     return found
 
 
-def plain(name: str) -> str:
-    """A name as the language compares it: without spaces, letters with marks as one character (NFC)."""
+def normalized(name: str) -> str:
+    """Returns a name as the language compares it: without spaces, in Unicode normal form C."""
     return unicodedata.normalize("NFC", "".join(name.split()))
 
 
-def first_twice(names: Iterable[str]) -> str | None:
-    """The first name that stands twice."""
+def first_duplicate(names: Iterable[str]) -> str | None:
+    """Returns the first name that occurs twice."""
     seen: set[str] = set()
     for name in names:
         if name in seen:
@@ -200,8 +200,8 @@ def first_twice(names: Iterable[str]) -> str | None:
     return None
 
 
-def meant(name: str, known: Iterable[str]) -> str | None:
-    """The name that may be meant, as a question."""
+def suggestion(name: str, known: Iterable[str]) -> str | None:
+    """Returns the most similar known name as a question."""
     near = difflib.get_close_matches(name, list(known), n=1)
     return f"was `{near[0]}` meant?" if near else None
 
@@ -229,45 +229,45 @@ def between(first: Value, last: Value, count: int | None = None) -> Between:
     With ``count`` so many values, evenly, both ends included; without it the range is one that ``samples`` are drawn from.
     Numbers are SI, texts have units: ``between("100 mm", "200 mm", 50)``.
     """
-    return Between(first, last, None if count is None else whole("count", count, 1))
+    return Between(first, last, None if count is None else whole_number("count", count, 1))
 
 
-def varied(name: str, values: Any, unit: str) -> str | bytes:
-    """What varies, as the command's ``--vary`` has it; numbers in a list as a table, which is read faster."""
+def vary_option(name: str, values: Any, unit: str) -> str | bytes:
+    """Returns an axis of variation as the command's ``--vary`` takes it; a list of numbers as a CSV table, which is read faster."""
     if isinstance(values, Between):
-        ends = f"{written(name, values.first, unit)}..{written(name, values.last, unit)}"
+        ends = f"{formula_of(name, values.first, unit)}..{formula_of(name, values.last, unit)}"
         return f"{name}={ends}" if values.count is None else f"{name}={ends}:{values.count}"
     if isinstance(values, str):
-        return f"{name}={sound(name, values)}"
+        return f"{name}={checked_text(name, values)}"
     _refuse_masked(name, values)
     # arrays of texts are taken as lists of them are
     are_numbers = isinstance(values, np.ndarray) and values.ndim > 0 and values.dtype.kind not in "OUT"
-    found = values if are_numbers else many(name, values)
+    found = values if are_numbers else as_list(name, values)
     if len(found) == 0:
         raise usage(f"`{name}` varies over no value", "give a list of values, or `mechc.between(A, B, N)`")
     if not isinstance(found, np.ndarray) and any(isinstance(value, str) for value in found):
-        return f"{name}=" + ",".join(written(name, value, unit) for value in found)
+        return f"{name}=" + ",".join(formula_of(name, value, unit) for value in found)
     return table({name: found}, {name: unit})
 
 
 def table(columns: Mapping[str, Any], units: Mapping[str, str]) -> bytes:
-    """Variants as the CSV that the command reads: a column for each param, numbers in SI."""
+    """Returns variants as CSV: a column for each param, numbers in SI."""
     lists: dict[str, list[float]] = {}
     for name, values in columns.items():
-        sound("variants", name)
+        checked_text("variants", name)
         _refuse_masked(name, values)
         array = np.asarray(values)
         if array.ndim != 1 or array.dtype.kind not in "iuf":
-            listed = many(name, values)
+            listed = as_list(name, values)
             array = np.array([number(name, value) for value in listed])
         if array.size and not np.isfinite(array.astype(float)).all():
             raise usage(f"`{name}` varies over what is not finite", "only finite numbers can be computed with")
         lists[name] = array.astype(float).tolist()
     lengths = {len(values) for values in lists.values()}
     if len(lengths) != 1 or lengths == {0}:
-        told = ", ".join(f"`{name}` has {len(values)}" for name, values in lists.items())
+        listed = ", ".join(f"`{name}` has {len(values)}" for name, values in lists.items())
         is_uneven = len(lengths) > 1
-        raise usage(f"the columns of variants are not of one length: {told}" if is_uneven else "there are no variants")
+        raise usage(f"the columns of variants are not of one length: {listed}" if is_uneven else "there are no variants")
     head = ",".join(_quoted(f"{name} [{_head(units[name])}]" if units.get(name) else name) for name in lists)
     rows = "\n".join(",".join(map(repr, row)) for row in zip(*lists.values()))
     return f"{head}\n{rows}\n".encode()
@@ -286,8 +286,8 @@ def _head(unit: str) -> str:
     return "*".join(f"{name}^-{power or 1}" for name, _, power in parts)
 
 
-def spelled(values: Any) -> tuple[list[str], list[int]] | None:
-    """Texts in a list or an array, one behind the other, and its shape; nothing of anything else."""
+def text_array(values: Any) -> tuple[list[str], list[int]] | None:
+    """Returns the texts of a list or an array, flat, and its shape; ``None`` for anything else."""
     is_array = isinstance(values, np.ndarray)
     if not (is_array and values.dtype.kind in "UTO" or isinstance(values, (list, tuple)) and _begins_with_text(values)):
         return None
@@ -308,7 +308,7 @@ def _begins_with_text(values: Any) -> bool:
 
 
 def elements(name: str, values: Any) -> float | np.ndarray[Any, Any]:
-    """Numbers for many elements, as an array; a number for what is one."""
+    """Returns an array of finite numbers; a single value as a number."""
     if isinstance(values, (bool, np.bool_)):
         return number(name, values)
     _refuse_masked(name, values)
@@ -330,8 +330,8 @@ def elements(name: str, values: Any) -> float | np.ndarray[Any, Any]:
     return held if held.shape == array.shape else np.broadcast_to(held, array.shape)
 
 
-def alike(arrays: list[np.ndarray[Any, Any]]) -> list[np.ndarray[Any, Any]]:
-    """Arrays of one shape, spread out; more elements than there can be are refused before."""
+def broadcast(arrays: list[np.ndarray[Any, Any]]) -> list[np.ndarray[Any, Any]]:
+    """Broadcasts arrays to one shape; refuses more elements than fit into memory."""
     # it takes its messages from here
     from mechc import memory
 
@@ -344,12 +344,12 @@ def alike(arrays: list[np.ndarray[Any, Any]]) -> list[np.ndarray[Any, Any]]:
 
 
 def _common(shapes: list[tuple[int, ...]]) -> tuple[int, ...]:
-    """The shape that arrays have together, by numpy's rules; it may have more elements than numpy counts."""
+    """Returns the shape to which arrays are broadcast by numpy's rules; it may have more elements than numpy allows."""
     found = []
     for sizes in itertools.zip_longest(*(shape[::-1] for shape in shapes), fillvalue=1):
         own = {size for size in sizes if size != 1}
         if len(own) > 1:
-            told = ", ".join(str(shape) for shape in shapes)
-            raise usage(f"arrays of the shapes {told} do not go together", "numpy's rules of broadcasting hold")
+            listed = ", ".join(str(shape) for shape in shapes)
+            raise usage(f"arrays of the shapes {listed} do not go together", "numpy's rules of broadcasting hold")
         found.append(own.pop() if own else 1)
     return tuple(found[::-1])

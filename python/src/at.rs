@@ -1,39 +1,40 @@
-//! A mechanism at given inputs, params and times, one or many: each from its own start, so that neither order nor company change a bit.
+//! `Mechanism.at`: evaluates a mechanism at given inputs, params and times. Each element starts from the assembled start, so its bits do not
+//! depend on the other elements.
 
-use crate::ending::away;
-use crate::errors::Said;
+use crate::errors::Report;
+use crate::exit::detached;
+use crate::interrupts::interruptible;
 use crate::mechanism::{Mechanism, Stages};
-use crate::memory::{self, Of};
-use crate::waiting::interruptible;
-pub use found::{_at_again, At, Columns};
+use crate::memory::{self, Computation};
+pub use answer::{_unpickle_at, At, Columns};
+pub use arguments::{OPTIONS, Options, at};
 use mechc::{
     Cancel, Checked, Choice, ColumnUnit, Error, EvaluationPoint, EvaluatorOptions, InputMotion, MechanismEvaluator,
     SettableParam,
 };
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyFloat, PyString};
-pub use reading::{OPTIONS, Options, at};
 use std::borrow::Cow;
 use std::sync::{Arc, Mutex};
 
-mod found;
-mod reading;
+mod answer;
+mod arguments;
 
-/// What was compiled for questions of a kind; so many kinds are remembered.
-const KINDS: usize = 16;
+/// Largest number of evaluators in the cache of a mechanism.
+const MOST_EVALUATORS: usize = 16;
 
-/// What takes longer than some hundredths of a second is computed on another thread, while Ctrl-C is looked for: more elements than these, more
-/// columns, or a longer way from what the text says: of an input or a param in SI or by its own size, of the time by that of the analysis.
-const AT_ONCE: usize = 32;
+/// Queries within these limits take at most some hundredths of a second and run on the calling thread; larger ones run on another thread, which
+/// Ctrl-C cancels. The last limit is the distance of inputs, params and times from the text's values, relative to these or to 1 (SI).
+const MOST_ELEMENTS: usize = 32;
 const MOST_COLUMNS: usize = 2000;
-const FARTHEST: f64 = 50.0;
+const LARGEST_DISTANCE: f64 = 50.0;
 
-/// What is asked for, but for the values: it is compiled once for all of these.
+/// All of a query but its values; an evaluator is compiled once for each.
 #[derive(Clone, PartialEq, Default)]
-pub struct Kind {
+pub struct EvaluatorKey {
     inputs: Vec<String>,
-    /// Whether accelerations of inputs are told.
-    bend: bool,
+    /// True if accelerations of inputs are given.
+    has_accelerations: bool,
     params: Vec<String>,
     by: Vec<String>,
     reactions: bool,
@@ -41,39 +42,39 @@ pub struct Kind {
     pass_bifurcations: bool,
 }
 
-/// What was compiled for one.
-pub struct Compiled {
-    adjustable: MechanismEvaluator,
+/// A compiled evaluator with its columns.
+pub struct CachedEvaluator {
+    evaluator: MechanismEvaluator,
     columns: Arc<Columns>,
-    /// The units that columns are printed in, where any is not SI.
+    /// The units of the columns; `None` if all are SI.
     units: Option<Vec<ColumnUnit>>,
-    /// From where to where the time, and the inputs and params in order, are near what the text says.
+    /// Ranges near the text's values: of the time, then of the inputs and params in order (SI).
     near: Vec<[f64; 2]>,
 }
 
-/// What was compiled of a mechanism by now, the last first.
+/// The compiled evaluators of a mechanism, the newest first.
 #[derive(Default)]
-pub struct Known(Mutex<Vec<(Kind, Arc<Compiled>)>>);
+pub struct EvaluatorCache(Mutex<Vec<(EvaluatorKey, Arc<CachedEvaluator>)>>);
 
-impl Known {
-    /// What is known of a kind. Who cannot look, because another process was forked while somebody did, does without.
-    fn find(&self, kind: &Kind) -> Option<Arc<Compiled>> {
-        let known = self.0.try_lock().ok()?;
-        known.iter().find(|(other, _)| other == kind).map(|(_, compiled)| Arc::clone(compiled))
+impl EvaluatorCache {
+    /// Returns the evaluator for a key; `None` also if the lock is taken, as it stays in a process that was forked meanwhile.
+    fn find(&self, key: &EvaluatorKey) -> Option<Arc<CachedEvaluator>> {
+        let cache = self.0.try_lock().ok()?;
+        cache.iter().find(|(other, _)| other == key).map(|(_, compiled)| Arc::clone(compiled))
     }
 
-    /// What is known of numbers for inputs alone, and these in order: what is asked most often is answered without a detour.
-    fn find_plain(&self, values: &Bound<'_, PyDict>) -> Option<(Arc<Compiled>, Vec<[Operand; 3]>)> {
-        let known = self.0.try_lock().ok()?;
-        known.iter().find_map(|(kind, compiled)| {
-            if kind.inputs.len() != values.len() || !kind.is_plain() {
+    /// Returns the evaluator and its operands if only inputs are given, each as a finite `float`: the fast path of the commonest query.
+    fn find_inputs_only(&self, values: &Bound<'_, PyDict>) -> Option<(Arc<CachedEvaluator>, Vec<[Operand; 3]>)> {
+        let cache = self.0.try_lock().ok()?;
+        cache.iter().find_map(|(key, compiled)| {
+            if key.inputs.len() != values.len() || !key.is_inputs_only() {
                 return None;
             }
             let mut inputs = Vec::with_capacity(values.len());
             inputs.resize_with(values.len(), || [0.0; 3].map(Operand::One));
             for (name, value) in values.iter() {
                 let name = name.cast::<PyString>().ok()?.to_str().ok()?;
-                let place = kind.inputs.iter().position(|input| input == name)?;
+                let place = key.inputs.iter().position(|input| input == name)?;
                 let value = value.cast_exact::<PyFloat>().ok()?.value();
                 inputs[place][0] = Operand::One(Some(value).filter(|value| value.is_finite())?);
             }
@@ -81,42 +82,47 @@ impl Known {
         })
     }
 
-    fn add(&self, kind: Kind, compiled: &Arc<Compiled>) {
-        if let Ok(mut known) = self.0.try_lock() {
-            known.insert(0, (kind, Arc::clone(compiled)));
-            known.truncate(KINDS);
+    fn add(&self, key: EvaluatorKey, compiled: &Arc<CachedEvaluator>) {
+        if let Ok(mut cache) = self.0.try_lock() {
+            cache.insert(0, (key, Arc::clone(compiled)));
+            cache.truncate(MOST_EVALUATORS);
         }
     }
 }
 
-impl Kind {
-    /// Whether nothing is asked for but where inputs lead.
-    fn is_plain(&self) -> bool {
-        let Kind { bend, params, by, reactions, tolerance, pass_bifurcations, .. } = self;
-        !bend && params.is_empty() && by.is_empty() && !reactions && tolerance.is_none() && !pass_bifurcations
+impl EvaluatorKey {
+    /// Returns whether only inputs are given, without accelerations or options.
+    fn is_inputs_only(&self) -> bool {
+        let EvaluatorKey { has_accelerations, params, by, reactions, tolerance, pass_bifurcations, .. } = self;
+        !has_accelerations
+            && params.is_empty()
+            && by.is_empty()
+            && !reactions
+            && tolerance.is_none()
+            && !pass_bifurcations
     }
 }
 
-impl Compiled {
-    fn of(stages: &Stages, kind: &Kind, cancel: &Cancel) -> Result<Compiled, Said> {
-        let asked = Choice { by: kind.by.clone(), reactions: kind.reactions, ..stages.choice.clone() };
-        let is_plain = kind.by.is_empty() && !kind.reactions;
-        let checked = if is_plain {
+impl CachedEvaluator {
+    fn new(stages: &Stages, key: &EvaluatorKey, cancel: &Cancel) -> Result<CachedEvaluator, Report> {
+        let choice = Choice { by: key.by.clone(), reactions: key.reactions, ..stages.choice.clone() };
+        let is_inputs_only = key.by.is_empty() && !key.reactions;
+        let checked = if is_inputs_only {
             stages.checked.clone()
         } else {
-            stages.with(&asked, &*stages.files, stages.redundant, cancel)?.0.0
+            stages.compile(&choice, &*stages.files, stages.redundant, cancel)?.0.0
         };
         let usual = EvaluatorOptions::default();
-        let adjusting = EvaluatorOptions {
-            inputs: kind.inputs.clone(),
-            has_accelerations: kind.bend,
-            params: kind.params.clone(),
+        let options = EvaluatorOptions {
+            inputs: key.inputs.clone(),
+            has_accelerations: key.has_accelerations,
+            params: key.params.clone(),
             redundant: stages.redundant,
-            tolerance: kind.tolerance.map_or(usual.tolerance, f64::from_bits),
-            pass_bifurcations: kind.pass_bifurcations,
+            tolerance: key.tolerance.map_or(usual.tolerance, f64::from_bits),
+            pass_bifurcations: key.pass_bifurcations,
         };
-        let adjustable = checked.evaluator(&adjusting, cancel)?;
-        let compiled = adjustable.compiled();
+        let evaluator = checked.evaluator(&options, cancel)?;
+        let compiled = evaluator.compiled();
         let (names, units) = (compiled.columns(), compiled.units());
         let place = |name: String| names.iter().position(|column| *column == name);
         let of_order =
@@ -124,34 +130,35 @@ impl Compiled {
         let coordinates = ["", ".d", ".dd"].map(of_order);
         let columns = Columns::new(names, units.iter().map(|unit| unit.text.clone()).collect(), coordinates);
         let units = units.iter().any(|unit| unit.scale() != [1.0; 3]).then_some(units);
-        let near = near(&checked, adjustable.compiled(), kind);
-        Ok(Compiled { adjustable, columns, units, near })
+        let near = near(&checked, evaluator.compiled(), key);
+        Ok(CachedEvaluator { evaluator, columns, units, near })
     }
 }
 
-/// From where to where the time, and the inputs and params of a question in order, are near what the text says.
-fn near(checked: &Checked, compiled: &mechc::Compiled, kind: &Kind) -> Vec<[f64; 2]> {
-    let time = compiled.analysis().map_or([f64::NAN; 2], |[from, to, _]| [from, to + FARTHEST * (to - from)]);
+/// Returns the ranges near the text's values of the time, then of the inputs and params in order (SI).
+fn near(checked: &Checked, compiled: &mechc::Compiled, key: &EvaluatorKey) -> Vec<[f64; 2]> {
+    let time = compiled.analysis().map_or([f64::NAN; 2], |[from, to, _]| [from, to + LARGEST_DISTANCE * (to - from)]);
     let around = |list: Vec<SettableParam>, names: &[String]| {
         let of = |name: &String| {
             let own = list.iter().find(|of| of.name == *name).map_or(f64::NAN, |of| of.value);
-            let reach = FARTHEST * own.abs().max(1.0);
+            let reach = LARGEST_DISTANCE * own.abs().max(1.0);
             [own - reach, own + reach]
         };
         names.iter().map(of).collect::<Vec<_>>()
     };
     let (inputs, params) = (checked.settable_inputs(compiled), checked.settable_params());
-    [vec![time], around(inputs, &kind.inputs), around(params, &kind.params)].concat()
+    [vec![time], around(inputs, &key.inputs), around(params, &key.params)].concat()
 }
 
-/// A question, as it was put.
-pub struct Question {
-    kind: Kind,
-    /// The time (s), if it is told, then inputs with their rates and accelerations, then params.
+/// A query with its values.
+pub struct Query {
+    key: EvaluatorKey,
+    /// The time (s), if it is given.
     t: Option<Operand>,
+    /// Value, rate and acceleration of each input.
     inputs: Vec<[Operand; 3]>,
     params: Vec<Operand>,
-    /// By how many elements.
+    /// The shape of the elements; `None` for a single one.
     shape: Option<Vec<usize>>,
 }
 
@@ -177,66 +184,66 @@ impl Operand {
     }
 }
 
-/// What became of elements: their rows one behind the other, and why some are not there.
+/// The results of all elements: their rows one behind the other, and a status for each.
 #[derive(Default)]
-struct Became {
+struct Outcomes {
     rows: Vec<f64>,
     statuses: Vec<Cow<'static, str>>,
-    /// The first of these, by its number.
+    /// The first element that failed, with its error.
     first: Option<(usize, Error)>,
 }
 
-impl Question {
+impl Query {
     fn elements(&self) -> usize {
         self.shape.as_ref().map_or(1, |shape| shape.iter().product())
     }
 
-    /// What it is answered by.
-    fn compiled(&self, py: Python<'_>, mechanism: &Mechanism) -> PyResult<Arc<Compiled>> {
-        if let Some(compiled) = mechanism.known.find(&self.kind) {
+    /// Returns the evaluator, from the cache or newly compiled.
+    fn compiled(&self, py: Python<'_>, mechanism: &Mechanism) -> PyResult<Arc<CachedEvaluator>> {
+        if let Some(compiled) = mechanism.evaluators.find(&self.key) {
             return Ok(compiled);
         }
-        let (stages, kind) = (Arc::clone(&mechanism.stages), self.kind.clone());
-        let made = interruptible(py, move |cancel| Compiled::of(&stages, &kind, cancel))?;
-        let compiled = Arc::new(made.map_err(|said| said.raised(py))?);
-        mechanism.known.add(self.kind.clone(), &compiled);
+        let (stages, key) = (Arc::clone(&mechanism.stages), self.key.clone());
+        let result = interruptible(py, move |cancel| CachedEvaluator::new(&stages, &key, cancel))?;
+        let compiled = Arc::new(result.map_err(|report| report.to_exception(py))?);
+        mechanism.evaluators.add(self.key.clone(), &compiled);
         Ok(compiled)
     }
 
-    /// Its answer.
-    fn answer(self, py: Python<'_>, compiled: Arc<Compiled>) -> PyResult<At> {
+    /// Evaluates all elements.
+    fn answer(self, py: Python<'_>, compiled: Arc<CachedEvaluator>) -> PyResult<At> {
         let (elements, width) = (self.elements(), compiled.columns.names.len());
         let size = (elements as u64, width);
-        memory::refuse_beyond(py, size, Of::At)?;
-        let mut became = Became::default();
-        let rows = became.rows.try_reserve_exact(elements.saturating_mul(width));
-        rows.and_then(|()| became.statuses.try_reserve_exact(elements))
-            .map_err(|_| memory::too_large(py, size, Of::At))?;
+        memory::refuse_beyond(py, size, Computation::At)?;
+        let mut outcomes = Outcomes::default();
+        let rows = outcomes.rows.try_reserve_exact(elements.saturating_mul(width));
+        rows.and_then(|()| outcomes.statuses.try_reserve_exact(elements))
+            .map_err(|_| memory::too_large(py, size, Computation::At))?;
         let columns = Arc::clone(&compiled.columns);
-        let (shape, became) = if elements <= AT_ONCE && width <= MOST_COLUMNS && self.is_near(&compiled.near) {
-            let became = away(py, || self.all(&compiled, became, &Cancel::default()));
-            (self.shape, became)
+        let (shape, outcomes) = if elements <= MOST_ELEMENTS && width <= MOST_COLUMNS && self.is_near(&compiled.near) {
+            let outcomes = detached(py, || self.all(&compiled, outcomes, &Cancel::default()));
+            (self.shape, outcomes)
         } else {
             let compiled = Arc::clone(&compiled);
-            interruptible(py, move |cancel| (self.all(&compiled, became, cancel), self.shape)).map(|(a, b)| (b, a))?
+            interruptible(py, move |cancel| (self.all(&compiled, outcomes, cancel), self.shape)).map(|(a, b)| (b, a))?
         };
-        let Became { rows, statuses, first } = became;
-        let error = first.map(|(element, why)| of_element(why, element, shape.as_deref()).into());
+        let Outcomes { rows, statuses, first } = outcomes;
+        let error = first.map(|(element, why)| with_element(why, element, shape.as_deref()).into());
         Ok(At { columns, rows, shape, statuses, error })
     }
 
-    /// Whether all that is told is near what the text says.
+    /// Returns whether all values are within the ranges near the text's values.
     fn is_near(&self, near: &[[f64; 2]]) -> bool {
         let given = self.inputs.iter().map(|[value, ..]| value).chain(&self.params);
         let is_near = |(of, [low, high]): (&Operand, &[f64; 2])| of.all(|value| *low <= value && value <= *high);
         self.t.iter().zip(near).all(is_near) && given.zip(&near[1..]).all(is_near)
     }
 
-    fn all(&self, compiled: &Compiled, mut became: Became, cancel: &Cancel) -> Became {
+    fn all(&self, compiled: &CachedEvaluator, mut outcomes: Outcomes, cancel: &Cancel) -> Outcomes {
         let width = compiled.columns.names.len();
         let ask = |element: usize, place: &mut EvaluationPoint| self.write(element, place);
-        compiled.adjustable.evaluate_each(self.elements(), ask, cancel, |found| {
-            let Became { rows, statuses, first } = &mut became;
+        compiled.evaluator.evaluate_each(self.elements(), ask, cancel, |found| {
+            let Outcomes { rows, statuses, first } = &mut outcomes;
             match found {
                 Ok(row) => {
                     let before = rows.len();
@@ -253,10 +260,10 @@ impl Question {
                 }
             }
         });
-        became
+        outcomes
     }
 
-    /// Writes what an element asks for.
+    /// Writes the values of an element.
     fn write(&self, element: usize, place: &mut EvaluationPoint) {
         let motion = |[value, rate, acceleration]: &[Operand; 3]| InputMotion {
             value: value.at(element),
@@ -271,8 +278,8 @@ impl Question {
     }
 }
 
-/// Why an element is not there; of several it says which one that is, as their array is indexed.
-fn of_element(why: Error, element: usize, shape: Option<&[usize]>) -> Error {
+/// Returns the error of an element, with its index in the array if there are several.
+fn with_element(why: Error, element: usize, shape: Option<&[usize]>) -> Error {
     let Some(shape) = shape else { return why };
     let mut rest = element;
     let mut place: Vec<usize> = shape.iter().rev().map(|&of| (rest % of.max(1), rest /= of.max(1)).0).collect();

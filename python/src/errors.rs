@@ -1,7 +1,6 @@
-//! Diagnostics as exceptions: the data, the text that the command prints, and the kind that says who is to mend it. The classes are
-//! in `mechc/errors.py`.
+//! Diagnostics as exceptions and warnings: their data, and the text that the command prints. The classes are in `mechc/errors.py`.
 
-use crate::words::{in_python, with_keywords};
+use crate::option_spelling::{in_python, with_keywords};
 use mechc::{Color, Diagnostic, Diagnostics, Error, ErrorKind, Format, Severity, Sources, render};
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
@@ -9,33 +8,33 @@ use pyo3::types::PyList;
 use serde_json::Value;
 use std::borrow::Cow;
 
-/// What is said of something, ready to be told.
+/// Rendered diagnostics, which become an exception or a warning.
 #[derive(Clone, Default)]
-pub struct Said {
-    /// Each as the JSON object of `--message-format json`.
+pub struct Report {
+    /// Each diagnostic as the JSON object of `--message-format json`.
     json: Vec<String>,
-    /// All of it, as the command prints it.
+    /// All diagnostics as the command prints them.
     text: String,
-    /// Who is to mend it: `input`, `usage`, `analysis`, `files`; empty where nothing is wrong.
-    blame: Cow<'static, str>,
-    /// When the first error happens (s), and its code.
+    /// The kind of error: `input`, `usage`, `analysis`, `files`, `cancelled`; empty without errors.
+    kind: Cow<'static, str>,
+    /// The time of the first error (s), if it has one.
     pub stopped: Option<f64>,
     /// The code of the first error.
     pub code: Option<Cow<'static, str>>,
 }
 
-/// What is packed of it: its lines of JSON, its text, the blame, the time, the code.
-pub type Packed = (Vec<String>, String, String, Option<f64>, Option<String>);
+/// A report as it is pickled: its lines of JSON, text, kind, time (s) and code.
+pub type PickledReport = (Vec<String>, String, String, Option<f64>, Option<String>);
 
-impl From<Error> for Said {
-    fn from(error: Error) -> Said {
-        Said::of(&error.diagnostics, &error.sources)
+impl From<Error> for Report {
+    fn from(error: Error) -> Report {
+        Report::new(&error.diagnostics, &error.sources)
     }
 }
 
-impl Said {
-    /// Diagnostics of some texts.
-    pub fn of(diagnostics: &Diagnostics, sources: &Sources) -> Said {
+impl Report {
+    /// Renders diagnostics of source texts.
+    pub fn new(diagnostics: &Diagnostics, sources: &Sources) -> Report {
         let (keywords, mut json, mut texts) = (with_keywords(sources), Vec::new(), Vec::new());
         for diagnostic in diagnostics.iter() {
             let diagnostic = in_python(diagnostic);
@@ -44,7 +43,7 @@ impl Said {
             texts.push(text(Format::Human));
         }
         let first = diagnostics.iter().find(|of| of.severity() == Severity::Error);
-        let blame = match ErrorKind::of(diagnostics, sources) {
+        let kind = match ErrorKind::of(diagnostics, sources) {
             None => "",
             Some(ErrorKind::Input) => "input",
             Some(ErrorKind::Usage) => "usage",
@@ -52,41 +51,46 @@ impl Said {
             Some(ErrorKind::Files) => "files",
             Some(ErrorKind::Cancelled) => "cancelled",
         };
-        Said {
+        Report {
             json,
             text: texts.join("\n"),
-            blame: blame.into(),
+            kind: kind.into(),
             stopped: first.and_then(|of| of.data.get("t")).and_then(Value::as_f64),
             code: first.map(|of| of.code.as_str().into()),
         }
     }
 
-    /// The same of one.
-    pub fn of_one(diagnostic: Diagnostic, sources: &Sources) -> Said {
-        Said::of(&diagnostic.into(), sources)
+    /// Renders one diagnostic.
+    pub fn from_diagnostic(diagnostic: Diagnostic, sources: &Sources) -> Report {
+        Report::new(&diagnostic.into(), sources)
     }
 
-    /// What it takes to have it again.
-    pub fn packed(&self) -> Packed {
+    /// Returns what is pickled.
+    pub fn to_pickled(&self) -> PickledReport {
         let code = self.code.as_deref().map(str::to_owned);
-        (self.json.clone(), self.text.clone(), self.blame.to_string(), self.stopped, code)
+        (self.json.clone(), self.text.clone(), self.kind.to_string(), self.stopped, code)
     }
 
-    /// It once more, as it was packed.
-    pub fn again((json, text, blame, stopped, code): Packed) -> Said {
-        Said { json, text, blame: blame.into(), stopped, code: code.map(Cow::Owned) }
+    /// Restores a report that was pickled.
+    pub fn from_pickled((json, text, kind, stopped, code): PickledReport) -> Report {
+        Report { json, text, kind: kind.into(), stopped, code: code.map(Cow::Owned) }
     }
 
-    /// Whether nothing is said.
+    /// Returns whether there are no diagnostics.
     pub fn is_empty(&self) -> bool {
         self.json.is_empty()
     }
 
-    /// The exception that tells it.
-    pub fn raised(&self, py: Python<'_>) -> PyErr {
-        static RAISED: PyOnceLock<Py<PyAny>> = PyOnceLock::new();
-        let made = RAISED.import(py, "mechc.errors", "_raised").and_then(|raised| {
-            raised.call1((self.list(py)?, &self.text, &*self.blame, self.code.as_deref().unwrap_or_default()))
+    /// Returns the exception.
+    pub fn to_exception(&self, py: Python<'_>) -> PyErr {
+        static TO_EXCEPTION: PyOnceLock<Py<PyAny>> = PyOnceLock::new();
+        let made = TO_EXCEPTION.import(py, "mechc.errors", "_exception_from").and_then(|to_exception| {
+            to_exception.call1((
+                self.json_lines(py)?,
+                &self.text,
+                &*self.kind,
+                self.code.as_deref().unwrap_or_default(),
+            ))
         });
         match made {
             Ok(exception) => PyErr::from_value(exception),
@@ -94,18 +98,18 @@ impl Said {
         }
     }
 
-    /// Tells what is not wrong, but worth knowing, as a warning.
-    pub fn warned(&self, py: Python<'_>) -> PyResult<()> {
+    /// Issues a warning, unless there are no diagnostics.
+    pub fn warn(&self, py: Python<'_>) -> PyResult<()> {
         if self.is_empty() {
             return Ok(());
         }
-        static WARNED: PyOnceLock<Py<PyAny>> = PyOnceLock::new();
-        WARNED.import(py, "mechc.errors", "_warned")?.call1((self.list(py)?, &self.text))?;
+        static WARN: PyOnceLock<Py<PyAny>> = PyOnceLock::new();
+        WARN.import(py, "mechc.errors", "_warn")?.call1((self.json_lines(py)?, &self.text))?;
         Ok(())
     }
 
-    /// The diagnostics as lines of JSON.
-    pub fn list<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyList>> {
+    /// Returns the diagnostics as lines of JSON.
+    pub fn json_lines<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyList>> {
         PyList::new(py, &self.json)
     }
 }

@@ -1,5 +1,4 @@
-//! The files that a mechanism reads: those of this machine, and those that were handed over; each is remembered, so that a mechanism
-//! can be packed with all that it was made of.
+//! The files that a mechanism reads, from the disk or given by the caller. Their contents are kept, so that a pickled mechanism is complete.
 
 use mechc::{Contents, World};
 use std::collections::BTreeMap;
@@ -7,49 +6,49 @@ use std::path::{Component, Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::{fs, io};
 
-/// No file is larger (bytes), as the command has it.
+/// Largest size of a file (bytes), as in the command.
 pub const LARGEST: u64 = 1 << 30;
 
-/// So many files are named where one is missing.
+/// Largest number of files that the message of a missing one names.
 const MOST_NAMED: usize = 8;
 
 /// The files of a mechanism.
 pub struct Files {
-    known: Mutex<BTreeMap<PathBuf, Arc<[u8]>>>,
-    /// Whether what a text names may be read from the disk.
+    contents: Mutex<BTreeMap<PathBuf, Arc<[u8]>>>,
+    /// True if files that a text names may be read from the disk.
     from_disk: bool,
 }
 
 impl Files {
-    /// Some that are known; others are read from the disk, if they may be.
-    pub fn new(known: BTreeMap<PathBuf, Vec<u8>>, from_disk: bool) -> Files {
-        let known = known.into_iter().map(|(path, bytes)| (plain(&path), Arc::from(bytes))).collect();
-        Files { known: Mutex::new(known), from_disk }
+    /// Creates a set of files with given contents; others are read from the disk if `from_disk` is true.
+    pub fn new(contents: BTreeMap<PathBuf, Vec<u8>>, from_disk: bool) -> Files {
+        let contents = contents.into_iter().map(|(path, bytes)| (without_dots(&path), Arc::from(bytes))).collect();
+        Files { contents: Mutex::new(contents), from_disk }
     }
 
-    /// All that are known by now.
-    pub fn known(&self) -> BTreeMap<PathBuf, Arc<[u8]>> {
-        self.known.lock().unwrap_or_else(PoisonError::into_inner).clone()
+    /// Returns all files that were given or read so far.
+    pub fn contents(&self) -> BTreeMap<PathBuf, Arc<[u8]>> {
+        self.contents.lock().unwrap_or_else(PoisonError::into_inner).clone()
     }
 
     fn find(&self, path: &Path) -> Option<Arc<[u8]>> {
-        self.known.lock().unwrap_or_else(PoisonError::into_inner).get(&plain(path)).cloned()
+        self.contents.lock().unwrap_or_else(PoisonError::into_inner).get(&without_dots(path)).cloned()
     }
 
-    /// That a file is none of those that were handed over.
+    /// Returns the error for a file that was not given.
     fn missing(&self) -> io::Error {
-        let known = self.known();
+        let contents = self.contents();
         let mut names: Vec<String> =
-            known.keys().take(MOST_NAMED).map(|path| format!("`{}`", path.display())).collect();
-        if known.len() > MOST_NAMED {
+            contents.keys().take(MOST_NAMED).map(|path| format!("`{}`", path.display())).collect();
+        if contents.len() > MOST_NAMED {
             names.push("…".to_owned());
         }
-        let said = if names.is_empty() {
+        let message = if names.is_empty() {
             "`files` has none: give its text there".to_owned()
         } else {
             format!("`files` has {} alone", names.join(", "))
         };
-        io::Error::new(io::ErrorKind::NotFound, said)
+        io::Error::new(io::ErrorKind::NotFound, message)
     }
 }
 
@@ -58,9 +57,9 @@ impl World for Files {
         let bytes = match self.find(path) {
             Some(bytes) => bytes,
             None if self.from_disk => {
-                let bytes: Arc<[u8]> = named(path)?.into();
-                let mut known = self.known.lock().unwrap_or_else(PoisonError::into_inner);
-                known.insert(plain(path), Arc::clone(&bytes));
+                let bytes: Arc<[u8]> = read_regular(path)?.into();
+                let mut contents = self.contents.lock().unwrap_or_else(PoisonError::into_inner);
+                contents.insert(without_dots(path), Arc::clone(&bytes));
                 bytes
             }
             None => return Err(self.missing()),
@@ -68,11 +67,11 @@ impl World for Files {
         Ok(Contents { bytes, version: 0 })
     }
 
-    /// What an option names is read anew each time.
+    // the file of an option is read anew each time
     fn given(&self, path: &Path) -> io::Result<Contents> {
         let bytes = match self.find(path) {
             Some(bytes) => bytes,
-            None => named(path)?.into(),
+            None => read_regular(path)?.into(),
         };
         Ok(Contents { bytes, version: 0 })
     }
@@ -91,26 +90,26 @@ impl World for Files {
     }
 }
 
-/// The files of a mechanism, and tables that are listed by a caller beside them.
-pub struct WithLists<'f> {
+/// The files of a mechanism, with tables that the caller of a sweep gives.
+pub struct FilesWithTables<'f> {
     files: &'f Files,
-    lists: Vec<(PathBuf, Vec<u8>)>,
+    tables: Vec<(PathBuf, Vec<u8>)>,
 }
 
-impl<'f> WithLists<'f> {
-    /// Tables, as the bytes of CSV files, by what options name them.
-    pub fn new(files: &'f Files, lists: Vec<(PathBuf, Vec<u8>)>) -> WithLists<'f> {
-        WithLists { files, lists }
+impl<'f> FilesWithTables<'f> {
+    /// Adds tables, as bytes of CSV files, by the names that options refer to.
+    pub fn new(files: &'f Files, tables: Vec<(PathBuf, Vec<u8>)>) -> FilesWithTables<'f> {
+        FilesWithTables { files, tables }
     }
 }
 
-impl World for WithLists<'_> {
+impl World for FilesWithTables<'_> {
     fn read(&self, path: &Path) -> io::Result<Contents> {
         self.files.read(path)
     }
 
     fn given(&self, path: &Path) -> io::Result<Contents> {
-        match self.lists.iter().find(|(name, _)| name == path) {
+        match self.tables.iter().find(|(name, _)| name == path) {
             Some((_, bytes)) => Ok(Contents { bytes: bytes.as_slice().into(), version: 0 }),
             None => self.files.given(path),
         }
@@ -129,15 +128,15 @@ impl World for WithLists<'_> {
     }
 }
 
-/// A path without steps to where it is already.
-fn plain(path: &Path) -> PathBuf {
+/// Returns a path without `.` components.
+fn without_dots(path: &Path) -> PathBuf {
     path.components().filter(|part| !matches!(part, Component::CurDir)).collect()
 }
 
-/// The bytes of a file; what is none may have no end, or wait for somebody to write.
-fn named(path: &Path) -> io::Result<Vec<u8>> {
+/// Reads a regular file; a pipe or device is refused, as reading it may not end.
+fn read_regular(path: &Path) -> io::Result<Vec<u8>> {
     let found = fs::metadata(path)?;
-    // of a folder the system says that it is one
+    // reading a folder gives the system's own error
     if !found.is_file() && !found.is_dir() {
         return Err(io::Error::other("it is a pipe or a device, no file"));
     }

@@ -1,23 +1,23 @@
-//! `mechc._mechc`: the library's stages as Python sees them. Thin: what is computed is the library's; here stand the doors, what keeps
-//! Python responsive while something is computed, and how results become arrays and Arrow streams.
+//! `mechc._mechc`: binds the library to Python. It converts arguments and results, the latter to arrays and Arrow streams, and releases
+//! Python's lock during computations, which Ctrl-C interrupts. It computes nothing itself.
 //!
-//! What a user calls is in `mechc/*.py`, with its documentation.
+//! The public interface is in `mechc/*.py`, with its documentation.
 
 mod at;
-mod ending;
 mod errors;
 mod evaluator;
-mod exported;
+mod exit;
+mod export;
 mod files;
+mod interrupts;
 mod mechanism;
 mod memory;
+mod option_spelling;
 mod run;
 mod stream;
 mod sweep;
 mod table;
 mod tolerance;
-mod waiting;
-mod words;
 
 use pyo3::prelude::*;
 
@@ -28,11 +28,11 @@ static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
 #[pymodule(gil_used = true)]
 mod _mechc {
     #[pymodule_export]
-    use super::at::{_at_again, At};
-    #[pymodule_export]
-    use super::ending::_end;
+    use super::at::{_unpickle_at, At};
     #[pymodule_export]
     use super::evaluator::Evaluator;
+    #[pymodule_export]
+    use super::exit::_at_exit;
     #[pymodule_export]
     use super::mechanism::Mechanism;
     #[pymodule_export]
@@ -40,7 +40,7 @@ mod _mechc {
     #[pymodule_export]
     use super::table::{Column, Table};
 
-    use super::errors::Said;
+    use super::errors::Report;
     use super::{Bound, PyAnyMethods, PyModule, PyModuleMethods, PyResult, Python, pyfunction};
     use mechc::Sources;
 
@@ -48,19 +48,19 @@ mod _mechc {
     #[pyfunction]
     fn seconds(py: Python<'_>, text: &str) -> PyResult<f64> {
         let mut sources = Sources::default();
-        mechc::seconds("at", text, &mut sources).map_err(|why| Said::from(why).raised(py))
+        mechc::seconds("at", text, &mut sources).map_err(|why| Report::from(why).to_exception(py))
     }
 
-    /// A message with options in Python's words.
+    /// Returns a message with options spelled as in Python.
     #[pyfunction]
     fn _in_python(text: &str) -> String {
         let diagnostic = mechc::Diagnostic::new(mechc::Code::E0706, text);
-        super::words::in_python(&diagnostic).message
+        super::option_spelling::in_python(&diagnostic).message
     }
 
     #[pymodule_init]
     fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
-        module.py().import("atexit")?.call_method1("register", (module.getattr("_end")?,))?;
+        module.py().import("atexit")?.call_method1("register", (module.getattr("_at_exit")?,))?;
         module.add("LARGEST_FILE", super::files::LARGEST)?;
         module.add("__version__", env!("CARGO_PKG_VERSION"))
     }

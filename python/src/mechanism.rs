@@ -1,14 +1,14 @@
 //! A mechanism: its text, checked, proven and compiled once.
 
-use crate::at::{self, At, Known, Options};
-use crate::errors::Said;
+use crate::at::{self, At, EvaluatorCache, Options};
+use crate::errors::Report;
 use crate::evaluator::Evaluator;
-use crate::exported::{self, AskedOfRust};
+use crate::export::{self, RustRequest};
 use crate::files::Files;
-use crate::run::Asked;
-use crate::sweep::{AskedOfSweep, Sweep};
-use crate::tolerance::{self, Told};
-use crate::waiting::interruptible;
+use crate::interrupts::interruptible;
+use crate::run::RunRequest;
+use crate::sweep::{Sweep, SweepRequest};
+use crate::tolerance::{self, ToleranceReport};
 use mechc::{Cancel, Checked, Choice, Compiled, Error, Parsed, Redundant, SettableParam, Sources, World};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict, PyString};
@@ -16,8 +16,8 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// What became of a text, with what is said of it, ready to be told.
-pub type Made<T> = Result<(T, Said), Said>;
+/// A result with its warnings, or the errors.
+pub type Reported<T> = Result<(T, Report), Report>;
 
 /// A mechanism with its settings.
 #[pyclass(frozen, subclass, module = "mechc._mechc")]
@@ -25,30 +25,30 @@ pub struct Mechanism {
     pub stages: Arc<Stages>,
     params: Vec<SettableParam>,
     inputs: Vec<SettableParam>,
-    /// What was compiled for questions of `at` by now.
-    pub known: Known,
+    /// The evaluators of `at`.
+    pub evaluators: EvaluatorCache,
 }
 
 impl Mechanism {
-    /// The params or inputs that a name means, each with its value, and whether it is an input: one of that name, all copies of one, both
-    /// coordinates of a point. `option` is what it is given by; nothing by a keyword.
-    pub fn meant<'m, 'py>(
+    /// Returns the params or inputs that a name refers to, each with whether it is an input, and its value: one of that name, all copies of
+    /// one, both coordinates of a point. `option` is the option that has the name; empty for a keyword.
+    pub fn resolve<'m, 'py>(
         &'m self,
         py: Python<'py>,
         name: &str,
         value: Bound<'py, PyAny>,
         option: &str,
-    ) -> PyResult<Vec<(&'m SettableParam, bool, Meant<'py>)>> {
+    ) -> PyResult<Vec<(&'m SettableParam, bool, SetValue<'py>)>> {
         if let (Some((of, is_input)), "") = (self.settable(name), option) {
-            return Ok(vec![(of, is_input, Meant::Given(value))]);
+            return Ok(vec![(of, is_input, SetValue::Given(value))]);
         }
-        let meant = py.import("mechc.asking")?.getattr("meant_by")?;
+        let resolve = py.import("mechc.requests")?.getattr("resolve_name")?;
         let names: Vec<String> =
-            meant.call1((name, option, units(&self.params), units(&self.inputs), at::OPTIONS))?.extract()?;
+            resolve.call1((name, option, units(&self.params), units(&self.inputs), at::OPTIONS))?.extract()?;
         let all = names.iter().filter_map(|name| self.settable(name));
         let [x, y] = match names.as_slice() {
             [x, y] if is_point(x, y) => [x, y],
-            _ => return Ok(all.map(|(of, is_input)| (of, is_input, Meant::Given(value.clone()))).collect()),
+            _ => return Ok(all.map(|(of, is_input)| (of, is_input, SetValue::Given(value.clone()))).collect()),
         };
         let Ok(text) = value.cast::<PyString>() else {
             let usage = py.import("mechc.values")?.getattr("usage")?;
@@ -56,17 +56,17 @@ impl Mechanism {
             return Err(PyErr::from_value(usage.call1((format!("`{name}` is a point"), help))?));
         };
         let values = self.coordinates(py, [x, y], text.to_str()?)?;
-        Ok(all.zip(values).map(|((of, is_input), value)| (of, is_input, Meant::Known(value))).collect())
+        Ok(all.zip(values).map(|((of, is_input), value)| (of, is_input, SetValue::Number(value))).collect())
     }
 
-    /// A param or input by its name, and whether it is an input.
+    /// Returns a param or input by its name, and whether it is an input.
     fn settable(&self, name: &str) -> Option<(&SettableParam, bool)> {
         let found = |list: &'_ [SettableParam]| list.iter().position(|of| of.name == name);
         let input = found(&self.inputs).map(|place| (&self.inputs[place], true));
         input.or_else(|| found(&self.params).map(|place| (&self.params[place], false)))
     }
 
-    /// The coordinates of a point (m) that is set by a text, as the language writes points.
+    /// Evaluates a text such as `(90 mm, 0)` as the coordinates of a point (m).
     fn coordinates(&self, py: Python<'_>, [x, y]: [&String; 2], text: &str) -> PyResult<[f64; 2]> {
         let Stages { parsed, choice, files, .. } = &*self.stages;
         let mut choice = choice.clone();
@@ -76,47 +76,47 @@ impl Mechanism {
         let of = |name: &String| params.iter().find(|of| of.name == *name).map(|of| of.value);
         match (checked.is_sound(), of(x), of(y)) {
             (true, Some(x), Some(y)) => Ok([x, y]),
-            _ => Err(Said::of(checked.diagnostics(), checked.sources()).raised(py)),
+            _ => Err(Report::new(checked.diagnostics(), checked.sources()).to_exception(py)),
         }
     }
 
-    /// Says of options that are given that their names win over those of params and inputs.
+    /// Warns of given options whose names hide params or inputs.
     pub fn warn_of_options(&self, py: Python<'_>, given: BTreeMap<&str, &Bound<'_, PyAny>>) -> PyResult<()> {
         let is_taken = |name: &&str| self.params.iter().chain(&self.inputs).any(|of| of.name == *name);
         if given.keys().any(is_taken) {
-            let warn = py.import("mechc.asking")?.getattr("warn_of_options")?;
+            let warn = py.import("mechc.requests")?.getattr("warn_of_options")?;
             warn.call1((units(&self.params), units(&self.inputs), given))?;
         }
         Ok(())
     }
 
-    /// An input's rate, or its acceleration.
+    /// Returns the rate (`order` 1) or acceleration (2) of an input.
     pub fn rate(&self, name: &str, order: u32) -> PyResult<SettableParam> {
         let input = self.inputs.iter().find(|of| of.name == name).map(|of| of.by_time(order));
         input.ok_or_else(|| pyo3::exceptions::PyKeyError::new_err(name.to_owned()))
     }
 }
 
-/// What something is set to.
-pub enum Meant<'py> {
-    /// What was given for it.
+/// The value that a param or input is set to.
+pub enum SetValue<'py> {
+    /// The given object.
     Given(Bound<'py, PyAny>),
     /// A number (SI).
-    Known(f64),
+    Number(f64),
 }
 
-/// Whether two params are the coordinates of one point.
+/// Returns whether two params are the coordinates of one point.
 fn is_point(x: &str, y: &str) -> bool {
     x.strip_suffix(".x").is_some_and(|point| y.strip_suffix(".y") == Some(point))
 }
 
-/// What it was made of, and what it is.
+/// A mechanism at each stage of its compilation, with the options of these.
 #[derive(Clone)]
 pub struct Stages {
     pub parsed: Parsed,
     pub path: PathBuf,
     pub files: Arc<Files>,
-    /// The mechanism and what is set in it.
+    /// The selected mechanism, and the values that are set.
     pub choice: Choice,
     pub redundant: Redundant,
     pub checked: Checked,
@@ -124,57 +124,57 @@ pub struct Stages {
 }
 
 impl Stages {
-    fn of(
+    fn new(
         parsed: Parsed,
         path: PathBuf,
         files: Arc<Files>,
         settings: (Choice, Redundant),
         cancel: &Cancel,
-    ) -> Made<Stages> {
+    ) -> Reported<Stages> {
         let (choice, redundant) = settings;
-        let ((checked, compiled), said) = compiled(&parsed, &choice, &*files, redundant, cancel)?;
+        let ((checked, compiled), report) = compile(&parsed, &choice, &*files, redundant, cancel)?;
         compiled.prepare();
-        Ok((Stages { parsed, path, files, choice, redundant, checked, compiled }, said))
+        Ok((Stages { parsed, path, files, choice, redundant, checked, compiled }, report))
     }
 
-    /// What it is with more that is asked for beside its text.
-    pub fn with(
+    /// Compiles the mechanism with other options.
+    pub fn compile(
         &self,
         choice: &Choice,
         world: &dyn World,
         redundant: Redundant,
         cancel: &Cancel,
-    ) -> Made<(Checked, Compiled)> {
-        compiled(&self.parsed, choice, world, redundant, cancel)
+    ) -> Reported<(Checked, Compiled)> {
+        compile(&self.parsed, choice, world, redundant, cancel)
     }
 }
 
-fn compiled(
+fn compile(
     parsed: &Parsed,
     choice: &Choice,
     world: &dyn World,
     redundant: Redundant,
     cancel: &Cancel,
-) -> Made<(Checked, Compiled)> {
+) -> Reported<(Checked, Compiled)> {
     let checked = parsed.check(choice, world);
-    let (sources, mut said) = (checked.sources().clone(), checked.diagnostics().clone());
+    let (sources, mut report) = (checked.sources().clone(), checked.diagnostics().clone());
     if !checked.is_sound() {
-        return Err(Said::of(&said, &sources));
+        return Err(Report::new(&report, &sources));
     }
     let (compiled, more) = checked.compile(redundant, cancel);
     match compiled {
         Some(compiled) => {
-            said.extend(more);
-            let said = Said::of(&said, &sources);
-            Ok(((checked, compiled), said))
+            report.extend(more);
+            let report = Report::new(&report, &sources);
+            Ok(((checked, compiled), report))
         }
-        None => Err(Said::of(&more, &sources)),
+        None => Err(Report::new(&more, &sources)),
     }
 }
 
 #[pymethods]
 impl Mechanism {
-    /// Reads, checks and proves a mechanism; of a file where no text is given.
+    /// Reads, checks and proves a mechanism; without a text the file at `path` is read.
     #[new]
     #[pyo3(signature = (text, path, files, from_disk, mechanism, set, allow_redundant))]
     fn new(
@@ -192,25 +192,25 @@ impl Mechanism {
         let redundant = if allow_redundant { Redundant::LeftOut } else { Redundant::Refused };
         let made = interruptible(py, move |cancel| {
             let parsed = read(text.as_deref(), &path, &files)?;
-            Stages::of(parsed, path, files, (choice, redundant), cancel)
+            Stages::new(parsed, path, files, (choice, redundant), cancel)
         })?;
-        let (stages, said) = made.map_err(|said| said.raised(py))?;
-        said.warned(py)?;
+        let (stages, report) = made.map_err(|report| report.to_exception(py))?;
+        report.warn(py)?;
         let (params, inputs) = (stages.checked.settable_params(), stages.checked.settable_inputs(&stages.compiled));
-        Ok(Mechanism { stages: Arc::new(stages), params, inputs, known: Known::default() })
+        Ok(Mechanism { stages: Arc::new(stages), params, inputs, evaluators: EvaluatorCache::default() })
     }
 
-    /// What it takes to have it again: text, path, files, mechanism, settings, whether redundant equations are left out.
-    fn _packed<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+    /// Returns what is pickled: text, path, files, mechanism, settings, and whether redundant equations are left out.
+    fn _pickled<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let Stages { parsed, path, files, choice, redundant, .. } = &*self.stages;
-        let known = PyDict::new(py);
-        for (path, bytes) in files.known() {
-            known.set_item(path, PyBytes::new(py, &bytes))?;
+        let contents = PyDict::new(py);
+        for (path, bytes) in files.contents() {
+            contents.set_item(path, PyBytes::new(py, &bytes))?;
         }
         let text = &parsed.sources().get(parsed.file()).text;
         let leaves_out = *redundant == Redundant::LeftOut;
-        let packed = (text, path, known, choice.mechanism.as_ref(), &choice.set, leaves_out);
-        Ok(packed.into_pyobject(py)?.into_any())
+        let pickled = (text, path, contents, choice.mechanism.as_ref(), &choice.set, leaves_out);
+        Ok(pickled.into_pyobject(py)?.into_any())
     }
 
     #[getter]
@@ -273,16 +273,16 @@ impl Mechanism {
         self.stages.compiled.counts()
     }
 
-    /// Runs it; `asked` has the options by their names.
-    fn _run(&self, py: Python<'_>, asked: Asked) -> PyResult<Py<PyDict>> {
-        asked.run(py, Arc::clone(&self.stages))
+    /// Runs the mechanism; `request` has the options by their names.
+    fn _run(&self, py: Python<'_>, request: RunRequest) -> PyResult<Py<PyDict>> {
+        request.run(py, Arc::clone(&self.stages))
     }
 
     /// Where it is at given inputs, params and times: coordinates, velocities, accelerations, measures and forces at one place.
     ///
     /// Inputs are given by their names, `m.at(theta=0.3)`: numbers in SI, texts with units, or arrays, which are broadcast against
     /// each other. `rates` and `accelerations` say how they move there: `m.at(theta=0.3, rates={"theta": 5.0})`; they stand still where
-    /// nothing is said. A mechanism without inputs is asked for times, `m.at(t=0.02)`, and `t` may be an array too. Params may be
+    /// nothing is report. A mechanism without inputs is request for times, `m.at(t=0.02)`, and `t` may be an array too. Params may be
     /// given beside, to which it is led along the branch: `m.at(t=0.02, rod_length=0.18)`.
     ///
     /// The answer has a column for each that a run has: `x["piston.x"]`, a number or an array of the elements' shape; `x.q`, `x.qd`, `x.qdd`
@@ -316,7 +316,7 @@ impl Mechanism {
     ) -> PyResult<Bound<'py, At>> {
         let given = [t, set, inputs, rates, accelerations, by, reactions, tolerance, pass_bifurcations, strict];
         let options = Options(given);
-        let is_strict = options.are_strict(py)?;
+        let is_strict = options.is_strict(py)?;
         let found = Bound::new(py, at::at(py, self, &options, values.as_ref())?)?;
         match found.get().error(py).filter(|_| is_strict) {
             None => Ok(found),
@@ -327,43 +327,50 @@ impl Mechanism {
         }
     }
 
-    /// Results and rows as functions of some of its params.
-    fn _evaluator(&self, py: Python<'_>, asked: Asked, params: Vec<String>) -> PyResult<Evaluator> {
-        Evaluator::of(py, Arc::clone(&self.stages), asked, params)
+    /// Compiles results and rows as functions of some params.
+    fn _evaluator(&self, py: Python<'_>, request: RunRequest, params: Vec<String>) -> PyResult<Evaluator> {
+        Evaluator::new(py, Arc::clone(&self.stages), request, params)
     }
 
-    /// What tolerances make of it.
-    fn _tolerance(&self, py: Python<'_>, asked: Asked, tol: Vec<String>, normal: bool, verify: bool) -> PyResult<Told> {
-        tolerance::tolerance(py, Arc::clone(&self.stages), asked, tol, (normal, verify))
+    /// Returns the deviations that tolerances cause.
+    fn _tolerance(
+        &self,
+        py: Python<'_>,
+        request: RunRequest,
+        tol: Vec<String>,
+        normal: bool,
+        verify: bool,
+    ) -> PyResult<ToleranceReport> {
+        tolerance::tolerance(py, Arc::clone(&self.stages), request, tol, (normal, verify))
     }
 
-    /// A module of Rust.
-    fn _rust(&self, py: Python<'_>, asked: AskedOfRust) -> PyResult<String> {
-        asked.module(py, Arc::clone(&self.stages))
+    /// Returns a Rust module.
+    fn _rust(&self, py: Python<'_>, request: RustRequest) -> PyResult<String> {
+        request.module(py, Arc::clone(&self.stages))
     }
 
-    /// A crate of Rust: its files, and the mark that each begins with.
-    fn _crate(&self, py: Python<'_>, asked: AskedOfRust, name: &str) -> PyResult<exported::Crate> {
-        asked.package(py, Arc::clone(&self.stages), name)
+    /// Returns the files of a crate, and the mark that each begins with.
+    fn _crate(&self, py: Python<'_>, request: RustRequest, name: &str) -> PyResult<export::Crate> {
+        request.package(py, Arc::clone(&self.stages), name)
     }
 
     fn _latex(&self, py: Python<'_>) -> PyResult<String> {
-        exported::latex(py, Arc::clone(&self.stages))
+        export::latex(py, Arc::clone(&self.stages))
     }
 
     fn _json(&self, py: Python<'_>) -> PyResult<String> {
-        exported::json(py, Arc::clone(&self.stages))
+        export::json(py, Arc::clone(&self.stages))
     }
 
-    /// A page and a picture of its motion, with so many rows at the most, and why it ends before its time, if it does.
-    #[pyo3(signature = (asked, most = None))]
-    fn _seen(&self, py: Python<'_>, asked: Asked, most: Option<usize>) -> PyResult<exported::Shown> {
-        exported::seen(py, Arc::clone(&self.stages), asked, most)
+    /// Returns a page and a picture of the motion, with at most `most` rows, and the exception if the motion stops early.
+    #[pyo3(signature = (request, most = None))]
+    fn _visualize(&self, py: Python<'_>, request: RunRequest, most: Option<usize>) -> PyResult<export::Visualized> {
+        export::visualize(py, Arc::clone(&self.stages), request, most)
     }
 
-    /// A sweep of it; `asked` and `more` have the options by their names.
-    fn _sweep(&self, py: Python<'_>, asked: Asked, more: AskedOfSweep) -> PyResult<Sweep> {
-        Sweep::of(py, Arc::clone(&self.stages), asked, more)
+    /// Prepares a sweep; `request` has the options of a run, `variation` those of the sweep.
+    fn _sweep(&self, py: Python<'_>, request: RunRequest, variation: SweepRequest) -> PyResult<Sweep> {
+        Sweep::new(py, Arc::clone(&self.stages), request, variation)
     }
 }
 
@@ -378,7 +385,7 @@ fn read(text: Option<&str>, path: &Path, files: &Files) -> Result<Parsed, Error>
     }
 }
 
-/// Names with their units.
+/// Returns names with their units.
 fn units(list: &[SettableParam]) -> BTreeMap<String, String> {
     list.iter().map(|of| (of.name.clone(), of.unit.clone())).collect()
 }

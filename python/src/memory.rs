@@ -1,43 +1,43 @@
-//! What does not fit into memory is refused before it is begun; how much there is, and what is said, is in `mechc/memory.py`.
+//! Refuses computations whose rows do not fit into memory before they begin. Limits and messages are in `mechc/memory.py`.
 
 use pyo3::prelude::*;
 
-/// What is smaller is not looked at (bytes).
+/// Rows up to this size are not checked (bytes).
 const SMALL: u64 = 64 << 20;
 
-/// What rows are of, as messages tell what to do instead.
+/// The computation that rows belong to; the help of messages depends on it.
 #[derive(Clone, Copy)]
-pub enum Of {
+pub enum Computation {
     Run,
     Sweep,
-    /// The variants that a sweep computes side by side.
+    /// The variants that a sweep computes at once.
     Block,
     At,
 }
 
-impl Of {
+impl Computation {
     fn name(self) -> &'static str {
         match self {
-            Of::Run => "run",
-            Of::Sweep => "sweep",
-            Of::Block => "block",
-            Of::At => "at",
+            Computation::Run => "run",
+            Computation::Sweep => "sweep",
+            Computation::Block => "block",
+            Computation::At => "at",
         }
     }
 }
 
 /// Refuses rows of numbers that do not fit into the memory that is free.
-pub fn refuse_beyond(py: Python<'_>, (rows, columns): (u64, usize), of: Of) -> PyResult<()> {
+pub fn refuse_beyond(py: Python<'_>, (rows, columns): (u64, usize), computation: Computation) -> PyResult<()> {
     if rows.saturating_mul(columns as u64).saturating_mul(8) > SMALL {
-        py.import("mechc.memory")?.getattr("refuse_beyond")?.call1((rows, columns, of.name()))?;
+        py.import("mechc.memory")?.getattr("refuse_beyond")?.call1((rows, columns, computation.name()))?;
     }
     Ok(())
 }
 
-/// That rows of numbers do not fit.
-pub fn too_large(py: Python<'_>, (rows, columns): (u64, usize), of: Of) -> PyErr {
-    let made = py.import("mechc.memory").and_then(|room| room.getattr("too_large"));
-    match made.and_then(|made| made.call1((rows, columns, of.name()))) {
+/// Returns the exception for rows of numbers that do not fit into memory.
+pub fn too_large(py: Python<'_>, (rows, columns): (u64, usize), computation: Computation) -> PyErr {
+    let made = py.import("mechc.memory").and_then(|memory| memory.getattr("too_large"));
+    match made.and_then(|made| made.call1((rows, columns, computation.name()))) {
         Ok(why) => PyErr::from_value(why),
         Err(why) => why,
     }

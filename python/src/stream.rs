@@ -1,4 +1,4 @@
-//! Streams as capsules, by Arrow's interface for Python.
+//! Arrow streams and schemas as capsules (the Arrow `PyCapsule` interface).
 
 use arrow_array::RecordBatchReader;
 use arrow_array::ffi::FFI_ArrowSchema;
@@ -8,17 +8,17 @@ use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use pyo3::types::PyCapsule;
 
-/// A stream of batches.
+/// Returns the capsule of a stream of batches.
 pub fn capsule(py: Python<'_>, reader: Box<dyn RecordBatchReader + Send>) -> PyResult<Bound<'_, PyCapsule>> {
     PyCapsule::new_with_value(py, FFI_ArrowArrayStream::new(reader), c"arrow_array_stream")
 }
 
-/// What its batches are made of.
+/// Returns the capsule of a schema.
 pub fn schema_capsule<'py>(py: Python<'py>, schema: &Schema) -> PyResult<Bound<'py, PyCapsule>> {
     PyCapsule::new_with_value(py, FFI_ArrowSchema::try_from(schema).map_err(failed)?, c"arrow_schema")
 }
 
-/// Arrow's own errors are mistakes of ours.
+/// Converts an error of Arrow, which only a bug of this crate causes.
 pub fn failed(why: ArrowError) -> PyErr {
     PyRuntimeError::new_err(why.to_string())
 }

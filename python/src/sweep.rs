@@ -1,14 +1,14 @@
-//! Sweeps: many variants of a mechanism as an Arrow stream, which is computed while it is read.
+//! Sweeps: many variants of a mechanism as an Arrow stream, computed while it is read.
 
-use crate::errors::Said;
-use crate::files::WithLists;
+use crate::errors::Report;
+use crate::files::FilesWithTables;
+use crate::interrupts::interruptible;
 use crate::mechanism::Stages;
-use crate::memory::{self, Of};
-use crate::run::Asked;
+use crate::memory::{self, Computation};
+use crate::run::RunRequest;
 use crate::stream;
-use crate::sweep::reader::{InTurns, Reader, Source};
-use crate::table::{Head, Kind, Table, schema};
-use crate::waiting::interruptible;
+use crate::sweep::reader::{Reader, SharedReader, Source};
+use crate::table::{Header, Kind, Table, schema};
 use arrow_schema::SchemaRef;
 use mechc::{
     Cancel, Checked, Choice, ColumnUnit, Compiled, Method, RequestedTimes, SweepOptions, Variants, VaryOptions,
@@ -22,11 +22,11 @@ use std::sync::{Arc, Mutex, PoisonError};
 mod block;
 mod reader;
 
-/// What of a sweep goes beyond what is asked of a run.
+/// The options of a sweep, in addition to those of a run.
 #[derive(FromPyObject)]
 #[pyo3(from_item_all)]
-pub struct AskedOfSweep {
-    /// What varies, in order.
+pub struct SweepRequest {
+    /// The axes of variation, in order.
     vary: Vec<Axis>,
     samples: Option<u64>,
     method: Option<String>,
@@ -38,111 +38,116 @@ pub struct AskedOfSweep {
     take: Option<u64>,
 }
 
-/// What varies with others, or alone.
+/// An axis of variation: a param, or a table of several.
 #[derive(FromPyObject)]
 enum Axis {
-    /// `NAME=A..B:N`, `NAME=A,B,C`, `@FILE.csv`, as the command has it.
-    Written(String),
-    /// A table of variants as CSV, by the name that messages have for it.
-    Listed(PathBuf, Vec<u8>),
+    /// The text of the command's option: `NAME=A..B:N`, `NAME=A,B,C`, `@FILE.csv`.
+    Option(String),
+    /// A table of variants as CSV, with its name in messages.
+    Table(PathBuf, Vec<u8>),
 }
 
-/// So many variants are computed side by side.
-const SIDE_BY_SIDE: u64 = 16;
+/// Number of variants that a thread computes at once.
+const VARIANTS_PER_THREAD: u64 = 16;
 
-/// How many variants came to each end, and the first of them.
+/// By status, the number of variants and the first of them.
 pub type Summary = BTreeMap<&'static str, (u64, u64)>;
 
-/// A sweep that can be read, again and again.
+/// A sweep; each reader computes it anew.
 #[pyclass(frozen, module = "mechc._mechc")]
 pub struct Sweep {
-    whole: Arc<Whole>,
-    /// What became of the variants of the stream that was begun last.
+    plan: Arc<SweepPlan>,
+    /// The statuses of the variants of the newest stream.
     summary: Mutex<Arc<Mutex<Summary>>>,
 }
 
-/// All that a sweep is made of.
-pub struct Whole {
+/// The compiled mechanism, variants, options and columns of a sweep.
+pub struct SweepPlan {
     pub checked: Checked,
     pub compiled: Compiled,
     pub variants: Variants,
     pub options: SweepOptions,
-    pub heads: Vec<Head>,
+    pub headers: Vec<Header>,
     pub schema: SchemaRef,
-    /// The units of the columns of a run that it has; none where results alone are wanted.
+    /// The units of the columns of rows; `None` for a table of results.
     pub units: Option<Vec<ColumnUnit>>,
-    /// Whether it ends behind a variant that is looked for.
+    /// True if the sweep ends behind the first variant that meets a condition.
     pub has_until: bool,
     /// The first variant, and the one behind the last.
     pub range: [u64; 2],
-    /// How many rows a variant has at the most.
+    /// Largest number of rows of a variant.
     rows: u64,
 }
 
-impl Whole {
-    fn of(stages: &Stages, asked: &Asked, more: &AskedOfSweep, cancel: &Cancel) -> Result<(Whole, Said), Said> {
-        let world = WithLists::new(&stages.files, more.lists());
-        let choice = Choice { lead: true, until: more.until.clone(), ..asked.choice(stages) };
-        let redundant = asked.redundant(stages);
-        let ((checked, compiled), said) = stages.with(&choice, &world, redundant, cancel)?;
-        let variants = checked.variants(&more.vary_options(), &choice, &world)?;
+impl SweepPlan {
+    fn new(
+        stages: &Stages,
+        request: &RunRequest,
+        variation: &SweepRequest,
+        cancel: &Cancel,
+    ) -> Result<(SweepPlan, Report), Report> {
+        let world = FilesWithTables::new(&stages.files, variation.tables());
+        let choice = Choice { lead: true, until: variation.until.clone(), ..request.choice(stages) };
+        let redundant = request.redundant(stages);
+        let ((checked, compiled), report) = stages.compile(&choice, &world, redundant, cancel)?;
+        let variants = checked.variants(&variation.vary_options(), &choice, &world)?;
         let compiled = checked.widest(&variants, redundant).unwrap_or(compiled);
         let mut sources = variants.sources().clone();
-        let ends = [&asked.from, &asked.to, &asked.every];
-        let times = RequestedTimes::from_options(ends, &asked.at, &mut sources)?;
+        let ends = [&request.from, &request.to, &request.every];
+        let times = RequestedTimes::from_options(ends, &request.at, &mut sources)?;
         let rows = times.over(compiled.analysis()).and_then(|times| times.times())?.len();
-        let wanted = if more.rows { Some(compiled.select_columns(&asked.columns)?) } else { None };
-        let (heads, units) = heads(&compiled, &variants, wanted.as_deref());
-        let run = asked.options(cancel);
+        let selected = if variation.rows { Some(compiled.select_columns(&request.columns)?) } else { None };
+        let (headers, units) = headers(&compiled, &variants, selected.as_deref());
+        let run = request.options(cancel);
         let options = SweepOptions {
             times,
-            columns: wanted,
+            columns: selected,
             redundant,
             tolerance: run.tolerance,
             pass_bifurcations: run.pass_bifurcations,
-            jobs: more.jobs,
+            jobs: variation.jobs,
             digits: false,
-            skip: more.skip,
-            take: more.take,
+            skip: variation.skip,
+            take: variation.take,
             vectors: run.vectors,
             cancel: Cancel::default(),
         };
         let count = variants.points().count();
-        let first = more.skip.min(count);
-        let range = [first, more.take.map_or(count, |take| first.saturating_add(take).min(count))];
-        let (schema, has_until) = (schema(&heads), more.until.is_some());
+        let first = variation.skip.min(count);
+        let range = [first, variation.take.map_or(count, |take| first.saturating_add(take).min(count))];
+        let (schema, has_until) = (schema(&headers), variation.until.is_some());
         let rows = if units.is_some() { rows } else { 1 };
-        Ok((Whole { checked, compiled, variants, options, heads, schema, units, has_until, range, rows }, said))
+        Ok((SweepPlan { checked, compiled, variants, options, headers, schema, units, has_until, range, rows }, report))
     }
 
-    /// Refuses variants of which not even those fit into memory that are computed side by side: their rows, and those of the threads.
+    /// Refuses a sweep if the rows of the variants that all threads compute at once do not fit into memory.
     pub fn refuse_beyond(&self, py: Python<'_>) -> PyResult<()> {
         let threads = self.options.jobs.unwrap_or_else(|| std::thread::available_parallelism().map_or(1, usize::from));
         let columns = self.units.as_ref().map_or(0, Vec::len);
-        let rows = self.rows.saturating_mul(2 * SIDE_BY_SIDE).saturating_mul(threads.max(1) as u64);
-        memory::refuse_beyond(py, (rows, columns), Of::Block)
+        let rows = self.rows.saturating_mul(2 * VARIANTS_PER_THREAD).saturating_mul(threads.max(1) as u64);
+        memory::refuse_beyond(py, (rows, columns), Computation::Block)
     }
 
-    /// How many rows it has at the most, and columns.
+    /// Returns the largest number of rows, and the number of columns.
     pub fn size(&self) -> (u64, usize) {
         let [first, last] = self.range;
-        ((last - first).saturating_mul(self.rows), self.heads.len())
+        ((last - first).saturating_mul(self.rows), self.headers.len())
     }
 }
 
-impl AskedOfSweep {
-    fn lists(&self) -> Vec<(PathBuf, Vec<u8>)> {
-        let listed = |axis: &Axis| match axis {
-            Axis::Listed(name, table) => Some((name.clone(), table.clone())),
-            Axis::Written(_) => None,
+impl SweepRequest {
+    fn tables(&self) -> Vec<(PathBuf, Vec<u8>)> {
+        let table_of = |axis: &Axis| match axis {
+            Axis::Table(name, table) => Some((name.clone(), table.clone())),
+            Axis::Option(_) => None,
         };
-        self.vary.iter().filter_map(listed).collect()
+        self.vary.iter().filter_map(table_of).collect()
     }
 
     fn vary_options(&self) -> VaryOptions {
         let option = |axis: &Axis| match axis {
-            Axis::Written(option) => option.clone(),
-            Axis::Listed(name, _) => format!("@{}", name.to_string_lossy()),
+            Axis::Option(option) => option.clone(),
+            Axis::Table(name, _) => format!("@{}", name.to_string_lossy()),
         };
         let params = self.vary.iter().map(option).collect();
         let method = self.method.as_deref().map(|name| if name == "random" { Method::Random } else { Method::Sobol });
@@ -150,39 +155,43 @@ impl AskedOfSweep {
     }
 }
 
-/// The columns of a sweep, and the units of those of a run among them.
-fn heads(compiled: &Compiled, variants: &Variants, wanted: Option<&[usize]>) -> (Vec<Head>, Option<Vec<ColumnUnit>>) {
-    let head = |name: &str, unit: &str, kind| Head { name: name.to_owned(), unit: unit.to_owned(), kind };
-    let mut heads = vec![head("variant", "", Kind::Whole)];
+/// Returns the columns of a sweep, and the units of those of rows among them.
+fn headers(
+    compiled: &Compiled,
+    variants: &Variants,
+    selected: Option<&[usize]>,
+) -> (Vec<Header>, Option<Vec<ColumnUnit>>) {
+    let header = |name: &str, unit: &str, kind| Header { name: name.to_owned(), unit: unit.to_owned(), kind };
+    let mut headers = vec![header("variant", "", Kind::Integers)];
     let params = variants.points().params().iter().zip(variants.units());
-    heads.extend(params.map(|(name, unit)| head(name, unit, Kind::Numbers)));
-    let Some(wanted) = wanted else {
-        heads.extend(compiled.variant_results().iter().map(|(name, unit)| head(name, unit, Kind::Numbers)));
-        heads.push(head("status", "", Kind::Words));
-        heads.push(head("stopped", "s", Kind::Numbers));
-        return (heads, None);
+    headers.extend(params.map(|(name, unit)| header(name, unit, Kind::Numbers)));
+    let Some(selected) = selected else {
+        headers.extend(compiled.variant_results().iter().map(|(name, unit)| header(name, unit, Kind::Numbers)));
+        headers.push(header("status", "", Kind::Words));
+        headers.push(header("stopped", "s", Kind::Numbers));
+        return (headers, None);
     };
     let (names, all) = (compiled.columns(), compiled.units());
-    let units: Vec<ColumnUnit> = wanted.iter().map(|&k| all[k].clone()).collect();
-    heads.extend(wanted.iter().map(|&k| head(&names[k], &all[k].text, Kind::Numbers)));
-    (heads, Some(units))
+    let units: Vec<ColumnUnit> = selected.iter().map(|&k| all[k].clone()).collect();
+    headers.extend(selected.iter().map(|&k| header(&names[k], &all[k].text, Kind::Numbers)));
+    (headers, Some(units))
 }
 
 impl Sweep {
-    /// A sweep of a mechanism.
-    pub fn of(py: Python<'_>, stages: Arc<Stages>, asked: Asked, more: AskedOfSweep) -> PyResult<Sweep> {
-        let made = interruptible(py, move |cancel| Whole::of(&stages, &asked, &more, cancel))?;
-        let (whole, said) = made.map_err(|said| said.raised(py))?;
-        said.warned(py)?;
-        Ok(Sweep { whole: Arc::new(whole), summary: Mutex::default() })
+    /// Prepares a sweep of a mechanism, and issues its warnings.
+    pub fn new(py: Python<'_>, stages: Arc<Stages>, request: RunRequest, variation: SweepRequest) -> PyResult<Sweep> {
+        let made = interruptible(py, move |cancel| SweepPlan::new(&stages, &request, &variation, cancel))?;
+        let (plan, report) = made.map_err(|report| report.to_exception(py))?;
+        report.warn(py)?;
+        Ok(Sweep { plan: Arc::new(plan), summary: Mutex::default() })
     }
 
     fn reader(&self, py: Python<'_>, progress: Option<Py<PyAny>>) -> PyResult<Reader> {
-        self.whole.refuse_beyond(py)?;
-        // one that is still read goes on telling what becomes of it, to nobody
+        self.plan.refuse_beyond(py)?;
+        // an older stream keeps its own summary, which is no longer shown
         let summary = Arc::default();
         *self.summary.lock().unwrap_or_else(PoisonError::into_inner) = Arc::clone(&summary);
-        Ok(Reader::new(Source { whole: Arc::clone(&self.whole), summary }, progress))
+        Ok(Reader::new(Source { plan: Arc::clone(&self.plan), summary }, progress))
     }
 }
 
@@ -190,69 +199,69 @@ impl Sweep {
 impl Sweep {
     #[getter]
     fn names(&self) -> Vec<&str> {
-        self.whole.heads.iter().map(|head| head.name.as_str()).collect()
+        self.plan.headers.iter().map(|header| header.name.as_str()).collect()
     }
 
     #[getter]
     fn units(&self) -> Vec<&str> {
-        self.whole.heads.iter().map(|head| head.unit.as_str()).collect()
+        self.plan.headers.iter().map(|header| header.unit.as_str()).collect()
     }
 
-    /// How many variants it computes.
+    /// Returns the number of variants that are computed.
     #[getter]
     fn taken(&self) -> u64 {
-        let [first, last] = self.whole.range;
+        let [first, last] = self.plan.range;
         last - first
     }
 
-    /// The same as far as Python can count by `len`.
+    /// Returns the number of computed variants, at most the largest value of `len`.
     fn __len__(&self) -> usize {
         usize::try_from(self.taken()).unwrap_or(usize::MAX)
     }
 
-    /// How many rows a variant has at the most.
+    /// Returns the largest number of rows of a variant.
     #[getter]
     fn rows_of_a_variant(&self) -> u64 {
-        self.whole.rows
+        self.plan.rows
     }
 
-    /// How many variants there are, taken or not.
+    /// Returns the number of all variants, whatever `skip` and `take`.
     #[getter]
     fn count(&self) -> u64 {
-        self.whole.variants.points().count()
+        self.plan.variants.points().count()
     }
 
-    /// By status: how many variants of the stream that was begun last, and the first of them.
+    /// Returns by status the number of variants of the newest stream, and the first of them.
     #[getter]
     fn summary(&self) -> Summary {
         let summary = Arc::clone(&self.summary.lock().unwrap_or_else(PoisonError::into_inner));
         summary.lock().unwrap_or_else(PoisonError::into_inner).clone()
     }
 
-    /// What sets the params of a variant, as `set` takes it.
+    /// Returns the settings of a variant's params, as `set` takes them.
     fn settings(&self, variant: u64) -> PyResult<Vec<String>> {
-        let count = self.whole.variants.points().count();
+        let count = self.plan.variants.points().count();
         if variant >= count {
-            let said = format!("there are {count} variants, and no variant {variant}");
-            return Err(pyo3::exceptions::PyIndexError::new_err(said));
+            let message = format!("there are {count} variants, and no variant {variant}");
+            return Err(pyo3::exceptions::PyIndexError::new_err(message));
         }
-        Ok(self.whole.variants.settings(variant))
+        Ok(self.plan.variants.settings(variant))
     }
 
-    /// All of it as a table.
+    /// Computes the whole sweep as a table.
     #[pyo3(signature = (progress = None))]
     fn _table(&self, py: Python<'_>, progress: Option<Py<PyAny>>) -> PyResult<Table> {
         let mut reader = self.reader(py, progress)?;
         let columns = reader.all(py)?;
-        Ok(Table::new(self.whole.heads.clone(), columns))
+        Ok(Table::new(self.plan.headers.clone(), columns))
     }
 
     #[pyo3(signature = (progress = None))]
     fn _stream<'py>(&self, py: Python<'py>, progress: Option<Py<PyAny>>) -> PyResult<Bound<'py, PyCapsule>> {
-        stream::capsule(py, Box::new(InTurns::new(self.reader(py, progress)?)))
+        stream::capsule(py, Box::new(SharedReader::new(self.reader(py, progress)?)))
     }
 
     fn __arrow_c_schema__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyCapsule>> {
-        stream::schema_capsule(py, &self.whole.schema)
+        stream::schema_capsule(py, &self.plan.schema)
     }
 }

@@ -1,4 +1,4 @@
-//! Tables of results by columns: for numpy and for Arrow the same memory, which nobody changes.
+//! Tables of results by columns, in read-only memory that numpy and Arrow share.
 
 use crate::stream;
 use arrow_array::{Array, ArrayRef, Float64Array, RecordBatch, RecordBatchIterator, StringArray, UInt64Array};
@@ -14,19 +14,19 @@ use std::sync::Arc;
 /// The key of a column's unit in the metadata of its field.
 const UNIT: &str = "unit";
 
-/// A column that has a name, and a unit where its values have one.
+/// The name, unit and type of a column; the unit is empty if its values have none.
 #[derive(Clone)]
-pub struct Head {
+pub struct Header {
     pub name: String,
     pub unit: String,
     pub kind: Kind,
 }
 
-/// What a column holds.
+/// The type of a column's values.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub enum Kind {
     Numbers,
-    Whole,
+    Integers,
     Words,
 }
 
@@ -34,7 +34,7 @@ pub enum Kind {
 #[derive(Clone)]
 pub enum Values {
     Numbers(ScalarBuffer<f64>),
-    Whole(ScalarBuffer<u64>),
+    Integers(ScalarBuffer<u64>),
     Words(StringArray),
 }
 
@@ -42,7 +42,7 @@ impl Values {
     fn kind(&self) -> Kind {
         match self {
             Values::Numbers(_) => Kind::Numbers,
-            Values::Whole(_) => Kind::Whole,
+            Values::Integers(_) => Kind::Integers,
             Values::Words(_) => Kind::Words,
         }
     }
@@ -50,12 +50,12 @@ impl Values {
     fn len(&self) -> usize {
         match self {
             Values::Numbers(values) => values.len(),
-            Values::Whole(values) => values.len(),
+            Values::Integers(values) => values.len(),
             Values::Words(values) => values.len(),
         }
     }
 
-    /// As Arrow has them: what is no number has no value there. It is looked for where it is not known that there is none.
+    /// Returns the values as an Arrow array, in which numbers that are not finite are null; `may_have_gaps` false skips the search for these.
     fn array(&self, may_have_gaps: bool) -> ArrayRef {
         match self {
             Values::Numbers(values) => {
@@ -66,37 +66,37 @@ impl Values {
                 };
                 Arc::new(Float64Array::new(values.clone(), nulls))
             }
-            Values::Whole(values) => Arc::new(UInt64Array::new(values.clone(), None)),
+            Values::Integers(values) => Arc::new(UInt64Array::new(values.clone(), None)),
             Values::Words(values) => Arc::new(values.clone()),
         }
     }
 }
 
-/// The schema of columns.
-pub fn schema(heads: &[Head]) -> SchemaRef {
-    let field = |head: &Head| {
-        let (kind, has_gaps) = match head.kind {
+/// Returns the Arrow schema of columns.
+pub fn schema(headers: &[Header]) -> SchemaRef {
+    let field = |header: &Header| {
+        let (kind, has_gaps) = match header.kind {
             Kind::Numbers => (DataType::Float64, true),
-            Kind::Whole => (DataType::UInt64, false),
+            Kind::Integers => (DataType::UInt64, false),
             Kind::Words => (DataType::Utf8, false),
         };
-        let field = Field::new(&head.name, kind, has_gaps);
-        if head.unit.is_empty() {
+        let field = Field::new(&header.name, kind, has_gaps);
+        if header.unit.is_empty() {
             field
         } else {
-            field.with_metadata(HashMap::from([(UNIT.to_owned(), head.unit.clone())]))
+            field.with_metadata(HashMap::from([(UNIT.to_owned(), header.unit.clone())]))
         }
     };
-    Arc::new(Schema::new(heads.iter().map(field).collect::<Vec<_>>()))
+    Arc::new(Schema::new(headers.iter().map(field).collect::<Vec<_>>()))
 }
 
-/// Rows as a batch of Arrow, with columns in some of which numbers may be missing.
+/// Returns columns as a batch of Arrow; `gaps` are the columns in which numbers may be missing.
 pub fn batch(schema: &SchemaRef, columns: &[Values], gaps: &[bool]) -> Result<RecordBatch, arrow_schema::ArrowError> {
     let arrays = columns.iter().zip(gaps).map(|(values, &may_have_gaps)| values.array(may_have_gaps));
     RecordBatch::try_new(Arc::clone(schema), arrays.collect())
 }
 
-/// A column as numpy takes it, without a copy: `numpy.asarray(column)`; it cannot be written to.
+/// A read-only column, which `numpy.asarray(column)` takes without a copy.
 #[pyclass(frozen, module = "mechc._mechc")]
 pub struct Column {
     values: Values,
@@ -108,7 +108,7 @@ impl Column {
     fn __array_interface__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let (kind, address) = match &self.values {
             Values::Numbers(values) => ("<f8", values.as_ptr() as usize),
-            Values::Whole(values) => ("<u8", values.as_ptr() as usize),
+            Values::Integers(values) => ("<u8", values.as_ptr() as usize),
             Values::Words(_) => return Err(PyTypeError::new_err("words are no array of numbers")),
         };
         let interface = PyDict::new(py);
@@ -124,13 +124,13 @@ impl Column {
     }
 }
 
-/// A column that was packed.
-fn unpacked(column: &Bound<'_, PyAny>) -> PyResult<Values> {
+/// Restores a column that was pickled.
+fn unpickled(column: &Bound<'_, PyAny>) -> PyResult<Values> {
     if let Ok(values) = column.extract::<PyReadonlyArray1<'_, f64>>() {
         return Ok(Values::Numbers(values.as_array().to_vec().into()));
     }
     if let Ok(values) = column.extract::<PyReadonlyArray1<'_, u64>>() {
-        return Ok(Values::Whole(values.as_array().to_vec().into()));
+        return Ok(Values::Integers(values.as_array().to_vec().into()));
     }
     Ok(Values::Words(StringArray::from(column.extract::<Vec<String>>()?)))
 }
@@ -138,19 +138,20 @@ fn unpacked(column: &Bound<'_, PyAny>) -> PyResult<Values> {
 /// A table.
 #[pyclass(frozen, module = "mechc._mechc")]
 pub struct Table {
-    heads: Vec<Head>,
+    headers: Vec<Header>,
     columns: Vec<Values>,
 }
 
 impl Table {
-    pub fn new(heads: Vec<Head>, columns: Vec<Values>) -> Table {
-        Table { heads, columns }
+    pub fn new(headers: Vec<Header>, columns: Vec<Values>) -> Table {
+        Table { headers, columns }
     }
 
-    /// Columns of numbers with their units.
+    /// Creates a table from columns of numbers with their units.
     pub fn of_numbers(names: Vec<String>, units: Vec<String>, columns: Vec<Vec<f64>>) -> Table {
-        let heads = names.into_iter().zip(units).map(|(name, unit)| Head { name, unit, kind: Kind::Numbers }).collect();
-        Table::new(heads, columns.into_iter().map(|values| Values::Numbers(values.into())).collect())
+        let headers =
+            names.into_iter().zip(units).map(|(name, unit)| Header { name, unit, kind: Kind::Numbers }).collect();
+        Table::new(headers, columns.into_iter().map(|values| Values::Numbers(values.into())).collect())
     }
 
     fn rows(&self) -> usize {
@@ -160,34 +161,34 @@ impl Table {
 
 #[pymethods]
 impl Table {
-    /// Columns once more, as they were packed: arrays of numbers, lists of words.
+    /// Creates a table from columns: arrays of numbers, lists of words.
     #[new]
-    fn again(names: Vec<String>, units: Vec<String>, columns: Vec<Bound<'_, PyAny>>) -> PyResult<Table> {
-        let columns: Vec<Values> = columns.iter().map(unpacked).collect::<PyResult<_>>()?;
+    fn new_from_columns(names: Vec<String>, units: Vec<String>, columns: Vec<Bound<'_, PyAny>>) -> PyResult<Table> {
+        let columns: Vec<Values> = columns.iter().map(unpickled).collect::<PyResult<_>>()?;
         let lengths = columns.iter().map(Values::len);
         if names.len() != columns.len() || units.len() != columns.len() || lengths.clone().min() != lengths.max() {
             return Err(PyValueError::new_err("names, units and columns are not of one length"));
         }
-        let heads = names.into_iter().zip(units).zip(&columns);
-        let heads = heads.map(|((name, unit), values)| Head { name, unit, kind: values.kind() }).collect();
-        Ok(Table::new(heads, columns))
+        let headers = names.into_iter().zip(units).zip(&columns);
+        let headers = headers.map(|((name, unit), values)| Header { name, unit, kind: values.kind() }).collect();
+        Ok(Table::new(headers, columns))
     }
 
     #[getter]
     fn names(&self) -> Vec<&str> {
-        self.heads.iter().map(|head| head.name.as_str()).collect()
+        self.headers.iter().map(|header| header.name.as_str()).collect()
     }
 
     #[getter]
     fn units(&self) -> Vec<&str> {
-        self.heads.iter().map(|head| head.unit.as_str()).collect()
+        self.headers.iter().map(|header| header.unit.as_str()).collect()
     }
 
     fn __len__(&self) -> usize {
         self.rows()
     }
 
-    /// A column by its number: for numpy, or a list of words.
+    /// Returns a column by its number: for numpy, or a list of words.
     fn column<'py>(&self, py: Python<'py>, number: usize) -> PyResult<Bound<'py, PyAny>> {
         match self.columns.get(number) {
             None => Err(PyIndexError::new_err(format!("there is no column {number}"))),
@@ -197,7 +198,7 @@ impl Table {
     }
 
     fn __arrow_c_schema__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyCapsule>> {
-        stream::schema_capsule(py, &schema(&self.heads))
+        stream::schema_capsule(py, &schema(&self.headers))
     }
 
     #[pyo3(signature = (requested_schema = None))]
@@ -206,9 +207,9 @@ impl Table {
         py: Python<'py>,
         requested_schema: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Bound<'py, PyCapsule>> {
-        // who asks for another schema gets this one, as the interface allows
+        // the interface allows to ignore the requested schema
         let _ = requested_schema;
-        let schema = schema(&self.heads);
+        let schema = schema(&self.headers);
         let batch = batch(&schema, &self.columns, &vec![true; self.columns.len()]).map_err(stream::failed)?;
         stream::capsule(py, Box::new(RecordBatchIterator::new([Ok(batch)], schema)))
     }

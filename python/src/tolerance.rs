@@ -1,72 +1,74 @@
-//! What small errors of params make of measures and results.
+//! Deviations of measures and results that tolerances of params cause.
 
-use crate::errors::Said;
+use crate::errors::Report;
+use crate::interrupts::interruptible;
 use crate::mechanism::Stages;
-use crate::run::Asked;
-use crate::waiting::interruptible;
+use crate::run::RunRequest;
 use mechc::{Cancel, OutputSensitivity, RequestedTimes, RunOptions, SweepOptions, Tolerance};
 use pyo3::prelude::*;
 use std::sync::Arc;
 
-/// Each tolerance: its name, its value, from and to (SI), its unit.
-type OfParam = (String, f64, [f64; 2], String);
+/// The tolerance of a param: name, nominal value and range (SI), unit.
+type ParamTolerance = (String, f64, [f64; 2], String);
 
-/// Each measure or result.
+/// The deviation of a measure or result (SI).
 #[derive(IntoPyObject)]
-pub struct OfQuantity {
+pub struct Deviation {
     name: String,
     /// The time (s) at which a measure deviates the most.
     at: Option<f64>,
     nominal: f64,
     unit: String,
-    /// By param, its derivative.
+    /// The derivative by each param.
     slopes: Vec<Option<f64>>,
-    /// By param, from the least to the largest.
+    /// The least and the largest contribution of each param.
     contributions: Option<Vec<[f64; 2]>>,
     shares: Option<Vec<f64>>,
     worst: Option<[f64; 2]>,
     statistical: Option<[f64; 2]>,
     sigma: Option<f64>,
-    /// How far it was off when it was run, in how many variants it had no value, and whether derivatives are enough.
+    /// The least and the largest deviation of all variants that were run.
     found: Option<[f64; 2]>,
+    /// Number of these variants without a value.
     missing: Option<u64>,
+    /// Whether first derivatives predict the deviation well enough.
     is_linear: Option<bool>,
 }
 
-/// How many variants were run, whether these were all corners, and how many of them did not come to their end.
-type Tried = Option<(u64, bool, u64)>;
+/// Number of variants that were run, whether these are all corners, and number of those that stopped early.
+type Verification = Option<(u64, bool, u64)>;
 
-/// All of it.
-pub type Told = (Vec<OfParam>, Vec<OfQuantity>, Tried);
+/// The tolerances, the deviations, and the verification, if requested.
+pub type ToleranceReport = (Vec<ParamTolerance>, Vec<Deviation>, Verification);
 
-/// What tolerances make of a mechanism.
+/// Computes the deviations that tolerances cause; `are` is whether errors are normal, and whether variants verify them.
 pub fn tolerance(
     py: Python<'_>,
     stages: Arc<Stages>,
-    asked: Asked,
+    request: RunRequest,
     tol: Vec<String>,
     are: (bool, bool),
-) -> PyResult<Told> {
-    let told = interruptible(py, move |cancel| found(&stages, &asked, &tol, are, cancel))?;
-    told.map_err(|said| said.raised(py))
+) -> PyResult<ToleranceReport> {
+    let result = interruptible(py, move |cancel| compute(&stages, &request, &tol, are, cancel))?;
+    result.map_err(|report| report.to_exception(py))
 }
 
-fn found(
+fn compute(
     stages: &Stages,
-    asked: &Asked,
+    request: &RunRequest,
     tol: &[String],
     (normal, verify): (bool, bool),
     cancel: &Cancel,
-) -> Result<Told, Said> {
-    let choice = mechc::Choice { lead: true, ..asked.choice(stages) };
-    let ((checked, compiled), _) = stages.with(&choice, &*stages.files, asked.redundant(stages), cancel)?;
+) -> Result<ToleranceReport, Report> {
+    let choice = mechc::Choice { lead: true, ..request.choice(stages) };
+    let ((checked, compiled), _) = stages.compile(&choice, &*stages.files, request.redundant(stages), cancel)?;
     let tolerancing = checked.tolerancing(tol, &choice, &*stages.files)?;
     let mut sources = compiled.sources().clone();
-    let times = RequestedTimes::from_options([&asked.from, &asked.to, &asked.every], &[], &mut sources);
-    let RunOptions { tolerance, pass_bifurcations, .. } = asked.options(cancel);
+    let times = RequestedTimes::from_options([&request.from, &request.to, &request.every], &[], &mut sources);
+    let RunOptions { tolerance, pass_bifurcations, .. } = request.options(cancel);
     let options = SweepOptions {
         times: times?,
-        redundant: asked.redundant(stages),
+        redundant: request.redundant(stages),
         tolerance,
         pass_bifurcations,
         cancel: cancel.clone(),
@@ -79,7 +81,7 @@ fn found(
         let deviation = of.deviation(tolerances, normal);
         let tried = verified.as_ref().zip(deviation.as_ref());
         let is_linear = tried.map(|(verified, deviation)| verified.is_linear(k, of, deviation));
-        OfQuantity {
+        Deviation {
             name: of.name.clone(),
             at: of.at,
             nominal: of.nominal,

@@ -122,7 +122,7 @@ CALLS = {
     "raw run": lambda m, r, odd: m._run(odd),
     "raw sweep": lambda m, r, odd: m._sweep(odd, odd),
     "raw table": lambda m, r, odd: _mechc.Table(["a"], ["m"], [odd]),
-    "raw at": lambda m, r, odd: _mechc._at_again(["a"], ["m"], [[5], [], []], odd, None, ["ok"]),
+    "raw at": lambda m, r, odd: _mechc._unpickle_at(["a"], ["m"], [[5], [], []], odd, None, ["ok"]),
 }
 
 

@@ -1677,7 +1677,7 @@ pub trait Along<M: Solved>: Copy + Debug {
         &[]
     }
 
-    /// Returns these derivatives for modification.
+    /// Returns the derivatives of the coordinates by the variable of the motion, for modification.
     #[allow(dead_code)] // what is neither pivoted nor listed knows them by their names
     fn slopes_mut(&mut self) -> &mut [M::Q] {
         &mut []
@@ -3389,11 +3389,11 @@ pub trait Laned<const L: usize>: Timed {
     type Coordinates: Lists<f64, L>;
     /// A number for each coordinate that Newton solves for.
     type Guesses: Lists<f64, L>;
-    /// A number for each measure, its rate, its acceleration.
+    /// A number for each measure.
     type Values: Lists<f64, L>;
-    /// See [`Values`](Laned::Values).
+    /// The time derivative of each measure.
     type Rates: Lists<f64, L>;
-    /// See [`Values`](Laned::Values).
+    /// The second time derivative of each measure.
     type Accelerations: Lists<f64, L>;
     /// A number for each value that only measures need.
     type OfJoined: Lists<f64, L>;

@@ -61,7 +61,7 @@ pub struct TranslationUnit<'u> {
     pub motion: Option<EmittedMotion>,
     /// Number of lanes that are solved at once, in addition to the code for a single one.
     pub lanes: Option<usize>,
-    /// Number of operations beyond which they are encoded as numbers instead of Rust lines; normally [`LARGEST_STRAIGHT`].
+    /// Largest number of operations that are written as lines; more are written as tables of numbers. Normally [`LARGEST_STRAIGHT`].
     pub largest_straight: usize,
     /// True if parameters and inputs have the C layout.
     pub for_c: bool,
@@ -81,11 +81,11 @@ impl TranslationUnit<'_> {
     }
 }
 
-/// Variant of a mechanism whose inputs are signals.
+/// A mechanism whose inputs are signals, beside the one whose inputs follow the text.
 pub struct Following<'u> {
     /// Unit whose inputs are signals; its program does not evaluate the input formulas of the file.
     pub unit: Box<TranslationUnit<'u>>,
-    /// Program with the same registers that also evaluates the input formulas of the file.
+    /// The program that evaluates the inputs by the text; registers as in `unit`.
     pub by_text: &'u Program,
 }
 
@@ -101,7 +101,7 @@ pub struct EmittedMotion {
     pub blocks: Option<BlockTables>,
     /// The assembled position [m, rad].
     pub q: Vec<f64>,
-    /// Largest admissible residual of each row of `Φ`.
+    /// The bound on the residual of each row of `Φ`, in the row's unit.
     pub bounds: Vec<f64>,
     /// The first time (s).
     pub from: f64,

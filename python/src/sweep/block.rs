@@ -1,6 +1,6 @@
-//! Variants in a row as columns of a table.
+//! Blocks of consecutive variants as columns of a table.
 
-use super::Whole;
+use super::SweepPlan;
 use crate::table::{Kind, Values};
 use arrow_array::StringArray;
 use arrow_buffer::{Buffer, OffsetBuffer, ScalarBuffer};
@@ -8,27 +8,27 @@ use bytes::Bytes;
 use mechc::{ColumnUnit, Numbers, Status, Swept, SweptColumn};
 use std::collections::TryReserveError;
 
-/// A block of variants, as it comes from the threads that compute.
+/// A block of variants, as the computing threads return it.
 pub struct Block {
     pub first: u64,
     pub statuses: Vec<Status>,
-    /// The columns of the table, each with whether a number of it is missing.
+    /// The columns of the table, each with whether numbers are missing in it.
     pub columns: Vec<(SweptColumn, bool)>,
     pub rows: usize,
 }
 
 impl Block {
-    /// What a sweep has of them, in its order of columns.
-    pub fn of(swept: Swept, units: Option<&[ColumnUnit]>) -> Block {
+    /// Converts variants to the columns of a sweep.
+    pub fn new(swept: Swept, units: Option<&[ColumnUnit]>) -> Block {
         let (first, statuses) = (swept.first, swept.statuses.clone());
         let rows = if units.is_some() { swept.lengths.iter().sum() } else { swept.len() };
-        // what is known to be there is not looked at again
+        // columns that are known to be finite are not searched
         let (params, went_abreast) = (swept.params.len(), swept.went_abreast());
         let is_known = |column: usize| {
             let unit = column.checked_sub(params + 1).and_then(|column| units?.get(column));
             units.is_some() && unit.is_none_or(|unit| went_abreast && unit.is_si())
         };
-        // on the threads that compute, where the numbers are at hand; all of them, several at once: mostly none is missing
+        // runs on the computing threads, while the numbers are in the cache; without an early exit, so that it vectorises: gaps are rare
         let is_whole = |values: &[f64]| values.iter().fold(true, |all, value| all & value.is_finite());
         let columns = swept.tabulated(units).into_iter().enumerate().map(|(number, column)| {
             let has_gaps = matches!(&column, SweptColumn::Numbers(values) if !is_known(number) && !is_whole(values));
@@ -38,94 +38,94 @@ impl Block {
     }
 }
 
-/// Blocks that are put together.
-pub struct Gathered {
-    columns: Vec<Gathering>,
-    /// By column: whether a number of it is missing.
+/// The columns of several blocks, joined.
+pub struct JoinedBlocks {
+    columns: Vec<JoinedColumn>,
+    /// For each column, whether numbers are missing in it.
     pub gaps: Vec<bool>,
     pub rows: usize,
 }
 
-enum Gathering {
+enum JoinedColumn {
     Real(Reals),
-    Whole(Vec<u64>),
+    Integers(Vec<u64>),
     Words(Words),
 }
 
-/// Numbers one behind the other; those of the first block stay where they are until there are more.
+/// Numbers one behind the other; those of the first block are not copied until a second one follows.
 #[derive(Default)]
 struct Reals {
     first: Option<Numbers>,
     all: Vec<f64>,
 }
 
-/// Words one behind the other, and where each begins.
+/// Words one behind the other, and the offset of each.
 #[derive(Default)]
 struct Words {
     begins: Vec<i32>,
     text: Vec<u8>,
 }
 
-/// There is no memory for more.
-pub struct Full;
+/// Error: an allocation failed, or offsets exceed 32 bits.
+pub struct OutOfMemory;
 
-impl From<TryReserveError> for Full {
-    fn from(_: TryReserveError) -> Full {
-        Full
+impl From<TryReserveError> for OutOfMemory {
+    fn from(_: TryReserveError) -> OutOfMemory {
+        OutOfMemory
     }
 }
 
-impl Gathered {
-    pub fn new(whole: &Whole) -> Gathered {
-        let columns = whole.heads.iter().map(|head| match head.kind {
-            Kind::Numbers => Gathering::Real(Reals::default()),
-            Kind::Whole => Gathering::Whole(Vec::new()),
-            Kind::Words => Gathering::Words(Words::default()),
+impl JoinedBlocks {
+    pub fn new(plan: &SweepPlan) -> JoinedBlocks {
+        let columns = plan.headers.iter().map(|header| match header.kind {
+            Kind::Numbers => JoinedColumn::Real(Reals::default()),
+            Kind::Integers => JoinedColumn::Integers(Vec::new()),
+            Kind::Words => JoinedColumn::Words(Words::default()),
         });
-        Gathered { columns: columns.collect(), gaps: vec![false; whole.heads.len()], rows: 0 }
+        JoinedBlocks { columns: columns.collect(), gaps: vec![false; plan.headers.len()], rows: 0 }
     }
 
-    /// Makes room for so many rows.
-    pub fn reserve(&mut self, rows: u64) -> Result<(), Full> {
-        let rows = usize::try_from(rows).map_err(|_| Full)?;
+    /// Reserves memory for a number of rows.
+    pub fn reserve(&mut self, rows: u64) -> Result<(), OutOfMemory> {
+        let rows = usize::try_from(rows).map_err(|_| OutOfMemory)?;
         for column in &mut self.columns {
             match column {
-                Gathering::Real(values) => values.all.try_reserve_exact(rows)?,
-                Gathering::Whole(values) => values.try_reserve_exact(rows)?,
-                Gathering::Words(words) => words.begins.try_reserve_exact(rows + 1)?,
+                JoinedColumn::Real(values) => values.all.try_reserve_exact(rows)?,
+                JoinedColumn::Integers(values) => values.try_reserve_exact(rows)?,
+                JoinedColumn::Words(words) => words.begins.try_reserve_exact(rows + 1)?,
             }
         }
         Ok(())
     }
 
     /// Adds a block behind the others.
-    pub fn add(&mut self, block: Block) -> Result<(), Full> {
+    pub fn add(&mut self, block: Block) -> Result<(), OutOfMemory> {
         self.rows += block.rows;
         for ((into, gaps), (column, has_gaps)) in self.columns.iter_mut().zip(&mut self.gaps).zip(block.columns) {
             *gaps |= has_gaps;
             match (into, column) {
-                (Gathering::Real(into), SweptColumn::Numbers(values)) => into.append(values)?,
-                (Gathering::Whole(into), SweptColumn::Whole(values)) => append(into, values)?,
-                (Gathering::Words(into), SweptColumn::Words(words)) => into.append(&words)?,
+                (JoinedColumn::Real(into), SweptColumn::Numbers(values)) => into.append(values)?,
+                (JoinedColumn::Integers(into), SweptColumn::Whole(values)) => append(into, values)?,
+                (JoinedColumn::Words(into), SweptColumn::Words(words)) => into.append(&words)?,
                 _ => {}
             }
         }
         Ok(())
     }
 
-    /// The columns.
+    /// Returns the columns.
     pub fn values(self) -> Vec<Values> {
         let values = self.columns.into_iter().map(|column| match column {
-            Gathering::Real(values) => Values::Numbers(values.buffer()),
-            Gathering::Whole(values) => Values::Whole(values.into()),
-            Gathering::Words(words) => Values::Words(words.array()),
+            JoinedColumn::Real(values) => Values::Numbers(values.buffer()),
+            JoinedColumn::Integers(values) => Values::Integers(values.into()),
+            JoinedColumn::Words(words) => Values::Words(words.array()),
         });
         values.collect()
     }
 }
 
-/// Adds values behind others; what is alone needs no copy.
-fn append<T: Copy>(into: &mut Vec<T>, values: Vec<T>) -> Result<(), Full> {
+/// Appends values; the first ones are moved without a copy.
+fn append<T: Copy>(into: &mut Vec<T>, values: Vec<T>) -> Result<(), OutOfMemory> {
     if into.capacity() == 0 {
         *into = values;
     } else {
@@ -136,7 +136,7 @@ fn append<T: Copy>(into: &mut Vec<T>, values: Vec<T>) -> Result<(), Full> {
 }
 
 impl Reals {
-    fn append(&mut self, values: Numbers) -> Result<(), Full> {
+    fn append(&mut self, values: Numbers) -> Result<(), OutOfMemory> {
         if self.first.is_none() && self.all.capacity() == 0 {
             self.first = Some(values);
             return Ok(());
@@ -156,7 +156,7 @@ impl Reals {
     }
 }
 
-/// Who has the memory of an array of Arrow: it is used again once the array is gone.
+/// Owner of the memory of an Arrow array, which is reused once the array is dropped.
 struct Owner(Numbers);
 
 impl AsRef<[u8]> for Owner {
@@ -166,7 +166,7 @@ impl AsRef<[u8]> for Owner {
 }
 
 impl Words {
-    fn append(&mut self, words: &[&str]) -> Result<(), Full> {
+    fn append(&mut self, words: &[&str]) -> Result<(), OutOfMemory> {
         self.begins.try_reserve(words.len() + 1)?;
         self.text.try_reserve(words.iter().map(|word| word.len()).sum())?;
         for word in words {
@@ -176,9 +176,9 @@ impl Words {
         self.end().map(|_| ())
     }
 
-    /// Where they end; Arrow counts in 32 bits.
-    fn end(&self) -> Result<i32, Full> {
-        i32::try_from(self.text.len()).map_err(|_| Full)
+    /// Returns the offset of the end; Arrow's offsets have 32 bits.
+    fn end(&self) -> Result<i32, OutOfMemory> {
+        i32::try_from(self.text.len()).map_err(|_| OutOfMemory)
     }
 
     fn array(mut self) -> StringArray {

@@ -1,14 +1,14 @@
-//! A sweep while it is read. A thread of its own computes its blocks with others and takes them; who reads waits for them, holds no lock of
-//! Python meanwhile, and looks for Ctrl-C, where signals are its concern.
+//! Reads a sweep. A producer thread collects the blocks that it computes with others. The reader waits for them without Python's lock, and
+//! checks for Ctrl-C on the thread that opened the stream.
 //!
-//! Threads do not come along when a process forks. A reader that finds itself in another process begins anew with the variant that is next.
+//! Threads do not survive a fork. A reader in a forked process starts a new producer with the next variant.
 
-use super::block::{Block, Gathered};
-use super::{Summary, Whole};
-use crate::ending::{away, stay_away_at_the_end};
-use crate::memory::{self, Of};
+use super::block::{Block, JoinedBlocks};
+use super::{Summary, SweepPlan};
+use crate::exit::{detached, park_at_exit};
+use crate::interrupts::CHECK_INTERVAL;
+use crate::memory::{self, Computation};
 use crate::table::{Values, batch};
-use crate::waiting::LOOK;
 use arrow_array::{RecordBatch, RecordBatchReader};
 use arrow_schema::{ArrowError, SchemaRef};
 use mechc::{Cancel, SweepOptions};
@@ -19,39 +19,39 @@ use std::sync::{Arc, Mutex, PoisonError, TryLockError};
 use std::thread::{self, JoinHandle, ThreadId};
 use std::time::{Duration, Instant};
 
-/// A batch has at least so many rows, or numbers, if that many come: few large batches are read faster than many small ones, and a block that is
+/// Least number of rows or numbers of a batch that is not the last: few large batches are read faster than many small ones. A block that is
 /// large by itself needs no copy.
 const ROWS: usize = 1 << 13;
 const NUMBERS: usize = 1 << 17;
 
-/// Who waits for another one that reads looks again after this.
-const TURN: Duration = Duration::from_millis(1);
+/// Interval at which a thread tries interrupted while another one reads.
+const RETRY_INTERVAL: Duration = Duration::from_millis(1);
 
-/// Blocks that wait to be read, beside the one that is done: none, for each that is in use takes another's place in the processor's memory.
+/// Number of finished blocks that wait beside the one being sent: none, as more would displace others from the processor's cache.
 const AHEAD: usize = 0;
 
-/// What is read, and where it is told what became of it.
+/// The sweep that is read, and the summary that the reader fills.
 pub struct Source {
-    pub whole: Arc<Whole>,
+    pub plan: Arc<SweepPlan>,
     pub summary: Arc<Mutex<Summary>>,
 }
 
 /// A stream in progress.
 pub struct Reader {
     source: Source,
-    /// Called with how many variants are done, and how many there are.
+    /// Called with the number of variants that are done, and that of all.
     progress: Option<Py<PyAny>>,
-    told: Instant,
-    pump: Option<Pump>,
+    last_report: Instant,
+    producer: Option<Producer>,
     /// The next variant.
     next: u64,
     has_ended: bool,
-    /// On this thread Python may be asked for signals: it has asked for the stream.
-    reads_on: ThreadId,
+    /// The thread that opened the stream; only there signals are checked and progress is reported.
+    opened_on: ThreadId,
 }
 
-/// The thread that takes blocks, one of those that compute them.
-struct Pump {
+/// The thread that collects blocks, one of those that compute them.
+struct Producer {
     blocks: Receiver<Block>,
     cancel: Cancel,
     thread: JoinHandle<()>,
@@ -59,32 +59,32 @@ struct Pump {
     process: u32,
 }
 
-impl Pump {
-    /// Takes the blocks from a variant on.
-    fn start(whole: &Arc<Whole>, from: u64) -> Result<Pump, PyErr> {
+impl Producer {
+    /// Starts a thread that collects the blocks from a variant on.
+    fn start(plan: &Arc<SweepPlan>, from: u64) -> Result<Producer, PyErr> {
         let cancel = Cancel::default();
-        let [_, last] = whole.range;
+        let [_, last] = plan.range;
         let options =
-            SweepOptions { skip: from, take: Some(last - from), cancel: cancel.clone(), ..whole.options.clone() };
-        let units = whole.units.clone();
-        let make = move |swept| Block::of(swept, units.as_deref());
-        let sweep = whole.checked.sweep(&whole.compiled, &whole.variants, &options, make);
+            SweepOptions { skip: from, take: Some(last - from), cancel: cancel.clone(), ..plan.options.clone() };
+        let units = plan.units.clone();
+        let make = move |swept| Block::new(swept, units.as_deref());
+        let sweep = plan.checked.sweep(&plan.compiled, &plan.variants, &options, make);
         let sweep = sweep.map_err(|why| PyRuntimeError::new_err(why.to_string()))?;
-        let (tell, blocks) = sync_channel(AHEAD);
-        let pump = move || {
+        let (sender, blocks) = sync_channel(AHEAD);
+        let producer = move || {
             for block in sweep {
-                if tell.send(block).is_err() {
+                if sender.send(block).is_err() {
                     break;
                 }
             }
         };
-        let thread = thread::Builder::new().spawn(pump).map_err(|why| PyRuntimeError::new_err(why.to_string()))?;
-        Ok(Pump { blocks, cancel, thread, process: std::process::id() })
+        let thread = thread::Builder::new().spawn(producer).map_err(|why| PyRuntimeError::new_err(why.to_string()))?;
+        Ok(Producer { blocks, cancel, thread, process: std::process::id() })
     }
 
-    /// Ends it, and waits for that; what another process has left behind is left alone. Whether it has not broken down.
+    /// Cancels the thread and joins it; returns whether it did not panic. Handles that a fork copied are leaked.
     fn end(self) -> bool {
-        let Pump { blocks, cancel, thread, process } = self;
+        let Producer { blocks, cancel, thread, process } = self;
         if process == std::process::id() {
             cancel.cancel();
             drop(blocks);
@@ -98,69 +98,70 @@ impl Pump {
 
 impl Reader {
     pub fn new(source: Source, progress: Option<Py<PyAny>>) -> Reader {
-        let [next, _] = source.whole.range;
-        let (pump, has_ended, reads_on) = (None, false, thread::current().id());
-        Reader { source, progress, told: Instant::now(), pump, next, has_ended, reads_on }
+        let [next, _] = source.plan.range;
+        let (producer, has_ended, opened_on) = (None, false, thread::current().id());
+        Reader { source, progress, last_report: Instant::now(), producer, next, has_ended, opened_on }
     }
 
-    /// All that is left, as columns.
+    /// Reads all remaining variants as columns.
     pub fn all(&mut self, py: Python<'_>) -> PyResult<Vec<Values>> {
-        let (mut gathered, whole) = (Gathered::new(&self.source.whole), Arc::clone(&self.source.whole));
-        let (most, columns) = whole.size();
-        // one that may end early has as many rows as it comes to
-        if !whole.has_until {
-            memory::refuse_beyond(py, (most, columns), Of::Sweep)?;
-            gathered.reserve(most).map_err(|_| memory::too_large(py, (most, columns), Of::Sweep))?;
+        let (mut joined, plan) = (JoinedBlocks::new(&self.source.plan), Arc::clone(&self.source.plan));
+        let (most, columns) = plan.size();
+        // a sweep that may end early is checked as it grows
+        if !plan.has_until {
+            memory::refuse_beyond(py, (most, columns), Computation::Sweep)?;
+            joined.reserve(most).map_err(|_| memory::too_large(py, (most, columns), Computation::Sweep))?;
         }
-        let mut looked_at = 0;
-        while let Some(block) = away(py, || self.block())? {
-            gathered.add(block).map_err(|_| memory::too_large(py, (gathered.rows as u64, columns), Of::Sweep))?;
-            if whole.has_until && gathered.rows > 2 * looked_at {
-                // as much again is to fit
-                looked_at = gathered.rows;
-                memory::refuse_beyond(py, (looked_at as u64, columns), Of::Sweep)?;
+        let mut checked = 0;
+        while let Some(block) = detached(py, || self.block())? {
+            joined.add(block).map_err(|_| memory::too_large(py, (joined.rows as u64, columns), Computation::Sweep))?;
+            if plan.has_until && joined.rows > 2 * checked {
+                // the next check is at twice the size
+                checked = joined.rows;
+                memory::refuse_beyond(py, (checked as u64, columns), Computation::Sweep)?;
             }
         }
-        Ok(gathered.values())
+        Ok(joined.values())
     }
 
-    /// The next block; nothing behind the last one.
+    /// Returns the next block; `None` behind the last one.
     fn block(&mut self) -> PyResult<Option<Block>> {
-        let [first, last] = self.source.whole.range;
+        let [first, last] = self.source.plan.range;
         if self.has_ended || self.next >= last {
             self.end();
             return Ok(None);
         }
-        if self.pump.as_ref().is_none_or(|pump| pump.process != std::process::id()) {
-            let old = self.pump.replace(Pump::start(&self.source.whole, self.next)?);
+        if self.producer.as_ref().is_none_or(|producer| producer.process != std::process::id()) {
+            let old = self.producer.replace(Producer::start(&self.source.plan, self.next)?);
             if let Some(old) = old {
                 old.end();
             }
         }
         loop {
-            let Some(pump) = &self.pump else { return Ok(None) };
-            match pump.blocks.recv_timeout(LOOK) {
+            let Some(producer) = &self.producer else { return Ok(None) };
+            match producer.blocks.recv_timeout(CHECK_INTERVAL) {
                 Ok(block) => {
-                    self.take_note(&block);
-                    self.tell(first, last)?;
+                    self.count_statuses(&block);
+                    self.report_progress(first, last)?;
                     return Ok(Some(block));
                 }
-                Err(RecvTimeoutError::Timeout) => self.look_for_signals()?,
+                Err(RecvTimeoutError::Timeout) => self.check_signals()?,
                 Err(RecvTimeoutError::Disconnected) => {
                     let is_sound = self.end();
-                    // it ends early behind a variant that is looked for, and never otherwise
-                    return if self.source.whole.has_until && is_sound {
+                    // only a sweep that ends behind a variant with a condition ends early
+                    return if self.source.plan.has_until && is_sound {
                         Ok(None)
                     } else {
-                        let said = format!("mechc broke down at variant {}, which is a mistake of its own", self.next);
-                        Err(PyRuntimeError::new_err(said))
+                        let message =
+                            format!("mechc broke down at variant {}, which is a mistake of its own", self.next);
+                        Err(PyRuntimeError::new_err(message))
                     };
                 }
             }
         }
     }
 
-    fn take_note(&mut self, block: &Block) {
+    fn count_statuses(&mut self, block: &Block) {
         let mut summary = self.source.summary.lock().unwrap_or_else(PoisonError::into_inner);
         for (number, status) in (block.first..).zip(&block.statuses) {
             summary.entry(status.as_str()).or_insert((0, number)).0 += 1;
@@ -168,16 +169,16 @@ impl Reader {
         self.next += block.statuses.len() as u64;
     }
 
-    /// Whether Python may be asked for something on this thread: another one may wait for this one while it holds the lock.
-    fn may_ask(&self) -> bool {
-        thread::current().id() == self.reads_on
+    /// Returns whether the lock may be taken: another thread may hold it while it waits for this one.
+    fn may_take_lock(&self) -> bool {
+        thread::current().id() == self.opened_on
     }
 
-    fn look_for_signals(&mut self) -> PyResult<()> {
-        if !self.may_ask() {
+    fn check_signals(&mut self) -> PyResult<()> {
+        if !self.may_take_lock() {
             return Ok(());
         }
-        stay_away_at_the_end();
+        park_at_exit();
         let signal = Python::try_attach(|py| py.check_signals().err()).flatten();
         match signal {
             None => Ok(()),
@@ -188,73 +189,73 @@ impl Reader {
         }
     }
 
-    /// Tells how far it is, not more often than anybody can see.
-    fn tell(&mut self, first: u64, last: u64) -> PyResult<()> {
-        if !self.may_ask() || (self.told.elapsed() < LOOK && self.next < last) {
+    /// Reports progress, at most once per [`CHECK_INTERVAL`] before the end.
+    fn report_progress(&mut self, first: u64, last: u64) -> PyResult<()> {
+        if !self.may_take_lock() || (self.last_report.elapsed() < CHECK_INTERVAL && self.next < last) {
             return Ok(());
         }
-        self.told = Instant::now();
+        self.last_report = Instant::now();
         let (done, all) = (self.next - first, last - first);
         let progress = &self.progress;
-        stay_away_at_the_end();
-        let told = Python::try_attach(|py| {
+        park_at_exit();
+        let called = Python::try_attach(|py| {
             py.check_signals()?;
             progress.as_ref().map_or(Ok(()), |progress| progress.call1(py, (done, all)).map(|_| ()))
         });
-        let told = told.unwrap_or(Ok(()));
-        if told.is_err() {
+        let called = called.unwrap_or(Ok(()));
+        if called.is_err() {
             self.end();
         }
-        told
+        called
     }
 
-    /// Ends it; whether nothing has broken down.
+    /// Ends the sweep; returns whether no thread panicked.
     fn end(&mut self) -> bool {
         self.has_ended = true;
-        self.pump.take().is_none_or(Pump::end)
+        self.producer.take().is_none_or(Producer::end)
     }
 
-    /// The next batch.
+    /// Returns the next batch; `None` at the end.
     fn batch(&mut self) -> Option<PyResult<RecordBatch>> {
-        let mut gathered = Gathered::new(&self.source.whole);
-        let width = self.source.whole.heads.len();
-        while gathered.rows < ROWS && gathered.rows * width < NUMBERS {
+        let mut joined = JoinedBlocks::new(&self.source.plan);
+        let width = self.source.plan.headers.len();
+        while joined.rows < ROWS && joined.rows * width < NUMBERS {
             match self.block() {
                 Ok(Some(block)) => {
-                    if gathered.add(block).is_err() {
-                        let size = (gathered.rows as u64, width);
-                        stay_away_at_the_end();
-                        return Python::try_attach(|py| Err(memory::too_large(py, size, Of::Block)));
+                    if joined.add(block).is_err() {
+                        let size = (joined.rows as u64, width);
+                        park_at_exit();
+                        return Python::try_attach(|py| Err(memory::too_large(py, size, Computation::Block)));
                     }
                 }
                 Ok(None) => break,
                 Err(why) => return Some(Err(why)),
             }
         }
-        if gathered.rows == 0 {
+        if joined.rows == 0 {
             return None;
         }
-        let gaps = std::mem::take(&mut gathered.gaps);
-        let made = batch(&self.source.whole.schema, &gathered.values(), &gaps);
+        let gaps = std::mem::take(&mut joined.gaps);
+        let made = batch(&self.source.plan.schema, &joined.values(), &gaps);
         Some(made.map_err(|why| PyRuntimeError::new_err(why.to_string())))
     }
 }
 
-/// A reader as Arrow's stream. Arrow asks of who reads one to do so by one thread at a time, which not all keep to: whoever comes while
-/// another one reads waits, and holds no lock of Python meanwhile.
-pub struct InTurns {
+/// A reader as an Arrow stream. Arrow requires callers to read from one thread at a time, which not all obey: a second thread waits without
+/// Python's lock until the first is done.
+pub struct SharedReader {
     reader: Mutex<Reader>,
     schema: SchemaRef,
 }
 
-impl InTurns {
-    pub fn new(reader: Reader) -> InTurns {
-        let schema = Arc::clone(&reader.source.whole.schema);
-        InTurns { reader: Mutex::new(reader), schema }
+impl SharedReader {
+    pub fn new(reader: Reader) -> SharedReader {
+        let schema = Arc::clone(&reader.source.plan.schema);
+        SharedReader { reader: Mutex::new(reader), schema }
     }
 }
 
-impl Iterator for InTurns {
+impl Iterator for SharedReader {
     type Item = Result<RecordBatch, ArrowError>;
 
     fn next(&mut self) -> Option<Self::Item> {
@@ -263,16 +264,16 @@ impl Iterator for InTurns {
                 Ok(reader) => break reader,
                 Err(TryLockError::Poisoned(poisoned)) => break poisoned.into_inner(),
                 Err(TryLockError::WouldBlock) => {
-                    stay_away_at_the_end();
-                    Python::try_attach(|py| away(py, || thread::sleep(TURN)));
+                    park_at_exit();
+                    Python::try_attach(|py| detached(py, || thread::sleep(RETRY_INTERVAL)));
                 }
             }
         };
-        reader.batch().map(|batch| batch.map_err(told))
+        reader.batch().map(|batch| batch.map_err(to_arrow_error))
     }
 }
 
-impl RecordBatchReader for InTurns {
+impl RecordBatchReader for SharedReader {
     fn schema(&self) -> SchemaRef {
         Arc::clone(&self.schema)
     }
@@ -284,13 +285,13 @@ impl Drop for Reader {
     }
 }
 
-/// Who reads a stream is told in words; a signal is raised once more, for the interpreter to tell it itself.
-fn told(why: PyErr) -> ArrowError {
-    stay_away_at_the_end();
+/// Converts an exception to an error of Arrow, which is only text; a keyboard interrupt is raised interrupted in the interpreter.
+fn to_arrow_error(why: PyErr) -> ArrowError {
+    park_at_exit();
     let text = Python::try_attach(|py| {
         if why.is_instance_of::<pyo3::exceptions::PyKeyboardInterrupt>(py) {
-            let again = py.import("_thread").and_then(|thread| thread.call_method0("interrupt_main"));
-            return if again.is_ok() { "interrupted".to_owned() } else { why.to_string() };
+            let interrupted = py.import("_thread").and_then(|thread| thread.call_method0("interrupt_main"));
+            return if interrupted.is_ok() { "interrupted".to_owned() } else { why.to_string() };
         }
         why.to_string()
     });

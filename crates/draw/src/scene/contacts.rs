@@ -5,7 +5,7 @@ use super::features::Features;
 use super::plane::{Path, Vector, bounds, distance, distance_to_segment, dot, minus, plus, times};
 use super::symbols::PIN;
 use super::{Anchor, Contact, Look, Shape, Touch};
-use mechc_lang::model::{AxisId, JointKind, PointId, Profile};
+use mechc_lang::model::{AxisId, JoinedFeatures, PointId, Profile};
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Length of a face beyond the contact (symbol units).
@@ -68,16 +68,16 @@ pub(super) fn contacts(features: &Features, first_joint: usize) -> Vec<Contact> 
     let model = features.model;
     let carrier = |profile: Profile| features.frame(profile.frame(model));
     let contact = |(number, joint): (usize, &mechc_lang::model::Joint)| {
-        let (cam, follower, touch) = match joint.kind {
-            JointKind::PointFollower(p, profile) => {
+        let (cam, follower, touch) = match joint.features {
+            JoinedFeatures::PointFollower(p, profile) => {
                 let tip = features.point(p);
                 (carrier(profile), tip.frame, Touch::Tip(tip.at))
             }
-            JointKind::FlatFollower(profile, face) => {
+            JoinedFeatures::FlatFollower(profile, face) => {
                 let line = features.axis(face);
                 (carrier(profile), line.frame, Touch::Face(line.at, line.along))
             }
-            JointKind::Cam(k, m) => {
+            JoinedFeatures::Cam(k, m) => {
                 let (cam, roller, part) = if roller(features, [k, m])? == 0 { (m, k, "u") } else { (k, m, "w") };
                 let argument = format!("{}.{part}", joint.declared.name);
                 (carrier(cam), carrier(roller), roller_touch(features, roller, argument))

@@ -11,7 +11,7 @@ use super::symbols::Symbols;
 use super::teeth::{DEDENDUM, Rack, Wheel, integer_residual, offset};
 use super::{Look, PitchLine, Shape};
 use mechc_expr::math;
-use mechc_lang::model::{AxisId, CircleId, JointKind};
+use mechc_lang::model::{AxisId, CircleId, JoinedFeatures};
 use std::f64::consts::{PI, TAU};
 
 /// Number of teeth of the smallest gear of a train, at least and at most.
@@ -102,12 +102,12 @@ impl Trains {
         let (model, features) = (drawing.features.model, &drawing.features);
         let mut trains = Trains { all: Vec::new(), meshes: Vec::new() };
         for (joint, declared) in model.joints.iter().enumerate() {
-            let (carriers, kind) = match declared.kind {
-                JointKind::Gear { circles, internal, .. } => {
+            let (carriers, kind) = match declared.features {
+                JoinedFeatures::Gear { circles, internal, .. } => {
                     let kind = if internal { MeshKind::Internal } else { MeshKind::External };
                     (circles.map(Carrier::Circle), kind)
                 }
-                JointKind::RackPinion { pinion, rack, .. } => {
+                JoinedFeatures::RackPinion { pinion, rack, .. } => {
                     ([Carrier::Circle(pinion), Carrier::Axis(rack)], MeshKind::Rack)
                 }
                 _ => continue,

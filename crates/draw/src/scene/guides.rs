@@ -5,7 +5,7 @@ use super::features::Line;
 use super::plane::{Path, Vector, cross, distance, dot, left, minus, plus, rectangle, times};
 use super::symbols::{BLOCK, SLEEVE, SLOT, Symbols};
 use super::{Anchor, Look};
-use mechc_lang::model::{AxisId, JointKind, PointId, Profile};
+use mechc_lang::model::{AxisId, JoinedFeatures, PointId, Profile};
 
 /// Length of a guide beyond the slider (symbol units).
 const BEYOND: f64 = 0.5;
@@ -116,13 +116,15 @@ fn obstruction(drawing: &Drawing, axis: AxisId) -> Option<Obstruction> {
     };
     let obstruction_at =
         |contact: Anchor, other: Anchor, reach| near(contact).then_some(Obstruction { away_from: Some(other), reach });
-    model.joints.iter().find_map(|joint| match joint.kind {
-        JointKind::PointFollower(p, profile) => obstruction_at(drawing.features.point(p), middle(profile), 0.0),
-        JointKind::Cam(k, m) => {
+    model.joints.iter().find_map(|joint| match joint.features {
+        JoinedFeatures::PointFollower(p, profile) => obstruction_at(drawing.features.point(p), middle(profile), 0.0),
+        JoinedFeatures::Cam(k, m) => {
             obstruction_at(middle(k), middle(m), radius(k)).or_else(|| obstruction_at(middle(m), middle(k), radius(m)))
         }
-        JointKind::FlatFollower(profile, face) => obstruction_at(line(face), middle(profile), 0.0),
-        JointKind::RackPinion { rack, .. } => near(line(rack)).then_some(Obstruction { away_from: None, reach: 0.0 }),
+        JoinedFeatures::FlatFollower(profile, face) => obstruction_at(line(face), middle(profile), 0.0),
+        JoinedFeatures::RackPinion { rack, .. } => {
+            near(line(rack)).then_some(Obstruction { away_from: None, reach: 0.0 })
+        }
         _ => None,
     })
 }

@@ -103,12 +103,13 @@ const KEYWORDS: &[&str] = &[
     "xor_eq",
 ];
 
-/// Converts a Rust field name to a C one. Rust names end with `_` only after keywords, so no two names collide.
+/// Returns the C name of a Rust field: reserved words of C and C++ get a `_`. A Rust name ends with `_` only if Rust reserves it, so names
+/// stay distinct.
 pub(super) fn field(name: &str) -> String {
     if KEYWORDS.contains(&name) { format!("{name}_") } else { name.to_owned() }
 }
 
-/// Returns a text fit for a C comment, without `*/` and `/*`.
+/// Formats text as a comment of C: `*/` and `/*` in it get a space, control characters become spaces.
 pub(super) fn comment(text: &str) -> String {
     format!("/* {} */", text.replace("*/", "* /").replace("/*", "/ *").replace(char::is_control, " "))
 }

@@ -31,11 +31,11 @@ pub(super) trait CodeContext {
     fn load(&self, register: Register) -> Operand;
     /// Returns the operand of a column of the result.
     fn place(&self, column: u32) -> Operand;
-    /// Returns the variable name for the value of a column, `rod_phi`; `None` if it has no special name.
+    /// Returns the name for the value of a column, such as `rod_phi`; `None` if it has no name of its own.
     fn name(&self, column: u32) -> Option<String>;
     /// Returns the name of a column of a table.
     fn table(&self, table: u32, column: Column) -> Operand;
-    /// Returns the registers from which a function builds a table's column; empty if the column is a static.
+    /// Returns the registers from which a function builds a table's column; empty if [`table`](Self::table) names it.
     fn cells(&self, table: u32, column: Column) -> Vec<Register>;
     /// Returns whether a column stores values at all.
     fn stores(&self, _column: u32) -> bool {

@@ -19,7 +19,7 @@ use symbols::{coordinate, param};
 /// Largest width of the matrix of an element (em).
 const WIDEST_MATRIX: f64 = 40.0;
 
-/// Wider entries of a matrix are terms (em).
+/// Largest width of a matrix entry (em); a wider one becomes a term `T_k` of its own.
 const WIDEST_ENTRY: f64 = 15.0;
 
 /// Largest number of points of a table; of larger ones only the first and the last are written.
@@ -50,7 +50,8 @@ const PREAMBLE: &str = r"\documentclass[a4paper,10pt,fleqn]{article}
 \setlength{\lineskiplimit}{2pt}
 ";
 
-/// Returns one document; `file` is the name of the source for its head.
+/// Returns one document; `file` is the name of the source for its head. With `mechanics` it also has the masses, loads and reactions;
+/// `is_determined` false adds a remark.
 #[must_use]
 pub fn latex(system: &ConstraintSystem, mechanics: Option<&Mechanics>, is_determined: bool, file: &str) -> String {
     let mut writer = Writer { system, formulas: Formulas::new(system, &roots(system, mechanics)), text: String::new() };

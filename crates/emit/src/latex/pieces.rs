@@ -165,7 +165,7 @@ fn row(mut factors: Vec<Factor>) -> Piece {
     row
 }
 
-/// Returns a function of its arguments; an operator takes a lone symbol without parentheses.
+/// Typesets a call of a function of width `width` (em); an operator such as `\sin` takes a lone symbol without parentheses.
 pub(super) fn call(word: &str, width: f64, arguments: Vec<Piece>, is_operator: bool) -> Piece {
     if let [argument] = arguments.as_slice()
         && is_operator

@@ -41,15 +41,16 @@ pub fn first_boundary<M: BoundedDomain>(
     let mut found = None;
     for ((boundary, passed), ((a, b), slopes)) in passed.as_ref().iter().enumerate().zip(gauges.zip(slopes)) {
         let sign = 1.0_f64.copysign(*a);
-        let change_of_q = (sign * (to - from)).signum();
+        // 1 if a positive slope leads the gauge away from zero in the direction of the step, else −1
+        let rising = (sign * (to - from)).signum();
         let is_crossed = sign * b < 0.0;
-        let comes_and_goes = change_of_q * slopes.0 < 0.0 && change_of_q * slopes.1 > 0.0;
+        let comes_and_goes = rising * slopes.0 < 0.0 && rising * slopes.1 > 0.0;
         if !is_crossed && !comes_and_goes {
             continue;
         }
         let is_before = |t: f64| {
             let (value, slope) = gauge(boundary, t, m, work);
-            if is_crossed { sign * value > 0.0 } else { change_of_q * slope < 0.0 }
+            if is_crossed { sign * value > 0.0 } else { rising * slope < 0.0 }
         };
         let [_, at] = bisect([from, to], MOST_HALVINGS, is_before);
         let is_new = (at - passed).abs() > PASSED * M::SPAN;
@@ -89,10 +90,13 @@ struct Probes {
     jumps: usize,
     /// Numbers of probes in which velocities and accelerations have grown.
     growths: [usize; 2],
-    fastest: f64,
-    hardest: f64,
-    /// Deviation from any smooth motion: at first, and now.
+    /// Largest velocity of the last probe, scaled; infinite before the first.
+    last_speed: f64,
+    /// Largest acceleration of the last probe, scaled; infinite before the first.
+    last_acceleration: f64,
+    /// Deviation of the first probe from a smooth motion, scaled.
     widest: f64,
+    /// Deviation of the last probe from a smooth motion, scaled.
     rest: f64,
 }
 
@@ -117,9 +121,9 @@ impl Probes {
         }
         self.jumps += usize::from(self.rest > SPEED_JUMP * larger(speed, SLOW / M::SPAN));
         let [of_speed, of_force] = &mut self.growths;
-        *of_speed += usize::from(speed > GROWTH * self.fastest);
-        *of_force += usize::from(force > GROWTH * self.hardest);
-        (self.fastest, self.hardest) = (speed, force);
+        *of_speed += usize::from(speed > GROWTH * self.last_speed);
+        *of_force += usize::from(force > GROWTH * self.last_acceleration);
+        (self.last_speed, self.last_acceleration) = (speed, force);
         self.count += 1;
     }
 
@@ -127,7 +131,7 @@ impl Probes {
     fn verdict<M: Timed>(&self) -> Result<(), Error> {
         let [of_speed, of_force] = self.growths;
         let is_seen = self.count >= FEWEST_LOOKS;
-        if is_seen && of_speed + 1 == self.count && self.fastest > SLOW / M::SPAN {
+        if is_seen && of_speed + 1 == self.count && self.last_speed > SLOW / M::SPAN {
             return Err(Error::NotANumber);
         }
         if is_seen && self.jumps == self.count && self.rest > 0.5 * self.widest {
@@ -151,8 +155,8 @@ pub fn check_boundary<M: Timed>(state: &mut State<M>, boundary: usize, t: f64, w
         count: 0,
         jumps: 0,
         growths: [0, 0],
-        fastest: f64::INFINITY,
-        hardest: f64::INFINITY,
+        last_speed: f64::INFINITY,
+        last_acceleration: f64::INFINITY,
         widest: 0.0,
         rest: 0.0,
     };

@@ -28,11 +28,11 @@ pub trait Laned<const L: usize>: Timed {
     type Coordinates: Lists<f64, L>;
     /// A number for each coordinate that Newton solves for.
     type Guesses: Lists<f64, L>;
-    /// A number for each measure, its rate, its acceleration.
+    /// A number for each measure.
     type Values: Lists<f64, L>;
-    /// See [`Values`](Laned::Values).
+    /// The time derivative of each measure.
     type Rates: Lists<f64, L>;
-    /// See [`Values`](Laned::Values).
+    /// The second time derivative of each measure.
     type Accelerations: Lists<f64, L>;
     /// A number for each value that only measures need.
     type OfJoined: Lists<f64, L>;

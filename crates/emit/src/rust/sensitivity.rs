@@ -74,8 +74,8 @@ impl Writer<'_> {
         });
     }
 
-    /// Prints the check that leaves out derivatives in whose direction a left-out equation would cease to hold.
-    /// `with` is the expression by which that is evaluated.
+    /// Prints a call that sets derivatives to NaN in whose direction a left-out equation ceases to hold; `with` are the
+    /// further arguments of `left_out_slopes_by_…`.
     pub fn reject_drift(&self, by: &str, with: &str, page: &mut Page) {
         self.requires("constraint_drift", "reject_drift");
         page.line(&format!("let slopes = left_out_slopes_by_{by}(&at.q, at.t, {with});"));
@@ -116,7 +116,7 @@ impl Writer<'_> {
         );
     }
 
-    /// Prints the public function.
+    /// Prints the public function `sensitivity`.
     fn public_sensitivity(&self, page: &mut Page) {
         let head =
             |arguments| Head { kind: "pub fn", name: "sensitivity", arguments, result: "Result<[Q; PARAMS], Error>" };

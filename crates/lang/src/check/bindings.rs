@@ -67,7 +67,7 @@ impl<'a> Checker<'a> {
 
     /// Evaluates the bindings of a part's params.
     fn params_bound(&mut self, part: usize) -> Vec<BoundParam<'a>> {
-        let of_part = self.bindings[part];
+        let of_part = self.part_declarations[part];
         let mut bound: Vec<BoundParam<'a>> = Vec::new();
         for binding in &of_part.bindings {
             let entity = self.parts[part].space.get(&binding.name.text);

@@ -117,7 +117,7 @@ impl Checker<'_> {
 
     /// Returns the binding of a path into a part.
     pub(super) fn binding_of(&self, path: &str) -> Option<PathBinding> {
-        for (child, part) in self.parts.iter().zip(&self.bindings) {
+        for (child, part) in self.parts.iter().zip(&self.part_declarations) {
             for binding in &part.bindings {
                 let name = format!("{}{}", child.address.path, binding.name.text);
                 let axes = ["x", "y"]

@@ -107,7 +107,7 @@ impl<'a> Checker<'a> {
     /// Warns that the gravity of a part does not count, once for each mechanism.
     fn warn_of_gravity_in_parts(&mut self) {
         let mut reported = Vec::new();
-        for (part, written) in self.parts.iter().zip(&self.bindings) {
+        for (part, written) in self.parts.iter().zip(&self.part_declarations) {
             if let Some((mechanism, gravity)) = part.gravity_inside().filter(|(_, span)| !reported.contains(span)) {
                 reported.push(gravity);
                 let warning = errors::gravity_of_a_part(&written.name, mechanism, gravity);
@@ -206,7 +206,7 @@ impl Checker<'_> {
         match moved {
             ExprKind::Name(name) => match self.entity(name)? {
                 Entity::Body(_) => Some(vec![format!("angle({})", name.text)]),
-                Entity::Joint(k) => match self.model[self.joints.get(k).copied().flatten()?].kind.plain() {
+                Entity::Joint(k) => match self.model[self.joints.get(k).copied().flatten()?].features.kind() {
                     kind if kind.has_quantity("rotation") => Some(vec![format!("rotation({})", name.text)]),
                     kind if kind.has_quantity("displacement") => Some(vec![format!("displacement({})", name.text)]),
                     _ => None,
@@ -310,7 +310,7 @@ impl Checker<'_> {
     /// Returns a joint of a kind that exerts moments.
     fn joint_with_torque(&mut self, e: &Expr) -> Option<JointId> {
         let (joint, name) = self.joint_named("torque", e)?;
-        let kind = self.model[joint].kind.plain();
+        let kind = self.model[joint].features.kind();
         if kind.has_torque() {
             return Some(joint);
         }

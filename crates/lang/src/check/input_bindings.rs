@@ -44,7 +44,7 @@ impl<'a> Checker<'a> {
 
     fn add_bound_inputs(&self, around: &mut Vec<usize>, bound: &mut Vec<BoundInput<'a>>) {
         for (part, child) in self.parts.iter().enumerate() {
-            for binding in &self.bindings[part].bindings {
+            for binding in &self.part_declarations[part].bindings {
                 let Some(Entity::Input(input)) = child.space.get(&binding.name.text) else { continue };
                 let name =
                     Name { text: format!("{}{}", child.address.path, binding.name.text), span: binding.name.span };
@@ -151,7 +151,7 @@ impl<'a> Checker<'a> {
         };
         let conditions = self.model.conditions.len();
         let value = self.formula(&binding.value, &context)?;
-        let owner = format!("{}{}", self.address.path, self.bindings[part].name.text);
+        let owner = format!("{}{}", self.address.path, self.part_declarations[part].name.text);
         for condition in &mut self.model.conditions[conditions..] {
             condition.owner.clone_from(&owner);
         }
@@ -160,7 +160,7 @@ impl<'a> Checker<'a> {
             _ => expected.other_than(value.dim).filter(|_| judged),
         };
         if let Some([expected, found]) = unlike {
-            let place = format!("the input `{}` of `{}`", binding.name.text, self.bindings[part].name.text);
+            let place = format!("the input `{}` of `{}`", binding.name.text, self.part_declarations[part].name.text);
             let wrong = lost_rate::Part { span: binding.value.span, dimension: found };
             self.report(errors::wrong_dimension(&place, expected, wrong, self.sources.text(binding.value.span)));
             return None;

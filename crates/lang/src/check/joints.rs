@@ -1,7 +1,7 @@
 //! Joints: their arguments, and what the drawn poses must determine.
 
 use super::{Checker, errors};
-use crate::model::{BodyId, CircleId, Dimension, Frame, GuardKind, Joint, JointId, JointKind, PointId, Side};
+use crate::model::{BodyId, CircleId, Dimension, Frame, GuardKind, JoinedFeatures, Joint, JointId, PointId, Side};
 use mechc_expr::ExprId;
 use mechc_syntax::ast::{Expr, ExprKind, ItemKind, Name};
 use mechc_text::source::Span;
@@ -15,7 +15,7 @@ impl Checker<'_> {
                 ItemKind::Joint { name, kind, arguments, call_span } => {
                     let joint = self.joint(name, kind, arguments, *call_span);
                     let (declared, part) = (self.declared(name), self.address.part);
-                    let id = joint.map(|kind| self.model.add_joint(Joint { part, declared, kind }));
+                    let id = joint.map(|features| self.model.add_joint(Joint { part, declared, features }));
                     self.set_joint(numbers.next().unwrap_or_default(), id);
                 }
                 ItemKind::Part(_) => {
@@ -36,7 +36,7 @@ impl Checker<'_> {
         self.joints[k] = joint;
     }
 
-    fn joint(&mut self, name: &Name, kind: &Name, arguments: &[Expr], span: Span) -> Option<JointKind> {
+    fn joint(&mut self, name: &Name, kind: &Name, arguments: &[Expr], span: Span) -> Option<JoinedFeatures> {
         if self.refuses_arguments(kind, arguments) {
             return None;
         }
@@ -57,102 +57,102 @@ impl Checker<'_> {
         self.is_drawn_apart(joint, arguments).then_some(joint)
     }
 
-    fn unknown_joint(&mut self, kind: &Name, arguments: &[Expr]) -> Option<JointKind> {
+    fn unknown_joint(&mut self, kind: &Name, arguments: &[Expr]) -> Option<JoinedFeatures> {
         let texts: Vec<&str> = arguments.iter().map(|e| self.sources.text(e.span)).collect();
         let diagnostic = errors::unknown_joint(kind, &texts);
         self.report(diagnostic);
         None
     }
 
-    fn wrong_count(&mut self, kind: &Name, span: Span, found: usize) -> Option<JointKind> {
+    fn wrong_count(&mut self, kind: &Name, span: Span, found: usize) -> Option<JoinedFeatures> {
         if let Some(joint) = JointWord::named(&kind.text) {
             self.report(errors::argument_count(&kind.text, Some(&joint.word), span, joint.takes, found));
         }
         None
     }
 
-    fn joint_of_points(&mut self, kind: &Name, arguments: &[Expr], span: Span) -> Option<JointKind> {
+    fn joint_of_points(&mut self, kind: &Name, arguments: &[Expr], span: Span) -> Option<JoinedFeatures> {
         Some(match (kind.text.as_str(), arguments) {
             ("revolute", [p, q]) => {
                 let (p, q) = self.two_points(p, q)?;
-                JointKind::Revolute(p, q)
+                JoinedFeatures::Revolute(p, q)
             }
             ("weld", [p, q]) => {
                 let (p, q) = self.two_points(p, q)?;
-                JointKind::Weld(p, q, self.model.graph.constant(0.0))
+                JoinedFeatures::Weld(p, q, self.model.graph.constant(0.0))
             }
             ("weld", [p, q, angle]) => {
                 let points = self.two_points(p, q);
                 let angle = self.angle(angle, "the angle of a weld");
                 let (p, q) = points?;
-                JointKind::Weld(p, q, angle?)
+                JoinedFeatures::Weld(p, q, angle?)
             }
             ("revolute_revolute", [p, q, length]) => {
                 let points = self.two_points(p, q);
                 let length = self.positive_length(length, "the length of the link");
                 let (p, q) = points?;
-                JointKind::RevoluteRevolute(p, q, length?)
+                JoinedFeatures::RevoluteRevolute(p, q, length?)
             }
             _ => return self.wrong_count(kind, span, arguments.len()),
         })
     }
 
-    fn joint_of_axes(&mut self, kind: &Name, arguments: &[Expr], span: Span) -> Option<JointKind> {
+    fn joint_of_axes(&mut self, kind: &Name, arguments: &[Expr], span: Span) -> Option<JoinedFeatures> {
         Some(match (kind.text.as_str(), arguments) {
             ("translational", [a, b]) => {
                 let (a, b) = (self.axis(a), self.axis(b));
-                JointKind::Translational(a?, b?)
+                JoinedFeatures::Translational(a?, b?)
             }
             ("revolute_translational", [p, a]) => {
                 let (p, a) = (self.point(p), self.axis(a));
-                JointKind::RevoluteTranslational(p?, a?, self.model.graph.constant(0.0))
+                JoinedFeatures::RevoluteTranslational(p?, a?, self.model.graph.constant(0.0))
             }
             ("revolute_translational", [p, a, offset]) => {
                 let (p, a) = (self.point(p), self.axis(a));
                 let place = "the offset from the axis";
                 let offset = self.constant_by(offset, place, Dimension::LENGTH, GuardKind::Finite);
-                JointKind::RevoluteTranslational(p?, a?, offset?.0)
+                JoinedFeatures::RevoluteTranslational(p?, a?, offset?.0)
             }
             _ => return self.wrong_count(kind, span, arguments.len()),
         })
     }
 
-    fn gear(&mut self, kind: &Name, arguments: &[Expr], span: Span) -> Option<JointKind> {
+    fn gear(&mut self, kind: &Name, arguments: &[Expr], span: Span) -> Option<JoinedFeatures> {
         let ([c, d] | [c, d, _]) = arguments else {
             return self.wrong_count(kind, span, arguments.len());
         };
         let circles = (self.circle(c), self.circle(d));
         let phase = arguments.get(2).map(|phase| self.phase(phase));
         let circles = [circles.0?, circles.1?];
-        Some(JointKind::Gear { circles, internal: kind.text == "internal_gear", phase: settled(phase)? })
+        Some(JoinedFeatures::Gear { circles, internal: kind.text == "internal_gear", phase: settled(phase)? })
     }
 
-    fn rack_pinion(&mut self, kind: &Name, arguments: &[Expr], span: Span) -> Option<JointKind> {
+    fn rack_pinion(&mut self, kind: &Name, arguments: &[Expr], span: Span) -> Option<JoinedFeatures> {
         let ([c, a] | [c, a, _] | [c, a, _, _]) = arguments else {
             return self.wrong_count(kind, span, arguments.len());
         };
         let (pinion, rack) = (self.circle(c), self.axis(a));
         let phase = arguments.get(2).map(|phase| self.phase(phase));
         let side = arguments.get(3).map(|side| self.side(side));
-        Some(JointKind::RackPinion { pinion: pinion?, rack: rack?, phase: settled(phase)?, side: settled(side)? })
+        Some(JoinedFeatures::RackPinion { pinion: pinion?, rack: rack?, phase: settled(phase)?, side: settled(side)? })
     }
 
-    fn contact(&mut self, kind: &Name, arguments: &[Expr], span: Span) -> Option<JointKind> {
+    fn contact(&mut self, kind: &Name, arguments: &[Expr], span: Span) -> Option<JoinedFeatures> {
         let [first, second] = arguments else {
             return self.wrong_count(kind, span, arguments.len());
         };
         Some(match kind.text.as_str() {
             "point_follower" => {
                 let (point, profile) = (self.point(first), self.profile(second));
-                JointKind::PointFollower(point?, profile?)
+                JoinedFeatures::PointFollower(point?, profile?)
             }
             "cam" => {
                 let (k, m) = (self.profile(first), self.profile(second));
-                JointKind::Cam(k?, m?)
+                JoinedFeatures::Cam(k?, m?)
             }
             _ => {
                 let (profile, face) = (self.profile(first), self.axis(second));
-                JointKind::FlatFollower(profile?, face?)
+                JoinedFeatures::FlatFollower(profile?, face?)
             }
         })
     }
@@ -194,13 +194,13 @@ impl Checker<'_> {
     }
 
     /// Returns whether the drawn poses determine the side or direction of one wheel relative to the other.
-    fn is_drawn_apart(&mut self, joint: JointKind, arguments: &[Expr]) -> bool {
+    fn is_drawn_apart(&mut self, joint: JoinedFeatures, arguments: &[Expr]) -> bool {
         // A broken pose has been reported.
         if joint.frames(&self.model).iter().any(|frame| self.is_place_broken(*frame)) {
             return true;
         }
         match joint {
-            JointKind::Gear { circles, .. } => {
+            JoinedFeatures::Gear { circles, .. } => {
                 let [c, d] = circles.map(|circle| self.drawn_center(circle));
                 let apart = c.zip(d).is_none_or(|(c, d)| (c[0] - d[0]).abs() + (c[1] - d[1]).abs() > 0.0);
                 if !apart {
@@ -212,7 +212,7 @@ impl Checker<'_> {
                 }
                 apart
             }
-            JointKind::RackPinion { pinion, rack, side: None, .. } => {
+            JoinedFeatures::RackPinion { pinion, rack, side: None, .. } => {
                 let (origin, direction) = (self.model[rack].origin, self.model[rack].direction);
                 let turned = self.drawn(self.model[rack].frame, direction, false);
                 let apart = match (self.drawn_center(pinion), self.drawn_point(origin), turned) {

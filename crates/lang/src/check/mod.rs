@@ -94,7 +94,7 @@ use suggest::missing_unit::RecordedLengths;
 use tables::TableState;
 use variables::Variables;
 
-/// The number of errors of a file up to which names are suggested.
+/// Largest number of diagnostics of one mechanism or part with which names are still suggested; beyond it the search takes long.
 const MOST_SUGGESTIONS: usize = 100;
 
 /// Checks that the mechanisms of a file have different names.
@@ -122,9 +122,9 @@ pub fn check(tree: &ast::Mechanism, options: &CheckOptions, sources: &Sources) -
     checker.run();
     let Checker { mut diagnostics, mut model, .. } = checker;
     diagnostics.extend(reported);
-    model.slopes = options.slopes.map(|go| {
-        let of_text = |end: usize| model.analysis.map(|analysis| analysis.formulas[end]).filter(|_| go[end]);
-        [of_text(0), of_text(1)]
+    model.slopes = options.slopes.map(|is_of_text| {
+        let formula = |end: usize| model.analysis.map(|analysis| analysis.formulas[end]).filter(|_| is_of_text[end]);
+        [formula(0), formula(1)]
     });
     if instance.is_expanded() {
         diagnostics.dedup_by_span();
@@ -166,9 +166,11 @@ struct Checker<'a> {
     count: names::Count,
     address: Address,
     bound: ExternalBindings<'a>,
-    /// The parts, the declaration of each, and the entities of each that are used here.
+    /// The checked parts.
     parts: Vec<Checker<'a>>,
-    bindings: Vec<&'a ast::Part>,
+    /// The declaration of each part.
+    part_declarations: Vec<&'a ast::Part>,
+    /// The entities of each part that are used here.
     imports: Vec<Vec<Import>>,
     imported: FxHashMap<Entity, (usize, Entity)>,
     /// The paths of params of parts that are points.
@@ -224,7 +226,7 @@ impl<'a> Checker<'a> {
             address: Address::default(),
             bound: ExternalBindings::default(),
             parts: Vec::new(),
-            bindings: Vec::new(),
+            part_declarations: Vec::new(),
             imports: Vec::new(),
             imported: FxHashMap::default(),
             point_paths: FxHashSet::default(),

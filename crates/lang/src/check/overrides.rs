@@ -25,7 +25,7 @@ impl Checker<'_> {
                 bindings.iter().find(|binding| binding.name.text == name.text && binding.coordinate.is_none());
             found.push((format!("{path}{}", name.text), binding.map(|binding| binding.span)));
         }
-        for (child, part) in self.parts.iter().zip(&self.bindings) {
+        for (child, part) in self.parts.iter().zip(&self.part_declarations) {
             child.add_settable(&format!("{path}{}.", part.name.text), &part.bindings, of, found);
         }
     }

@@ -10,7 +10,7 @@ impl Checker<'_> {
     /// Sets the mounts of parts, and their poses as far as these use no points of bodies, which do not exist yet.
     pub(super) fn mount_parts(&mut self) {
         for k in 0..self.parts.len() {
-            let written = self.bindings[k];
+            let written = self.part_declarations[k];
             let Some(id) = self.parts[k].address.part else { continue };
             match written.on.as_ref().map(|on| self.carrier_of(on)) {
                 Some(Some(mount)) => self.model.parts[id.index()].mount = mount,
@@ -40,13 +40,13 @@ impl Checker<'_> {
     /// Reports parts that carry each other or themselves.
     fn report_mount_cycles(&mut self) {
         let carriers: Vec<Option<usize>> = (0..self.parts.len())
-            .map(|k| self.bindings[k].on.as_ref().and_then(|_| self.part_holding(self.mount_of(k)?)))
+            .map(|k| self.part_declarations[k].on.as_ref().and_then(|_| self.part_holding(self.mount_of(k)?)))
             .collect();
         for cycle in cycles(&carriers) {
             let parts: Vec<_> = cycle
                 .iter()
                 .map(|&k| {
-                    let part = self.bindings[k];
+                    let part = self.part_declarations[k];
                     let on = part.on.as_ref().map_or(part.name.span, |on| on.span);
                     (&part.name, on, matches!(self.mount_of(k), Some(Frame::Part(_))))
                 })
@@ -75,12 +75,12 @@ impl Checker<'_> {
     pub(super) fn is_placed_by_features(&self, part: usize) -> bool {
         let is_feature =
             |e: &Expr| matches!(&e.kind, ExprKind::Member { owner, .. } if self.point_param(owner).is_none());
-        self.bindings[part].at.iter().flat_map(Expr::parts).any(is_feature)
+        self.part_declarations[part].at.iter().flat_map(Expr::parts).any(is_feature)
     }
 
     /// Sets the pose of a part on its mount, or marks the pose as broken.
     pub(super) fn place_part(&mut self, part: usize) {
-        let (Some(at), Some(id)) = (&self.bindings[part].at, self.parts[part].address.part) else { return };
+        let (Some(at), Some(id)) = (&self.part_declarations[part].at, self.parts[part].address.part) else { return };
         let site = FormulaSite::Mount(self.model[id].mount);
         match self.at_site(site, None, |checker| checker.pose_of_part(at)) {
             Some(pose) => self.model.parts[id.index()].pose = pose,

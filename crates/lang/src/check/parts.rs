@@ -78,7 +78,7 @@ impl<'a> Checker<'a> {
             checker.diagnostics.extend(std::mem::take(&mut child.diagnostics));
             checker.parts.push(child);
             checker.imports.push(Vec::new());
-            checker.bindings.push(part);
+            checker.part_declarations.push(part);
         }
         for path in &instance.paths {
             checker.entity_inside(path);

@@ -62,7 +62,7 @@ impl<'a> Checker<'a> {
         for (k, (_, name, _)) in poses.iter().enumerate() {
             positions.entry(name.text.as_str()).or_insert(k);
         }
-        for (k, part) in self.bindings.iter().enumerate() {
+        for (k, part) in self.part_declarations.iter().enumerate() {
             positions.entry(part.name.text.as_str()).or_insert(poses.len() + k);
         }
         // The position of what is in a part depends on that of the part.
@@ -71,7 +71,7 @@ impl<'a> Checker<'a> {
             (name, self.owners_in(pose.into_iter().flat_map(DrawnPose::parts).collect(), position))
         });
         let mut uses: Vec<_> = uses.collect();
-        for (part, child) in self.bindings.iter().zip(&self.parts) {
+        for (part, child) in self.part_declarations.iter().zip(&self.parts) {
             // A rejected mount has been reported.
             let is_mounted = child.address.part.is_some_and(|id| self.model[id].mount != self.address.ground);
             let mount = part.on.as_ref().filter(|_| is_mounted).and_then(|on| match &on.kind {

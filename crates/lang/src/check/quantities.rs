@@ -3,7 +3,9 @@
 use super::entity::Entity;
 use super::formula::{Context, Dim, Value};
 use super::{Checker, errors};
-use crate::model::{AxisId, Condition, ConditionKind, Direction, Frame, JointId, JointKind, Named, PointId, Quantity};
+use crate::model::{
+    AxisId, Condition, ConditionKind, Direction, Frame, JoinedFeatures, JointId, Named, PointId, Quantity,
+};
 use mechc_syntax::ast::{Expr, ExprKind, Name};
 use mechc_text::source::Span;
 use mechc_text::vocabulary::QuantityWord;
@@ -84,8 +86,8 @@ impl Checker<'_> {
             ("rotation", [joint, u, v]) => self.rotation_between(joint, u, v)?,
             ("displacement", [joint]) => {
                 let joint = self.joint_with("displacement", joint)?;
-                match self.model[joint].kind {
-                    JointKind::Translational(a, b) => Quantity::Displacement(joint, a, b),
+                match self.model[joint].features {
+                    JoinedFeatures::Translational(a, b) => Quantity::Displacement(joint, a, b),
                     _ => return None,
                 }
             }
@@ -161,7 +163,7 @@ impl Checker<'_> {
         let joint = self.joint_with("rotation", joint);
         let (u_id, v_id) = (self.axis(u), self.axis(v));
         let (joint, u_id, v_id) = (joint?, u_id?, v_id?);
-        let frames = self.model[joint].kind.frames(&self.model);
+        let frames = self.model[joint].features.frames(&self.model);
         for (axis, e, frame) in [(u_id, u, frames[0]), (v_id, v, frames[1])] {
             if self.model[axis].frame != frame {
                 let expected = self.frame_name(frame).to_owned();
@@ -176,7 +178,7 @@ impl Checker<'_> {
     /// Returns a joint of a kind that has the quantity.
     fn joint_with(&mut self, quantity: &str, e: &Expr) -> Option<JointId> {
         let (joint, name) = self.joint_named(quantity, e)?;
-        let kind = self.model[joint].kind.plain();
+        let kind = self.model[joint].features.kind();
         if kind.has_quantity(quantity) {
             return Some(joint);
         }
@@ -268,7 +270,7 @@ impl Checker<'_> {
             Quantity::Pole(b, c, _) => vec![b, c],
             Quantity::PressureAngle(_, b) => vec![b],
             Quantity::Rotation(joint, _) | Quantity::Displacement(joint, ..) | Quantity::Slip(joint) => {
-                self.model[joint].kind.frames(&self.model).to_vec()
+                self.model[joint].features.frames(&self.model).to_vec()
             }
         }
     }

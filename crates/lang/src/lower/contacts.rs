@@ -20,7 +20,7 @@ impl Lowering<'_> {
     pub(super) fn add_coordinate(&mut self, joint: &Joint, k: usize, kind: CoordinateKind, estimate: ExprId) -> ExprId {
         let index = self.coordinates.len() as u32;
         self.coordinates.push(Coordinate {
-            name: format!("{}.{}", joint.declared.name, joint.kind.coordinate_names()[k]),
+            name: format!("{}.{}", joint.declared.name, joint.features.coordinate_names()[k]),
             owner: Owner::Joint(self.declarations.next_id()),
             kind,
             estimate,

@@ -2,7 +2,7 @@
 
 use super::Lowering;
 use super::frames::Vector;
-use crate::model::{self, JointId, JointKind};
+use crate::model::{self, JoinedFeatures, JointId};
 use mechc_ir::{Axis, Circle, ConstraintSystem, DeclarationId};
 
 impl Lowering<'_> {
@@ -38,13 +38,15 @@ impl Lowering<'_> {
     /// its second circle, or its contact.
     pub(super) fn attachment_point(&mut self, joint: JointId) -> Option<Vector> {
         let model = self.model;
-        let point = match model[joint].kind {
-            JointKind::Revolute(_, q) | JointKind::Weld(_, q, _) | JointKind::RevoluteRevolute(_, q, _) => q,
-            JointKind::Translational(_, axis)
-            | JointKind::RevoluteTranslational(_, axis, _)
-            | JointKind::RackPinion { rack: axis, .. } => model[axis].origin,
-            JointKind::Gear { circles: [_, second], .. } => model[second].center,
-            JointKind::PointFollower(..) | JointKind::Cam(..) | JointKind::FlatFollower(..) => {
+        let point = match model[joint].features {
+            JoinedFeatures::Revolute(_, q)
+            | JoinedFeatures::Weld(_, q, _)
+            | JoinedFeatures::RevoluteRevolute(_, q, _) => q,
+            JoinedFeatures::Translational(_, axis)
+            | JoinedFeatures::RevoluteTranslational(_, axis, _)
+            | JoinedFeatures::RackPinion { rack: axis, .. } => model[axis].origin,
+            JoinedFeatures::Gear { circles: [_, second], .. } => model[second].center,
+            JoinedFeatures::PointFollower(..) | JoinedFeatures::Cam(..) | JoinedFeatures::FlatFollower(..) => {
                 return self.contact_position(joint);
             }
         };

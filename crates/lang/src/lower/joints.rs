@@ -1,27 +1,27 @@
 //! The joints' rows of `Φ` (H 3.3).
 
 use super::{Entry, Lowering, entries};
-use crate::model::{Joint, JointKind, PointId};
+use crate::model::{JoinedFeatures, Joint, PointId};
 use mechc_expr::ExprId;
 use mechc_ir::RowUnit;
 
 impl Lowering<'_> {
     pub(super) fn joint(&mut self, joint: &Joint) -> Vec<Entry> {
-        match joint.kind {
+        match joint.features {
             // r_i^P − r_j^Q
-            JointKind::Revolute(p, q) => {
+            JoinedFeatures::Revolute(p, q) => {
                 let (p, q) = (self.position(p), self.position(q));
                 entries(RowUnit::LENGTH, self.difference(p, q))
             }
             // [v_i^⊥ᵀ d, v_i^⊥ᵀ v_j]
-            JointKind::Translational(a, b) => {
+            JoinedFeatures::Translational(a, b) => {
                 let (origin, other) = (self.position(self.model[a].origin), self.position(self.model[b].origin));
                 let d = self.difference(other, origin);
                 let (v, w) = (self.direction(a), self.direction(b));
                 vec![(self.left_of(v, d), RowUnit::LENGTH), (self.left_of(v, w), RowUnit::NUMBER)]
             }
             // [r_i^P − r_j^Q, φ_j − φ_i − φ_0]
-            JointKind::Weld(p, q, angle) => {
+            JoinedFeatures::Weld(p, q, angle) => {
                 let frames = [self.model[p].frame, self.model[q].frame];
                 let [phi_i, phi_j] = frames.map(|frame| self.frame_coordinate(frame, 2));
                 let angle = self.formula(angle);
@@ -33,12 +33,12 @@ impl Lowering<'_> {
                 vec![(x, RowUnit::LENGTH), (y, RowUnit::LENGTH), (turn, RowUnit::ANGLE)]
             }
             // dᵀd − L²
-            JointKind::RevoluteRevolute(p, q, length) => {
+            JoinedFeatures::RevoluteRevolute(p, q, length) => {
                 let length = self.formula(length);
                 entries(RowUnit::AREA, [self.squared_distance_row(p, q, length)])
             }
             // v_j^⊥ᵀ (r_i^P − r_j^a) − c
-            JointKind::RevoluteTranslational(p, a, offset) => {
+            JoinedFeatures::RevoluteTranslational(p, a, offset) => {
                 let (point, origin) = (self.position(p), self.position(self.model[a].origin));
                 let d = self.difference(point, origin);
                 let v = self.direction(a);
@@ -48,15 +48,15 @@ impl Lowering<'_> {
                 entries(RowUnit::LENGTH, [self.graph.sub(left, offset)])
             }
             // Angles and phases of gears are relative to the part that declares them.
-            JointKind::Gear { circles, internal, phase } => {
+            JoinedFeatures::Gear { circles, internal, phase } => {
                 self.relative_to(joint.part, |l| l.gear(joint, circles, internal, phase))
             }
-            JointKind::RackPinion { pinion, rack, phase, side } => {
+            JoinedFeatures::RackPinion { pinion, rack, phase, side } => {
                 self.relative_to(joint.part, |l| l.rack_pinion(pinion, rack, phase, side))
             }
-            JointKind::PointFollower(point, profile) => self.point_follower(joint, point, profile),
-            JointKind::Cam(k, m) => self.cam(joint, k, m),
-            JointKind::FlatFollower(profile, face) => self.flat_follower(joint, profile, face),
+            JoinedFeatures::PointFollower(point, profile) => self.point_follower(joint, point, profile),
+            JoinedFeatures::Cam(k, m) => self.cam(joint, k, m),
+            JoinedFeatures::FlatFollower(profile, face) => self.flat_follower(joint, profile, face),
         }
     }
 

@@ -448,12 +448,13 @@ impl Lowering<'_> {
         let model = self.model;
         for joint in &model.joints {
             let phi = self.joint(joint);
-            let kind = DeclarationKind::Joint(joint.kind.plain());
-            self.declare(&joint.declared, kind, &phi, &joint.kind.points(model));
+            let kind = DeclarationKind::Joint(joint.features.kind());
+            self.declare(&joint.declared, kind, &phi, &joint.features.points(model));
             if let Some(declaration) = self.declarations.last_mut() {
                 // Axes and circles have the same order in the model and in the system.
-                declaration.axes = joint.kind.axes().into_iter().map(|axis| axis.index().into()).collect();
-                declaration.circles = joint.kind.circles().into_iter().map(|circle| circle.index().into()).collect();
+                declaration.axes = joint.features.axes().into_iter().map(|axis| axis.index().into()).collect();
+                declaration.circles =
+                    joint.features.circles().into_iter().map(|circle| circle.index().into()).collect();
             }
         }
         for named in &model.named[..model.named_before_results] {

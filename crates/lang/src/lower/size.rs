@@ -4,7 +4,7 @@
 //! would look singular.
 
 use super::used_features::UsedFeatures;
-use crate::model::{Body, Curve, Frame, JointKind, Mechanism, Named};
+use crate::model::{Body, Curve, Frame, JoinedFeatures, Mechanism, Named};
 use mechc_expr::{ExprId, Symbol};
 
 use rustc_hash::FxHashMap;
@@ -67,7 +67,7 @@ fn sizes_by_features(
         Frame::Ground | Frame::Part(_) => 0.0,
     };
     for joint in &model.joints {
-        let frames = joint.kind.frames(model);
+        let frames = joint.features.frames(model);
         for (frame, other) in [(frames[0], frames[1]), (frames[1], frames[0])] {
             if let Frame::Body(body) = model.carrier(frame)
                 && !is_size(from_features[body.index()])
@@ -166,9 +166,9 @@ fn fallback_size(model: &Mechanism, value: impl Fn(ExprId) -> f64) -> f64 {
     let ground = feature_positions(model, &value, None).get(&Frame::Ground).map_or(0.0, |points| extent(points));
     let of_a_body = model.points.iter().filter(|point| point.frame != Frame::Ground);
     let offsets = of_a_body.map(|point| mechc_expr::math::hypot(value(point.at[0]), value(point.at[1])));
-    let links = model.joints.iter().filter_map(|joint| match joint.kind {
-        JointKind::RevoluteRevolute(_, _, length) => Some(value(length)),
-        JointKind::RevoluteTranslational(_, _, offset) => Some(value(offset).abs()),
+    let links = model.joints.iter().filter_map(|joint| match joint.features {
+        JoinedFeatures::RevoluteRevolute(_, _, length) => Some(value(length)),
+        JoinedFeatures::RevoluteTranslational(_, _, offset) => Some(value(offset).abs()),
         _ => None,
     });
     let places: Vec<[f64; 2]> = model.bodies.iter().map(|body| [value(body.pose[0]), value(body.pose[1])]).collect();

@@ -11,13 +11,13 @@ pub struct Joint {
     pub part: Option<PartId>,
     /// The joint's name.
     pub declared: Declared,
-    /// The kind, with the joined features.
-    pub kind: JointKind,
+    /// The joined features.
+    pub features: JoinedFeatures,
 }
 
-/// The kind of a joint, with the features that it joins.
+/// The features that a joint joins, by its kind.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum JointKind {
+pub enum JoinedFeatures {
     /// Two points coincide.
     Revolute(PointId, PointId),
     /// Two axes lie on one line.
@@ -56,39 +56,39 @@ pub enum JointKind {
     FlatFollower(Profile, AxisId),
 }
 
-impl JointKind {
+impl JoinedFeatures {
     /// Returns the kind without its features.
     #[must_use]
-    pub fn plain(self) -> vocabulary::JointKind {
-        use vocabulary::JointKind as Plain;
+    pub fn kind(self) -> vocabulary::JointKind {
+        use vocabulary::JointKind;
         match self {
-            JointKind::Revolute(..) => Plain::Revolute,
-            JointKind::Translational(..) => Plain::Translational,
-            JointKind::Weld(..) => Plain::Weld,
-            JointKind::RevoluteRevolute(..) => Plain::RevoluteRevolute,
-            JointKind::RevoluteTranslational(..) => Plain::RevoluteTranslational,
-            JointKind::Gear { internal: false, .. } => Plain::Gear,
-            JointKind::Gear { internal: true, .. } => Plain::InternalGear,
-            JointKind::RackPinion { .. } => Plain::RackPinion,
-            JointKind::PointFollower(..) => Plain::PointFollower,
-            JointKind::Cam(..) => Plain::Cam,
-            JointKind::FlatFollower(..) => Plain::FlatFollower,
+            JoinedFeatures::Revolute(..) => JointKind::Revolute,
+            JoinedFeatures::Translational(..) => JointKind::Translational,
+            JoinedFeatures::Weld(..) => JointKind::Weld,
+            JoinedFeatures::RevoluteRevolute(..) => JointKind::RevoluteRevolute,
+            JoinedFeatures::RevoluteTranslational(..) => JointKind::RevoluteTranslational,
+            JoinedFeatures::Gear { internal: false, .. } => JointKind::Gear,
+            JoinedFeatures::Gear { internal: true, .. } => JointKind::InternalGear,
+            JoinedFeatures::RackPinion { .. } => JointKind::RackPinion,
+            JoinedFeatures::PointFollower(..) => JointKind::PointFollower,
+            JoinedFeatures::Cam(..) => JointKind::Cam,
+            JoinedFeatures::FlatFollower(..) => JointKind::FlatFollower,
         }
     }
 
     /// Returns the keyword of the language.
     #[must_use]
     pub fn word(self) -> &'static str {
-        self.plain().word()
+        self.kind().word()
     }
 
     /// Returns the names of the coordinates that the joint adds.
     #[must_use]
     pub fn coordinate_names(self) -> &'static [&'static str] {
         match self {
-            JointKind::Gear { .. } => &["theta"],
-            JointKind::PointFollower(..) | JointKind::FlatFollower(..) => &["u"],
-            JointKind::Cam(..) => &["u", "w"],
+            JoinedFeatures::Gear { .. } => &["theta"],
+            JoinedFeatures::PointFollower(..) | JoinedFeatures::FlatFollower(..) => &["u"],
+            JoinedFeatures::Cam(..) => &["u", "w"],
             _ => &[],
         }
     }
@@ -101,18 +101,18 @@ impl JointKind {
             Profile::Curve(_) => None,
         };
         let (first, second) = match self {
-            JointKind::Revolute(p, q) | JointKind::Weld(p, q, _) | JointKind::RevoluteRevolute(p, q, _) => {
-                (Some(p), Some(q))
-            }
-            JointKind::Translational(a, b) => (Some(mechanism[a].origin), Some(mechanism[b].origin)),
-            JointKind::RevoluteTranslational(p, a, _) => (Some(p), Some(mechanism[a].origin)),
-            JointKind::Gear { circles: [c, d], .. } => (Some(mechanism[c].center), Some(mechanism[d].center)),
-            JointKind::RackPinion { pinion, rack, .. } => {
+            JoinedFeatures::Revolute(p, q)
+            | JoinedFeatures::Weld(p, q, _)
+            | JoinedFeatures::RevoluteRevolute(p, q, _) => (Some(p), Some(q)),
+            JoinedFeatures::Translational(a, b) => (Some(mechanism[a].origin), Some(mechanism[b].origin)),
+            JoinedFeatures::RevoluteTranslational(p, a, _) => (Some(p), Some(mechanism[a].origin)),
+            JoinedFeatures::Gear { circles: [c, d], .. } => (Some(mechanism[c].center), Some(mechanism[d].center)),
+            JoinedFeatures::RackPinion { pinion, rack, .. } => {
                 (Some(mechanism[pinion].center), Some(mechanism[rack].origin))
             }
-            JointKind::PointFollower(p, profile) => (Some(p), on_profile(profile)),
-            JointKind::Cam(k, m) => (on_profile(k), on_profile(m)),
-            JointKind::FlatFollower(profile, a) => (on_profile(profile), Some(mechanism[a].origin)),
+            JoinedFeatures::PointFollower(p, profile) => (Some(p), on_profile(profile)),
+            JoinedFeatures::Cam(k, m) => (on_profile(k), on_profile(m)),
+            JoinedFeatures::FlatFollower(profile, a) => (on_profile(profile), Some(mechanism[a].origin)),
         };
         first.into_iter().chain(second).collect()
     }
@@ -121,10 +121,10 @@ impl JointKind {
     #[must_use]
     pub fn axes(self) -> Vec<AxisId> {
         match self {
-            JointKind::Translational(a, b) => vec![a, b],
-            JointKind::RevoluteTranslational(_, a, _)
-            | JointKind::RackPinion { rack: a, .. }
-            | JointKind::FlatFollower(_, a) => vec![a],
+            JoinedFeatures::Translational(a, b) => vec![a, b],
+            JoinedFeatures::RevoluteTranslational(_, a, _)
+            | JoinedFeatures::RackPinion { rack: a, .. }
+            | JoinedFeatures::FlatFollower(_, a) => vec![a],
             _ => Vec::new(),
         }
     }
@@ -132,8 +132,8 @@ impl JointKind {
     /// Returns the profiles of a contact.
     fn profiles(self) -> Vec<Profile> {
         match self {
-            JointKind::PointFollower(_, profile) | JointKind::FlatFollower(profile, _) => vec![profile],
-            JointKind::Cam(first, second) => vec![first, second],
+            JoinedFeatures::PointFollower(_, profile) | JoinedFeatures::FlatFollower(profile, _) => vec![profile],
+            JoinedFeatures::Cam(first, second) => vec![first, second],
             _ => Vec::new(),
         }
     }
@@ -146,8 +146,8 @@ impl JointKind {
             Profile::Curve(_) => None,
         };
         match self {
-            JointKind::Gear { circles, .. } => circles.to_vec(),
-            JointKind::RackPinion { pinion, .. } => vec![pinion],
+            JoinedFeatures::Gear { circles, .. } => circles.to_vec(),
+            JoinedFeatures::RackPinion { pinion, .. } => vec![pinion],
             _ => self.profiles().into_iter().filter_map(on_circle).collect(),
         }
     }
@@ -166,16 +166,16 @@ impl JointKind {
     #[must_use]
     pub fn frames(self, mechanism: &Mechanism) -> [Frame; 2] {
         match self {
-            JointKind::Revolute(p, q) | JointKind::Weld(p, q, _) | JointKind::RevoluteRevolute(p, q, _) => {
-                [mechanism[p].frame, mechanism[q].frame]
-            }
-            JointKind::Translational(a, b) => [mechanism[a].frame, mechanism[b].frame],
-            JointKind::RevoluteTranslational(p, a, _) => [mechanism[p].frame, mechanism[a].frame],
-            JointKind::Gear { circles: [c, d], .. } => [mechanism[c].frame, mechanism[d].frame],
-            JointKind::RackPinion { pinion, rack, .. } => [mechanism[pinion].frame, mechanism[rack].frame],
-            JointKind::PointFollower(p, profile) => [mechanism[p].frame, profile.frame(mechanism)],
-            JointKind::Cam(k, m) => [k.frame(mechanism), m.frame(mechanism)],
-            JointKind::FlatFollower(profile, a) => [profile.frame(mechanism), mechanism[a].frame],
+            JoinedFeatures::Revolute(p, q)
+            | JoinedFeatures::Weld(p, q, _)
+            | JoinedFeatures::RevoluteRevolute(p, q, _) => [mechanism[p].frame, mechanism[q].frame],
+            JoinedFeatures::Translational(a, b) => [mechanism[a].frame, mechanism[b].frame],
+            JoinedFeatures::RevoluteTranslational(p, a, _) => [mechanism[p].frame, mechanism[a].frame],
+            JoinedFeatures::Gear { circles: [c, d], .. } => [mechanism[c].frame, mechanism[d].frame],
+            JoinedFeatures::RackPinion { pinion, rack, .. } => [mechanism[pinion].frame, mechanism[rack].frame],
+            JoinedFeatures::PointFollower(p, profile) => [mechanism[p].frame, profile.frame(mechanism)],
+            JoinedFeatures::Cam(k, m) => [k.frame(mechanism), m.frame(mechanism)],
+            JoinedFeatures::FlatFollower(profile, a) => [profile.frame(mechanism), mechanism[a].frame],
         }
     }
 }

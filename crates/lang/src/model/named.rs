@@ -13,7 +13,8 @@ pub enum Named {
     /// The derivative of a formula by the variable of this number, at fixed time. In a part that moves together with its surroundings, the
     /// derivative is taken by the part's own equations.
     By(ExprId, u32, Option<PartId>),
-    /// An input of such a part, held fixed in these derivatives: the formula to which the input is bound.
+    /// An input of a part that moves together with its surroundings, held fixed while the part's own equations are differentiated; and the
+    /// formula to which it is bound.
     Held(PartId, ExprId),
     /// A formula that is greater than zero where a quantity of measures exists.
     Exists(Option<PartId>, Quantity),

@@ -1,8 +1,8 @@
 //! The model as readable text: names are resolved, values are in SI units.
 
 use super::{
-    AxisId, BodyId, CircleId, Direction, EquationForm, Frame, JointKind, Mechanism, Named, PointId, Profile, Quantity,
-    Reduction, Side,
+    AxisId, BodyId, CircleId, Direction, EquationForm, Frame, JoinedFeatures, Mechanism, Named, PointId, Profile,
+    Quantity, Reduction, Side,
 };
 use mechc_expr::{ExprId, Printer, Symbol, number};
 use rustc_hash::FxHashMap;
@@ -120,33 +120,35 @@ impl Text<'_> {
         if whole { printer.definition(id) } else { printer.text(id) }
     }
 
-    fn joint_text(&self, kind: JointKind) -> String {
+    fn joint_text(&self, features: JoinedFeatures) -> String {
         let text = |id: ExprId| self.formula_text(id);
         let point = |id: PointId| self.point_text(id, &text);
-        let arguments = match kind {
-            JointKind::Revolute(p, q) => vec![point(p), point(q)],
-            JointKind::Translational(a, b) => vec![self.axis_text(a), self.axis_text(b)],
-            JointKind::Weld(p, q, value) | JointKind::RevoluteRevolute(p, q, value) => {
+        let arguments = match features {
+            JoinedFeatures::Revolute(p, q) => vec![point(p), point(q)],
+            JoinedFeatures::Translational(a, b) => vec![self.axis_text(a), self.axis_text(b)],
+            JoinedFeatures::Weld(p, q, value) | JoinedFeatures::RevoluteRevolute(p, q, value) => {
                 vec![point(p), point(q), text(value)]
             }
-            JointKind::RevoluteTranslational(p, a, offset) => vec![point(p), self.axis_text(a), text(offset)],
-            JointKind::Gear { circles, phase, .. } => {
+            JoinedFeatures::RevoluteTranslational(p, a, offset) => vec![point(p), self.axis_text(a), text(offset)],
+            JoinedFeatures::Gear { circles, phase, .. } => {
                 circles.map(|circle| self.circle_text(circle)).into_iter().chain(phase.map(text)).collect()
             }
-            JointKind::RackPinion { pinion, rack, phase, side } => {
+            JoinedFeatures::RackPinion { pinion, rack, phase, side } => {
                 let side = side.map(|side| if side == Side::Left { "left".to_owned() } else { "right".to_owned() });
                 let wheels = [self.circle_text(pinion), self.axis_text(rack)];
                 wheels.into_iter().chain(phase.map(text)).chain(side).collect()
             }
-            JointKind::PointFollower(p, profile) => vec![point(p), self.profile_text(profile)],
-            JointKind::Cam(k, m) => vec![self.profile_text(k), self.profile_text(m)],
-            JointKind::FlatFollower(profile, face) => vec![self.profile_text(profile), self.axis_text(face)],
+            JoinedFeatures::PointFollower(p, profile) => vec![point(p), self.profile_text(profile)],
+            JoinedFeatures::Cam(k, m) => vec![self.profile_text(k), self.profile_text(m)],
+            JoinedFeatures::FlatFollower(profile, face) => vec![self.profile_text(profile), self.axis_text(face)],
         };
-        let drawn = match kind {
-            JointKind::Gear { phase: None, .. } | JointKind::RackPinion { phase: None, .. } => ", meshing as drawn",
+        let drawn = match features {
+            JoinedFeatures::Gear { phase: None, .. } | JoinedFeatures::RackPinion { phase: None, .. } => {
+                ", meshing as drawn"
+            }
             _ => "",
         };
-        format!("{}({}){drawn}", kind.word(), arguments.join(", "))
+        format!("{}({}){drawn}", features.word(), arguments.join(", "))
     }
 
     fn write_features(&self, f: &mut std::fmt::Formatter<'_>, frame: Frame) -> std::fmt::Result {
@@ -218,7 +220,7 @@ impl Text<'_> {
     fn write_equations(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         writeln!(f, "\njoints")?;
         for joint in &self.model.joints {
-            writeln!(f, "  {}: {}", joint.declared.name, self.joint_text(joint.kind))?;
+            writeln!(f, "  {}: {}", joint.declared.name, self.joint_text(joint.features))?;
         }
         writeln!(f, "\nconstraints and drivers")?;
         for equation in &self.model.equations {
@@ -284,11 +286,11 @@ impl Mechanism {
         let mut list: Vec<ExprId> = self.points.iter().flat_map(|point| point.at).collect();
         list.extend(self.axes.iter().flat_map(|axis| axis.direction));
         list.extend(self.bodies.iter().flat_map(|body| body.pose));
-        list.extend(self.joints.iter().filter_map(|joint| match joint.kind {
-            JointKind::Weld(_, _, value)
-            | JointKind::RevoluteRevolute(_, _, value)
-            | JointKind::RevoluteTranslational(_, _, value) => Some(value),
-            JointKind::Gear { phase, .. } | JointKind::RackPinion { phase, .. } => phase,
+        list.extend(self.joints.iter().filter_map(|joint| match joint.features {
+            JoinedFeatures::Weld(_, _, value)
+            | JoinedFeatures::RevoluteRevolute(_, _, value)
+            | JoinedFeatures::RevoluteTranslational(_, _, value) => Some(value),
+            JoinedFeatures::Gear { phase, .. } | JoinedFeatures::RackPinion { phase, .. } => phase,
             _ => None,
         }));
         list.extend(self.graph.tables().iter().flat_map(|table| table.knots.iter().chain(&table.values)));

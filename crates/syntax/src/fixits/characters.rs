@@ -104,7 +104,7 @@ impl Fault<'_> {
         })
     }
 
-    /// Replaces a character from here to the end of the line.
+    /// Replaces this character wherever it stands in the rest of the line.
     fn everywhere_on_the_line(&self, by: &str, words: &str) -> Fix {
         let line = self.text[self.at..].lines().next().unwrap_or_default();
         let same = tokens(line).into_iter().filter(|token| token.text == self.found);
@@ -114,6 +114,7 @@ impl Fault<'_> {
         Fix { message: words.to_owned(), edits, applies: Applicability::Always }
     }
 
+    /// Removes what was found; leaves a space if words would join.
     pub(super) fn left_out(&self, words: &str) -> FixIt {
         let Range { start, end } = self.here();
         let is_word = |c: char| c.is_alphanumeric() || c == '_' || c == '.';
@@ -121,7 +122,7 @@ impl Fault<'_> {
         self.replaced(start..end, if joins { " " } else { "" }, words, Applicability::Always)
     }
 
-    /// Corrects `driver d := …`.
+    /// Corrects `:=` to `:`: `driver d := …`.
     fn colon_equals(&self) -> Option<FixIt> {
         let line = self.behind().lines().next().unwrap_or_default();
         let is_sure = !self.expects(Rule::prefix) || line.contains('=');
@@ -130,7 +131,7 @@ impl Fault<'_> {
         is_sure.then(|| self.replaced(start..self.here().end, ":", words, Applicability::Always))
     }
 
-    /// Corrects `# a comment`, but not `a#1`.
+    /// Corrects a comment that begins with `#`.
     fn number_sign(&self) -> FixIt {
         let words = "a comment begins with `//`";
         let marks = self.found.len() + self.behind().len() - self.behind().trim_start_matches('#').len();
@@ -149,7 +150,7 @@ impl Fault<'_> {
         }
     }
 
-    /// Corrects `/* … */`.
+    /// Turns a comment `/* … */` into line comments.
     fn block_comment(&self, start: usize) -> FixIt {
         let words = "a comment begins with `//` and ends with its line".to_owned();
         let Some(length) = self.text[start + 2..].find("*/") else { return FixIt::Words(words) };
@@ -161,7 +162,7 @@ impl Fault<'_> {
         FixIt::Fix(Fix::replace(self.span(start..end), text, words, Applicability::Always))
     }
 
-    /// Corrects `30°`, and `alpha°`, which is a product.
+    /// Corrects a degree sign: `30°` to `30 deg`, `alpha°` to a product.
     fn degree_sign(&self) -> FixIt {
         let word = self.word_before();
         let words = format!("degrees are written `{word} deg`");
@@ -188,7 +189,7 @@ impl Fault<'_> {
         line.starts_with("fn ") && !line.contains('=')
     }
 
-    /// Corrects `0,5` and `2.`.
+    /// Corrects a decimal comma, and a point without digits behind it: `0,5`, `2.`.
     fn decimal_separator(&self) -> Option<FixIt> {
         let (whole, behind) = (self.word_before(), self.behind());
         let is_number = |text: &str| !text.is_empty() && text.chars().all(|c| c.is_ascii_digit());

@@ -33,7 +33,7 @@ impl Fault<'_> {
         })
     }
 
-    /// Corrects `use leg.mech`.
+    /// Puts the path of a `use` in quotes: `use leg.mech`.
     fn unquoted_path(&self) -> Option<FixIt> {
         if self.found.is_empty() || self.is_on_new_line() || self.found == "\"" {
             return None;

@@ -5,7 +5,7 @@ use crate::grammar::Rule;
 use mechc_text::vocabulary::{JointWord, Keyword, Position, Role, Synonym};
 
 impl Foreign<'_> {
-    /// Corrects `a = 30 mm`, `j: revolute(…)`, `revolute j: (…)`, where a declaration begins.
+    /// Suggests the keyword of a declaration without one: `a = 30 mm`, `j: revolute(…)`, `revolute j: (…)`.
     pub(super) fn missing_keyword(&self) -> Option<Correction> {
         if self.found == "inertia" && self.begins_feature() {
             return Some(Correction::Words("an inertia stands behind its mass: `mass M inertia I`".to_owned()));
@@ -58,7 +58,7 @@ impl Foreign<'_> {
         Some(Foreign::change(format!("a {keyword} is declared by `{keyword} {name}{separator} …`"), vec![edit]))
     }
 
-    /// Corrects `joint j: (…)`, `joint j: distance(…) = …`.
+    /// Suggests a kind for a joint without one, or `driver`/`constraint` for an equation: `joint j: (…)`, `joint j: distance(…) = …`.
     pub(super) fn missing_joint_kind(&self, keyword: &str) -> Option<Correction> {
         let [joint, name, colon, ..] = self.before.as_slice() else { return None };
         if keyword != "joint" || colon.text != ":" {

@@ -116,7 +116,7 @@ impl<'a> Formatted<'a> {
         }
     }
 
-    /// Lays a row out, and gives the column at which it ends if it has but one line.
+    /// Lays out a row. Returns the column at which it ends; `None` if it has several lines, is a comment, or is kept as it is.
     fn row(&mut self, row: &Row, words: &[Word], spaces: &[usize]) -> Option<usize> {
         if row.kind == Kind::Kept {
             return None;
@@ -139,12 +139,12 @@ impl<'a> Formatted<'a> {
             };
             self.gaps[start + grouped.lexemes[k]] = gap;
         }
-        self.take_commas(start, words, &grouped, &laid.is_broken);
+        self.set_last_commas(start, words, &grouped, &laid.is_broken);
         (!laid.has_lines).then_some(laid.column)
     }
 
-    /// A list has a comma behind its last item where each item has a line of its own, and nowhere else.
-    fn take_commas(&mut self, start: usize, words: &[Word], grouped: &Grouped, is_broken: &[bool]) {
+    /// Adds the comma behind the last item of each list with one item per line, and drops it elsewhere.
+    fn set_last_commas(&mut self, start: usize, words: &[Word], grouped: &Grouped, is_broken: &[bool]) {
         for (k, _) in words.iter().enumerate().filter(|(_, word)| word.is_last_comma) {
             self.commas[start + k] = Comma::Dropped;
         }
@@ -181,7 +181,7 @@ impl<'a> Formatted<'a> {
         edits
     }
 
-    /// Calls with each stretch of the text that is to change, as short as it can be, in order, and with what it becomes.
+    /// Calls `change` for each part of the text that changes, in order, with its byte range and new text.
     fn each_change(
         &self,
         text: &str,
@@ -216,7 +216,7 @@ impl<'a> Formatted<'a> {
         }
     }
 
-    /// Writes what stands before a lexeme; says whether that is what stands there now.
+    /// Writes the gap before a lexeme, or returns true if it is kept as it is.
     fn write_gap(&self, k: usize, line_end: &str, out: &mut String) -> bool {
         match self.gaps[k] {
             Gap::Kept => return true,
@@ -230,7 +230,7 @@ impl<'a> Formatted<'a> {
     }
 }
 
-/// Calls with what differs between a stretch of a text and what it becomes, if anything does.
+/// Calls `change` with the smallest range in which old and new text differ, if they do.
 fn minimal(text: &str, range: Range<usize>, new: &str, change: &mut impl FnMut(Range<usize>, &str)) {
     let old = &text[range.clone()];
     if old == new {

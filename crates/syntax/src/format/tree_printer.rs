@@ -1,5 +1,4 @@
-//! A tree that was never written down as text, without care for lines and columns: a line for each declaration, and a blank one where
-//! their kind changes.
+//! Prints a tree that has no text, as of an import, without layout: a line for each declaration, and a blank line where their kind changes.
 
 use super::expression::expression;
 use super::rows::Group;
@@ -8,7 +7,7 @@ use crate::ast::{
     ItemKind, Mechanism, Name, Part, TableRows, UsedFile, WrittenUnit,
 };
 
-/// Reads back as the same tree, apart from places and from parentheses that change nothing.
+/// Prints a file so that it parses to the same tree, apart from locations and redundant parentheses.
 pub(super) fn print(file: &File) -> String {
     let uses: String = file.uses.iter().map(|used| documentation(&used.docs) + &use_file(used)).collect();
     let blocks: Vec<String> =

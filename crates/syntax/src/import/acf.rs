@@ -7,13 +7,13 @@ use super::value::{Kind, Value};
 use crate::ast::{Expr, ExprKind, Factor, Item, ItemKind};
 use mechc_text::diag::Diagnostics;
 
-/// More steps than this are not counted on: each must be a number of its own.
+/// Largest number of steps; beyond about 2⁵³ `f64` does not hold every whole number.
 const MOST_STEPS: f64 = 9e15;
 
 /// Maximum number of digits of a step that is written as a number.
 const STEP_DIGITS: usize = 6;
 
-/// Returns the analysis that a settings file requests.
+/// Reads the analysis of a settings file; `None`, with diagnostics, if its times are not usable.
 pub(super) fn read(value: &Value, diagnostics: &mut Diagnostics) -> Option<Item> {
     let Kind::Object(members) = &value.kind else {
         let message = format!("settings must be an object, found {}", value.describe());
@@ -50,7 +50,7 @@ fn simulation(value: &Value, diagnostics: &mut Diagnostics) {
     }
 }
 
-/// Returns `10 ms` if that is the exact step, otherwise `5 s / 333`.
+/// Returns the step as a number (`10 ms`) if `short_step` finds one, else as a quotient (`5 s / 333`).
 fn step(end: Number, steps: Number) -> Expr {
     let span = end.span.to(steps.span);
     if let Some((value, unit)) = short_step(end.value, steps.value as i128) {
@@ -61,7 +61,7 @@ fn step(end: Number, steps: Number) -> Expr {
     Expr { kind: ExprKind::Product(Box::new(end), vec![(Factor::Divide, steps)]), span }
 }
 
-/// Returns a time divided by a count, number and unit, if it is a short decimal.
+/// Returns `end / steps` as a number and unit if it has at most `STEP_DIGITS` digits.
 fn short_step(end: f64, steps: i128) -> Option<(f64, &'static str)> {
     // the shortest decimal that reads back to the time, as digits and a power of ten
     let scientific = format!("{end:e}");

@@ -59,7 +59,7 @@ fn build(pair: &Pair<'_, Rule>, file: FileId) -> Result<Value, Box<Diagnostic>> 
         }
         Rule::string => Kind::Text(text(pair, file)),
         Rule::word if pair.as_str() == "null" => Kind::Null,
-        Rule::word => Kind::Truth,
+        Rule::word => Kind::Bool,
         _ => {
             let number = sum(pair.clone());
             if !number.is_finite() {

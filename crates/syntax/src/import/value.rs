@@ -24,7 +24,7 @@ pub(super) struct Value {
 #[derive(Debug)]
 pub(super) enum Kind {
     Null,
-    Truth,
+    Bool,
     Number(f64),
     Text(Quoted),
     List(Vec<Value>),
@@ -66,11 +66,11 @@ impl Value {
         }
     }
 
-    /// Returns its kind in words.
+    /// Returns the kind of the value for messages, with its article: `a number`.
     pub fn describe(&self) -> &'static str {
         match &self.kind {
             Kind::Null => "`null`",
-            Kind::Truth => "a truth value",
+            Kind::Bool => "a truth value",
             Kind::Number(_) => "a number",
             Kind::Text(_) => "a string",
             Kind::List(_) => "a list",

@@ -28,7 +28,7 @@ pub enum Group {
     Motion,
     /// `(u, u0, c0, c1, …)`: `c_k` has the dimension of the result over that of `u^k`.
     Polynomial,
-    /// Time derivative.
+    /// The derivative `der`: by time or, with a second argument, by an input or param.
     Derivative,
     /// Function of points, or a point.
     Points,

@@ -53,7 +53,7 @@ impl Picture<'_> {
 
     fn stroke_data(&self, track: &Track, stretch: &Stroke, motion: &Motion) -> String {
         let [width, height] = self.drawing_size();
-        let (mut off, mut decimals) = (TOLERANCE.min(TOLERANCE_OF_SIDE * width.min(height)), self.pixels);
+        let (mut off, mut decimals) = (TOLERANCE.min(TOLERANCE_OF_SIDE * width.min(height)), self.pixel_decimals);
         if self.options.scale.is_some() {
             off = TOLERANCE_OF_PAPER * PIXELS_PER_METER;
         }

@@ -28,7 +28,7 @@ impl Picture<'_> {
         let mut transform = String::new();
         if node.attachment != Attachment::Fixed(0) {
             let is_stretched = node.attachment.is_stretched();
-            let scale_x = || format!(" scale({} 1)", decimal(stretch * self.scale, self.pixels));
+            let scale_x = || format!(" scale({} 1)", decimal(stretch * self.scale, self.pixel_decimals));
             let scale = if is_stretched { scale_x() } else { String::new() };
             transform = format!(" transform=\"{}{scale}\"", self.transform_attribute(&pose));
         }
@@ -38,9 +38,9 @@ impl Picture<'_> {
     /// Returns the transform that places shapes around a frame's origin at a pose.
     pub fn transform_attribute(&self, pose: &Pose) -> String {
         let [x, y] = self.to_pixels(pose.at);
-        let turn = decimal(degrees(pose.phi), self.degrees);
+        let turn = decimal(degrees(pose.phi), self.degree_decimals);
         let turn = if turn == "0" { String::new() } else { format!(" rotate({turn})") };
-        format!("translate({} {}){turn}", decimal(x, self.pixels), decimal(y, self.pixels))
+        format!("translate({} {}){turn}", decimal(x, self.pixel_decimals), decimal(y, self.pixel_decimals))
     }
 
     /// Adds the shapes of a node as a group with `attributes`; `origin` is the group's origin in the coordinates of the shapes (m).
@@ -119,12 +119,15 @@ impl Picture<'_> {
         };
         let text = match &shape.path {
             Path::Circle { at, radius } => {
-                let [x, y] = convert(*at).map(|part| decimal(part, self.pixels));
+                let [x, y] = convert(*at).map(|part| decimal(part, self.pixel_decimals));
                 let center = if x == "0" && y == "0" { String::new() } else { format!(" cx=\"{x}\" cy=\"{y}\"") };
-                format!("<circle class=\"{class}\"{point}{center} r=\"{}\"/>", decimal(scale * radius, self.pixels))
+                format!(
+                    "<circle class=\"{class}\"{point}{center} r=\"{}\"/>",
+                    decimal(scale * radius, self.pixel_decimals)
+                )
             }
             path @ Path::Lines(_) => {
-                let d = write_path(path, &convert, scale, self.pixels);
+                let d = write_path(path, &convert, scale, self.pixel_decimals);
                 format!("<path class=\"{class}\"{point} d=\"{d}\"/>")
             }
         };

@@ -44,9 +44,10 @@ pub(super) struct Picture<'s> {
     pub messages: MessageBlock,
     /// Pixels per metre.
     pub scale: f64,
-    /// Decimals of pixels and of degrees. For cutting they resolve a thirtieth of a micrometre of paper.
-    pub pixels: usize,
-    pub degrees: usize,
+    /// Decimals of lengths (px); for cutting they resolve 0.03 µm of paper.
+    pub pixel_decimals: usize,
+    /// Decimals of angles (deg).
+    pub degree_decimals: usize,
     /// Position in the middle (m).
     middle: Vector,
     pub styles: StyleUsage,
@@ -120,8 +121,8 @@ impl<'s> Picture<'s> {
             margin,
             messages,
             scale,
-            pixels: if options.scale.is_some() { PIXELS_TO_CUT } else { PIXELS },
-            degrees: if options.scale.is_some() { degrees_to_cut(size) } else { DEGREES },
+            pixel_decimals: if options.scale.is_some() { PIXELS_TO_CUT } else { PIXELS },
+            degree_decimals: if options.scale.is_some() { degrees_to_cut(size) } else { DEGREES },
             middle,
             styles,
             rules,
@@ -186,8 +187,8 @@ impl<'s> Picture<'s> {
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}{word}\" height=\"{height}{word}\" viewBox=\"0 0 {width} {height}\" role=\"img\" \
              aria-labelledby=\"title\" data-scale=\"{}\" data-origin=\"{} {}\">\n<title id=\"title\">{}</title>\n",
             if self.options.scale.is_some() { pixel_size * self.scale } else { self.scale },
-            decimal(origin[0], self.pixels + 1),
-            decimal(origin[1], self.pixels + 1),
+            decimal(origin[0], self.pixel_decimals + 1),
+            decimal(origin[1], self.pixel_decimals + 1),
             escape(&self.scene.name)
         );
         let mut description = self.scene.docs.join("\n").trim().to_owned();

@@ -41,7 +41,7 @@ pub fn gravity_of_one_number(span: Span, found: &str) -> Diagnostic {
         .help("where y points up it is `gravity (0, -9.81 m/s^2)`")
 }
 
-/// Reported at the part in the enclosing text.
+/// Warns that the gravity of a part does not count, at the part in the enclosing text.
 pub fn gravity_of_a_part(part: &Name, mechanism: &str, gravity: Span) -> Diagnostic {
     Diagnostic::new(Code::W0403, format!("the gravity of `{mechanism}` does not count here"))
         .at(part.span, "a part of a mechanism without `gravity`")
@@ -84,7 +84,7 @@ pub fn load_on_no_body(name: &Name, span: Span) -> Diagnostic {
         .help("say what it moves: `on rotation(joint)`, `on x(body.point)`")
 }
 
-/// `text` is that of the force.
+/// Reports a load whose dimension times that of its place is no energy; `text` is the formula of the force.
 pub fn load_of_no_energy(name: &Name, [force, on]: [Part; 2], expected: Dimension, text: &str) -> Diagnostic {
     let fix =
         force.dimension.is(Dimension::PURE).then(|| with_unit(force.span, text, unit_of_force(expected))).flatten();
@@ -97,7 +97,7 @@ pub fn load_of_no_energy(name: &Name, [force, on]: [Part; 2], expected: Dimensio
         .change(fix)
 }
 
-/// `text` is that of the force.
+/// Reports a load without any unit where one is needed; `text` is the formula of the force.
 pub fn plain_load(name: &Name, span: Span, text: &str, on: Part, expected: Dimension) -> Diagnostic {
     let help =
         "a number without a unit is a torque where it works on an angle; a force says its unit: `20 N`, `1800 N/m`";
@@ -108,7 +108,7 @@ pub fn plain_load(name: &Name, span: Span, text: &str, on: Part, expected: Dimen
         .change(with_unit(span, text, unit_of_force(expected)))
 }
 
-/// Angles are pure numbers.
+/// Returns what a load works on, in words; an angle is a pure number.
 fn words_of_place(dimension: Dimension) -> &'static str {
     if dimension.is(Dimension::PURE) { "an angle" } else { "a length" }
 }
@@ -133,7 +133,7 @@ pub fn derivative_of_force(span: Span) -> Diagnostic {
         .help("`der(e, NAME)`, by an input or parameter, has a value")
 }
 
-/// `joint` is the joint of that name, and `driver` the driver that refers to it.
+/// Reports `effort` of something that is no driver or constraint; `joint` is the joint of that name, and `driver` the driver that refers to it.
 pub fn effort_of_no_equation(name: &Name, found: &str, joint: Option<&str>, driver: Option<&str>) -> Diagnostic {
     let help = match (joint, driver) {
         (_, Some(driver)) => Some(format!("what drives it supplies `effort({driver})`")),
@@ -146,7 +146,7 @@ pub fn effort_of_no_equation(name: &Name, found: &str, joint: Option<&str>, driv
     super::wrong_kind(name.span, "a driver or constraint", found).help_if(help)
 }
 
-/// `driver` is the driver that refers to the joint.
+/// Reports the torque of a joint that has none; `driver` is the driver that refers to the joint.
 pub fn no_torque(joint: &str, kind: &str, span: Span, declared: Span, driver: Option<&str>) -> Diagnostic {
     let help = match driver {
         Some(driver) => format!("what the driver supplies is `effort({driver})`"),
@@ -158,7 +158,7 @@ pub fn no_torque(joint: &str, kind: &str, span: Span, declared: Span, driver: Op
         .help(help)
 }
 
-/// A torque in a unit of energy.
+/// Reports a torque in a unit of energy.
 pub fn torque_in_joules(span: Span, formula: Span) -> Diagnostic {
     Diagnostic::new(Code::E0402, "a torque is in newton metres, not in joules")
         .at(span, "a unit of work")

@@ -102,7 +102,7 @@ pub fn product_of_points(span: Span, is_divisor: bool) -> Diagnostic {
         .help("points are added and subtracted, and multiplied and divided by numbers")
 }
 
-/// Points of different frames in one formula.
+/// Reports points of different frames in one formula.
 pub fn two_frames(body: &str, of_body: Span, other: Span) -> Diagnostic {
     Diagnostic::new(Code::E0318, format!("this formula takes a point of `{body}` and one of the mechanism"))
         .at(other, "a point of the mechanism, as it is drawn")
@@ -113,21 +113,21 @@ pub fn two_frames(body: &str, of_body: Span, other: Span) -> Diagnostic {
         ))
 }
 
-/// The direction between two equal points.
+/// Reports a direction between two points that coincide; `what` names what needs it.
 pub fn points_coincide(what: &str, span: Span) -> Diagnostic {
     Diagnostic::new(Code::E0405, format!("{what} needs two points that differ, and these coincide"))
         .at(span, "no direction")
         .help("a direction is that of the way from the first point to the second")
 }
 
-/// `--set A=5mm` for a point.
+/// Reports `--set A=5mm` for a point.
 pub fn point_set_to_number(name: &Name, span: Span) -> Diagnostic {
     let name = &name.text;
     wrong_kind(span, "a point", "a number")
         .help(format!("`{name}` is a point: `--set {name}=(12mm,0)`, or one of its coordinates: `--set {name}.x=12mm`"))
 }
 
-/// `--set r.x=5mm` for a number.
+/// Reports `--set r.x=5mm` for a number.
 pub fn coordinate_of_number(name: &Name, k: usize, span: Span) -> Diagnostic {
     let (name, coordinate) = (&name.text, ["x", "y"][k.min(1)]);
     Diagnostic::new(Code::E0703, format!("the parameter `{name}` is a number, and has no `{coordinate}`"))

@@ -5,7 +5,7 @@ use crate::check::Checker;
 use crate::check::entity::Entity;
 use crate::check::errors::list;
 use crate::check::features::Feature;
-use crate::model::{Dimension, Frame, JointKind};
+use crate::model::{Dimension, Frame, JoinedFeatures};
 use mechc_syntax::ast::{Expr, ExprKind, Factor, ItemKind, Name};
 use mechc_text::diag::{Applicability, Code, Diagnostic, Edit, Fix};
 use mechc_text::source::Span;
@@ -52,14 +52,15 @@ impl Checker<'_> {
             Some(Entity::Body(k)) => self.bodies[k],
             _ => return diagnostic,
         };
-        let is_one = |kind: JointKind| match kind {
-            JointKind::Revolute(..) if quantity == "rotation" => true,
-            JointKind::Translational(..) if quantity == "displacement" => true,
-            kind if quantity == "torque" => kind.plain().has_torque(),
+        let is_one = |features: JoinedFeatures| match features {
+            JoinedFeatures::Revolute(..) if quantity == "rotation" => true,
+            JoinedFeatures::Translational(..) if quantity == "displacement" => true,
+            _ if quantity == "torque" => features.kind().has_torque(),
             _ => is_force(quantity),
         };
         let joints = self.joints.iter().flatten().map(|&id| &self.model[id]);
-        let fitting = joints.filter(|joint| is_one(joint.kind) && joint.kind.frames(&self.model).contains(&body));
+        let fitting =
+            joints.filter(|joint| is_one(joint.features) && joint.features.frames(&self.model).contains(&body));
         let names: Vec<&str> = fitting.map(|joint| joint.declared.name.as_str()).collect();
         let diagnostic = match names[..] {
             [] => diagnostic,
@@ -88,7 +89,7 @@ impl Checker<'_> {
             }
             Entity::Joint(k) if means == ["torque"] || means == ["effort"] => {
                 let joint = self.joints.get(k).copied().flatten()?;
-                let is_driven = means == ["effort"] || !self.model[joint].kind.plain().has_torque();
+                let is_driven = means == ["effort"] || !self.model[joint].features.kind().has_torque();
                 let driver = self.driver_of(&name.text).filter(|_| is_driven)?;
                 (format!("what drives `{}` supplies", name.text), format!("effort({driver})"))
             }

@@ -89,7 +89,7 @@ impl<'a> Parser<'a> {
         errors::fault(token.span, message, "expected an operator").help_if(help)
     }
 
-    /// Parses an operand with all following operators that bind at least as tightly as `loosest`.
+    /// Parses an operand and the infix operators behind it whose precedence is at least `loosest`; `depth` limits nesting.
     fn term(&mut self, loosest: u8, depth: usize) -> Built<Term> {
         let mut left = self.operand(depth)?;
         while let Some(token) = self.peek() {
@@ -110,7 +110,7 @@ impl<'a> Parser<'a> {
         Ok(left)
     }
 
-    /// Signs and `~` with what they apply to, or a primary.
+    /// Parses signs and `~` with the operand that they apply to, or a primary.
     fn operand(&mut self, depth: usize) -> Built<Term> {
         let Some(token) = self.peek() else {
             let message = "expected a value, found the end of the formula";

@@ -1,4 +1,4 @@
-"""What is asked of a mechanism, from keywords to the options of the command."""
+"""Converts keyword arguments of methods to the options of the command."""
 
 from __future__ import annotations
 
@@ -13,30 +13,30 @@ from typing import Any, TypeVar, Union
 
 from mechc._mechc import LARGEST_FILE
 from mechc.errors import MechcWarning, warn
-from mechc.values import many, mapping, meant, number, path_of, plain, sound, table, texts, usage, whole, written
-from mechc.values import varied as one_varied
+from mechc.values import as_list, checked_text, formula_of, mapping, normalized, number, path_of, suggestion, table, texts, usage
+from mechc.values import vary_option, whole_number
 
 Method = TypeVar("Method", bound=Callable[..., Any])
 
 
 def with_options(method: Method, *, like: Iterable[Callable[..., Any]] = ()) -> Method:
-    """A question to a mechanism, whose keywords are options first, its own and those of others that are like it, and then params and
-    inputs. There is one rule for all options of all questions: one that is given, and has the name of a param or an input, says so."""
+    """Decorates a method whose keywords are its options and those of the methods ``like``, and else params and inputs. An option that is
+    given, and has the name of a param or an input, is a warning; an unknown keyword is refused."""
     parameters = [of for one in (method, *like) for of in list(inspect.signature(one).parameters.values())[1:]]
     options = {of.name: None for of in parameters if of.kind is not of.VAR_KEYWORD}
 
     @functools.wraps(method)
-    def asks(m: Any, /, *arguments: Any, **keywords: Any) -> Any:
+    def wrapper(m: Any, /, *arguments: Any, **keywords: Any) -> Any:
         params, inputs = m._param_units, m._input_units
         keywords = {name if name in options else _keyword(name, [*params, *inputs]): value for name, value in keywords.items()}
         warn_of_options(params, inputs, {name: value for name, value in keywords.items() if name in options})
         refuse_unknown([name for name in keywords if name not in options], params, inputs, options)
         return method(m, *arguments, **keywords)
 
-    return asks  # type: ignore[return-value]
+    return wrapper  # type: ignore[return-value]
 
 
-def asked(
+def run_request(
     units_of_params: Mapping[str, str],
     units_of_inputs: Mapping[str, str],
     values: Mapping[str, Any],
@@ -58,7 +58,7 @@ def asked(
     pass_bifurcations: bool = False,
     allow_redundant: bool = False,
 ) -> dict[str, Any]:
-    """The options of the command, by their names; ``values`` are the keywords that are params and inputs."""
+    """Returns the options of a run by their names; ``values`` are the keywords that are params and inputs."""
     params = {name: value for name, value in values.items() if name in units_of_params}
     signals = {name: value for name, value in values.items() if name not in units_of_params}
     return {
@@ -82,8 +82,8 @@ def asked(
 
 
 def warn_of_options(params: Mapping[str, str], inputs: Mapping[str, str], given: Mapping[str, Any]) -> None:
-    """Says of options that are given that their names win over those of params and inputs, and how these are meant. A mapping is no value of
-    these, and means the option; `None` gives nothing."""
+    """Warns of given options whose names hide params or inputs, and says how to set these. A mapping can only be meant as the option, and
+    `None` is not given."""
     for name in (name for name, value in given.items() if value is not None and not isinstance(value, Mapping)):
         if name in params:
             instead = f"a param `{name}` too, which is set by `set={{'{name}': …}}`, and varied by `vary={{'{name}': …}}`"
@@ -95,16 +95,16 @@ def warn_of_options(params: Mapping[str, str], inputs: Mapping[str, str], given:
 
 
 def _keyword(name: str, known: list[str]) -> str:
-    """A name that was given as a keyword, in which Python writes some letters otherwise (NFKC), as ``µ``."""
-    found = plain(name)
+    """Returns the known name of a keyword, in which Python replaces some letters (NFKC), as ``µ``."""
+    found = normalized(name)
     alike = [] if found in known else [of for of in known if unicodedata.normalize("NFKC", of) == found]
     return alike[0] if len(alike) == 1 else found
 
 
-def meant_by(
+def resolve_name(
     name: str, option: str, params: Mapping[str, str], inputs: Mapping[str, str], options: Iterable[str]
 ) -> list[str]:
-    """The params or inputs that a name means, be it given by ``set`` or ``inputs``, or as a keyword."""
+    """Returns the params or inputs that a name refers to; ``option`` is ``set`` or ``inputs``, or empty for a keyword."""
     kinds = {"set": [params], "inputs": [inputs]}.get(option, [params, inputs])
     for kind in kinds:
         found = names_of(name if option else _keyword(name, list(kind)), kind)
@@ -119,8 +119,8 @@ def meant_by(
 
 
 def names_of(name: str, known: Iterable[str]) -> list[str]:
-    """What a name is among some that are known: itself, all copies where it has no numbers, the coordinates of a point."""
-    found, known = plain(name), list(known)
+    """Returns the known names that a name refers to: itself, all copies if it has no numbers, or the coordinates of a point."""
+    found, known = normalized(name), list(known)
     if found in known:
         return [found]
     copies = [of for of in known if re.sub(r"\[[^\]]*\]", "", of) == found]
@@ -134,56 +134,56 @@ def refuse_unknown(
     """Refuses keywords that are neither params nor inputs."""
     for name in names:
         if name not in params and name not in inputs:
-            sound("a name", name)
+            checked_text("a name", name)
             known = [*params, *inputs, *options]
-            raise usage(f"there is no param, input or option `{name}`", meant(name, known) or _listed(params, inputs))
+            raise usage(f"there is no param, input or option `{name}`", suggestion(name, known) or _listed(params, inputs))
 
 
 def _listed(params: Mapping[str, str], inputs: Mapping[str, str]) -> str:
     parts = [("params", list(params)), ("inputs", list(inputs))]
-    told = [f"the {what} are " + ", ".join(f"`{name}`" for name in names[:8]) for what, names in parts if names]
-    return "; ".join(told) if told else "the mechanism has neither params nor inputs"
+    listed = [f"the {what} are " + ", ".join(f"`{name}`" for name in names[:8]) for what, names in parts if names]
+    return "; ".join(listed) if listed else "the mechanism has neither params nor inputs"
 
 
 def settings(option: str, given: Any, values: Mapping[str, Any], units: Mapping[str, str]) -> list[str]:
-    """``NAME=FORMULA`` for each; a number has the unit of what it sets."""
+    """Returns ``NAME=FORMULA`` for each value; a number has the unit of its param or input."""
     found = {}
     for name, value in itertools.chain(({} if given is None else mapping(option, given)).items(), values.items()):
-        known = plain(name)
+        known = normalized(name)
         if known in found:
             raise usage(f"`{known}` is given twice", "say it once")
-        found[known] = f"{known}={written(name, value, unit_of(known, units))}"
+        found[known] = f"{known}={formula_of(name, value, unit_of(known, units))}"
     return list(found.values())
 
 
 def unit_of(name: str, units: Mapping[str, str]) -> str:
-    """The SI unit of what a name means: a param or input, all copies of one, the coordinates of a point."""
+    """Returns the SI unit of the params or inputs that a name refers to."""
     return next((units[known] for known in names_of(name, units)), "")
 
 
 def formulas(results: Any) -> list[str]:
-    """Results as ``NAME = FORMULA``: a mapping, a list of such texts, or one."""
+    """Returns results as ``NAME = FORMULA``, from a mapping, a list of such texts, or one text."""
     if isinstance(results, Mapping):
-        return [sound("results", f"{name} = {formula}") for name, formula in results.items()]
+        return [checked_text("results", f"{name} = {formula}") for name, formula in results.items()]
     return texts("results", results)
 
 
 def _time(name: str, value: Any) -> str | None:
     if value is None:
         return None
-    return sound(name, value) if isinstance(value, str) else repr(number(name, value))
+    return checked_text(name, value) if isinstance(value, str) else repr(number(name, value))
 
 
 def _times(at: Any) -> list[str]:
-    """Times of their own; a list of none is rather a mistake than all times."""
-    found = [] if at is None else [time for time in (_time("at", one) for one in many("at", at)) if time is not None]
+    """Returns the times of ``at``; an empty list is refused as a likely mistake."""
+    found = [] if at is None else [time for time in (_time("at", one) for one in as_list("at", at)) if time is not None]
     if at is not None and not found:
         raise usage("`at` holds no time", "leave it out for all times of the analysis")
     return found
 
 
 def _patterns(columns: Any) -> list[str]:
-    """Columns by patterns; a list of none is rather a mistake than all columns."""
+    """Returns patterns of columns; an empty list is refused as a likely mistake."""
     found = texts("columns", columns)
     if columns is not None and not found:
         raise usage("`columns` chooses no column", "leave it out for all columns")
@@ -191,7 +191,7 @@ def _patterns(columns: Any) -> list[str]:
 
 
 def bound(value: Any) -> float:
-    """What bounds each row of the equations."""
+    """Returns the tolerance of the equations, between 0 and 1."""
     found = number("tolerance", value)
     if not 0.0 < found < 1.0:
         raise usage(f"`tolerance` is {found!r}", "a number above 0 and below 1 is wanted, as in `tolerance=1e-9`")
@@ -199,13 +199,13 @@ def bound(value: Any) -> float:
 
 
 def flag(name: str, value: Any) -> bool:
-    """An option that is there or not."""
+    """Returns an option that is true or false."""
     if value is True or value is False:
         return value
     raise usage(f"`{name}` is {value!r}, and `True` or `False` is wanted")
 
 
-def varied(
+def sweep_request(
     units: Mapping[str, str],
     vary: Any,
     variants: Any,
@@ -218,15 +218,15 @@ def varied(
     jobs: Any,
     skip: Any,
     take: Any,
-    asked: Mapping[str, Any],
+    request: Mapping[str, Any],
 ) -> dict[str, Any]:
-    """What of a sweep goes beyond a run, by the names of the command's options."""
+    """Returns the options of a sweep in addition to those of a run, by the names of the command's options."""
     found: list[Axis] = []
     for name, values in _axes(vary):
-        told = one_varied(name, values, unit_of(name, units))
-        found.append((f"vary {name}", told) if isinstance(told, bytes) else told)
+        axis = vary_option(name, values, unit_of(name, units))
+        found.append((f"vary {name}", axis) if isinstance(axis, bytes) else axis)
     if isinstance(variants, (str, os.PathLike)):
-        found.append(_variants_of(sound("variants", path_of("variants", variants))))
+        found.append(_variants_of(checked_text("variants", path_of("variants", variants))))
     elif variants is not None:
         columns = _columns_of(variants)
         found.append(("variants", table(columns, {name: unit_of(name, units) for name in columns})))
@@ -237,38 +237,38 @@ def varied(
     if until is not None and not isinstance(until, str):
         raise usage(f"`until` is {until!r}, and a condition is wanted", "as in `until='stroke > 80 mm'`")
     if until is not None:
-        sound("until", until)
+        checked_text("until", until)
     if flag("rows", rows) is False:
-        if asked["at"]:
+        if request["at"]:
             help = "add `rows=True` for the rows at these times, or measure with `results={'NAME': 'at(…, T)'}`"
             raise usage("results are of the whole analysis, and `at` asks for single times", help)
-        if asked["columns"]:
+        if request["columns"]:
             raise usage("`columns` chooses columns of rows", "add `rows=True`")
         for option in ("by", "reactions"):
-            if asked[option]:
+            if request[option]:
                 raise usage(f"`{option}` adds columns to rows", "add `rows=True`")
     return {
         "vary": found,
-        "samples": None if samples is None else whole("samples", samples),
+        "samples": None if samples is None else whole_number("samples", samples),
         "method": method,
-        "seed": None if seed is None else whole("seed", seed),
+        "seed": None if seed is None else whole_number("seed", seed),
         "rows": rows,
         "until": until,
-        "jobs": None if jobs is None else min(whole("jobs", jobs, 1), MOST_JOBS),
-        "skip": whole("skip", skip),
-        "take": None if take is None else whole("take", take),
+        "jobs": None if jobs is None else min(whole_number("jobs", jobs, 1), MOST_JOBS),
+        "skip": whole_number("skip", skip),
+        "take": None if take is None else whole_number("take", take),
     }
 
 
-#: More threads only wait for each other.
+#: Largest number of threads; more of them only wait for each other.
 MOST_JOBS = 1024
 
-#: What varies: as the command's option has it, or a table as CSV with the name that messages have for it.
+#: An axis of variation: the text of the command's option, or a table as CSV with its name in messages.
 Axis = Union[str, "tuple[str, bytes]"]
 
 
 def _variants_of(path: str) -> Axis:
-    """A table of variants in a file, which is read once: a sweep stays what it is. What cannot be read is told as the command tells it."""
+    """Reads a table of variants at once, so that a sweep never changes; for an unreadable file the command reports the error."""
     try:
         if os.path.isfile(path) and os.path.getsize(path) <= LARGEST_FILE:
             with open(path, "rb") as file:
@@ -282,13 +282,13 @@ def _axes(vary: Any) -> Iterable[tuple[str, Any]]:
     given = {} if vary is None else mapping("vary", vary)
     if any(not name.strip() for name in given):
         raise usage("`vary` has an empty name, and that of a param is wanted")
-    return [(plain(name), values) for name, values in given.items()]
+    return [(normalized(name), values) for name, values in given.items()]
 
 
 def _columns_of(variants: Any) -> dict[str, Any]:
-    """A table of variants: a mapping to arrays, or a frame."""
+    """Returns the columns of a table of variants, from a mapping to arrays or a frame."""
     if hasattr(variants, "collect_schema") and hasattr(variants, "collect"):
-        # a frame that is not there yet
+        # a lazy frame
         variants = variants.collect()
     if isinstance(variants, Mapping):
         columns = dict(variants)
@@ -304,10 +304,10 @@ def _columns_of(variants: Any) -> dict[str, Any]:
     return {name: getattr(column, "to_numpy", lambda column=column: column)() for name, column in columns.items()}
 
 
-def off(name: str, ends: Any, unit: str) -> str:
-    """How far a param may be off, as the command's ``--tol`` has it."""
+def tolerance_option(name: str, ends: Any, unit: str) -> str:
+    """Returns the tolerance of a param as the command's ``--tol`` takes it."""
     if isinstance(ends, (tuple, list)):
         if len(ends) != 2:
             raise usage(f"the tolerance of `{name}` is {ends!r}", "one value is plus and minus, two are from and to")
-        return f"{name}={written(name, ends[0], unit)}..{written(name, ends[1], unit)}"
-    return f"{name}={written(name, ends, unit)}"
+        return f"{name}={formula_of(name, ends[0], unit)}..{formula_of(name, ends[1], unit)}"
+    return f"{name}={formula_of(name, ends, unit)}"

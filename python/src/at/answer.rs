@@ -1,6 +1,6 @@
-//! What was found: columns by their names, numbers or arrays of the elements' shape.
+//! The answer of `Mechanism.at`: columns by their names, as numbers or as arrays of the elements' shape.
 
-use crate::errors::{Packed, Said};
+use crate::errors::{PickledReport, Report};
 use numpy::{PyArray1, PyArrayMethods, PyReadonlyArray1};
 use pyo3::exceptions::{PyKeyError, PyValueError};
 use pyo3::prelude::*;
@@ -9,12 +9,12 @@ use std::borrow::Cow;
 use std::collections::HashMap;
 use std::sync::Arc;
 
-/// The columns of what is found.
+/// The columns of an answer.
 pub struct Columns {
     pub(super) names: Vec<String>,
     units: Vec<String>,
     places: HashMap<String, usize>,
-    /// By derivative by time: the places of the coordinates.
+    /// The places of `q`, of `qd` and of `qdd` among the columns.
     coordinates: [Vec<usize>; 3],
 }
 
@@ -32,8 +32,8 @@ pub struct At {
     pub(super) rows: Vec<f64>,
     pub(super) shape: Option<Vec<usize>>,
     pub(super) statuses: Vec<Cow<'static, str>>,
-    /// Why the first element that did not get there did not.
-    pub(super) error: Option<Said>,
+    /// The error of the first element that failed.
+    pub(super) error: Option<Report>,
 }
 
 #[pymethods]
@@ -43,7 +43,7 @@ impl At {
         let Some(&place) = self.columns.places.get(name) else {
             return Err(self.no_column(py, name));
         };
-        self.picked(py, &[place], true)
+        self.select(py, &[place], true)
     }
 
     fn __len__(&self) -> usize {
@@ -65,7 +65,7 @@ impl At {
 
     /// The columns in order.
     fn values<'py>(&self, py: Python<'py>) -> PyResult<Vec<Bound<'py, PyAny>>> {
-        (0..self.columns.names.len()).map(|place| self.picked(py, &[place], true)).collect()
+        (0..self.columns.names.len()).map(|place| self.select(py, &[place], true)).collect()
     }
 
     /// The columns with their names.
@@ -82,7 +82,7 @@ impl At {
         default: Option<Bound<'py, PyAny>>,
     ) -> PyResult<Option<Bound<'py, PyAny>>> {
         let place = key.extract::<String>().ok().and_then(|name| self.columns.places.get(&name).copied());
-        place.map_or(Ok(default), |place| self.picked(py, &[place], true).map(Some))
+        place.map_or(Ok(default), |place| self.select(py, &[place], true).map(Some))
     }
 
     /// The names of the columns.
@@ -104,25 +104,25 @@ impl At {
     /// The time (s).
     #[getter]
     fn t<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        self.picked(py, &[0], true)
+        self.select(py, &[0], true)
     }
 
     /// The coordinates [m, rad]: an array of shape (coordinates,), of many elements of shape (…, coordinates).
     #[getter]
     fn q<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        self.picked(py, &self.columns.coordinates[0], false)
+        self.select(py, &self.columns.coordinates[0], false)
     }
 
     /// Their first derivatives by time.
     #[getter]
     fn qd<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        self.picked(py, &self.columns.coordinates[1], false)
+        self.select(py, &self.columns.coordinates[1], false)
     }
 
     /// Their second derivatives by time.
     #[getter]
     fn qdd<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        self.picked(py, &self.columns.coordinates[2], false)
+        self.select(py, &self.columns.coordinates[2], false)
     }
 
     /// Columns of some names side by side: an array of shape (columns,), of many elements of shape (…, columns).
@@ -133,7 +133,7 @@ impl At {
             known.ok_or_else(|| self.no_column(py, name))
         };
         let places = names.iter().map(place).collect::<PyResult<Vec<usize>>>()?;
-        self.picked(py, &places, false)
+        self.select(py, &places, false)
     }
 
     /// The names of the coordinates.
@@ -154,7 +154,7 @@ impl At {
     /// Why the first element that does not get there does not; nothing where all do.
     #[getter]
     pub fn error(&self, py: Python<'_>) -> Option<Py<PyAny>> {
-        self.error.as_ref().map(|said| said.raised(py).into_value(py).into_any())
+        self.error.as_ref().map(|report| report.to_exception(py).into_value(py).into_any())
     }
 
     /// The shape of the elements; `()` of one alone.
@@ -170,60 +170,60 @@ impl At {
         format!("<At: {elements} of {} columns{lost}>", self.columns.names.len())
     }
 
-    /// As what it is packed: its columns by their names, with shape, statuses and why one of them is not there.
+    /// Returns what is pickled: names, units, places of coordinates, rows, shape, statuses and the error.
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
-        let again = py.import("mechc._mechc")?.getattr("_at_again")?;
+        let unpickle = py.import("mechc._mechc")?.getattr("_unpickle_at")?;
         let rows = PyArray1::from_slice(py, &self.rows);
         let Columns { names, units, coordinates, .. } = &*self.columns;
-        let error = self.error.as_ref().map(Said::packed);
-        let packed = (names, units, coordinates.to_vec(), rows, &self.shape, &self.statuses, error);
-        Ok((again, packed.into_pyobject(py)?))
+        let error = self.error.as_ref().map(Report::to_pickled);
+        let pickled = (names, units, coordinates.to_vec(), rows, &self.shape, &self.statuses, error);
+        Ok((unpickle, pickled.into_pyobject(py)?))
     }
 }
 
 impl At {
-    /// That there is no such column, and which may be meant.
+    /// Returns the error for an unknown column, with a suggestion.
     fn no_column(&self, py: Python<'_>, name: &str) -> PyErr {
         let hint = || -> PyResult<Option<String>> {
-            py.import("mechc.values")?.getattr("meant")?.call1((name, &self.columns.names))?.extract()
+            py.import("mechc.values")?.getattr("suggestion")?.call1((name, &self.columns.names))?.extract()
         };
         let hint = hint().ok().flatten().map_or(String::new(), |hint| format!("; {hint}"));
         PyKeyError::new_err(format!("there is no column '{name}'{hint}"))
     }
 
-    /// Some columns of all elements, one behind the other; a single column of a single element as a number.
-    fn picked<'py>(&self, py: Python<'py>, places: &[usize], is_alone: bool) -> PyResult<Bound<'py, PyAny>> {
+    /// Returns columns of all elements, of shape (…, columns); with `is_alone` one column, of shape (…), or as a number for a single element.
+    fn select<'py>(&self, py: Python<'py>, places: &[usize], is_alone: bool) -> PyResult<Bound<'py, PyAny>> {
         let width = self.columns.names.len();
         match &self.shape {
             None if is_alone => Ok(PyFloat::new(py, self.rows[places[0]]).into_any()),
             None => {
-                let picked = places.iter().map(|&place| self.rows[place]).collect();
-                Ok(PyArray1::from_vec(py, picked).into_any())
+                let selected = places.iter().map(|&place| self.rows[place]).collect();
+                Ok(PyArray1::from_vec(py, selected).into_any())
             }
             Some(shape) => {
-                let mut picked = Vec::with_capacity(self.statuses.len() * places.len());
-                self.rows.chunks_exact(width).for_each(|row| picked.extend(places.iter().map(|&place| row[place])));
+                let mut selected = Vec::with_capacity(self.statuses.len() * places.len());
+                self.rows.chunks_exact(width).for_each(|row| selected.extend(places.iter().map(|&place| row[place])));
                 let mut shape = shape.clone();
                 if !is_alone {
                     shape.push(places.len());
                 }
-                Ok(PyArray1::from_vec(py, picked).reshape(shape)?.into_any())
+                Ok(PyArray1::from_vec(py, selected).reshape(shape)?.into_any())
             }
         }
     }
 }
 
-/// An answer once more, as it was packed.
+/// Restores an answer that was pickled.
 #[pyfunction]
 #[pyo3(signature = (names, units, coordinates, rows, shape, statuses, error = None))]
-pub fn _at_again(
+pub fn _unpickle_at(
     names: Vec<String>,
     units: Vec<String>,
     coordinates: Vec<Vec<usize>>,
     rows: PyReadonlyArray1<'_, f64>,
     shape: Option<Vec<usize>>,
     statuses: Vec<String>,
-    error: Option<Packed>,
+    error: Option<PickledReport>,
 ) -> PyResult<At> {
     let refused = || PyValueError::new_err("this is no packed answer of `at`");
     let coordinates: [Vec<usize>; 3] = coordinates.try_into().map_err(|_| refused())?;
@@ -238,5 +238,11 @@ pub fn _at_again(
         return Err(refused());
     }
     let statuses = statuses.into_iter().map(Cow::Owned).collect();
-    Ok(At { columns: Columns::new(names, units, coordinates), rows, shape, statuses, error: error.map(Said::again) })
+    Ok(At {
+        columns: Columns::new(names, units, coordinates),
+        rows,
+        shape,
+        statuses,
+        error: error.map(Report::from_pickled),
+    })
 }

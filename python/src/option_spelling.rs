@@ -1,8 +1,8 @@
-//! Options of the command in Python's words: `--lead` is `lead=True`, `--set rod=80mm` is `set={'rod': '80mm'}`.
+//! Spells options of the command as in Python: `--lead` is `lead=True`, `--set rod=80mm` is `set={'rod': '80mm'}`.
 
 use mechc::{Diagnostic, OptionText, Sources};
 
-/// Options that are given or not.
+/// Options without a value.
 const FLAGS: [&str; 8] =
     ["lead", "reactions", "pass-bifurcations", "allow-redundant", "rows", "yes", "verify", "normal"];
 
@@ -13,17 +13,17 @@ const MAPPINGS: [(&str, &str); 5] =
 /// Options whose keywords have another name.
 const RENAMED: [(&str, &str); 2] = [("from", "from_"), ("sample", "samples")];
 
-/// Options that only the command has, and the command.
+/// Options that Python lacks, with the command that has them.
 const OF_COMMAND: [(&str, &str); 1] = [("with", "mechc emit")];
 
-/// Returns a diagnostic with options in Python's words.
+/// Returns a diagnostic with options spelled as in Python.
 pub fn in_python(diagnostic: &Diagnostic) -> Diagnostic {
     let spell =
         |options: &[OptionText<'_>]| options.iter().map(|option| spelled(*option)).collect::<Vec<_>>().join(", ");
     diagnostic.clone().with_options_spelled(spell)
 }
 
-/// Returns texts of which those of options have the names of keywords.
+/// Returns source texts in which those of options have the names of keywords.
 pub fn with_keywords(sources: &Sources) -> Sources {
     sources.with_option_names(|source| match source.strip_prefix("--") {
         // the name of what is set may follow
@@ -66,7 +66,7 @@ fn spelled(OptionText { name: option, value }: OptionText<'_>) -> String {
     }
 }
 
-/// Returns what a param is set to, or varies over, or may be off by.
+/// Returns the value, the range of a sweep, or the tolerance of a param as Python writes it.
 fn values(option: &str, formula: &str) -> String {
     match (option, formula.split_once("..")) {
         ("tol", Some((low, high))) => format!("({}, {})", literal(low), literal(high)),
@@ -82,7 +82,7 @@ fn values(option: &str, formula: &str) -> String {
     }
 }
 
-/// Returns a value as Python has it: numbers, and letters that stand for any, as they are; the rest as text.
+/// Returns a value as Python writes it: numbers, and single capital letters as placeholders, as they are; anything else as a string.
 fn literal(value: &str) -> String {
     let is_number = value.starts_with(|c: char| c.is_ascii_digit() || "+-".contains(c)) && value.parse::<f64>().is_ok();
     let is_letter = value.len() == 1 && value.starts_with(|c: char| c.is_ascii_uppercase());

@@ -1,4 +1,4 @@
-"""What a mechanism is: its names, values and units."""
+"""The properties of a mechanism: names, values and units."""
 
 from __future__ import annotations
 
@@ -6,11 +6,11 @@ from collections.abc import Mapping
 from functools import cached_property
 from typing import Any
 
-from mechc import _mechc, asking
+from mechc import _mechc, requests
 
 
-class Described(_mechc.Mechanism):
-    """A mechanism as far as its text says it."""
+class MechanismProperties(_mechc.Mechanism):
+    """A mechanism with the properties that its text gives."""
 
     @property
     def name(self) -> str:
@@ -55,6 +55,6 @@ class Described(_mechc.Mechanism):
             units.setdefault(name, unit)
         return units
 
-    def _asked(self, values: Mapping[str, Any], **given: Any) -> dict[str, Any]:
-        """What is asked: options, and keywords that are params and inputs."""
-        return asking.asked(self._param_units, self._input_units, values, **given)
+    def _request(self, values: Mapping[str, Any], **given: Any) -> dict[str, Any]:
+        """Returns the options of a run; ``values`` are the keywords that are params and inputs."""
+        return requests.run_request(self._param_units, self._input_units, values, **given)
