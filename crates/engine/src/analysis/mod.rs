@@ -41,4 +41,4 @@ pub use results::{
     Answers, Computed, MOST_LOOKS, ResultQuery, Sampled, Settled, Settling, SmoothFormula, SmoothFormulas,
     SpectralIntegral, Turning, moved, refused_results,
 };
-pub use state::{Horizon, Times};
+pub use state::{Horizon, SignalBounds, Times};

@@ -97,6 +97,7 @@ impl ContinuationBase {
         let (nominal_params, nominal) =
             (compiled.determined.system().param_values(), Configuration::from_started(started));
         let path_start = analysis::start_of_paths(&path_system.determined, &path_system.program, &nominal.q, &options)?;
+        // a path that bends may turn back between its ends
         let (is_smooth, path_start) = (path_start.is_plain(), Configuration::from_started(&path_start));
         Ok(ContinuationBase {
             compiled,

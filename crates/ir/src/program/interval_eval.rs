@@ -159,6 +159,14 @@ impl Enclosure {
         }
     }
 
+    /// Returns the registers that its operations read and do not compute, but for the time; each may be read more than once.
+    #[must_use]
+    pub fn operands(&self, program: &Program) -> Vec<Register> {
+        let is_computed = |register: &Register| self.operations.iter().any(|op| op.writes().contains(register));
+        let read = self.operations.iter().flat_map(|&op| program.reads(op));
+        read.filter(|register| *register != self.time && !is_computed(register)).collect()
+    }
+
     /// Returns the enclosure `[low, high]` of a register.
     #[must_use]
     pub fn range(&self, register: Register) -> [f64; 2] {

@@ -4,7 +4,7 @@ use super::assembly::{self, Assembled, Moved};
 use super::branches::{self, Doubt};
 use super::errors::{far_estimates, misfit};
 use crate::analysis::explain::Stop;
-use crate::analysis::state::{Horizon, Kinematics, State};
+use crate::analysis::state::{Horizon, Kinematics, SignalBounds, State};
 use crate::solver::Solver;
 use mechc_expr::math::Vectors;
 use mechc_ir::ConstraintSystem;
@@ -252,8 +252,19 @@ impl Started {
 
     /// Returns whether the equations are smooth wherever the motion is, and nothing is monitored.
     #[must_use]
+    pub fn is_smooth(&self) -> bool {
+        self.kinematics.is_smooth()
+    }
+
+    /// Returns whether the equations are smooth, and what time alone decides goes straight on.
+    #[must_use]
     pub fn is_plain(&self) -> bool {
         self.kinematics.is_plain()
+    }
+
+    /// Returns the terms of the equations that time alone decides and that are not linear in it.
+    pub fn signal_bounds(&mut self) -> SignalBounds {
+        SignalBounds::new(&mut self.kinematics, &self.state)
     }
 
     /// By row of `Φ`: its largest residual at the start.

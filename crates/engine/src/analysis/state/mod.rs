@@ -9,6 +9,7 @@ mod kinematics;
 mod least_squares;
 mod linear;
 mod output_times;
+mod signal_bounds;
 mod sparse;
 mod subsystem_derivatives;
 
@@ -18,6 +19,7 @@ pub use kinematics::{Fault, Kinematics, State, Unknown};
 pub use least_squares::{Evaluated, Linear, minimize};
 pub use linear::Singular;
 pub use output_times::{Horizon, Times, behind_start, shortly_after};
+pub use signal_bounds::SignalBounds;
 
 use mechc_expr::math::GOLDEN;
 

@@ -2,6 +2,7 @@
 //! other cases are left to variants that are computed alone.
 
 use super::acceptance::{LaneStates, TrackedCoordinate, TrackedDerivatives, singular_distance};
+use super::lane_signals::BatchSignals;
 use super::result_queries::ResultQueries;
 use super::{CHUNK, LANES, NEARLY, PerLane, ZERO};
 use crate::analysis::{Started, Times};
@@ -55,6 +56,8 @@ pub struct BatchContext {
     pub(super) pivot_scale: f64,
     /// Estimated distance of the nominal state to a singular position.
     nominal_distance: f64,
+    /// The signals that steps check; `None` if there are none.
+    pub(super) signals: Option<BatchSignals>,
     /// The first time (s).
     pub(super) from: f64,
     pub(super) vectors: Vectors,
@@ -108,7 +111,12 @@ impl BatchContext {
     ) -> Option<BatchContext> {
         let mut started = started.clone();
         let (times, columns) = request.rows;
-        if times.is_empty() || !started.is_plain() || !base.is_smooth_in(params) {
+        if times.is_empty() || !started.is_smooth() || !base.is_smooth_in(params) {
+            return None;
+        }
+        // results are found between steps, which must show all of the motion; without them rows alone are worth a batch
+        let has_results = request.results && started.is_plain();
+        if !has_results && columns.is_none() && !started.is_plain() {
             return None;
         }
         let (CompiledSystem { determined, program }, nominal_params) = base.nominal();
@@ -117,11 +125,8 @@ impl BatchContext {
         let derivatives = required_derivatives(&mut started, request, &indices);
         let is_tracked =
             |column: u32| tracked.iter().any(|coordinate| coordinate.columns[..derivatives.orders()].contains(&column));
-        let queries = if request.results {
-            ResultQueries::new(determined, &mut started, times, &is_tracked, vectors)
-        } else {
-            None
-        };
+        let queries =
+            if has_results { ResultQueries::new(determined, &mut started, times, &is_tracked, vectors) } else { None };
         // a variant with all its results has completed the motion, so rows need not show that
         let rows = if columns.is_none() && queries.is_some() {
             None
@@ -134,7 +139,9 @@ impl BatchContext {
         let tears = tears.collect::<Option<Vec<usize>>>()?;
         let row_solver = rows.as_ref().map(|rows| &rows.solver);
         let solvers = [Some(&step_solver), row_solver, queries.as_ref().map(|queries| &queries.solver)];
-        let loaded: Vec<Register> = solvers.into_iter().flatten().flat_map(Solver::loads).collect();
+        let signals = BatchSignals::new(program, started.signal_bounds());
+        let operands = signals.iter().flat_map(|signals| signals.operands.iter().copied());
+        let loaded: Vec<Register> = solvers.into_iter().flatten().flat_map(Solver::loads).chain(operands).collect();
         let bounds = started.bounds();
         let inverse_bounds = |factor: f64| bounds.iter().map(|bound| 1.0 / (factor * bound)).collect();
         let mut context = BatchContext {
@@ -155,6 +162,7 @@ impl BatchContext {
             tear_slopes: Vec::new(),
             pivot_scale: 1.0,
             nominal_distance: 1.0,
+            signals,
             from: times.from(),
             vectors,
         };

@@ -3,6 +3,7 @@
 
 mod acceptance;
 mod context;
+mod lane_signals;
 mod result_finder;
 mod result_queries;
 mod row_collector;

@@ -4,6 +4,7 @@
 
 use super::acceptance::{LaneStates, Rejections, TrackedDerivatives, check_step};
 use super::context::{BatchContext, RowPlan};
+use super::lane_signals::LaneSignals;
 use super::row_collector::RowCollector;
 use super::{CHUNK, LANES, NEARLY, PerLane, ZERO, active_chunks};
 use crate::limits::step_control::CRUMB;
@@ -16,7 +17,7 @@ use std::array::from_fn;
 const ALIKE: f64 = 1e-9;
 /// Maximum number of times that one variant may shorten the steps of its batch.
 const PATIENCE: u32 = 16;
-/// Number of steps after a rejected one before longer ones are tried.
+/// Number of steps before longer ones are tried; each rejected step doubles it, so that a motion which stays fast does not use up the patience.
 const CALM_STEPS: u32 = 6;
 /// Numbers of continuation steps to a variant's parameters, tried in turn.
 const PARTS_OF_WAY: [u32; 6] = [1, 2, 4, 8, 16, 32];
@@ -49,10 +50,13 @@ pub(super) struct BatchStepper {
     node_count: usize,
     extrapolation: Extrapolation,
     guesses: Vec<PerLane>,
+    signals: Option<LaneSignals>,
     /// The present step length (s), its limit (s), and the number of steps of that length so far.
     step_length: f64,
     max_step: f64,
     steps_taken: u32,
+    /// The number of steps of one length before longer ones are tried.
+    calm_steps: u32,
     /// The lanes that go on, and the number of leading chunks that hold them.
     pub active: [bool; LANES],
     chunks: usize,
@@ -117,9 +121,11 @@ impl BatchStepper {
             node_count: 0,
             extrapolation: Extrapolation::default(),
             guesses: vec![ZERO; context.tears.len()],
+            signals: context.signals.as_ref().map(LaneSignals::new),
             step_length: 0.0,
             max_step: 0.0,
             steps_taken: 0,
+            calm_steps: CALM_STEPS,
             active: [false; LANES],
             chunks: 0,
             patience: [0; LANES],
@@ -138,7 +144,7 @@ impl BatchStepper {
     ) {
         (self.active, self.patience) = (active, [PATIENCE; LANES]);
         self.chunks = active_chunks(&active);
-        (self.max_step, self.steps_taken) = (max_step, 0);
+        (self.max_step, self.steps_taken, self.calm_steps) = (max_step, 0, CALM_STEPS);
         self.step_length = self.max_step;
         self.active = self.continue_to(context, params);
         solver.lanes.load(solver.solver, (&context.program, &context.scalars), &self.registers, self.chunks);
@@ -148,6 +154,9 @@ impl BatchStepper {
         let rejections = self.solve_at(context, context.from, None, Some(solver));
         rejections.lanes().for_each(|k| self.active[k] = false);
         self.commit();
+        if let (Some(all), Some(signals)) = (&context.signals, &mut self.signals) {
+            signals.begin(context, all, &self.registers, &self.active, context.from);
+        }
         self.node_count = 1;
     }
 
@@ -227,6 +236,7 @@ impl BatchStepper {
             let is_shown = is_last || at_every_step;
             if !self.try_step(context, next, is_shown.then_some(&mut *solver)) {
                 (self.step_length, self.steps_taken) = (0.5 * h, 0);
+                self.calm_steps = self.calm_steps.saturating_mul(2);
                 continue;
             }
             if is_shown {
@@ -234,7 +244,7 @@ impl BatchStepper {
             }
             if 2.0 * h > self.step_length {
                 self.steps_taken += 1;
-                if self.steps_taken == CALM_STEPS {
+                if self.steps_taken == self.calm_steps {
                     (self.step_length, self.steps_taken) = ((2.0 * self.step_length).min(self.max_step), 0);
                 }
             }
@@ -245,7 +255,10 @@ impl BatchStepper {
     fn try_step(&mut self, context: &BatchContext, t: f64, solver: Option<&mut LaneSolver<'_>>) -> bool {
         let h = t - self.now.t;
         self.extrapolate(context, h);
-        let rejections = self.solve_at(context, t, Some(h), solver);
+        let mut rejections = self.solve_at(context, t, Some(h), solver);
+        if let (Some(all), Some(signals)) = (&context.signals, &mut self.signals) {
+            signals.check(context, all, &self.registers, &self.active, [self.now.t, t], &mut rejections);
+        }
         let mut is_taken = true;
         for k in rejections.lanes() {
             if self.active[k] && self.patience[k] > 0 {
@@ -257,6 +270,9 @@ impl BatchStepper {
         }
         if is_taken {
             self.commit();
+            if let Some(signals) = &mut self.signals {
+                signals.commit();
+            }
         }
         is_taken
     }

@@ -228,8 +228,8 @@ impl Kinematics {
     }
 
     /// Returns whether equations are such that their smoothness does not depend on where the motion is: no formula of them has branches or ends, none
-    /// may lose its slope, nothing is monitored, and what time alone decides goes straight on.
-    pub fn is_plain(&self) -> bool {
+    /// may lose its slope, and nothing is monitored.
+    pub fn is_smooth(&self) -> bool {
         let system = self.system();
         let has_branches = !self.program.switches().is_empty() || !self.program.tables().is_empty();
         let is_watched =
@@ -238,8 +238,12 @@ impl Kinematics {
         let has_more =
             !system.required_forces().is_empty() || !system.loads().is_empty() || !system.contact_forces().is_empty();
         let is_varied = system.has_signals() || system.all_variations().is_some() || !system.open_contacts().is_empty();
-        let is_bent = !self.bent.is_empty() || !self.signals().is_empty();
-        !(has_branches || is_watched || on_the_way || has_more || is_varied || is_bent)
+        !(has_branches || is_watched || on_the_way || has_more || is_varied || !self.bent.is_empty())
+    }
+
+    /// Returns whether the equations are smooth, and what time alone decides goes straight on, so that steps show all of the motion.
+    pub fn is_plain(&self) -> bool {
+        self.is_smooth() && self.signals().is_empty()
     }
 
     /// Returns the program with its registers, whose switches stand as they are in this step.
