@@ -10,7 +10,6 @@ mod least_squares;
 mod linear;
 mod output_times;
 mod sparse;
-mod subsystem_derivatives;
 
 pub use determinant::Determinant;
 pub use error_bound::{Trust, are_alike, are_small};
