@@ -262,12 +262,10 @@ fn ensure(holds: bool, fault: impl Fn() -> String) -> Result<(), String> {
 #[cfg(test)]
 mod tests {
     use super::{
-        BodyId, ConstraintSystem, CoordinateKind, DeclarationId, DeclarationKind, JointKind, Owner, Row, RowUnit,
-        Variations, With,
+        BodyId, ConstraintSystem, CoordinateKind, DeclarationId, DeclarationKind, JointKind, Owner, Row, RowUnit, With,
     };
     use crate::{
-        Body, Coordinate, Declaration, DomainBoundary, Measure, Monitor, MonitorKind, Outcome, Point, Units, Variable,
-        Written,
+        Body, Coordinate, Declaration, DomainBoundary, Measure, Monitor, MonitorKind, Outcome, Point, Units, Written,
     };
     use mechc_expr::{ExprId, Graph, Symbol, Unary};
     use mechc_text::source::{Sources, Span};

@@ -1,7 +1,7 @@
 //! Derivatives in the texts of parts: by a part's own equations, so that the part must be determined alone, with its inputs held. Then they
 //! equal the derivatives by all equations.
 
-use super::{Determined, errors};
+use super::{Block, Determined, errors};
 use crate::PartWithDerivatives;
 use mechc_expr::Symbol;
 use mechc_text::diag::Diagnostics;
@@ -32,10 +32,11 @@ impl Determined {
             _ => false,
         };
         let is_fed_back = self.system.graph().symbols_of_all(&part.inputs).into_iter().any(is_own_coordinate);
-        let all = |is: bool, block: &super::Block| {
-            block.columns.iter().all(|column| is_own(column) == is)
-                && block.rows.iter().all(|row| is_own_row(row) == is)
+        let is_split = |block: &Block| {
+            let mut are_own = block.columns.iter().map(is_own).chain(block.rows.iter().map(is_own_row));
+            let first = are_own.next();
+            are_own.any(|own| Some(own) != first)
         };
-        !is_fed_back && self.blocks.iter().all(|block| all(true, block) || all(false, block))
+        !is_fed_back && !self.blocks.iter().any(is_split)
     }
 }
