@@ -159,7 +159,7 @@ impl ConstraintSystem {
         &self.parts
     }
 
-    /// Returns the parts that request derivatives by their own equations.
+    /// Returns the parts whose texts differentiate by inputs or parameters.
     #[must_use]
     pub fn parts_with_derivatives(&self) -> &[PartWithDerivatives] {
         &self.parts_with_derivatives

@@ -48,7 +48,7 @@ pub struct Written {
     pub fits: Vec<Fit>,
     /// Sub-mechanisms with what is needed to assemble them separately.
     pub parts: Vec<PartStart>,
-    /// Parts that request derivatives by their own equations.
+    /// Parts whose texts differentiate by inputs or parameters.
     pub parts_with_derivatives: Vec<PartWithDerivatives>,
     /// Characteristic length L (m): the size of the largest body.
     pub length: f64,

@@ -39,7 +39,6 @@ pub mod program;
 mod results;
 mod right_sides;
 mod rows;
-mod scopes;
 mod sparse;
 pub mod structure;
 mod validate;
@@ -56,11 +55,12 @@ pub use forces::{ContactForce, Forces, LoadForce, Mechanics, Reaction};
 pub use homotopy::Homotopy;
 pub use ids::{AxisId, BodyId, CircleId, DeclarationId, IdVec, PointId};
 pub use mechc_text::vocabulary::JointKind;
-pub use monitors::{Check, Condition, ConditionKind, Fit, Monitor, MonitorKind, OpenContact, PartStart};
+pub use monitors::{
+    Check, Condition, ConditionKind, Fit, Monitor, MonitorKind, OpenContact, PartStart, PartWithDerivatives,
+};
 pub use results::{Outcome, Reduction, ReductionKind, Results};
 pub use right_sides::{RightSide, With};
 pub use rows::{Row, RowUnit};
-pub use scopes::{LEAF_ORDERS, Leaf, PartWithDerivatives, Scope, leaf};
 pub use sparse::SparseRows;
 pub use variations::{DerivativeColumn, Variable, Variation, Variations};
 
@@ -124,7 +124,7 @@ pub struct ConstraintSystem {
     fits: Vec<Fit>,
     /// Sub-mechanisms with what is needed to assemble them separately.
     parts: Vec<PartStart>,
-    /// Parts that request derivatives with respect to their own equations alone.
+    /// Parts whose texts differentiate by inputs or parameters.
     parts_with_derivatives: Vec<PartWithDerivatives>,
     /// Characteristic length L (m): the size of the largest body.
     length: f64,

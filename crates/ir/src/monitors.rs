@@ -117,3 +117,22 @@ pub struct PartStart {
     /// The coordinates that its joints add.
     pub own: Range<usize>,
 }
+
+/// A part whose text differentiates by inputs or parameters. It must be determined alone.
+#[derive(Clone, Debug)]
+pub struct PartWithDerivatives {
+    /// Name.
+    pub name: String,
+    /// Names of the part and the parts around it, innermost first, with the spans of their declarations.
+    pub used_at: Vec<(String, Span)>,
+    /// Spans of the derivatives in its text.
+    pub places: Vec<Span>,
+    /// The first derivative as the outermost mechanism can write it; `None` if it cannot.
+    pub from_outside: Option<String>,
+    /// Coordinates, ascending.
+    pub columns: Vec<u32>,
+    /// Bindings of its inputs.
+    pub inputs: Vec<ExprId>,
+    /// Joints, constraints and drivers of the part, ascending.
+    pub declarations: Vec<DeclarationId>,
+}

@@ -4,7 +4,6 @@
 //! multipliers and reductions; and the symbols allowed in `Φ`, in constant formulas and in monitored ones. Not checked are the units of
 //! measures and reactions, the values of formulas, and that derivatives belong to their formulas.
 
-use super::scopes::as_leaf;
 use super::{
     BodyId, ConstraintSystem, CoordinateKind, DeclarationId, DeclarationKind, Forces, JointKind, Owner, ReductionKind,
     Row, RowUnit, Variations, With,
@@ -152,21 +151,15 @@ impl ConstraintSystem {
         ensure(self.rows.is_empty() || is_determined_by_time, || "no `ν` or no `γ`".to_owned())
     }
 
-    /// Checks that variations refer to existing variables and scopes, and have a right side for each row of the system or of their scope.
+    /// Checks that variations refer to existing variables, and have a right side for each row.
     fn check_variations(&self, variations: Option<&Variations>) -> Result<(), String> {
         let Some(variations) = variations else { return Ok(()) };
-        let is_scope = |scope: Option<u32>| scope.is_none_or(|scope| (scope as usize) < variations.scopes.len());
         let is_variable = |variable: u32| (variable as usize) < variations.variables.len();
-        for variable in &variations.variables {
-            ensure(is_scope(variable.scope), || format!("`{}` of no part", variable.name))?;
-        }
         for (k, variation) in variations.listed().iter().enumerate() {
             let (first, second) = variation.by;
-            let is_defined = is_variable(first) && second.is_none_or(is_variable) && is_scope(variation.scope);
+            let is_defined = is_variable(first) && second.is_none_or(is_variable);
             ensure(is_defined, || format!("variation {k} by nothing"))?;
-            let of_scope = variation.scope.map(|scope| &variations.scopes[scope as usize]);
-            let rows = of_scope.map_or(self.rows.len(), |scope| scope.phi.len());
-            let is_whole = variation.rights.iter().all(|right| right.len() == rows);
+            let is_whole = variation.rights.iter().all(|right| right.len() == self.rows.len());
             ensure(is_whole, || format!("variation {k} with other right sides than rows"))?;
             let is_whole = variation.forces.is_empty() || variation.forces.len() == self.coordinates.len();
             ensure(is_whole, || format!("variation {k} with other forces than coordinates"))?;
@@ -208,9 +201,7 @@ impl ConstraintSystem {
         match symbol {
             Symbol::Param(k) => (k as usize) < self.params.len(),
             Symbol::Shift(_) | Symbol::Time | Symbol::Signal { index: TIME_SIGNAL, .. } => true,
-            Symbol::Signal { index, .. } => {
-                as_leaf(symbol).is_some() || self.inputs.iter().any(|input| input.index == index)
-            }
+            Symbol::Signal { index, .. } => self.inputs.iter().any(|input| input.index == index),
             Symbol::Coordinate { index, order } => (index as usize) < self.coordinates.len() && order <= 3,
             Symbol::Varied { index, order, variation } => {
                 (index as usize) < self.coordinates.len() && order <= 2 && is_variation(variation)
@@ -276,12 +267,10 @@ fn ensure(holds: bool, fault: impl Fn() -> String) -> Result<(), String> {
 #[cfg(test)]
 mod tests {
     use super::{
-        BodyId, ConstraintSystem, CoordinateKind, DeclarationId, DeclarationKind, JointKind, Owner, Row, RowUnit,
-        Variations, With,
+        BodyId, ConstraintSystem, CoordinateKind, DeclarationId, DeclarationKind, JointKind, Owner, Row, RowUnit, With,
     };
     use crate::{
-        Body, Coordinate, Declaration, DomainBoundary, Measure, Monitor, MonitorKind, Outcome, Point, Units, Variable,
-        Written,
+        Body, Coordinate, Declaration, DomainBoundary, Measure, Monitor, MonitorKind, Outcome, Point, Units, Written,
     };
     use mechc_expr::{ExprId, Graph, Symbol, Unary};
     use mechc_text::source::{Sources, Span};
@@ -427,19 +416,6 @@ mod tests {
             s.watches.push(Monitor { value: force, kind: MonitorKind::Tangents, scale: 1.0, declaration: 0.into() });
         });
         assert_eq!(fault, "Multiplier(0) is of nothing", "no forces are requested");
-    }
-
-    #[test]
-    fn variables_have_existing_scopes() {
-        let variable = |scope| Variable {
-            name: "turn".to_owned(),
-            symbol: Symbol::Param(0),
-            unit: "rad".to_owned(),
-            span: system().span,
-            scope,
-        };
-        let with = |scope| broken(|s| s.variations = Some(Box::new(Variations::of(vec![variable(scope)]))));
-        assert_eq!(with(Some(3)), "`turn` of no part");
     }
 
     #[test]

@@ -8,7 +8,6 @@
 //! All share the matrix of the position equations. Source: E. J. Haug, K. K. Choi, V. Komkov, *Design Sensitivity Analysis of Structural
 //! Systems*, 1986, direct differentiation.
 
-use super::scopes::{Leaf, Scope, as_leaf, without_leaves};
 use super::{Check, ConstraintSystem};
 use crate::limits::MISSES;
 use mechc_expr::{Comparison, ExprId, Graph, Symbol, Unary};
@@ -25,10 +24,6 @@ pub struct Variations {
     numbers: FxHashMap<(u32, Option<u32>), u32>,
     /// Number of variations whose right sides have been derived.
     written: usize,
-    /// Parts whose own equations derivatives are taken by.
-    pub scopes: Vec<Scope>,
-    /// Inputs of these parts, by the number of their leaf symbol.
-    pub leaves: Vec<Leaf>,
     /// Columns of derivatives, after all others of the table.
     pub appended: Vec<DerivativeColumn>,
 }
@@ -44,18 +39,14 @@ pub struct Variable {
     pub unit: String,
     /// Span of its declaration.
     pub span: Span,
-    /// Index of the scope if the derivative follows the equations of one part alone.
-    pub scope: Option<u32>,
 }
 
-/// Derivatives of all coordinates, or those of a part, with respect to one or two variables.
+/// Derivatives of all coordinates with respect to one or two variables.
 #[derive(Clone, Debug)]
 pub struct Variation {
     /// The first variable, and the second one for a second derivative.
     pub by: (u32, Option<u32>),
-    /// Index of the scope if the variation follows the equations of one part alone: that of the first variable.
-    pub scope: Option<u32>,
-    /// Right sides for `q`, `q̇` and `q̈`, one entry per row of the system or of the scope [unit of the row, per time, per unit of the variables].
+    /// Right sides for `q`, `q̇` and `q̈`, one entry per row of the system [unit of the row, per time, per unit of the variables].
     pub rights: [Vec<ExprId>; 3],
     /// Right sides of the equations for the multipliers, one entry per coordinate, if forces are requested; else empty [unit of the
     /// coordinate's force per unit of the variables].
@@ -93,29 +84,9 @@ impl Variations {
         self.along(graph, roots, variable, &|_| false)
     }
 
-    /// Replaces leaves by the formulas that they are bound to.
-    pub fn without_leaves(&self, graph: &mut Graph, root: ExprId) -> ExprId {
-        without_leaves(graph, &self.leaves, &[root])[0]
-    }
-
-    /// Returns the index of the same variable restricted to the equations of a scope; adds it if it is new.
-    pub fn within(&mut self, variable: u32, scope: u32) -> u32 {
-        let of = self.variables[variable as usize].clone();
-        let is_same = |other: &Variable| other.symbol == of.symbol && other.scope == Some(scope);
-        let existing = self.variables.iter().position(is_same);
-        existing.unwrap_or_else(|| {
-            self.variables.push(Variable { scope: Some(scope), ..of });
-            self.variables.len() - 1
-        }) as u32
-    }
-
     /// The variations that have right sides, by number.
     pub(super) fn listed(&self) -> &[Variation] {
         &self.list[..self.written]
-    }
-
-    fn scope_of(&self, variable: u32) -> Option<u32> {
-        self.variables[variable as usize].scope
     }
 
     /// Returns the derivatives as [`Variations::derivatives`] does, with some symbols held constant.
@@ -127,22 +98,9 @@ impl Variations {
         stays: &dyn Fn(Symbol) -> bool,
     ) -> Vec<ExprId> {
         let varied = self.variables[variable as usize].symbol;
-        let scope = self.scope_of(variable);
         graph.variations(roots, |graph, symbol| match symbol {
             _ if stays(symbol) => None,
             _ if symbol == varied => Some(graph.constant(1.0)),
-            Symbol::Coordinate { index, .. }
-                if scope.is_some_and(|scope| !self.scopes[scope as usize].varies(index)) =>
-            {
-                None
-            }
-            Symbol::Signal { .. } => {
-                let (number, order) = as_leaf(symbol)?;
-                let leaf = &self.leaves[number];
-                let is_held = scope == Some(leaf.scope);
-                let bound = leaf.with_leaves[order];
-                (!is_held).then(|| self.along(graph, &[bound], variable, &|_| false)[0])
-            }
             Symbol::Coordinate { index, order } => {
                 let variation = self.number(variable, None);
                 Some(graph.symbol(Symbol::Varied { index, order, variation }))
@@ -167,9 +125,9 @@ impl Variations {
 
     /// Returns the number of a variation; adds it if it is new.
     fn number(&mut self, first: u32, second: Option<u32>) -> u32 {
-        // with one set of equations the order of the two variables is irrelevant
+        // the order of the two variables is irrelevant
         let by = match second {
-            Some(second) if second < first && self.scope_of(first) == self.scope_of(second) => (second, Some(first)),
+            Some(second) if second < first => (second, Some(first)),
             _ => (first, second),
         };
         if let Some(&number) = self.numbers.get(&by) {
@@ -180,13 +138,7 @@ impl Variations {
             self.number(b, None);
         }
         let number = self.list.len() as u32;
-        self.list.push(Variation {
-            by,
-            scope: self.scope_of(by.0),
-            rights: Default::default(),
-            forces: Vec::new(),
-            is_of_forces: false,
-        });
+        self.list.push(Variation { by, rights: Default::default(), forces: Vec::new(), is_of_forces: false });
         self.numbers.insert(by, number);
         number
     }
@@ -215,20 +167,14 @@ impl Variations {
 
     /// Derives the right sides of all variations that have none yet, from the rows of `Φ`.
     fn write_rights(&mut self, graph: &mut Graph, phi: &[ExprId]) {
-        for scope in &mut self.scopes {
-            scope.derive(graph, &self.leaves);
-        }
         let first_open = std::mem::replace(&mut self.written, self.list.len());
         if first_open == self.list.len() {
             return;
         }
-        let system_orders = with_rates(graph, phi);
-        let scope_orders: Vec<[Vec<ExprId>; 3]> =
-            self.scopes.iter().map(|scope| with_rates(graph, &scope.phi)).collect();
+        let orders = with_rates(graph, phi);
         let mut first_derivatives: FxHashMap<(u32, usize), Vec<ExprId>> = FxHashMap::default();
         for number in first_open..self.list.len() {
             let (first, second) = self.list[number].by;
-            let orders = self.list[number].scope.map_or(&system_orders, |scope| &scope_orders[scope as usize]);
             for (order, roots) in orders.iter().enumerate() {
                 let top = order as u8;
                 let slopes = match second {
@@ -248,7 +194,6 @@ impl Variations {
                         slopes
                     }
                 };
-                let slopes = without_leaves(graph, &self.leaves, &slopes);
                 self.list[number].rights[order] = slopes.into_iter().map(|slope| graph.neg(slope)).collect();
             }
         }
@@ -257,7 +202,7 @@ impl Variations {
     /// Derives the right sides of the equations for varied multipliers that are needed and missing.
     fn write_rights_of_forces(&mut self, graph: &mut Graph, open_forces: &[ExprId]) {
         for number in 0..self.list.len() {
-            if self.list[number].scope.is_none() && self.list[number].forces.is_empty() {
+            if self.list[number].forces.is_empty() {
                 self.list[number].forces = self.rights_of_forces(graph, open_forces, number);
             }
         }
@@ -293,8 +238,7 @@ impl Variations {
 impl Variations {
     /// Keeps only the right sides of the given rows.
     fn keep(&mut self, kept: &[usize]) {
-        let of_whole = self.list.iter_mut().filter(|variation| variation.scope.is_none());
-        for rights in of_whole.flat_map(|variation| &mut variation.rights) {
+        for rights in self.list.iter_mut().flat_map(|variation| &mut variation.rights) {
             *rights = kept.iter().map(|&row| rights[row]).collect();
         }
     }
@@ -322,12 +266,6 @@ impl ConstraintSystem {
     #[must_use]
     pub fn variations(&self) -> &[Variation] {
         self.variations.as_ref().map_or(&[], |variations| &variations.list)
-    }
-
-    /// Returns the parts with variations of their own equations.
-    #[must_use]
-    pub fn scopes(&self) -> &[Scope] {
-        self.variations.as_ref().map_or(&[], |variations| &variations.scopes)
     }
 
     /// Returns the columns of derivatives, which follow all others of the table.

@@ -411,20 +411,15 @@ impl Checked {
         match &self.model {
             None => (None, Diagnostics::default()),
             Some(model) => {
-                let (compiled, diagnostics) = self.compiled(model, redundant, cancel);
-                let coupled = compiled.as_ref().map_or(Ok(Vec::new()), Compiled::coupled_parts);
-                let (compiled, diagnostics) = match coupled {
-                    Ok(coupled) if coupled.is_empty() => (compiled, diagnostics),
-                    Ok(coupled) => match self.model_with_coupled(coupled) {
-                        Some(model) => with_part_equations(self.compiled(&model, redundant, cancel)),
-                        None => (None, diagnostics),
-                    },
-                    Err(more) => {
-                        let mut diagnostics = diagnostics;
-                        diagnostics.extend(more);
-                        (None, diagnostics)
-                    }
-                };
+                let (start_solver, backtrace) = (self.start_solver.clone(), PartBacktrace::new(model));
+                let sources = self.sources().clone();
+                let (mut compiled, mut diagnostics) =
+                    Compiled::new(sources, lower_model(model), redundant, start_solver, backtrace, cancel);
+                if let Some(Err(why)) = compiled.as_ref().map(|compiled| compiled.determined().check_part_derivatives())
+                {
+                    diagnostics.extend(why);
+                    compiled = None;
+                }
                 let continuation = self.is_continued.then(|| self.continuation(redundant));
                 (
                     compiled.map(|compiled| compiled.with_rebuild(self.rebuild()).with_continuation(continuation)),
@@ -432,31 +427,6 @@ impl Checked {
                 )
             }
         }
-    }
-
-    fn compiled(&self, model: &Mechanism, redundant: Redundant, cancel: &Cancel) -> (Option<Compiled>, Diagnostics) {
-        let (start_solver, backtrace) = (self.start_solver.clone(), PartBacktrace::new(model));
-        Compiled::new(self.sources().clone(), lower_model(model), redundant, start_solver, backtrace, cancel)
-    }
-
-    /// Returns the model in which the given parts request derivatives by their own equations, though they move together with their surroundings.
-    fn model_with_coupled(&self, coupled: Vec<String>) -> Option<Mechanism> {
-        let tree = &self.parsed.tree().mechanisms[self.index?];
-        let check_options = CheckOptions { coupled, ..(*self.check_options).clone() };
-        check::check(tree, &check_options, self.sources()).0
-    }
-}
-
-/// Returns a mechanism whose parts keep to their own equations; `None` with more diagnostics if these do not determine the parts.
-fn with_part_equations(
-    (compiled, mut diagnostics): (Option<Compiled>, Diagnostics),
-) -> (Option<Compiled>, Diagnostics) {
-    match compiled.as_ref().map(Compiled::coupled_parts) {
-        Some(Err(more)) => {
-            diagnostics.extend(more);
-            (None, diagnostics)
-        }
-        _ => (compiled, diagnostics),
     }
 }
 

@@ -274,14 +274,6 @@ impl Compiled {
         &self.backtrace
     }
 
-    /// Returns the parts that request derivatives by their own equations and move together with their surroundings.
-    ///
-    /// # Errors
-    /// Such a part is not determined alone.
-    pub(crate) fn coupled_parts(&self) -> Result<Vec<String>, Diagnostics> {
-        self.determined.coupled_parts()
-    }
-
     /// Returns the constraint system.
     #[must_use]
     pub fn system(&self) -> &ConstraintSystem {

@@ -1,4 +1,4 @@
-//! Derivatives by name inside a part: by its own equations, with its inputs held, whatever is around it.
+//! Derivatives by name inside a part: by its own equations, with its inputs held. They exist only if these equations determine the part.
 
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, clippy::float_cmp)] // a test fails by panicking
 
@@ -56,20 +56,6 @@ fn table(text: &str) -> (Table, Compiled) {
     (Table { columns: compiled.columns(), rows }, compiled)
 }
 
-/// A lever whose input follows a link that has to turn as the lever's tip is lifted.
-fn lifted(mount: &str, more: &str) -> String {
-    format!(
-        "mechanism whole {{
-    ground {{ point O = (0, 0) }}
-    body link at (3 m, 0, 0.2) {{ point O = (0, 0) }}
-    joint pin: revolute((3 m, 0), link.O)
-    {mount}
-    driver lift: y(p.arm.tip) = 0.4 m + 0.3 m/s * t
-    {more}
-}}\n{LEVER}"
-    )
-}
-
 /// Checks the lever's own measures against its angle and the rate of that angle.
 fn is_as_alone(table: &Table, angle: &str) {
     let rate = format!("{angle}.d");
@@ -84,94 +70,32 @@ fn is_as_alone(table: &Table, angle: &str) {
 
 #[test]
 fn bound_inputs_leave_part_derivatives_unchanged() {
-    let text = lifted(
-        "part p: lever(turn = 2 * angle(link)) at (0, 0, 0)",
-        "measure angle_of_arm = angle(p.arm)
-    measure by_all = der(x(p.arm.tip), p.reach)
-    measure of_gain = der(p.gain, p.reach)
-    measure of_gain_by_half = der(p.by_turn, half)
-    param half = 0.3 m/s
-    result least = min(p.both)",
-    )
-    .replace("0.3 m/s * t", "half * t");
-    let (table, compiled) = table(&text);
-    is_as_alone(&table, "angle_of_arm");
-    // by all equations the tip stays at its height: φ' = −tan φ / r
-    let tan = |x: f64| sin(x) / cos(x);
-    holds(&table, "by_all", &["angle_of_arm"], |x| cos(x[0]) + sin(x[0]) * tan(x[0]));
-    holds(&table, "of_gain", &["angle_of_arm"], |x| sin(x[0]) * tan(x[0]));
-    // φ' = t / (r cos φ)
-    holds(&table, "of_gain_by_half", &["angle_of_arm", "t"], |x| -tan(x[0]) * x[1]);
-    let mut run =
-        compiled.run(&Times::grid(0.0, 1.0, 0.5).expect("a grid"), &RunOptions::default()).0.expect("it runs");
-    while run.next_row().is_some() {}
-    let answers = run.results().expect("results");
-    // the tip goes from 0.4 m to 0.7 m
-    let wanted = [0.84_f64.sqrt(), 0.0, -0.7];
-    for (value, wanted) in answers.values.iter().zip(wanted) {
-        let value = value.unwrap_or_else(|| panic!("{:?}", answers.notes));
-        assert!((value - wanted).abs() < CLOSE, "{value} instead of {wanted}");
-    }
-}
-
-#[test]
-fn mounted_parts_use_their_own_ground() {
-    // the mount slides as the tip asks, which stays at its height
-    let text = format!(
-        "mechanism whole {{
-    ground {{ axis way = (0, 0) along (0, 1) }}
-    body cart at (0, 0.1 m, 0) {{ axis way = (0, 0) along (0, 1) }}
-    joint guide: translational(ground.way, cart.way)
-    part p: lever(turn = 0.5 + 0.2 * t) on cart at (1 m, 0, 0) mirrored
-    driver level: y(p.arm.tip) = 0.2 m
-    measure angle_of_arm = -angle(p.arm)
-}}\n{LEVER}"
-    );
-    let (table, _) = table(&text);
-    is_as_alone(&table, "angle_of_arm");
-}
-
-#[test]
-fn feedback_inputs_are_held() {
-    let text = format!(
-        "mechanism whole {{
-    part p: lever(turn = 0.5 * angle(p.arm) + 0.3 + 0.1 * t) at (0, 0, 0)
-    measure angle_of_arm = angle(p.arm)
-    measure by_all = der(x(p.arm.tip), p.reach)
-}}\n{LEVER}"
-    );
-    let (table, _) = table(&text);
-    holds(&table, "angle_of_arm", &["t"], |x| 0.6 + 0.2 * x[0]);
-    is_as_alone(&table, "angle_of_arm");
-}
-
-#[test]
-fn nested_parts_have_separate_derivatives() {
     let text = format!(
         "mechanism whole {{
     ground {{ point O = (0, 0) }}
     body link at (3 m, 0, 0.2) {{ point O = (0, 0) }}
     joint pin: revolute((3 m, 0), link.O)
-    part o: outer(swing = 2 * angle(link)) at (0, 0, 0)
-    driver lift: y(o.p.arm.tip) = 0.4 m + 0.3 m/s * t
-    measure angle_of_arm = angle(o.p.arm)
-}}
-mechanism outer {{
-    input swing = 0.5
-    param more = 1
-    part p: lever(turn = more * swing) at (0, 0, 0)
-    measure by_more = der(x(p.arm.tip), more)
-    measure by_reach = der(y(p.arm.tip), p.reach)
-    measure of_gain = der(p.gain, swing)
+    driver swing: rotation(pin) = half + 0.1 * t
+    part p: lever(turn = 2 * angle(link)) at (0, 0, 0)
+    param half = 0.2
+    measure angle_of_arm = angle(p.arm)
+    measure of_gain_by_half = der(p.gain, half)
+    result least = min(p.both)
 }}\n{LEVER}"
     );
-    let (table, _) = table(&text);
-    let angle = ["angle_of_arm"];
-    holds(&table, "o.p.gain", &angle, |x| cos(x[0]));
-    holds(&table, "o.p.both", &angle, |x| -sin(x[0]));
-    holds(&table, "o.by_more", &angle, |x| -sin(x[0]) * x[0]);
-    holds(&table, "o.by_reach", &angle, |x| sin(x[0]));
-    holds(&table, "o.of_gain", &angle, |x| -sin(x[0]));
+    let (table, compiled) = table(&text);
+    is_as_alone(&table, "angle_of_arm");
+    holds(&table, "of_gain_by_half", &["angle_of_arm"], |x| -2.0 * sin(x[0]));
+    let mut run =
+        compiled.run(&Times::grid(0.0, 1.0, 0.5).expect("a grid"), &RunOptions::default()).0.expect("it runs");
+    while run.next_row().is_some() {}
+    let answers = run.results().expect("results");
+    // the arm turns from 0.4 to 0.6
+    let wanted = [cos(0.4), 0.0, -sin(0.6)];
+    for (value, wanted) in answers.values.iter().zip(wanted) {
+        let value = value.unwrap_or_else(|| panic!("{:?}", answers.notes));
+        assert!((value - wanted).abs() < CLOSE, "{value} instead of {wanted}");
+    }
 }
 
 #[test]
@@ -189,39 +113,38 @@ fn uncoupled_parts_keep_their_bits() {
     assert_eq!(inside.column("p.gain"), outside.column("width"));
 }
 
-/// A rod that a slider's way turns, seen from the rod: with the way held there is a dead point where the rod lies along it.
+/// Refuses the derivatives of a part, and takes what the message says instead: each is given as the mechanism around it and the derivative
+/// that it may hold.
 #[test]
-fn dead_points_of_parts_leave_no_value() {
-    let text = "mechanism whole {
-    ground { point O = (0, 0) axis way = (0, 3 m) along (1, 0) }
-    body follower at (0.8 m, 3 m, 0) { axis way = (0, 0) along (1, 0)  point P = (0, 0) }
-    joint guide: translational(ground.way, follower.way)
-    part p: push(way = x(follower.P)) at (0, 0, 0)
-    driver turn: angle(p.rod) = 0.5 - t
-    measure angle_of_rod = angle(p.rod)
-}
-mechanism push {
-    input way = 0.8 m
-    param long = 1 m
-    ground { point O = (0, 0) }
-    body rod at (0, 0, 0.5) { point O = (0, 0)  point eye = (long, 0) }
-    joint main: revolute(ground.O, rod.O)
-    constraint pushed: x(rod.eye) = way
-    measure gain = der(angle(rod), way)
-}\n";
-    let text = text.replace("constraint pushed", "driver pushed");
-    let compiled = compile(&text).unwrap_or_else(|messages| panic!("{messages:?}"));
-    let times = Times::listed(0.0, vec![0.0, 0.25, 0.4999, 0.5, 0.5001, 0.75]);
-    let (rows, messages) = all_rows(&compiled, &times);
-    let at = |name: &str| compiled.columns().iter().position(|column| column == name).expect("a column");
-    let (gain, angle) = (at("p.gain"), at("angle_of_rod"));
-    assert_eq!(rows.len(), 6, "{messages:?}");
-    for (k, row) in rows.iter().enumerate() {
-        if (2..5).contains(&k) {
-            assert!(row[gain].is_nan(), "{row:?}");
-        } else {
-            assert!((row[gain] + 1.0 / sin(row[angle])).abs() < 1e-8, "{row:?}");
-        }
+fn coupled_parts_are_refused_with_a_substitute() {
+    let link = "ground { point O = (0, 0) }
+    body link at (3 m, 0, 0.2) { point O = (0, 0) }
+    joint pin: revolute((3 m, 0), link.O)";
+    let lift = "driver lift: y(p.arm.tip) = 0.4 m + 0.3 m/s * t";
+    let cart = "ground { axis way = (0, 0) along (0, 1) }
+    body cart at (0, 0.1 m, 0) { axis way = (0, 0) along (0, 1) }
+    joint guide: translational(ground.way, cart.way)
+    part p: lever(turn = 0.5 + 0.2 * t) on cart at (1 m, 0, 0) mirrored
+    driver level: y(p.arm.tip) = 0.2 m";
+    let coupled = [
+        // the input follows a link that has to turn as the tip is lifted
+        format!("{link}  part p: lever(turn = 2 * angle(link)) at (0, 0, 0)  {lift}"),
+        // the mount slides as the tip asks
+        cart.to_owned(),
+        // the input follows the part itself
+        "part p: lever(turn = 0.5 * angle(p.arm) + 0.3 + 0.1 * t) at (0, 0, 0)".to_owned(),
+    ];
+    for around in coupled {
+        let text = |around: &str, lever: &str| format!("mechanism whole {{ {around} }}\n{lever}");
+        let messages = compile(&text(&around, LEVER)).err().expect("it is refused");
+        let faults: Vec<_> = messages.iter().filter(|message| message.code.as_str() == "E0508").collect();
+        let [fault] = faults.as_slice() else { panic!("{messages:?}") };
+        let help = fault.help.first().expect("a help");
+        assert!(help.ends_with("`der(p.width, p.reach)`"), "{help}");
+        let is_allowed = |line: &&str| !line.contains("der(") && !line.contains("result");
+        let lever: Vec<&str> = LEVER.lines().filter(is_allowed).collect();
+        let around = format!("{around}  measure gain = der(p.width, p.reach)");
+        assert!(compile(&text(&around, &lever.join("\n"))).is_ok(), "{around}");
     }
 }
 

@@ -53,10 +53,6 @@ impl Program {
             inputs: slopes.by_inputs().map(&mut varied).collect(),
             params: slopes.by_params().map(&mut varied).collect(),
         };
-        for scope in system.scopes() {
-            let entries = scope.phi_q.entries().iter().map(|&(_, id)| id);
-            outputs.scopes.push(layout.emit_all(Stage::Variation, entries));
-        }
         for variation in system.variations() {
             let rights = variation.rights.each_ref();
             outputs.variations.push(rights.map(|rights| layout.emit_all(Stage::Variation, rights.iter().copied())));

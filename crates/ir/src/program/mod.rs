@@ -220,8 +220,6 @@ pub struct Outputs {
     pub variations: Vec<[Vec<Register>; 3]>,
     /// Right sides of the varied multipliers of each variation; empty where it has none.
     pub varied_forces: Vec<Vec<Register>>,
-    /// Entries of the matrix of each scope, row by row.
-    pub scopes: Vec<Vec<Register>>,
     /// Derivative columns.
     pub appended: Vec<Register>,
     /// Reactions and efforts, if they are tabulated.

@@ -176,56 +176,23 @@ fn with_data(
         .datum("free", free)
 }
 
-/// Reports a part that requests derivatives by its own equations, which do not determine it.
-pub fn not_determined_alone(part: &PartWithDerivatives, rows: usize, columns: usize) -> Diagnostic {
-    let message =
-        format!("there is no derivative by the own equations of part `{}`, which is not determined alone", part.name);
-    let counts = format!("with its inputs held it has {columns} coordinates and {rows} equations of its own");
-    at_requests(Diagnostic::new(Code::E0508, message), part)
-        .note(counts)
-        .help(format!("take the derivative where the part is used: `der({}.…, NAME)`", part.name))
-        .datum("coordinates", columns)
-        .datum("equations", rows)
-}
-
-/// Reports a coupled part in a mechanism with left-out equations.
-pub fn coupled_without_equations(part: &PartWithDerivatives) -> Diagnostic {
-    let message = format!(
-        "there is no derivative by the own equations of part `{}`, which moves together with what is around it",
-        part.name
-    );
-    at_requests(Diagnostic::new(Code::E0508, message), part)
-        .note("equations were left out, and it cannot be told which of them the part would need alone")
-        .help(format!("take the derivative where the part is used: `der({}.…, NAME)`", part.name))
-}
-
-/// Reports the derivative of a force in a coupled part: its surroundings share the force, and its own equations do not contain them.
-pub fn force_of_coupled(part: &PartWithDerivatives) -> Diagnostic {
-    let message = format!(
-        "no force has a derivative by the own equations of part `{}`, which moves together with what is around it",
-        part.name
-    );
+/// Reports a part whose text differentiates although its own equations do not determine it.
+pub fn not_determined_alone(part: &PartWithDerivatives) -> Diagnostic {
+    let message = format!("part `{}` is not determined alone, so its text cannot differentiate by names", part.name);
     let mut diagnostic = Diagnostic::new(Code::E0508, message);
-    if let Some(span) = part.of_force {
-        diagnostic = diagnostic.at(span, "of a force, by the equations of this mechanism alone");
-    }
-    let help =
-        format!("take the derivative where the part is used, by all equations: `der(effort({}.…), NAME)`", part.name);
-    used_at(diagnostic, part).note("forces follow from what is around the part too").help(help)
-}
-
-/// Adds the spans where a part requests derivatives, and those where the part is used.
-fn at_requests(mut diagnostic: Diagnostic, part: &PartWithDerivatives) -> Diagnostic {
     for (k, span) in part.places.iter().take(LISTED).enumerate() {
         let text = "by the equations of this mechanism alone";
         diagnostic = if k == 0 { diagnostic.at(*span, text) } else { diagnostic.also(*span, "and here") };
     }
-    used_at(diagnostic, part)
-}
-
-fn used_at(mut diagnostic: Diagnostic, part: &PartWithDerivatives) -> Diagnostic {
     for (name, span) in &part.used_at {
         diagnostic = diagnostic.in_part(name, *span);
     }
-    diagnostic
+    let help = match &part.from_outside {
+        Some(text) => format!("differentiate in the outermost mechanism, by all equations: `{text}`"),
+        None => format!(
+            "differentiate in the outermost mechanism, by an input or param that is not bound: `der({}.…, NAME)`",
+            part.name
+        ),
+    };
+    diagnostic.note("it moves together with its surroundings").help(help)
 }

@@ -4,10 +4,10 @@
 //! coordinates and ordered in blocks; each block can be solved after those before it.
 
 mod count;
-mod coupled_parts;
 mod errors;
 mod matching;
 mod order;
+mod part_derivatives;
 
 pub use count::table;
 pub use order::{Step, order_of_solution, steps};

@@ -304,19 +304,13 @@ impl Checker<'_> {
     }
 
     fn quantities_in(&self, ids: [ExprId; 2]) -> Vec<Quantity> {
-        self.quantities_in_all(&ids)
-    }
-
-    fn quantities_in_all(&self, ids: &[ExprId]) -> Vec<Quantity> {
         let graph = &self.model.graph;
-        ids.iter()
-            .copied()
+        ids.into_iter()
             .filter(|&id| graph.dependence(id).on(Dependence::NAMED))
             .flat_map(|id| graph.symbols(id))
             .flat_map(|symbol| match symbol {
                 Symbol::Named(k) => match self.model.named[k as usize] {
                     Named::Quantity(_, quantity) => vec![quantity],
-                    Named::Held(_, inner) => self.quantities_in_all(&[inner]),
                     _ => Vec::new(),
                 },
                 _ => Vec::new(),

@@ -345,7 +345,7 @@ impl Checker<'_> {
                 let Symbol::Named(k) = symbol else { continue };
                 match self.model.named.get(k as usize) {
                     Some(named) if accepts(named) => return true,
-                    Some(Named::Derivative(inner) | Named::By(inner, ..) | Named::Held(_, inner)) => open.push(*inner),
+                    Some(Named::Derivative(inner) | Named::By(inner, _)) => open.push(*inner),
                     _ => {}
                 }
             }

@@ -110,7 +110,7 @@ impl<'a> Checker<'a> {
         let value = self.input_bound(part, input, binding);
         self.in_part(part, |child| {
             let declared = child.declared(&binding.name);
-            let value = value.map(|value| child.held_input(value)).map(|value| child.with_shift(&declared, value));
+            let value = value.map(|value| child.with_shift(&declared, value));
             if let Some(state) = child.inputs.get_mut(input) {
                 state.value = value;
             }

@@ -34,8 +34,6 @@ pub struct CheckOptions {
     pub has_signals: bool,
     /// Inputs that become settable numbers.
     pub set_inputs: Option<SettableInputs>,
-    /// The paths of parts whose derivatives use only their own equations, although they move together with their surroundings.
-    pub coupled: Vec<String>,
 }
 
 /// The override of a parameter: `--set crank_length=60mm`.

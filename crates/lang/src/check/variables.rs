@@ -144,32 +144,34 @@ impl Checker<'_> {
         }
         let by = self.common.variables.dims[variable as usize];
         let dim = inner.dim.with(by, Dimension::over);
-        let within = self.address.part.filter(|_| self.is_coupled());
-        let is_of_force = self.holds_force(inner.id);
-        if is_of_force {
+        if self.holds_force(inner.id) {
             self.common.variables.of_forces.push(e.span);
         }
-        self.model.part_derivatives.extend(self.address.part.map(|part| PartDerivative {
-            part,
-            span: e.span,
-            is_of_force,
-        }));
-        let id = self.name_symbol(Named::By(inner.id, variable, within), rates);
+        if let Some(part) = self.address.part {
+            let derivative = PartDerivative { part, span: e.span, from_outside: self.text_from_outside(e) };
+            self.model.part_derivatives.push(derivative);
+        }
+        let id = self.name_symbol(Named::By(inner.id, variable), rates);
         self.common.variables.orders.insert(id, (times + 1, rates));
         Some(Value { id, dim })
     }
 
-    /// Returns whether derivatives in this text use only its own equations, although it moves together with its surroundings.
-    fn is_coupled(&self) -> bool {
-        let path = self.address.path.trim_end_matches('.');
-        self.options.coupled.iter().any(|coupled| coupled == path)
+    /// Returns a formula of calls and names of this text as the outermost mechanism writes it; `None` for other formulas, and if a name is
+    /// bound, so that nothing outside can be differentiated by it.
+    fn text_from_outside(&self, e: &Expr) -> Option<String> {
+        let path = &self.address.path;
+        match &e.kind {
+            ExprKind::Call { name, arguments, window: None } if self.entity(name).is_none() => {
+                let arguments: Option<Vec<String>> = arguments.iter().map(|e| self.text_from_outside(e)).collect();
+                Some(format!("{}({})", name.text, arguments?.join(", ")))
+            }
+            ExprKind::Name(name) if self.entity(name).is_none() => Some(name.text.clone()),
+            _ => named(e).filter(|name| !self.is_bound(name)).map(|name| format!("{path}{name}")),
+        }
     }
 
-    /// Returns the formula to which an input is bound, held fixed in derivatives by the part's own equations.
-    pub(super) fn held_input(&mut self, value: Value) -> Value {
-        let Some(part) = self.address.part.filter(|_| self.is_coupled()) else { return value };
-        let order = self.derivative_order(value.id);
-        Value { id: self.name_symbol(Named::Held(part, value.id), order), ..value }
+    fn is_bound(&self, name: &str) -> bool {
+        self.bound.inputs.contains(&name) || self.bound.params.iter().any(|param| param.name == name)
     }
 
     /// Registers a formula as the time derivative of another one. Returns whether its order is allowed.

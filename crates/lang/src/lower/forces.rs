@@ -30,9 +30,7 @@ pub(super) fn symbols_with_forces(model: &Mechanism) -> Vec<bool> {
         };
         holds.push(match *named {
             Named::Force(..) => true,
-            Named::Derivative(inner) | Named::By(inner, ..) | Named::Held(_, inner) => {
-                model.requires_forces() && of_others(inner)
-            }
+            Named::Derivative(inner) | Named::By(inner, _) => model.requires_forces() && of_others(inner),
             Named::Quantity(..) | Named::Exists(..) | Named::Reduction(_) | Named::Argument => false,
         });
     }

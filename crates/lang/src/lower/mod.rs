@@ -12,7 +12,7 @@ mod gears;
 mod inputs;
 mod joints;
 mod numbering;
-mod part_scopes;
+mod part_derivatives;
 mod part_starts;
 mod quantities;
 mod results;
@@ -144,8 +144,6 @@ struct Lowering<'m> {
     fits: Vec<Fit>,
     /// The variables of derivatives other than time, with these derivatives.
     variations: Option<Variations>,
-    /// The formulas in which the inputs of parts are leaves.
-    leaf_context: part_scopes::LeafContext,
 }
 
 /// Imports a formula of the model into another graph.
@@ -228,7 +226,6 @@ impl<'m> Lowering<'m> {
             watches: Vec::new(),
             fits: Vec::new(),
             variations: variations::variables(model),
-            leaf_context: part_scopes::LeafContext::default(),
         }
     }
 }
@@ -238,13 +235,11 @@ impl Lowering<'_> {
     fn build(&mut self) -> Written {
         let model = self.model;
         self.tables();
-        self.open_scopes();
         self.resolve_symbols_up_to(model.named_before_results);
         self.body_coordinates();
         self.joint_rows();
         self.equation_rows();
         self.resolve_force_symbols();
-        self.rows_of_scopes();
         self.conditions();
         let (points, forces, measures) = (self.points(), self.forces(), self.measures());
         let (parts, parts_with_derivatives) = (self.part_starts(), self.parts_with_derivatives());
@@ -333,8 +328,10 @@ impl Lowering<'_> {
                 let inner = self.formula(inner);
                 ConstraintSystem::time_derivatives(&mut self.graph, &[inner], 3)[0]
             }
-            Named::By(inner, variable, part) => self.derivative_within(k, inner, variable, part),
-            Named::Held(part, bound) => self.held_input(part, bound),
+            Named::By(inner, variable) => {
+                let inner = self.formula(inner);
+                self.derivative_by(inner, variable)
+            }
             Named::Reduction(k) => self.reduction_number(k),
             // The formulas of a curve are imported for each contact. Elsewhere only unused formulas hold its argument.
             Named::Argument => self.graph.constant(0.0),

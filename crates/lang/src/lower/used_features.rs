@@ -55,7 +55,7 @@ fn collect_formula_points(model: &Mechanism, formulas: &[ExprId], points: &mut V
             match model.named[k as usize] {
                 Named::Quantity(_, quantity) => collect_quantity_points(model, quantity, points),
                 // A symbol refers to earlier symbols only, so that this ends.
-                Named::Derivative(inner) | Named::By(inner, ..) | Named::Held(_, inner) => open.push(inner),
+                Named::Derivative(inner) | Named::By(inner, _) => open.push(inner),
                 Named::Argument | Named::Reduction(_) | Named::Exists(..) | Named::Force(..) => {}
             }
         }

@@ -12,7 +12,6 @@ pub(super) fn variables(model: &Mechanism) -> Option<Variations> {
         symbol: of.symbol,
         unit: Units::si(of.dimension, of.is_angle).si,
         span: of.declared.span,
-        scope: None,
     };
     let variables: Vec<Variable> = model.variables.iter().map(variable).collect();
     (!variables.is_empty()).then(|| Variations::of(variables))

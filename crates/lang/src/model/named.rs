@@ -10,12 +10,8 @@ pub enum Named {
     Quantity(Option<PartId>, Quantity),
     /// The time derivative of a formula along the motion.
     Derivative(ExprId),
-    /// The derivative of a formula by the variable of this number, at fixed time. In a part that moves together with its surroundings, the
-    /// derivative is taken by the part's own equations.
-    By(ExprId, u32, Option<PartId>),
-    /// An input of a part that moves together with its surroundings, held fixed while the part's own equations are differentiated; and the
-    /// formula to which it is bound.
-    Held(PartId, ExprId),
+    /// The derivative of a formula by the variable of this number, at fixed time.
+    By(ExprId, u32),
     /// A formula that is greater than zero where a quantity of measures exists.
     Exists(Option<PartId>, Quantity),
     /// A number of the whole analysis, by its index among the reductions.

@@ -30,12 +30,12 @@ pub struct Part {
 }
 
 /// A derivative by an input or parameter in the text of a part.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[derive(Clone, Debug)]
 pub struct PartDerivative {
     /// The part.
     pub part: PartId,
     /// The location of the derivative.
     pub span: Span,
-    /// True if a force is differentiated.
-    pub is_of_force: bool,
+    /// The derivative as the outermost mechanism can write it; `None` if it cannot.
+    pub from_outside: Option<String>,
 }

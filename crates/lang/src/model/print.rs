@@ -100,8 +100,7 @@ impl Text<'_> {
                 Named::Derivative(inner) => format!("der({})", self.formula_text(inner)),
                 Named::Force(_, force) => force.written(self.model),
                 Named::Exists(_, quantity) => format!("exists {}", self.quantity_text(quantity, &text)),
-                Named::Held(_, inner) => self.formula_text(inner),
-                Named::By(inner, variable, _) => {
+                Named::By(inner, variable) => {
                     let by = &self.model.variables[variable as usize].declared.name;
                     format!("der({}, {by})", self.formula_text(inner))
                 }
@@ -309,7 +308,7 @@ impl Mechanism {
         list.extend(self.outcomes.iter().map(|outcome| outcome.value));
         list.extend(self.reductions.iter().map(|reduction| reduction.of));
         list.extend(self.named.iter().filter_map(|named| match named {
-            Named::Derivative(inner) | Named::By(inner, ..) | Named::Held(_, inner) => Some(*inner),
+            Named::Derivative(inner) | Named::By(inner, _) => Some(*inner),
             Named::Quantity(..) | Named::Force(..) | Named::Exists(..) | Named::Reduction(_) | Named::Argument => None,
         }));
         list

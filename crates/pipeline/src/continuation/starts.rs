@@ -398,7 +398,6 @@ impl<'s> StartSearch<'s> {
             open: Vec::new(),
             set_inputs: None,
             has_signals: false,
-            coupled: Vec::new(),
         };
         let standalone = self.tree_of(start).and_then(|tree| self.assembled(tree, check_options)).map(Rc::new);
         if let Some(standalone) = &standalone {

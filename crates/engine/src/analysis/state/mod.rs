@@ -11,7 +11,6 @@ mod linear;
 mod output_times;
 mod signal_bounds;
 mod sparse;
-mod subsystem_derivatives;
 
 pub use determinant::Determinant;
 pub use error_bound::{Trust, are_alike, are_small};

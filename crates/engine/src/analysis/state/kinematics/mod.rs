@@ -210,10 +210,6 @@ impl Kinematics {
 
     /// Returns a solver for rows, with elimination orders that suit the position that was factored; `None` where it would be too large.
     pub fn solver(&self) -> Option<Solver> {
-        // it solves the equations of the whole
-        if self.system().variations().iter().any(|variation| variation.scope.is_some()) {
-            return None;
-        }
         Solver::new(&self.determined, &self.program, self)
     }
 

@@ -3,7 +3,6 @@
 use super::derivatives::rates;
 use super::{Kinematics, State};
 use crate::analysis::state::linear::BlockLu;
-use crate::analysis::state::subsystem_derivatives::SubsystemFactors;
 use crate::solver::Pivoting;
 use mechc_expr::{Dependence, ExprId};
 use mechc_ir::ConstraintSystem;
@@ -23,8 +22,6 @@ pub(super) struct Varied {
     solution: Vec<f64>,
     /// By column of a row, whether it may have no value at a position.
     columns: Vec<bool>,
-    /// Factors of the equations of parts alone.
-    scoped: SubsystemFactors,
 }
 
 /// Returns whether a column may lack a value at a valid position: reactions, efforts, derivatives by inputs or params, measures of either.
@@ -59,12 +56,11 @@ pub enum Unknown {
 
 impl Varied {
     pub fn new(system: &ConstraintSystem, holds: &[ColumnContent]) -> Varied {
-        let scoped = SubsystemFactors::new(system);
         if system.all_variations().is_none() && system.forces().is_none() {
-            return Varied { solution: Vec::new(), columns: Vec::new(), scoped };
+            return Varied { solution: Vec::new(), columns: Vec::new() };
         }
         let columns = holds.iter().map(|holds| may_be_missing(system, holds)).collect();
-        Varied { solution: vec![0.0; system.coordinates().len()], columns, scoped }
+        Varied { solution: vec![0.0; system.coordinates().len()], columns }
     }
 }
 
@@ -296,7 +292,7 @@ fn vary(
     determined: &Determined,
     program: &Program,
     registers: &mut Registers,
-    Varied { solution, scoped, .. }: &mut Varied,
+    Varied { solution, .. }: &mut Varied,
     mut solve: impl FnMut(&Registers, &[Register], &mut [f64]),
 ) {
     let variations = determined.system().variations();
@@ -307,15 +303,9 @@ fn vary(
                 break;
             }
             program.run(Stage::Variation, registers);
-            if order == 0 && !by_two {
-                scoped.factor(program, registers, TRUSTED);
-            }
             for k in of_kind() {
                 let right = &program.outputs.variations[k][order];
-                match variations[k].scope {
-                    None => solve(registers, right, solution),
-                    Some(scope) => scoped.solve(scope, registers, right, solution),
-                }
+                solve(registers, right, solution);
                 registers.set_all(program.inputs.varied(k as u32, order as u32), solution);
             }
         }
