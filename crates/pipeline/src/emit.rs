@@ -240,11 +240,10 @@ fn check_size(unit: &TranslationUnit<'_>) -> Result<(), Box<Diagnostic>> {
     if operations <= LARGEST_STRAIGHT {
         return Ok(());
     }
-    let message =
-        format!("Rust for this mechanism would need {operations} operations, at most {LARGEST_STRAIGHT} are emitted");
+    let message = format!("emitted Rust would need {operations} operations, more than {LARGEST_STRAIGHT}");
     let do_equations_fit = emit::operations_of_equations(unit.program) <= LARGEST_STRAIGHT;
     let equations = do_equations_fit.then(|| "or write the equations alone: `--with equations`".to_owned());
-    let help = "use `mechc run`, the Rust library or Python, which evaluate it without emitted code";
+    let help = "use `mechc run`, the Rust library or Python: they evaluate mechanisms of any size";
     Err(Box::new(Diagnostic::new(Code::E0706, message).help(help).help_if(equations)))
 }
 
