@@ -32,7 +32,7 @@
 #[cfg(feature = "cli")]
 pub mod cli;
 
-pub use mechc_emit::{CrateFile, LARGEST_STRAIGHT, MARK, NOT_IN_ALL};
+pub use mechc_emit::{CrateFile, MARK, NOT_IN_ALL};
 pub use mechc_engine::analysis::{Answers, TOLERANCE, Times};
 pub use mechc_engine::sweep::{Levels, Method, Numbers, Points, Sampling, Status, Swept, Varying};
 pub use mechc_ir::layout::ColumnUnit;

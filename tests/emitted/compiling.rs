@@ -4,7 +4,7 @@
 
 use crate::support::random::Random;
 use crate::support::{all_rows, compile_number, compile_with_forces, compile_without_redundant};
-use mechc::{Compiled, LARGEST_STRAIGHT, RustOptions};
+use mechc::{Compiled, RustOptions};
 use mechc_ir::layout::RowLayout;
 use mechc_ir::program::Stage;
 use std::fs;
@@ -43,24 +43,14 @@ impl Emitted {
 
     /// The module, with so many lanes if any are wanted.
     pub fn text(&self, lanes: Option<usize>) -> String {
-        self.text_of(lanes, LARGEST_STRAIGHT)
-    }
-
-    /// The same with operations as numbers beyond so many.
-    pub fn text_of(&self, lanes: Option<usize>, largest_straight: usize) -> String {
         let file = format!("{}.mech", self.name);
-        let (text, said) = self.compiled.rust(&RustOptions { lanes, largest_straight, ..RustOptions::new(file) });
+        let (text, said) = self.compiled.rust(&RustOptions { lanes, ..RustOptions::new(file) });
         text.unwrap_or_else(|| panic!("{}: {said:?}", self.name))
     }
 
     /// How many lanes it has where all are looked at: the examples show what there is to see.
     pub fn lanes(&self) -> Option<usize> {
         ["examples_", "rim_", "following_", "slopes_"].iter().any(|group| self.name.starts_with(group)).then_some(3)
-    }
-
-    /// Beyond how many operations they are written as numbers: the stages are, as if they were large.
-    pub fn largest_straight(&self) -> usize {
-        if self.name.ends_with("_input") || self.name.ends_with("_as_numbers") { 0 } else { LARGEST_STRAIGHT }
     }
 
     /// What the interpreter says of the forces in each of its rows; nothing where there are none.

@@ -50,7 +50,7 @@ impl Module {
     fn made(&self) -> &Made {
         self.made.get_or_init(|| {
             let emitted = (self.make)(self.name.clone());
-            let text = emitted.text_of(emitted.lanes(), emitted.largest_straight());
+            let text = emitted.text(emitted.lanes());
             let ((rows, ends_well), forces) = (emitted.rows(), emitted.forces());
             Made { emitted, text, rows, forces, ends_well }
         })
@@ -109,16 +109,6 @@ fn determined() -> Vec<Module> {
             list.push(Module::new(name, move |name| Emitted::new(name, &path, number).expect("determined")));
         }
     }
-    // stages are written as numbers; those that hold most constructs as lines too
-    list.extend(["everything", "odd_names"].map(|stage| {
-        let path = PathBuf::from(format!("tests/stages/{stage}/input.mech"));
-        Module::new(format!("{stage}_as_lines"), move |name| Emitted::new(name, &path, 0).expect("determined"))
-    }));
-    list.extend(["equations", "three_rpr", "rack_moving"].map(|case| {
-        let path = PathBuf::from(format!("tests/forces/{case}.mech"));
-        let make = move |name| Emitted::new(name, &path, 0).expect("determined");
-        Module::new(format!("{case}_as_numbers"), make)
-    }));
     let alone = [("lift", texts::scissor_lift(50)), ("ends_at_an_edge", texts::ends_at_an_edge())];
     let texts = texts::with_rims().into_iter().chain(alone.map(|(name, text)| (name.to_owned(), text)));
     list.extend(texts.map(|(name, text)| {
@@ -135,7 +125,7 @@ fn with_checks() -> Vec<Module> {
     };
     for seed in 1..=3_usize {
         let (_, random, _) = point(8, seed as u64);
-        add(format!("planets{seed}_input"), texts::planets(seed + 1, &random));
+        add(format!("planets{seed}"), texts::planets(seed + 1, &random));
         add(format!("examples_cranks{seed}"), texts::cranks(seed + 2, &random));
     }
     // a check with branches, and one that fails on the way

@@ -146,13 +146,9 @@ fn the_page_of_limits_is_that_of_the_constants() {
 const MATHEMATICS: [&str; 4] =
     ["crates/engine/src", "crates/ir/src", "crates/lang/src/estimates.rs", "crates/lang/src/lower"];
 
-/// A file of numbers that name instructions.
-const CODES: &str = "crates/ir/src/program/codes.rs";
-
 fn mathematics() -> Vec<PathBuf> {
     let all = MATHEMATICS.iter().map(|place| root().join(place));
-    let all = all.flat_map(|place| if place.is_dir() { sources(&place) } else { vec![place] });
-    all.filter(|path| *path != root().join(CODES)).collect()
+    all.flat_map(|place| if place.is_dir() { sources(&place) } else { vec![place] }).collect()
 }
 
 /// Numbers of mathematics, which limit nothing: places and weights of rules, counts that follow from something else, and what stands for none.

@@ -157,8 +157,8 @@ fn main() {
 "#;
 
 /// `follow` goes where `step` goes, and `influence` is what differences of `follow` say.
-fn goes_where_step_goes(name: &str, signal: &str, index: &str, largest_straight: usize) {
-    let text = emitted(&text_of(name)).text_of(None, largest_straight);
+fn goes_where_step_goes(name: &str, signal: &str, index: &str) {
+    let text = emitted(&text_of(name)).text(None);
     let lines = printed(&text, &BOTH.replace("SIGNAL", signal).replace("INDEX", index));
     let mut count = [0; 2];
     for line in lines {
@@ -175,15 +175,9 @@ fn goes_where_step_goes(name: &str, signal: &str, index: &str, largest_straight:
 
 #[test]
 fn to_follow_the_texts_inputs_is_to_step() {
-    goes_where_step_goes("four_bar", "turn", "TURN", mechc::LARGEST_STRAIGHT);
-    goes_where_step_goes("platform", "crank_1", "CRANK_1", mechc::LARGEST_STRAIGHT);
-    goes_where_step_goes("slider_crank", "turn", "TURN", mechc::LARGEST_STRAIGHT);
-}
-
-#[test]
-fn encoded_operations_follow_inputs() {
-    goes_where_step_goes("platform", "crank_1", "CRANK_1", 0);
-    goes_where_step_goes("slider_crank", "turn", "TURN", 0);
+    goes_where_step_goes("four_bar", "turn", "TURN");
+    goes_where_step_goes("platform", "crank_1", "CRANK_1");
+    goes_where_step_goes("slider_crank", "turn", "TURN");
 }
 
 /// A crank whose driver is a formula of an input, and a rocker that it moves.
@@ -648,14 +642,10 @@ fn main() {
 "#;
     let close = |name: &str, [more, time]: [&str; 2], wanted: [f64; 6]| {
         let (text, program) = (text.replace("MORE", more), program.replace("TIME", time));
-        for largest_straight in [mechc::LARGEST_STRAIGHT, 0] {
-            let found: Vec<f64> = printed(&emitted(&text).text_of(None, largest_straight), &program)
-                .iter()
-                .flat_map(|line| numbers(line))
-                .collect();
-            let mut pairs = found.iter().zip(&wanted);
-            assert!(found.len() == 6 && pairs.all(|(a, b)| (a - b).abs() < 1e-9), "{name}: {found:?}");
-        }
+        let lines = printed(&emitted(&text).text(None), &program);
+        let found: Vec<f64> = lines.iter().flat_map(|line| numbers(line)).collect();
+        let mut pairs = found.iter().zip(&wanted);
+        assert!(found.len() == 6 && pairs.all(|(a, b)| (a - b).abs() < 1e-9), "{name}: {found:?}");
     };
     close("with time", [" + 1e4 * t / 1 s", ", t: 0.5"], [1.0, 10.0, 100.0, 1000.0, 5432.1, 1e4]);
     // time, where a formula comes to hold it, changes no name of an input
@@ -809,13 +799,12 @@ fn main() {
 }
 ";
     let (rows, _) = emitted.rows();
-    for lines in [emitted.text(Some(2)), emitted.text_of(None, 0)].map(|module| printed(&module, program)) {
-        assert_eq!(lines.len(), rows[1].len() - 1);
-        for (line, wanted) in lines.iter().zip(&rows[1][1..]) {
-            let [stepped, followed] = numbers(line)[..] else { panic!("{line}") };
-            assert_eq!(stepped.to_bits(), wanted.to_bits(), "{line}");
-            assert!((stepped - followed).abs() < 1e-9 * (1.0 + stepped.abs()), "{line}");
-        }
+    let lines = printed(&emitted.text(Some(2)), program);
+    assert_eq!(lines.len(), rows[1].len() - 1);
+    for (line, wanted) in lines.iter().zip(&rows[1][1..]) {
+        let [stepped, followed] = numbers(line)[..] else { panic!("{line}") };
+        assert_eq!(stepped.to_bits(), wanted.to_bits(), "{line}");
+        assert!((stepped - followed).abs() < 1e-9 * (1.0 + stepped.abs()), "{line}");
     }
 }
 
@@ -936,11 +925,10 @@ fn no_parameters_no_sensitivities() {
     let text = text_of("slider_crank");
     let without = text.replace("    param crank_length = 50 mm\n    param rod_length   = 150 mm\n", "");
     let without = without.replace("crank_length", "50 mm").replace("rod_length", "150 mm");
-    for largest_straight in [mechc::LARGEST_STRAIGHT, 0] {
-        let options = RustOptions { with_sensitivities: true, largest_straight, ..RustOptions::new("machine.mech") };
-        let (module, messages) = emitted(&without).compiled.rust(&options);
-        let module = module.unwrap_or_else(|| panic!("{messages:?}"));
-        let program = r#"
+    let options = RustOptions { with_sensitivities: true, ..RustOptions::new("machine.mech") };
+    let (module, messages) = emitted(&without).compiled.rust(&options);
+    let module = module.unwrap_or_else(|| panic!("{messages:?}"));
+    let program = r#"
 fn main() {
     let mut state = assemble(&Params).unwrap();
     println!("{PARAMS} {}", sensitivity(&Params, &state).unwrap().len());
@@ -948,8 +936,7 @@ fn main() {
     println!("{PARAMS} {}", sensitivity(&Params, &state).unwrap().len());
 }
 "#;
-        assert_eq!(printed(&module, program), ["0 0"; 2]);
-    }
+    assert_eq!(printed(&module, program), ["0 0"; 2]);
 }
 
 /// Names of a kind in an emitted module, with what they are of: fields, constants, variants.

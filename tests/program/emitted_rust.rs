@@ -19,12 +19,9 @@ fn modules_cannot_panic() {
     let kinds = [("slider_crank", "3"), ("slider_crank", "s"), ("everything", "3"), ("contacts", "s"), ("tables", "z")];
     for (name, level) in kinds {
         let emitted = Emitted::new(name.to_owned(), &stage_path(name), 0).expect("determined");
-        // as lines, with lanes; and as numbers
-        for text in [emitted.text(Some(4)), emitted.text_of(None, 0)] {
-            let object = object(folder.path(), name, &text, level);
-            assert!(has_symbol(&object, b"assemble") && has_symbol(&object, b"step"), "{name} has no functions");
-            assert!(!has_symbol(&object, b"panic"), "{name} refers to the panicking machinery at level {level}");
-        }
+        let object = object(folder.path(), name, &emitted.text(Some(4)), level);
+        assert!(has_symbol(&object, b"assemble") && has_symbol(&object, b"step"), "{name} has no functions");
+        assert!(!has_symbol(&object, b"panic"), "{name} refers to the panicking machinery at level {level}");
     }
     let followed = [
         ("following/four_bar", "3"),
@@ -39,12 +36,10 @@ fn modules_cannot_panic() {
         let name = path.file_stem().expect("a name").to_str().expect("a name");
         let emitted = Emitted::new(name.to_owned(), &path, 0).expect("determined");
         let options = RustOptions { with_sensitivities: true, lanes: Some(2), ..RustOptions::new("machine.mech") };
-        let all = emitted.compiled.rust(&options).0.expect("a module");
-        for text in [all, emitted.text_of(None, 0)] {
-            let object = object(folder.path(), name, &text, level);
-            assert!(["follow", "influence"].iter().all(|word| has_symbol(&object, word.as_bytes())), "{name}");
-            assert!(!has_symbol(&object, b"panic"), "{name} refers to the panicking machinery at level {level}");
-        }
+        let text = emitted.compiled.rust(&options).0.expect("a module");
+        let object = object(folder.path(), name, &text, level);
+        assert!(["follow", "influence"].iter().all(|word| has_symbol(&object, word.as_bytes())), "{name}");
+        assert!(!has_symbol(&object, b"panic"), "{name} refers to the panicking machinery at level {level}");
     }
     // what is looked for is what there would be
     let panics = "pub fn at(values: &[f64], k: usize) -> f64 { values[k] }\n";
@@ -80,6 +75,36 @@ fn stage(name: &str) -> Emitted {
 #[path = "../emitted/slider_crank.rs"]
 #[rustfmt::skip]
 mod slider_crank;
+
+/// Returns a mechanism with so many measures, each of some eighty operations.
+fn with_measures(count: usize) -> Emitted {
+    let text = format!(
+        "mechanism many {{
+    ground {{ point O = (0, 0) }}
+    body wheel {{ point O = (0, 0)  point P = (1 m, 0) }}
+    joint axle: revolute(ground.O, wheel.O)
+    driver motor: rotation(axle) = t * 1 rad/s
+    measure wave[k in 0..{count}] = sin(k * t / 1 s) * cos(x(wheel.P) * (k + 1) / 1 m) * exp(t / 1 s) * y(wheel.P)
+}}"
+    );
+    Emitted::of("many".to_owned(), &text, Path::new("many.mech"), 0).expect("determined")
+}
+
+#[test]
+fn large_mechanisms_are_errors() {
+    let just_fits = with_measures(1250);
+    assert!(just_fits.text(None).contains("pub fn step"));
+    for (count, operations, do_equations_fit) in [(1251, "100051", true), (2600, "207971", false)] {
+        let large = with_measures(count).compiled;
+        let (module, messages) = large.rust(&RustOptions::new("many.mech"));
+        let [error] = messages.iter().collect::<Vec<_>>()[..] else { panic!("{messages:?}") };
+        assert!(module.is_none() && error.code.as_str() == "E0706" && error.message.contains(operations), "{error:?}");
+        assert!(error.help[0].contains("mechc run"), "{error:?}");
+        assert_eq!(error.help.iter().any(|help| help.contains("--with equations")), do_equations_fit);
+        let equations = RustOptions { with_motion: false, ..RustOptions::new("many.mech") };
+        assert_eq!(large.rust(&equations).0.is_some(), do_equations_fit);
+    }
+}
 
 /// What comes behind what was generated: the same files for all mechanisms.
 const GOES_ALONG: &str = "\n/// What solves the equations and follows the motion, the same for all mechanisms.\n";

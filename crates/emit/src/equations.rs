@@ -1,11 +1,10 @@
 //! `Φ`, `Φ_q`, `Φ_t`, `ν`, `γ` and what else the program evaluates, as functions of the coordinates.
 
-use super::bytecode::{self, ConstantPool, Loaded, Notes};
 use super::code::{Code, CodeContext, Function, Input, Out};
 use super::names::{MULTIPLIERS, Names, VARIED};
 use super::operand::{Arguments, Operand};
 use super::operations::slice;
-use super::print::{Head, Page};
+use super::print::Page;
 use super::runtime_files::RuntimeDeps;
 use super::tables::{self, Tables};
 use mechc_engine::solver::{Instruction, Segment};
@@ -23,8 +22,6 @@ pub(super) struct Equations<'e> {
     pub sides: FxHashMap<Register, usize>,
     /// True for a mechanism that follows its inputs, which are given as a `Path`.
     pub is_input_driven: bool,
-    /// Constants that encoded operations share; `None` if operations are emitted as Rust expressions.
-    pub pool: Option<RefCell<ConstantPool>>,
     /// Runtime dependencies of the functions.
     pub deps: RefCell<RuntimeDeps>,
 }
@@ -66,9 +63,6 @@ pub(super) enum Given {
     OfTime,
     All,
 }
-
-/// Width from which rustfmt breaks an array into lines.
-const WIDEST_ARRAY: usize = 56;
 
 /// The arrays of the coordinates and their derivatives.
 pub(super) const ARRAYS: [&str; 4] = ["q", "qd", "qdd", "qddd"];
@@ -113,9 +107,6 @@ impl Equations<'_> {
         if spec.given != Given::None && !self.sides.is_empty() {
             arguments.push(("sides", "&Sides".to_owned()));
         }
-        if let Some(pool) = &self.pool {
-            return self.as_numbers(spec, &instructions, &arguments, &mut pool.borrow_mut(), page);
-        }
         self.deps.borrow_mut().instructions(&instructions, false);
         let segments = [Segment::Once(0..instructions.len())];
         let code = Code { instructions: &instructions, segments: &segments, registers: self.program.registers() };
@@ -129,101 +120,6 @@ impl Equations<'_> {
             margin: 0,
         };
         page.text(&code.print(&EquationContext { equations: self, negated: spec.negated, given }, &function));
-    }
-
-    /// Prints a function whose operations are encoded as numbers.
-    fn as_numbers(
-        &self,
-        spec: &FunctionSpec<'_>,
-        instructions: &[Instruction],
-        arguments: &[(&'static str, String)],
-        pool: &mut ConstantPool,
-        page: &mut Page,
-    ) {
-        let count = instructions.iter().filter(|each| !matches!(each, Instruction::Store { .. })).count();
-        let instructions = bytecode::with_loads(instructions, self.program.registers());
-        let segments = [Segment::Once(0..instructions.len())];
-        let shared = bytecode::share(&instructions, &segments, self.program.registers());
-        let loaded = |register| self.loaded(register, &FxHashMap::default());
-        let notes = Notes { loaded: &loaded, pivot: &|_| (0, 0.0), weight: &|_| 0.0, bound: &|_| 0.0 };
-        let words = pool.encode(&shared.instructions, &notes).words;
-        let name = spec.name.to_uppercase();
-        let params = match (self.names.params.is_empty(), self.is_input_driven) {
-            (true, _) => "&[]",
-            (false, false) => "&p.list()",
-            (false, true) => "&p.params.list()",
-        };
-        let mut lists: Vec<String> = vec![params.to_owned()];
-        lists.push("&[]".to_owned());
-        let given = |argument: &str| arguments.iter().any(|(name, _)| *name == argument);
-        lists.push(if given("sides") { "sides" } else { "&[]" }.to_owned());
-        let time = if self.is_input_driven { "&p.list::<{ 3 * SIGNALS }>(t)" } else { "&[t]" };
-        lists.push(if given("t") { time } else { "&[]" }.to_owned());
-        lists.extend(ARRAYS.map(|array| if given(array) { array } else { "&[]" }.to_owned()));
-        lists.extend([VARIED, MULTIPLIERS].map(|array| if given(array) { array } else { "&[]" }.to_owned()));
-        let mut deps = self.deps.borrow_mut();
-        deps.name("bytecode_interpreter", "Arrays");
-        deps.name("bytecode_interpreter", "run");
-        if self.is_input_driven {
-            deps.file("input_list");
-        }
-        // the function passes all arguments on, parameters only if there are any
-        let reads_params = !self.names.params.is_empty() || (self.is_input_driven && spec.has_time);
-        let marked = |name: &'static str| if name == "p" && !reads_params { "_p" } else { name };
-        let types: Vec<(&str, &str)> = arguments.iter().map(|(name, of)| (marked(name), of.as_str())).collect();
-        let kind = if spec.is_public { "pub fn" } else { "fn" };
-        let result = format!("[f64; {}]", spec.length);
-        page.docs(&format!("{}\n\n{count} operations, in [`{name}_CODE`].", spec.docs));
-        let lists = lists.join(", ");
-        if lists.len() > WIDEST_ARRAY {
-            page.line("#[rustfmt::skip]");
-        }
-        page.function(&Head { kind, name: spec.name, arguments: &types, result: &result }, |page| {
-            page.line(&format!("let inputs: Arrays<'_> = [{lists}];"));
-            page.line(&format!("let mut out = [0.0; {}];", spec.length));
-            page.line(&format!("let mut v = [0.0; {}];", shared.registers));
-            page.line(&format!("run::<Numbers>(&{name}_CODE, &[], &inputs, &mut v, &mut out);"));
-            if spec.negated {
-                page.line("out = out.map(|value| -value);");
-            }
-            page.line("out");
-        });
-        bytecode::list(&format!("The operations of [`{}`].", spec.name), &format!("{name}_CODE"), &words, page);
-    }
-
-    /// Returns the source of the value of a register of the program.
-    pub fn loaded(&self, register: Register, positions: &FxHashMap<Register, usize>) -> Loaded {
-        let inputs = &self.program.inputs;
-        let input = |array: u32, index: usize| Loaded::Input { array, index: index as u32 };
-        if let Some(&value) = self.constants.get(&register) {
-            return Loaded::Number(value);
-        }
-        if let Some(&place) = positions.get(&register) {
-            return input(1, place);
-        }
-        if let Some(&side) = self.sides.get(&register) {
-            return input(2, side);
-        }
-        if register == inputs.time {
-            return input(3, 0);
-        }
-        if inputs.all_signals().contains(&register) {
-            return input(3, (register - inputs.signals) as usize);
-        }
-        if register < inputs.time {
-            return input(0, (register - inputs.params) as usize);
-        }
-        if let Some(place) = self.varied(register) {
-            return input(4 + ARRAYS.len() as u32, place);
-        }
-        if let Some(place) = self.multiplier(register) {
-            return input(5 + ARRAYS.len() as u32, place);
-        }
-        let order =
-            (0..4).find(|&order| (inputs.coordinates[order]..inputs.coordinates[order] + inputs.n).contains(&register));
-        order.map_or(Loaded::Number(f64::NAN), |order| {
-            input(4 + order as u32, (register - inputs.coordinates[order]) as usize)
-        })
     }
 
     /// Returns the source of a register that no operation of the function writes.
@@ -301,14 +197,6 @@ impl Equations<'_> {
     pub fn table(&self, table: u32, column: Column) -> String {
         let name = self.tables.of(table, column);
         if self.is_constant(table, column) { name.to_owned() } else { name.to_lowercase() }
-    }
-
-    /// Prints the constants that lists of operations share, if there are such lists.
-    pub fn print_pool(&self, page: &mut Page) {
-        if let Some(pool) = &self.pool {
-            let called = |table, column| self.table(table, column);
-            pool.borrow().print(self.program.tables().len(), called, &mut self.deps.borrow_mut(), page);
-        }
     }
 
     /// Returns whether a column of a table holds only numbers.

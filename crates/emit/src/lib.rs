@@ -3,7 +3,6 @@
 //! Emitted Rust performs the operations of the interpreter, those of the program and those of the solver, one by one, so
 //! that both give the same bits (the sign of a zero in `phi_t`, which is `-nu`, aside).
 
-mod bytecode;
 mod c;
 mod code;
 mod equations;
@@ -27,16 +26,18 @@ mod solution;
 mod tables;
 mod text;
 
-pub use bytecode::LARGEST_STRAIGHT;
 pub use json::json;
 pub use latex::latex;
 pub use package::{MARK, NOT_IN_ALL, Reference, package};
-pub use rust::{is_large, rust};
+pub use rust::rust;
 
 use mechc_engine::solver::{BlockTables, Solver};
 use mechc_ir::ConstraintSystem;
-use mechc_ir::program::Program;
+use mechc_ir::program::{Program, STAGES};
 use mechc_text::source::Sources;
+
+/// Largest number of [operations](TranslationUnit::operations) that are emitted; rustc compiles as many in seconds.
+pub const LARGEST_STRAIGHT: usize = 100_000;
 
 /// A file of an emitted crate.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -61,8 +62,6 @@ pub struct TranslationUnit<'u> {
     pub motion: Option<EmittedMotion>,
     /// Number of lanes that are solved at once, in addition to the code for a single one.
     pub lanes: Option<usize>,
-    /// Largest number of operations that are written as lines; more are written as tables of numbers. Normally [`LARGEST_STRAIGHT`].
-    pub largest_straight: usize,
     /// True if parameters and inputs have the C layout.
     pub for_c: bool,
     /// System with its inputs as signals, if it has inputs and is to be solved.
@@ -70,6 +69,13 @@ pub struct TranslationUnit<'u> {
 }
 
 impl TranslationUnit<'_> {
+    /// Returns the number of operations of its equations and of its solver, the one with derivatives by parameters if it has both.
+    #[must_use]
+    pub fn operations(&self) -> usize {
+        let solver = self.motion.as_ref().map(|motion| motion.sensitive.as_ref().unwrap_or(&motion.solver));
+        operations_of_equations(self.program) + solver.map_or(0, |solver| solver.instructions().len())
+    }
+
     /// Returns whether it gives the forces of joints and drivers.
     fn has_forces(&self) -> bool {
         self.motion.as_ref().is_some_and(|motion| motion.forced.is_some())
@@ -109,6 +115,12 @@ pub struct EmittedMotion {
     pub to: Option<f64>,
     /// Largest scaled residual of the parts of rows of `Φ`.
     pub tolerance: f64,
+}
+
+/// Returns the number of operations of a program, which evaluates the equations.
+#[must_use]
+pub fn operations_of_equations(program: &Program) -> usize {
+    STAGES.iter().map(|stage| program.stage(*stage).len()).sum()
 }
 
 /// Returns why a measure's formula is not written for others; `None` if it is.

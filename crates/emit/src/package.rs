@@ -8,7 +8,7 @@ use super::names::{Case, Namer, is_keyword};
 use super::params::Params;
 use super::rust;
 use super::text::{lines, literal, one_line, unit};
-use super::{CrateFile, LARGEST_STRAIGHT, TranslationUnit, c};
+use super::{CrateFile, TranslationUnit, c};
 use mechc_ir::Measure;
 use std::fmt::Display;
 
@@ -267,7 +267,7 @@ impl Writer<'_> {
         }
         rows + &format!(
             "| a state | {bytes} bytes |\n| the stack | about {} bytes, of a release on x86-64; `assemble` takes most |\n",
-            6 * bytes + 8 * of_step.min(LARGEST_STRAIGHT) / 4
+            6 * bytes + 2 * of_step
         )
     }
 

@@ -75,8 +75,7 @@ files! {
     "pivoting" is include_str!("runtime/pivoting.rs"); ["numbers", "error", "solution", "branches", "grid", "blocks", "work"],
         [BORDER, ITERATIONS, MOST_SHORTER, MOST_TRIALS, NEAR];
     "pivoted_derivatives" is include_str!("runtime/derivatives.rs"); ["error", "solution", "pivoting"], [];
-    "input_path" is include_str!("runtime/inputs.rs"); ["numbers", "equations", "solution", "state"], [FARTHEST_AHEAD];
-    "input_list" is include_str!("runtime/inputs.rs"); ["state", "input_path"], [];
+    "input_path" is include_str!("runtime/input_path.rs"); ["numbers", "equations", "solution", "state"], [FARTHEST_AHEAD];
     "follow" is include_str!("runtime/follow.rs"); ["numbers", "equations", "error", "solution", "branches", "reach", "state", "explain", "step", "input_path", "track", "work"],
         [CRUMB, FARTHEST_BEND, JUMP, LARGEST_CORRECTION, LARGEST_TURN, NEAR_TURN, NEAREST_TURN, POSITION_JUMP, SHORTEST_STEP,
             SINGULAR];
@@ -101,10 +100,6 @@ files! {
     "sign" is include_str!("runtime/functions.rs"); [], [];
     "lesser" is include_str!("runtime/functions.rs"); [], [];
     "greater" is include_str!("runtime/functions.rs"); [], [];
-    "codes" is mechc_ir::program::CODES; [], [];
-    "bytecode_interpreter" is include_str!("runtime/bytecode_interpreter.rs"); ["codes", "sine_and_cosine", "select", "either", "piece", "pick"], [];
-    "bytecode_solver" is include_str!("runtime/bytecode_solver.rs"); ["measured", "solution", "pivots", "grid", "newton", "bytecode_interpreter"], [ITERATIONS];
-    "extra_results" is include_str!("runtime/extra_results.rs"); ["solution", "newton", "bytecode_interpreter", "bytecode_solver"], [];
 }
 
 /// Runtime dependencies of the code of a module.
@@ -276,12 +271,7 @@ mod tests {
             let declared: BTreeSet<String> = file.needs.iter().map(|name| (*name).to_owned()).collect();
             let is_before = |name: &&str| FILES[..number].iter().any(|before| before.name == *name);
             assert!(file.needs.iter().all(is_before), "{} stands too early", file.name);
-            // files that only extend a type are not named
-            assert!(
-                needs.is_subset(&declared) && declared.difference(&needs).all(|name| name == "pivots"),
-                "{}: {needs:?}",
-                file.name
-            );
+            assert_eq!(needs, declared, "{}", file.name);
             let limits: BTreeSet<String> = file.limits.iter().map(|name| (*name).to_owned()).collect();
             assert_eq!(named(&file.text(), "limits::"), limits, "{}", file.name);
         }

@@ -1,11 +1,9 @@
 //! The solver's operations as a function that solves for position, velocity and acceleration at a time.
 
-use super::bytecode::{self, Bytecode, ConstantPool, Notes, Shared};
 use super::code::{Code, CodeContext, Function, Input, MODULE, Out};
 use super::equations::{ARRAYS, Access, Equations};
 use super::names::{FORCES, Names};
 use super::operand::{Arguments, Operand};
-use super::print::Page;
 use super::text::literal;
 use super::{EmittedMotion, TranslationUnit};
 use mechc_engine::limits::solver::LARGEST_MULTIPLIER;
@@ -185,62 +183,6 @@ impl<'s> Solution<'s> {
         code.print(&SolverContext { solution: self, solver, has_lanes: false }, &function)
     }
 
-    /// Prints a solver's operations as numbers: the listing and the number of its registers, in constants whose names end with `ending`.
-    pub fn listing(&self, solver: &Solver, ending: &str, pool: &mut ConstantPool, page: &mut Page) {
-        let Shared { instructions, segments, registers } =
-            bytecode::share(solver.instructions(), solver.segments(), solver.registers());
-        let notes = Notes {
-            loaded: &|register| self.equations.loaded(register, &self.derived),
-            pivot: &|number| {
-                let pivot = solver.pivots()[number as usize];
-                (pivot.turn, pivot.weight)
-            },
-            weight: &|number| solver.weight(number),
-            bound: &|row| self.motion.bounds[row as usize],
-        };
-        let instructions: Vec<Instruction> = instructions.into_iter().map(|each| self.listed(each)).collect();
-        let Bytecode { words, starts } = pool.encode(&instructions, &notes);
-        let (mut list, mut newton) = (Vec::new(), Vec::new());
-        for segment in &segments {
-            let (range, tears) = match segment {
-                Segment::Once(range) => (range, &[][..]),
-                Segment::Newton { instructions, tears } => (instructions, tears.as_slice()),
-            };
-            let (first, code) = (newton.len(), [starts[range.start], starts[range.end]]);
-            newton.extend(tears.iter().map(|tear| {
-                let (registers, sizes) = ([tear.x, tear.delta], [tear.cell, tear.scale]);
-                format!("NewtonCoordinate {{ registers: {registers:?}, sizes: {sizes:?} }}")
-            }));
-            list.push(format!("Segment {{ code: {code:?}, tears: [{first}, {}] }}", newton.len()));
-        }
-        let mut deps = self.equations.deps.borrow_mut();
-        deps.name("bytecode_solver", "Listing");
-        deps.name("bytecode_solver", "Segment");
-        if !newton.is_empty() {
-            deps.name("bytecode_solver", "NewtonCoordinate");
-        }
-        let solve = format!("solve{}", ending.to_lowercase());
-        page.constant(
-            &format!("Registers of [`{solve}`]."),
-            &format!("const REGISTERS{ending}: usize"),
-            &registers.to_string(),
-        );
-        page.docs(&format!("What [`{solve}`] runs."));
-        page.line("#[rustfmt::skip]");
-        page.block(&format!("static LISTING{ending}: Listing = Listing"), |page| {
-            for (name, values) in [("segments", list), ("newton", newton)] {
-                page.line(&format!("{name}: &["));
-                for value in values {
-                    page.line(&format!("    {value},"));
-                }
-                page.line("],");
-            }
-            page.line(&format!("code: &SOLVE{ending},"));
-        });
-        page.end_statement();
-        bytecode::list(&format!("The operations of [`{solve}`]."), &format!("SOLVE{ending}"), &words, page);
-    }
-
     /// Returns the content of a column.
     fn holds(&self, column: u32) -> ColumnContent {
         debug_assert!((column as usize) < self.holds.len(), "column {column} is none of a row's");
@@ -252,43 +194,9 @@ impl<'s> Solution<'s> {
         self.joined.binary_search(&column).ok()
     }
 
-    /// Returns the first column of the additional results, which come last: derivatives by parameters, or forces.
-    pub fn first_of_more(&self) -> u32 {
-        self.results() + self.joined.len() as u32
-    }
-
-    /// Returns the number of results in the concatenated lists of a solution.
-    fn results(&self) -> u32 {
-        let inputs = &self.unit.program.inputs;
-        self.columns() + inputs.n * inputs.count
-    }
-
     /// Returns the number of columns of a row without reactions.
     pub fn columns(&self) -> u32 {
         (self.motion.solver.layout().printed - self.unit.system.reactions().len()) as u32
-    }
-
-    /// Returns an operation whose column is the index in the concatenated lists of a solution: results, then `joined`, then
-    /// derivatives by parameters or forces.
-    fn listed(&self, op: Instruction) -> Instruction {
-        let inputs = &self.unit.program.inputs;
-        let place = |column: u32| match (self.joined(column), self.holds(column)) {
-            (Some(place), _) => self.results() + place as u32,
-            (None, ColumnContent::Slope { of, by: With::Input(input) }) => {
-                self.columns() + input as u32 * inputs.n + of as u32
-            }
-            (None, ColumnContent::Slope { of, by: With::Param(param) }) => {
-                self.first_of_more() + param as u32 * inputs.n + of as u32
-            }
-            (None, ColumnContent::Reaction(k)) => self.first_of_more() + k as u32,
-            (None, _) if column < self.motion.solver.layout().reactions => column,
-            (None, _) => column - self.unit.system.reactions().len() as u32,
-        };
-        match op {
-            Instruction::Column { to, column } => Instruction::Column { to, column: place(column) },
-            Instruction::Store { column, a } => Instruction::Store { column: place(column), a },
-            op => op,
-        }
     }
 
     /// Returns the width of a grid cell for each coordinate for which Newton's method solves.

@@ -27,8 +27,6 @@ pub struct RustOptions {
     pub lanes: Option<usize>,
     /// True if a crate has a header and functions for C.
     pub for_c: bool,
-    /// Operations beyond this number are written as tables instead of lines.
-    pub largest_straight: usize,
 }
 
 impl RustOptions {
@@ -36,8 +34,7 @@ impl RustOptions {
     #[must_use]
     pub fn new(file: impl Into<String>) -> RustOptions {
         let (with_motion, with_sensitivities, for_c) = (true, false, false);
-        let (lanes, largest_straight) = (None, LARGEST_STRAIGHT);
-        RustOptions { file: file.into(), with_motion, with_sensitivities, lanes, for_c, largest_straight }
+        RustOptions { file: file.into(), with_motion, with_sensitivities, lanes: None, for_c }
     }
 }
 
@@ -122,8 +119,7 @@ impl Compiled {
         let program = &**self.program();
         let motion = if options.with_motion { Some(self.motion(program, None, options, diagnostics)?) } else { None };
         let (system, sources) = (self.system(), self.sources());
-        let RustOptions { file, lanes, largest_straight, .. } = options;
-        let (lanes, largest_straight, for_c) = (*lanes, *largest_straight, options.for_c);
+        let RustOptions { ref file, lanes, for_c, .. } = *options;
         let following = match signals {
             None => None,
             Some(Signals { compiled, given: program }) => {
@@ -131,26 +127,12 @@ impl Compiled {
                 let begin = motion.as_ref().map(|motion| motion.q.as_slice());
                 let motion = Some(compiled.motion(program, begin, options, &mut Diagnostics::default())?);
                 let system = compiled.system();
-                let unit = TranslationUnit {
-                    system,
-                    program,
-                    sources,
-                    file,
-                    motion,
-                    lanes,
-                    largest_straight,
-                    for_c,
-                    following: None,
-                };
+                let unit = TranslationUnit { system, program, sources, file, motion, lanes, for_c, following: None };
                 Some(Following { unit: Box::new(unit), by_text: compiled.program() })
             }
         };
-        let unit =
-            TranslationUnit { system, program, sources, file, motion, lanes, largest_straight, for_c, following };
-        if lanes.is_some() && emit::is_large(&unit) {
-            let why = format!("lanes are for mechanisms of up to {largest_straight} operations");
-            return Err(Box::new(Diagnostic::new(Code::E0706, why).help("leave `--lanes` out")));
-        }
+        let unit = TranslationUnit { system, program, sources, file, motion, lanes, for_c, following };
+        check_size(&unit)?;
         Ok(unit)
     }
 
@@ -248,6 +230,24 @@ struct Signals {
     given: Program,
 }
 
+/// Returns whether a mechanism can be emitted.
+///
+/// # Errors
+/// It needs more operations than are emitted.
+fn check_size(unit: &TranslationUnit<'_>) -> Result<(), Box<Diagnostic>> {
+    let of_following = unit.following.as_ref().map_or(0, |following| following.unit.operations());
+    let operations = unit.operations().max(of_following);
+    if operations <= LARGEST_STRAIGHT {
+        return Ok(());
+    }
+    let message = format!("emitted Rust would need {operations} operations, more than {LARGEST_STRAIGHT}");
+    let do_equations_fit = emit::operations_of_equations(unit.program) <= LARGEST_STRAIGHT;
+    let equations = do_equations_fit.then(|| "or write the equations alone: `--with equations`".to_owned());
+    let help = "use `mechc run`, the Rust library or Python: they evaluate mechanisms of any size";
+    Err(Box::new(Diagnostic::new(Code::E0706, message).help(help).help_if(equations)))
+}
+
+/// Returns the error of a mechanism whose solver has too many operations even to be generated.
 fn too_large() -> Diagnostic {
     Diagnostic::new(Code::E0706, "the solver of this mechanism would take too many operations")
         .help("write the equations alone: `--with equations`")

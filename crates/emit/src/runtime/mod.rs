@@ -8,18 +8,15 @@
 
 pub mod assemble;
 pub mod branches;
-pub mod bytecode_interpreter;
-pub mod bytecode_solver;
 mod checks;
 mod derivatives;
 pub mod domain_boundaries;
 pub mod equations;
 pub mod error;
 pub mod explain;
-pub mod extra_results;
 pub mod follow;
 mod functions;
-mod inputs;
+mod input_path;
 pub mod lane_following;
 pub mod lane_newton;
 pub mod lane_solutions;
@@ -39,15 +36,7 @@ pub mod work;
 
 mod tests;
 
-use functions::{either, pick, piece, select};
-use inputs::input_path;
 use solver_records::running_max;
 
 use crate::limits::values as limits;
 use mechc_expr::math::{blocks, grid, hermite, neighbours};
-use mechc_ir::program::codes;
-
-/// The sine and cosine as they go along.
-mod sine_and_cosine {
-    pub use mechc_expr::math::sin_cos;
-}

@@ -39,10 +39,10 @@ impl Writer<'_> {
         }
     }
 
-    /// Returns whether an operation reads a column of a table, or may read it by its number.
+    /// Returns whether an operation reads a column of a table.
     fn is_looked_into(&self, table: u32, column: Column) -> bool {
-        let all = || STAGES.iter().flat_map(|stage| self.unit.program.stage(*stage));
-        self.equations.pool.is_some() || all().any(|&op| op.column() == Some((table, column)))
+        let mut all = STAGES.iter().flat_map(|stage| self.unit.program.stage(*stage));
+        all.any(|&op| op.column() == Some((table, column)))
     }
 
     /// Prints the times of the file's analysis.

@@ -91,7 +91,6 @@ fn by_formulas(following: &Following<'_>, names: &Names, tables: &Tables, page: 
         constants: program.constants().iter().copied().collect(),
         sides: FxHashMap::default(),
         is_input_driven: false,
-        pool: None,
         deps: RefCell::default(),
     };
     equations.function(
@@ -133,7 +132,6 @@ impl Writer<'_> {
         self.along_signals(solution, page);
         self.sensitivity(solution, page);
         self.forces(solution, page);
-        self.equations.print_pool(page);
     }
 
     /// Returns the default of the largest change per call, for each signal.

@@ -101,10 +101,7 @@ impl Writer<'_> {
             self.equations.deps.borrow_mut().file(file);
             page.function(&head, |page| page.line(&format!("runtime::{file}::{name}(state)")));
         }
-        match &self.equations.pool {
-            Some(pool) => self.forced_solver_as_numbers(solution, &mut pool.borrow_mut(), page),
-            None => page.text(&solution.forced_function().unwrap_or_default()),
-        }
+        page.text(&solution.forced_function().unwrap_or_default());
         let has_pivoting = solution.motion.blocks.is_some();
         if has_pivoting && is_input_driven {
             self.exerted(false, page);

@@ -8,7 +8,7 @@ use crate::text::{constant, literal};
 impl Writer<'_> {
     /// Prints the module for several lanes, if requested.
     pub fn lanes(&self, solution: &Solution<'_>, page: &mut Page) {
-        let Some(lanes) = self.unit.lanes.filter(|_| self.equations.pool.is_none()) else {
+        let Some(lanes) = self.unit.lanes else {
             return;
         };
         // the module of lanes has its own `use` items

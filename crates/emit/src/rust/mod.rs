@@ -1,7 +1,6 @@
 //! A mechanism as one Rust file: its equations and solver.
 
 mod branch_conditions;
-mod bytecode;
 mod constants;
 mod entry_points;
 mod following;
@@ -22,9 +21,8 @@ use super::params::Params;
 use super::print::Page;
 use super::runtime_files::RuntimeDeps;
 use super::solution::Solution;
-use super::tables::{Tables, numbers};
+use super::tables::Tables;
 use super::text::one_line;
-use mechc_ir::program::{Column, STAGES};
 use mechc_text::source::Span;
 use state_size::Bounds;
 use std::cell::RefCell;
@@ -65,7 +63,6 @@ pub(super) fn module(unit: &TranslationUnit<'_>) -> Module {
         writer.lanes(&solution, &mut body);
         words = writer.words(&solution);
     }
-    equations.print_pool(&mut body);
     if let Some(following) = &unit.following {
         let (deps, words_of_input_path, work) = following::module(following, &mut body);
         words += words_of_input_path;
@@ -97,22 +94,8 @@ fn equations<'u>(
         constants: unit.program.constants().iter().copied().collect(),
         sides: switches.map(|(k, switch)| (switch.to, k)).collect(),
         is_input_driven,
-        pool: is_large(unit).then(RefCell::default),
         deps: RefCell::new(RuntimeDeps::default()),
     }
-}
-
-/// Returns whether a mechanism is so large that its operations are written as numbers; never with tables that depend on parameters.
-#[must_use]
-pub fn is_large(unit: &TranslationUnit<'_>) -> bool {
-    let of_program: usize = STAGES.iter().map(|stage| unit.program.stage(*stage).len()).sum();
-    let of_motion =
-        |motion: &super::EmittedMotion| motion.sensitive.as_ref().unwrap_or(&motion.solver).instructions().len();
-    let of_solver = unit.motion.as_ref().map_or(0, of_motion);
-    let constants = unit.program.constants().iter().copied().collect();
-    let is_constant =
-        |table: u32| Column::ALL.iter().all(|&column| numbers(unit.program, &constants, table, column).is_some());
-    of_program + of_solver > unit.largest_straight && (0..unit.program.tables().len() as u32).all(is_constant)
 }
 
 /// Source of the module of a mechanism, or of the module that follows its inputs.

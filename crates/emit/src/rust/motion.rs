@@ -31,7 +31,7 @@ impl Writer<'_> {
         page.docs("What solves the equations at a time.");
         let runtime = if self.equations.is_input_driven { "super::runtime" } else { "runtime" };
         page.line(&format!("type Solution = {runtime}::solution::Solution<Model>;\n"));
-        self.solver(solution, page);
+        page.text(&solution.function(false));
         if self.has_sides() || self.equations.is_input_driven {
             self.functions_on_sides(solution.motion.blocks.is_some(), page);
         }
@@ -41,14 +41,6 @@ impl Writer<'_> {
         self.checked(page);
         self.solves(solution, page);
         self.pivoting(solution, page);
-    }
-
-    /// Prints the solver's function, as Rust expressions or as numbers.
-    fn solver(&self, solution: &Solution<'_>, page: &mut Page) {
-        match &self.equations.pool {
-            Some(pool) => self.solver_as_numbers(solution, &mut pool.borrow_mut(), page),
-            None => page.text(&solution.function(false)),
-        }
     }
 
     /// Returns a call of a function of the equations with the arguments `more`, time, parameters and branches.

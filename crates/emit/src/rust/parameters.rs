@@ -28,14 +28,6 @@ impl Writer<'_> {
             });
         });
         let fields: Vec<String> = self.names.params.iter().map(|name| format!("self.{name}")).collect();
-        if self.equations.pool.is_some() {
-            page.item("impl Params", |page| {
-                page.line("#[rustfmt::skip]");
-                page.block(&format!("fn list(&self) -> [f64; {}]", fields.len()), |page| {
-                    page.list("[", &fields, "]");
-                });
-            });
-        }
         if self.unit.motion.is_some() {
             self.requires("state", "Parameters");
             page.item("impl Parameters for Params", |page| {

@@ -31,10 +31,7 @@ impl Writer<'_> {
         if params.is_empty() {
             return;
         }
-        match &self.equations.pool {
-            Some(pool) => self.sensitive_solver_as_numbers(solution, &mut pool.borrow_mut(), page),
-            None => page.text(&solution.sensitive_function().unwrap_or_default()),
-        }
+        page.text(&solution.sensitive_function().unwrap_or_default());
         let has_pivoting = solution.motion.blocks.is_some();
         if has_pivoting {
             self.rights("param", self.unit.program.outputs.by_params(), "PARAMS", page);

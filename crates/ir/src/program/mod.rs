@@ -8,10 +8,6 @@
 //! Operations that depend on parameters alone run once, in the prologue; those that depend on time alone run once per time and not once per
 //! iteration.
 
-#[allow(missing_docs)] // each constant is the opcode of the operation that it is named after
-pub mod codes;
-/// Source text of `codes.rs`, which emitted code includes.
-pub const CODES: &str = include_str!("codes.rs");
 mod compile;
 mod evaluate;
 mod formulas;
@@ -96,15 +92,6 @@ impl Column {
     /// All columns of a table.
     pub const ALL: [Column; 5] =
         [Column::Knots, Column::Coefficient(0), Column::Coefficient(1), Column::Coefficient(2), Column::Coefficient(3)];
-
-    /// Returns the index among all columns.
-    #[must_use]
-    pub fn number(self) -> u32 {
-        match self {
-            Column::Knots => 0,
-            Column::Coefficient(order) => 1 + u32::from(order),
-        }
-    }
 }
 
 /// Registers of a table; each column is a run of consecutive registers.

@@ -1,9 +1,9 @@
-//! The operations, each declared once: its operands and results, its meaning, and its opcode.
+//! The operations, each declared once: its operands and results, and its meaning.
 //!
 //! The meaning of an operation is expressed in terms of a [`Machine`]. Numbers, lanes, intervals, folding expressions and emitted text are
 //! machines; none of them needs to know the list of operations.
 
-use super::{Column, Register, codes};
+use super::{Column, Register};
 use mechc_expr::{Binary, Comparison, Unary};
 
 /// One operation: reads registers and writes `to`.
@@ -448,49 +448,6 @@ impl Op {
             Op::Pick { table, column, .. } => Some((table, column)),
             _ => None,
         }
-    }
-
-    /// Returns its opcode, and what the operation needs in addition to registers: its function, or its table column. In bytecode the opcode is
-    /// followed by the registers written, those read, and this number.
-    #[must_use]
-    pub fn code(self) -> (u32, Option<u32>) {
-        let immediate = match self {
-            Op::Unary { function, .. } => Some(function as u32),
-            Op::Binary { function, .. } => Some(function as u32),
-            _ => self.column().map(|(table, column)| table * Column::ALL.len() as u32 + column.number()),
-        };
-        let opcode = match self {
-            Op::Add { .. } => codes::ADD,
-            Op::Sub { .. } => codes::SUB,
-            Op::Mul { .. } => codes::MUL,
-            Op::Div { .. } => codes::DIV,
-            Op::MulAdd { .. } => codes::MUL_ADD,
-            Op::MulLess { .. } => codes::MUL_LESS,
-            Op::LessMul { .. } => codes::LESS_MUL,
-            Op::ProductOfThree { .. } => codes::PRODUCT_OF_THREE,
-            Op::SumOfProducts { .. } => codes::SUM_OF_PRODUCTS,
-            Op::DifferenceOfProducts { .. } => codes::DIFFERENCE_OF_PRODUCTS,
-            Op::SumOfProductsTimes { .. } => codes::SUM_OF_PRODUCTS_TIMES,
-            Op::DifferenceOfProductsTimes { .. } => codes::DIFFERENCE_OF_PRODUCTS_TIMES,
-            Op::Turn { .. } => codes::TURN,
-            Op::Neg { .. } => codes::NEG,
-            Op::Recip { .. } => codes::RECIP,
-            Op::SinCos { .. } => codes::SIN_COS,
-            Op::Unary { .. } => codes::UNARY,
-            Op::Binary { .. } => codes::BINARY,
-            Op::Compare { comparison: Comparison::Less, .. } => codes::LESS,
-            Op::Compare { comparison: Comparison::LessEqual, .. } => codes::LESS_EQUAL,
-            Op::Compare { comparison: Comparison::Equal, .. } => codes::EQUAL,
-            Op::And { .. } => codes::AND,
-            Op::Or { .. } => codes::OR,
-            Op::Not { .. } => codes::NOT,
-            Op::Select { .. } => codes::SELECT,
-            Op::Either { .. } => codes::EITHER,
-            Op::Copy { .. } => codes::COPY,
-            Op::Piece { .. } => codes::PIECE,
-            Op::Pick { .. } => codes::PICK,
-        };
-        (opcode, immediate)
     }
 }
 
