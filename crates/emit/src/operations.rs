@@ -170,11 +170,11 @@ fn call(callee: Callee, arguments: &str) -> String {
 }
 
 /// Returns a function of one argument as Rust.
-pub(super) fn unary(function: Unary, a: &str) -> String {
+fn unary(function: Unary, a: &str) -> String {
     call(callee(function), a)
 }
 
 /// Returns a function of two arguments as Rust.
-pub(super) fn binary(function: Binary, a: &str, b: &str) -> String {
+fn binary(function: Binary, a: &str, b: &str) -> String {
     call(callee_of_two(function), &format!("{a}, {b}"))
 }

@@ -171,7 +171,7 @@ impl RuntimeDeps {
     }
 
     /// Records a call of a function of numbers.
-    pub fn callee(&mut self, callee: Callee) {
+    fn callee(&mut self, callee: Callee) {
         match callee {
             Callee::Sine | Callee::Cosine => self.name("sine_and_cosine", "sin_cos"),
             Callee::Runtime(name) => self.name(name, name),
