@@ -9,7 +9,7 @@
 //!
 //! This code carries no licence of mechc's: use, change and pass it on as you like.
 
-#![allow(clippy::approx_constant, clippy::eq_op)]
+#![allow(clippy::approx_constant, clippy::eq_op, clippy::neg_multiply)]
 #![allow(clippy::excessive_precision, clippy::large_const_arrays)]
 
 use runtime::blocks::Blocks;
@@ -1678,7 +1678,7 @@ pub trait Along<M: Solved>: Copy + Debug {
     }
 
     /// Returns the derivatives of the coordinates by the variable of the motion, for modification.
-    #[allow(dead_code)] // what is neither pivoted nor listed knows them by their names
+    #[allow(dead_code)] // what is not pivoted knows them by their names
     fn slopes_mut(&mut self) -> &mut [M::Q] {
         &mut []
     }

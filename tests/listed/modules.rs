@@ -145,8 +145,7 @@ fn stands_alone(batch: &Batch, number: usize) {
         Command::new("rustfmt").args(["--check", "--edition", "2024"]).arg(&path).output().expect("rustfmt");
     assert!(formatted.status.success(), "{}", String::from_utf8_lossy(&formatted.stdout));
     let alone = folder.join(format!("{name}_alone.rs"));
-    // a coefficient of an equation may be -1
-    let head = "#![no_std]\n#![forbid(unsafe_code)]\n#![deny(warnings)]\n#![allow(clippy::neg_multiply)]\n";
+    let head = "#![no_std]\n#![forbid(unsafe_code)]\n#![deny(warnings)]\n";
     fs::write(&alone, format!("{head}{text}")).expect("written");
     let out = folder.join(format!("{name}.rmeta"));
     // rustc with clippy's lints: neither has anything to say

@@ -10,7 +10,7 @@
 //!
 //! This code carries no licence of mechc's: use, change and pass it on as you like.
 
-#![allow(clippy::approx_constant, clippy::eq_op)]
+#![allow(clippy::approx_constant, clippy::eq_op, clippy::neg_multiply)]
 #![allow(clippy::excessive_precision, clippy::large_const_arrays)]
 
 use runtime::blocks::Blocks;

@@ -8,7 +8,7 @@
 //!
 //! This code carries no licence of mechc's: use, change and pass it on as you like.
 
-#![allow(clippy::approx_constant, clippy::eq_op)]
+#![allow(clippy::approx_constant, clippy::eq_op, clippy::neg_multiply)]
 #![allow(clippy::excessive_precision, clippy::large_const_arrays)]
 
 /// The parameters, in SI; those of the file by default.

@@ -64,7 +64,7 @@ pub trait Along<M: Solved>: Copy + Debug {
     }
 
     /// Returns the derivatives of the coordinates by the variable of the motion, for modification.
-    #[allow(dead_code)] // what is neither pivoted nor listed knows them by their names
+    #[allow(dead_code)] // what is not pivoted knows them by their names
     fn slopes_mut(&mut self) -> &mut [M::Q] {
         &mut []
     }

@@ -149,7 +149,7 @@ impl Writer<'_> {
         page.line("//! This code carries no licence of mechc's: use, change and pass it on as you like.");
         page.blank();
         // a parameter of 3.14 is no approximation of pi, and a formula may hold what the parameters make trivial
-        page.line("#![allow(clippy::approx_constant, clippy::eq_op)]");
+        page.line("#![allow(clippy::approx_constant, clippy::eq_op, clippy::neg_multiply)]");
         page.line("#![allow(clippy::excessive_precision, clippy::large_const_arrays)]");
         if self.equations.has_varied() {
             page.line("#![allow(clippy::too_many_arguments)]");

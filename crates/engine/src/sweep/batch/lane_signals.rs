@@ -1,10 +1,9 @@
 //! Signals in lanes: whether what time alone decides keeps within its values at the ends of a step.
 
 use super::acceptance::Rejections;
-use super::context::BatchContext;
 use super::{LANES, PerLane, ZERO};
 use crate::analysis::SignalBounds;
-use mechc_ir::program::{Enclosure, Program, Register};
+use mechc_ir::program::{Enclosure, Program, Register, Registers};
 
 /// The signals that a batch checks, and what they are computed from.
 pub(super) struct BatchSignals {
@@ -48,7 +47,7 @@ impl LaneSignals {
     /// Evaluates the signals of the active lanes at the first time `t` (s). `registers` are those of the program, by lane.
     pub fn begin(
         &mut self,
-        context: &BatchContext,
+        (program, scalars): (&Program, &Registers),
         signals: &BatchSignals,
         registers: &[PerLane],
         active: &[bool; LANES],
@@ -63,7 +62,7 @@ impl LaneSignals {
         for lane in self.lanes(active) {
             let slot = self.slot(lane);
             self.load(signals, registers, lane);
-            self.enclosure.enclose(&context.program, &context.scalars, [t; 2]);
+            self.enclosure.enclose(program, scalars, [t; 2]);
             for (index, signal) in signals.bounds.all.iter().enumerate() {
                 self.ends[0][index].0[slot] = middle(self.enclosure.range(signal.register));
             }
@@ -73,7 +72,7 @@ impl LaneSignals {
     /// Rejects the active lanes in which a signal may leave its values at the times `from` and `to` (s).
     pub fn check(
         &mut self,
-        context: &BatchContext,
+        (program, scalars): (&Program, &Registers),
         signals: &BatchSignals,
         registers: &[PerLane],
         active: &[bool; LANES],
@@ -83,11 +82,11 @@ impl LaneSignals {
         for lane in self.lanes(active) {
             let slot = self.slot(lane);
             self.load(signals, registers, lane);
-            self.enclosure.enclose(&context.program, &context.scalars, [to; 2]);
+            self.enclosure.enclose(program, scalars, [to; 2]);
             for (index, signal) in signals.bounds.all.iter().enumerate() {
                 self.ends[1][index].0[slot] = middle(self.enclosure.range(signal.register));
             }
-            self.enclosure.enclose(&context.program, &context.scalars, [from, to]);
+            self.enclosure.enclose(program, scalars, [from, to]);
             let leaves = |index: usize| {
                 let range = self.enclosure.range(signals.bounds.all[index].register);
                 signals.bounds.may_leave_ends(index, range, [0, 1].map(|end| self.ends[end][index].0[slot]))

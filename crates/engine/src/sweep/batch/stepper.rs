@@ -155,7 +155,7 @@ impl BatchStepper {
         rejections.lanes().for_each(|k| self.active[k] = false);
         self.commit();
         if let (Some(all), Some(signals)) = (&context.signals, &mut self.signals) {
-            signals.begin(context, all, &self.registers, &self.active, context.from);
+            signals.begin((&context.program, &context.scalars), all, &self.registers, &self.active, context.from);
         }
         self.node_count = 1;
     }
@@ -257,7 +257,8 @@ impl BatchStepper {
         self.extrapolate(context, h);
         let mut rejections = self.solve_at(context, t, Some(h), solver);
         if let (Some(all), Some(signals)) = (&context.signals, &mut self.signals) {
-            signals.check(context, all, &self.registers, &self.active, [self.now.t, t], &mut rejections);
+            let of_program = (&*context.program, &context.scalars);
+            signals.check(of_program, all, &self.registers, &self.active, [self.now.t, t], &mut rejections);
         }
         let mut is_taken = true;
         for k in rejections.lanes() {
