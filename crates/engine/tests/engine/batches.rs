@@ -89,7 +89,7 @@ fn pulses_between_rows_stop_batches_as_single_runs() {
         .replace("revolute(ground.B, rocker.B)", "revolute(rocker.B, ground.B)")
         .replace("rotation(main)", "rotation(pivot)");
     let subject = subject(&text, Choice::default());
-    let (found, _) = compare(&subject, &sampled(&["speed=0.1..3.5", "rod=3.4..3.6"], 8, Method::Sobol));
+    let (found, _) = compare(&subject, &sampled(&["speed=0.02..1", "rod=3.4..3.6"], 16, Method::Sobol));
     assert!(found.len() >= 2, "some stop and some do not: {found:?}");
 }
 

@@ -17,7 +17,7 @@ use std::array::from_fn;
 const ALIKE: f64 = 1e-9;
 /// Maximum number of times that one variant may shorten the steps of its batch.
 const PATIENCE: u32 = 16;
-/// Number of steps before longer ones are tried; each rejected step doubles it, so that a motion which stays fast does not use up the patience.
+/// Number of steps before longer ones are tried; each rejected step adds as many, so that a motion which stays fast keeps its patience longer.
 const CALM_STEPS: u32 = 6;
 /// Numbers of continuation steps to a variant's parameters, tried in turn.
 const PARTS_OF_WAY: [u32; 6] = [1, 2, 4, 8, 16, 32];
@@ -236,7 +236,7 @@ impl BatchStepper {
             let is_shown = is_last || at_every_step;
             if !self.try_step(context, next, is_shown.then_some(&mut *solver)) {
                 (self.step_length, self.steps_taken) = (0.5 * h, 0);
-                self.calm_steps = self.calm_steps.saturating_mul(2);
+                self.calm_steps += CALM_STEPS;
                 continue;
             }
             if is_shown {
@@ -267,6 +267,8 @@ impl BatchStepper {
                 is_taken = false;
             } else {
                 self.active[k] = false;
+                // the others need not go as slowly
+                self.calm_steps = CALM_STEPS;
             }
         }
         if is_taken {
