@@ -51,7 +51,7 @@ pub struct BlockTables {
 }
 
 impl BlockTables {
-    /// Creates the tables of a system; returns `None` if a block has more than [`LARGEST_BLOCK`] rows.
+    /// Creates the tables of a system; returns `None` if a block has more than `LARGEST_BLOCK` rows.
     #[must_use]
     pub fn new(determined: &Determined) -> Option<BlockTables> {
         let (system, blocks) = (determined.system(), determined.blocks());
