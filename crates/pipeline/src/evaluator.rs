@@ -4,7 +4,7 @@
 use crate::batch::{BatchEvaluator, Query, QueryResult};
 use crate::continuation::{Continuation, Outcome};
 use crate::option_reader::unusable;
-use crate::param_table::{Binder, Bindings, bindings_of};
+use crate::param_table::{Binder, Bindings};
 use crate::{Checked, Compiled, Redundant, RequestedTimes, RunOptions, Variants};
 use mechc_engine::analysis::{Answers, ResultQuery, Times};
 use mechc_engine::sweep::{LANES, Levels, Points, Varying};
@@ -145,7 +145,7 @@ impl Checked {
                 unknown(name, "param")
             });
         }
-        let nominal = bindings_of(model);
+        let nominal = Bindings::new(model);
         let batch = BatchEvaluator::new(model.continued.iter().filter_map(|param| param.param).collect());
         let params = self.params_to_adjust(&adjusting.params)?.map(|params| Binder::new(&checked, &params));
         let (source, redundant) = (checked.clone(), adjusting.redundant);

@@ -25,11 +25,13 @@ pub(crate) struct Bindings {
     pub analysis: Option<[f64; 3]>,
 }
 
-/// Returns the bindings of a model as it was checked.
-pub(crate) fn bindings_of(model: &Mechanism) -> Bindings {
-    Bindings {
-        values: model.params.iter().map(|param| param.value).collect(),
-        analysis: model.analysis.map(|analysis| [analysis.from, analysis.to, analysis.every]),
+impl Bindings {
+    /// Returns the bindings of a model as it was checked.
+    pub fn new(model: &Mechanism) -> Bindings {
+        Bindings {
+            values: model.params.iter().map(|param| param.value).collect(),
+            analysis: model.analysis.map(|analysis| [analysis.from, analysis.to, analysis.every]),
+        }
     }
 }
 
@@ -101,7 +103,7 @@ impl ParamTable {
             model.analysis.map(|analysis| analysis.formulas).filter(|times| times.iter().any(|&id| varies(id)));
         let roots: Vec<ExprId> = guards.iter().map(|&(id, _)| id).chain(analysis.into_iter().flatten()).collect();
         let (program, outputs) = Program::of_formulas(&model.graph, [model.params.len(), 0, 0, 0], &roots);
-        let checked = bindings_of(model);
+        let checked = Bindings::new(model);
         let mut registers = program.start(&checked.values);
         program.run(Stage::Measures, &mut registers);
         let guard = |(&register, &(_, kind)): (&Register, &(ExprId, GuardKind))| Guard {
@@ -217,10 +219,11 @@ impl Binder {
             return Ok(bindings);
         }
         let model = self.model(varying)?;
-        if varying.iter().all(|value| value.is_finite() && *value != 0.0) {
+        let has_room = self.tables().len() < MOST_TABLES;
+        if has_room && varying.iter().all(|value| value.is_finite() && *value != 0.0) {
             self.add(ParamTable::new(&model, self.variants.points().params(), varying));
         }
-        Ok(bindings_of(&model))
+        Ok(Bindings::new(&model))
     }
 
     /// Returns the table of the check with the given values, or with values near to those that are zero; `None` if the mechanism has errors

@@ -603,7 +603,7 @@ impl VariantStop {
         VariantStop { code: stop.explain(system).code, t: Some(stop.t) }
     }
 
-    /// Returns the first error other than a path that stops. Cancelled work has no error, and its code is never shown.
+    /// Returns the stop at the first error other than a path that stops. Cancelled work has no error, and its code is never shown.
     fn of(diagnostics: &Diagnostics) -> VariantStop {
         let is_cause = |diagnostic: &&Diagnostic| diagnostic.is_error() && diagnostic.code != Code::E0612;
         let code = diagnostics.iter().find(is_cause).map_or(Code::E0601, |diagnostic| diagnostic.code);

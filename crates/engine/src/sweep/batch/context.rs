@@ -115,8 +115,8 @@ impl BatchContext {
             return None;
         }
         // results are found between steps, which must show all of the motion; without them rows alone are worth a batch
-        let has_results = request.results && started.is_plain();
-        if !has_results && columns.is_none() && !started.is_plain() {
+        let is_plain = started.is_plain();
+        if columns.is_none() && !is_plain {
             return None;
         }
         let (CompiledSystem { determined, program }, nominal_params) = base.nominal();
@@ -125,8 +125,11 @@ impl BatchContext {
         let derivatives = required_derivatives(&mut started, request, &indices);
         let is_tracked =
             |column: u32| tracked.iter().any(|coordinate| coordinate.columns[..derivatives.orders()].contains(&column));
-        let queries =
-            if has_results { ResultQueries::new(determined, &mut started, times, &is_tracked, vectors) } else { None };
+        let queries = if request.results && is_plain {
+            ResultQueries::new(determined, &mut started, times, &is_tracked, vectors)
+        } else {
+            None
+        };
         // a variant with all its results has completed the motion, so rows need not show that
         let rows = if columns.is_none() && queries.is_some() {
             None
