@@ -21,6 +21,7 @@ use mechc_draw::view::svg::{Options, Plot, Theme, animated, has_vectors, plots, 
 use mechc_draw::view::{dxf, first_sentence};
 use mechc_engine::analysis::{FreeMotion, Horizon, free_motions};
 use mechc_lang::check;
+use mechc_lang::lower::LowerOptions;
 use mechc_pipeline as lower;
 use mechc_syntax as syntax;
 use std::fs;
@@ -1040,7 +1041,7 @@ fn free(text: &str) -> Vec<Vec<(String, [f64; 3])>> {
     let file = sources.add("free.mech", text);
     let tree = syntax::parse(&sources, file).tree;
     let (model, reports) = check::check(&tree.mechanisms[0], &check::CheckOptions::default(), &sources);
-    let system = lower::lower_model(&model.unwrap_or_else(|| panic!("{reports:?}")));
+    let system = lower::lower_model(&model.unwrap_or_else(|| panic!("{reports:?}")), &LowerOptions::default());
     let named = |FreeMotion { bodies }: FreeMotion| {
         bodies.into_iter().map(|(body, velocity)| (system.bodies()[body].name.clone(), velocity)).collect()
     };

@@ -4,3 +4,4 @@ pub mod check;
 pub mod estimates;
 pub mod lower;
 pub mod model;
+pub mod settable_inputs;

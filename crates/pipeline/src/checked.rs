@@ -1,8 +1,8 @@
 //! The second stage: a mechanism whose names, units and values are resolved. Proves nothing about its equations.
 
+use crate::compiled::Origin;
 use crate::continuation::StartSolver;
 use crate::imports::{self, Imports};
-use crate::lowering::Rebuild;
 use crate::lowering::lower_model;
 use crate::options::spaceless;
 use crate::part_backtrace::PartBacktrace;
@@ -12,6 +12,7 @@ use mechc_ir::ConstraintSystem;
 use mechc_lang::check::{
     self, CheckOptions, DeclarationInfo, InputOverrides, Library, ParamOverride, Symbols, TableFiles, UNTIL,
 };
+use mechc_lang::lower::{Inputs, LowerOptions, TabulatedForces};
 use mechc_lang::model::Mechanism;
 use mechc_syntax::{self as syntax, ast};
 use mechc_text::cancel::Cancel;
@@ -86,12 +87,12 @@ pub struct Checked {
     pub(crate) index: Option<usize>,
     pub(crate) library: Library,
     pub(crate) model: Option<Arc<Mechanism>>,
-    /// Finds its starting position, if it has parts or is given inputs.
-    start_solver: Option<Arc<StartSolver>>,
     /// True if it is continued from the values of its text to those that are set.
     is_continued: bool,
     /// The options of its check.
     pub(crate) check_options: Arc<CheckOptions>,
+    /// The forces that are tabulated in addition to those of measures.
+    forces: TabulatedForces,
     diagnostics: Arc<Diagnostics>,
     symbols: Arc<OnceLock<Symbols>>,
     pub(crate) query_cache: Arc<QueryCache>,
@@ -183,19 +184,12 @@ impl Checked {
             (Ok(settings), Ok(given)) => {
                 let library = library.clone();
                 let Choice { reactions, pictures_forces, slopes, .. } = *choice;
-                let check_options = CheckOptions {
-                    settings,
-                    library,
-                    files,
-                    given,
-                    by,
-                    slopes,
-                    reactions,
-                    pictures_forces,
-                    ..CheckOptions::default()
-                };
+                let check_options =
+                    CheckOptions { settings, library, files, given, by, slopes, ..CheckOptions::default() };
                 let parsed = parsed.with_sources(sources);
-                return Checked::with_check_options(parsed, index, check_options, is_continued, diagnostics);
+                let forces = TabulatedForces { reactions, for_pictures: pictures_forces };
+                let checked = Checked::with_check_options(parsed, index, check_options, is_continued, diagnostics);
+                return Checked { forces, ..checked };
             }
         }
         Checked::from_model(parsed.with_sources(sources), Some(index), library, None, diagnostics)
@@ -212,15 +206,21 @@ impl Checked {
         let (model, of_check) = check::check(&parsed.tree().mechanisms[index], &check_options, parsed.sources());
         diagnostics.extend(of_check);
         let model = model.filter(|_| !diagnostics.has_errors()).map(Arc::new);
-        let has_parts = model.as_ref().is_some_and(|model| !model.parts.is_empty());
-        let has_given_inputs = !check_options.given.is_empty();
-        let start_solver = (has_given_inputs || has_parts).then(|| {
-            let (read, sources, check_options) = (parsed.shared(), parsed.sources().clone(), check_options.clone());
-            Arc::new(StartSolver { read, index, check_options, sources, has_given_inputs })
-        });
         let library = check_options.library.clone();
         let checked = Checked::from_model(parsed, Some(index), library, model, diagnostics);
-        Checked { start_solver, is_continued, check_options: Arc::new(check_options), ..checked }
+        Checked { is_continued, check_options: Arc::new(check_options), ..checked }
+    }
+
+    /// Checks the mechanism with other options of the checker, to be continued to what is set if `is_continued`.
+    pub(crate) fn checked_again(&self, check_options: CheckOptions, is_continued: bool) -> Option<Checked> {
+        let checked = Checked::with_check_options(
+            self.parsed.clone(),
+            self.index?,
+            check_options,
+            is_continued,
+            Diagnostics::default(),
+        );
+        Some(Checked { forces: self.forces, ..checked })
     }
 
     /// Returns the mechanism with params of the given names as symbols of its models, too, without a model of its own.
@@ -249,11 +249,10 @@ impl Checked {
 
     /// Checks the mechanism with more params set over those that are set already, to be continued to them. Their formulas are in `sources`.
     pub(crate) fn continued_to(&self, settings: impl IntoIterator<Item = ParamOverride>, sources: &Sources) -> Checked {
-        let Some(index) = self.index else { return self.clone() };
         let mut check_options = (*self.check_options).clone();
         check_options.settings.extend(settings);
-        let parsed = self.parsed.with_sources(sources.clone());
-        Checked::with_check_options(parsed, index, check_options, true, Diagnostics::default())
+        let checked = Checked { parsed: self.parsed.with_sources(sources.clone()), ..self.clone() };
+        checked.checked_again(check_options, true).unwrap_or(checked)
     }
 
     /// Returns the mechanism without the search condition of a sweep.
@@ -262,13 +261,8 @@ impl Checked {
         let is_until =
             |item: &ast::Item| matches!(&item.kind, ast::ItemKind::Result { name, .. } if name.text == UNTIL);
         let parsed = self.parsed.without_items(index, is_until);
-        let options = (*self.check_options).clone();
-        Checked::with_check_options(parsed, index, options, self.is_continued, Diagnostics::default())
-    }
-
-    /// Returns what rebuilds the mechanism with signals or reactions.
-    fn rebuild(&self) -> Option<Rebuild> {
-        Some(Rebuild::new(self.parsed.clone(), self.index?, Arc::clone(&self.check_options)))
+        let checked = Checked { parsed, ..self.clone() };
+        checked.checked_again((*self.check_options).clone(), self.is_continued).unwrap_or(checked)
     }
 
     fn from_model(
@@ -280,15 +274,15 @@ impl Checked {
     ) -> Checked {
         diagnostics.sort_by_span();
         let (diagnostics, check_options, symbols) = (Arc::new(diagnostics), Arc::default(), Arc::default());
-        let (start_solver, is_continued, query_cache) = Default::default();
+        let (forces, is_continued, query_cache) = Default::default();
         Checked {
             parsed,
             index,
             library,
             model,
-            start_solver,
             is_continued,
             check_options,
+            forces,
             diagnostics,
             symbols,
             query_cache,
@@ -385,13 +379,13 @@ impl Checked {
     /// Returns all equations with their derivatives as a text, even if the mechanism is not determined; `None` if it has errors.
     #[must_use]
     pub fn equations_text(&self) -> Option<String> {
-        self.model.as_ref().map(|model| lower_model(model).to_string())
+        self.lowered().map(|system| system.to_string())
     }
 
     /// Returns the equations as LaTeX, even if the mechanism is not determined; `None` if it has errors. `file` is named in the output.
     #[must_use]
     pub fn latex(&self, file: &str) -> Option<String> {
-        let mut system = lower_model(self.model.as_ref()?);
+        let mut system = self.lowered()?;
         let mechanics = system.mechanics();
         Some(emit::latex(&system, mechanics.as_ref(), false, file))
     }
@@ -399,9 +393,24 @@ impl Checked {
     /// Returns the constraint system as JSON, even if the mechanism is not determined; `None` if it has errors.
     #[must_use]
     pub fn json(&self, file: &str) -> Option<String> {
-        let mut system = lower_model(self.model.as_ref()?);
+        let mut system = self.lowered()?;
         let mechanics = system.mechanics();
         Some(emit::json(&system, mechanics.as_ref(), false, self.sources(), file))
+    }
+
+    /// Returns its equations, even if the mechanism is not determined; `None` if it has errors.
+    pub(crate) fn lowered(&self) -> Option<ConstraintSystem> {
+        let options = LowerOptions { forces: self.forces, ..LowerOptions::default() };
+        self.model.as_ref().map(|model| lower_model(model, &options))
+    }
+
+    /// Returns what finds the starting position of its model, if that has parts or is given inputs.
+    fn start_solver(&self, model: &Arc<Mechanism>) -> Option<Arc<StartSolver>> {
+        let has_given_inputs = self.has_given_inputs();
+        (has_given_inputs || !model.parts.is_empty()).then(|| {
+            let (model, check_options) = (Arc::clone(model), Arc::clone(&self.check_options));
+            Arc::new(StartSolver { model, check_options, sources: self.sources().clone(), has_given_inputs })
+        })
     }
 
     /// Proves that the mechanism is determined, and compiles it; returns the diagnostics of that. `None` if it has errors, is not determined, or
@@ -411,20 +420,23 @@ impl Checked {
         match &self.model {
             None => (None, Diagnostics::default()),
             Some(model) => {
-                let (start_solver, backtrace) = (self.start_solver.clone(), PartBacktrace::new(model));
-                let sources = self.sources().clone();
-                let (mut compiled, mut diagnostics) =
-                    Compiled::new(sources, lower_model(model), redundant, start_solver, backtrace, cancel);
+                let origin = Origin {
+                    sources: self.sources().clone(),
+                    model: Arc::clone(model),
+                    forces: self.forces,
+                    start_solver: self.start_solver(model),
+                    backtrace: PartBacktrace::new(model),
+                    redundant,
+                };
+                let system = origin.lowered(Inputs::Inlined);
+                let (mut compiled, mut diagnostics) = origin.compile(system, cancel);
                 if let Some(Err(why)) = compiled.as_ref().map(|compiled| compiled.determined().check_part_derivatives())
                 {
                     diagnostics.extend(why);
                     compiled = None;
                 }
                 let continuation = self.is_continued.then(|| self.continuation(redundant));
-                (
-                    compiled.map(|compiled| compiled.with_rebuild(self.rebuild()).with_continuation(continuation)),
-                    diagnostics,
-                )
+                (compiled.map(|compiled| compiled.with_continuation(continuation)), diagnostics)
             }
         }
     }

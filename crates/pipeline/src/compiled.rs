@@ -2,7 +2,7 @@
 
 use crate::continuation::Continuation;
 use crate::continuation::StartSolver;
-use crate::lowering::Rebuild;
+use crate::lowering::lower_model;
 use crate::part_backtrace::PartBacktrace;
 use mechc_emit as emit;
 use mechc_engine::analysis::{self, Horizon, Times};
@@ -10,6 +10,8 @@ use mechc_ir::layout::{self, ColumnUnit, RowLayout};
 use mechc_ir::program::Program;
 use mechc_ir::structure::{self, Determined};
 use mechc_ir::{ConstraintSystem, DeclarationKind, Mechanics};
+use mechc_lang::lower::{Inputs, LowerOptions, TabulatedForces};
+use mechc_lang::model::Mechanism;
 use mechc_text::cancel::Cancel;
 use mechc_text::diag::Diagnostics;
 use mechc_text::source::Sources;
@@ -44,58 +46,51 @@ pub enum Redundant {
 /// ```
 #[derive(Clone)]
 pub struct Compiled {
-    sources: Sources,
+    origin: Origin,
     determined: Arc<Determined>,
     program: Arc<OnceLock<Arc<Program>>>,
-    /// Finds its starting position, if it has parts or is given inputs.
-    start_solver: Option<Arc<StartSolver>>,
-    backtrace: PartBacktrace,
-    redundant: Redundant,
-    /// Rebuilds it with signals or reactions.
-    rebuild: Option<Rebuild>,
     /// Present if it is continued from nominal values of its params.
     continuation: Option<Arc<Continuation>>,
 }
 
-impl Compiled {
-    pub(crate) fn new(
-        sources: Sources,
-        system: ConstraintSystem,
-        redundant: Redundant,
-        start_solver: Option<Arc<StartSolver>>,
-        backtrace: PartBacktrace,
-        cancel: &Cancel,
-    ) -> (Option<Compiled>, Diagnostics) {
+/// What a mechanism is compiled from, except for its equations.
+#[derive(Clone)]
+pub(crate) struct Origin {
+    pub sources: Sources,
+    pub model: Arc<Mechanism>,
+    pub forces: TabulatedForces,
+    /// Finds its starting position, if it has parts or is given inputs.
+    pub start_solver: Option<Arc<StartSolver>>,
+    pub backtrace: PartBacktrace,
+    pub redundant: Redundant,
+}
+
+impl Origin {
+    /// Returns the equations of its model.
+    pub fn lowered(&self, inputs: Inputs) -> ConstraintSystem {
+        lower_model(&self.model, &LowerOptions { inputs, forces: self.forces })
+    }
+
+    /// Compiles it with these equations.
+    pub fn compile(self, system: ConstraintSystem, cancel: &Cancel) -> (Option<Compiled>, Diagnostics) {
         if cancel.is_cancelled() {
             return (None, Diagnostics::default());
         }
         let horizon = Horizon::of_analysis(system.analysis());
-        match analysis::determine(system, redundant == Redundant::LeftOut, horizon) {
+        match analysis::determine(system, self.redundant == Redundant::LeftOut, horizon) {
             _ if cancel.is_cancelled() => (None, Diagnostics::default()),
-            Err(why) => (None, backtrace.annotate_all(why)),
+            Err(why) => (None, self.backtrace.annotate_all(why)),
             Ok((determined, diagnostics)) => {
-                let (determined, diagnostics) = (Arc::new(determined), backtrace.annotate_all(diagnostics));
-                let (program, rebuild, continuation) = Default::default();
-                let compiled = Compiled {
-                    sources,
-                    determined,
-                    program,
-                    start_solver,
-                    backtrace,
-                    redundant,
-                    rebuild,
-                    continuation,
-                };
+                let diagnostics = self.backtrace.annotate_all(diagnostics);
+                let (program, continuation) = Default::default();
+                let compiled = Compiled { origin: self, determined: Arc::new(determined), program, continuation };
                 (Some(compiled), diagnostics)
             }
         }
     }
+}
 
-    /// Returns it with what rebuilds it.
-    pub(crate) fn with_rebuild(self, rebuild: Option<Rebuild>) -> Compiled {
-        Compiled { rebuild, ..self }
-    }
-
+impl Compiled {
     /// Returns it with a continuation from nominal values, if there is one.
     pub(crate) fn with_continuation(self, continuation: Option<Arc<Continuation>>) -> Compiled {
         Compiled { continuation, ..self }
@@ -103,48 +98,44 @@ impl Compiled {
 
     /// Compiles the mechanism with its inputs as signals, and measures differentiated as here; `None` if it has no inputs.
     pub(crate) fn signals(&self, cancel: &Cancel) -> Result<Option<Compiled>, Diagnostics> {
-        let Some(rebuild) = self.rebuild.as_ref().filter(|_| !self.system().inputs().is_empty()) else {
-            return Ok(None);
-        };
-        let mut system = rebuild.with_signals()?;
+        let Some(mut system) = self.with_signals() else { return Ok(None) };
         system.align_measures(self.system().measures());
         if self.system().by_params().len() > 0 {
             system.derive_by_params();
         }
-        let (compiled, diagnostics) =
-            Compiled::new(self.sources.clone(), system, self.redundant, None, self.backtrace.clone(), cancel);
+        let (compiled, diagnostics) = Origin { start_solver: None, ..self.origin.clone() }.compile(system, cancel);
         compiled.map(Some).ok_or(diagnostics)
     }
 
     /// Returns the equations with inputs as signals, if it has any.
     pub(crate) fn with_signals(&self) -> Option<ConstraintSystem> {
-        self.rebuild.as_ref().filter(|_| !self.system().inputs().is_empty())?.with_signals().ok()
+        (!self.system().inputs().is_empty()).then(|| self.origin.lowered(Inputs::Signals))
     }
 
     /// Compiles the mechanism with its equations differentiated by its params.
     pub(crate) fn by_params(&self) -> Result<Compiled, Diagnostics> {
         let mut system = self.determined.whole().clone();
         system.derive_by_params();
-        let (start_solver, backtrace) = (self.start_solver.clone(), self.backtrace.clone());
-        let (compiled, diagnostics) =
-            Compiled::new(self.sources.clone(), system, self.redundant, start_solver, backtrace, &Cancel::default());
-        compiled.map(|compiled| compiled.with_rebuild(self.rebuild.clone())).ok_or(diagnostics)
+        let (compiled, diagnostics) = self.origin.clone().compile(system, &Cancel::default());
+        compiled.ok_or(diagnostics)
     }
 
     /// Compiles the mechanism with all reactions of joints and efforts of drivers. `None` if it has no masses and loads, or if redundant equations
     /// leave the reactions undetermined.
     pub(crate) fn with_reactions(&self) -> Option<Compiled> {
-        let (system, rebuild) = self.rebuild.as_ref()?.with_reactions()?;
-        let (start_solver, backtrace) = (self.start_solver.clone(), self.backtrace.clone());
-        let (compiled, _) =
-            Compiled::new(self.sources.clone(), system, self.redundant, start_solver, backtrace, &Cancel::default());
-        Some(compiled?.with_rebuild(Some(rebuild)))
+        if !self.origin.model.has_forces() {
+            return None;
+        }
+        let forces = TabulatedForces { reactions: true, ..self.origin.forces };
+        let origin = Origin { forces, ..self.origin.clone() };
+        let system = origin.lowered(Inputs::Inlined);
+        origin.compile(system, &Cancel::default()).0
     }
 
     /// Returns the texts that its diagnostics point into.
     #[must_use]
     pub fn sources(&self) -> &Sources {
-        &self.sources
+        &self.origin.sources
     }
 
     /// Returns the name of the mechanism.
@@ -228,7 +219,7 @@ impl Compiled {
             .declarations()
             .iter()
             .filter(|declaration| declaration.kind == DeclarationKind::Driver)
-            .filter_map(|driver| Some((driver.name.clone(), written(self.sources.text(driver.written?)))))
+            .filter_map(|driver| Some((driver.name.clone(), written(self.origin.sources.text(driver.written?)))))
             .collect()
     }
 
@@ -248,7 +239,7 @@ impl Compiled {
     #[must_use]
     pub fn json(&self, file: &str) -> String {
         let (system, mechanics) = self.with_mechanics();
-        emit::json(&system, mechanics.as_ref(), true, &self.sources, file)
+        emit::json(&system, mechanics.as_ref(), true, &self.origin.sources, file)
     }
 
     /// Returns the system with its reactions, and with the mechanics that give them, if it has masses and loads.
@@ -261,7 +252,8 @@ impl Compiled {
 
     /// Returns what finds its starting position, and whether redundant equations are left out there too.
     pub(crate) fn start_solver(&self) -> Option<(&StartSolver, bool)> {
-        self.start_solver.as_deref().map(|start_solver| (start_solver, self.redundant == Redundant::LeftOut))
+        let Origin { start_solver, redundant, .. } = &self.origin;
+        start_solver.as_deref().map(|start_solver| (start_solver, *redundant == Redundant::LeftOut))
     }
 
     /// Returns the continuation from nominal values of its params, if it has one.
@@ -271,7 +263,7 @@ impl Compiled {
 
     /// Returns the places where its parts are used.
     pub(crate) fn backtrace(&self) -> &PartBacktrace {
-        &self.backtrace
+        &self.origin.backtrace
     }
 
     /// Returns the constraint system.

@@ -8,7 +8,8 @@ use crate::param_table::{Binder, Bindings};
 use crate::{Checked, Compiled, Redundant, RequestedTimes, RunOptions, Variants};
 use mechc_engine::analysis::{Answers, ResultQuery, Times};
 use mechc_engine::sweep::{LANES, Levels, Points, Varying};
-use mechc_lang::check::{CheckOptions, SettableInputs};
+use mechc_lang::check::CheckOptions;
+use mechc_lang::settable_inputs::SettableInputs;
 use mechc_text::cancel::Cancel;
 use mechc_text::diag::{Code, Diagnostic, Diagnostics, Error, readable};
 use std::sync::Arc;
@@ -113,13 +114,11 @@ impl Checked {
         let refused = |why: Diagnostic| Error::new(why, self.sources());
         let t = self.model().and_then(|model| model.analysis).map_or(0.0, |analysis| analysis.from);
         let set_inputs = SettableInputs { t, names: adjusting.inputs.clone(), bend: adjusting.has_accelerations };
-        let open = adjusting.params.clone();
-        let check_options = CheckOptions { set_inputs: Some(set_inputs), open, ..(*self.check_options).clone() };
-        let Some(index) = self.index else {
+        let check_options = CheckOptions { open: adjusting.params.clone(), ..(*self.check_options).clone() };
+        let Some(checked) = self.checked_again(check_options, false) else {
             return Err(Error::new(self.diagnostics().clone(), self.sources()));
         };
-        let checked =
-            Checked::with_check_options(self.parsed.clone(), index, check_options, false, Diagnostics::default());
+        let checked = checked.with_settable_inputs(&set_inputs).map_err(|why| refused(*why))?;
         let (compiled, diagnostics) = checked.compile(adjusting.redundant, cancel);
         let Some((compiled, model)) = compiled.zip(checked.model()) else {
             let why = if checked.is_sound() { &diagnostics } else { checked.diagnostics() };
@@ -149,10 +148,17 @@ impl Checked {
         let batch = BatchEvaluator::new(model.continued.iter().filter_map(|param| param.param).collect());
         let params = self.params_to_adjust(&adjusting.params)?.map(|params| Binder::new(&checked, &params));
         let (source, redundant) = (checked.clone(), adjusting.redundant);
-        let continuation = Continuation::new(move |options| source.nominal(redundant, options));
+        let sets_inputs = !adjusting.inputs.is_empty();
+        let continuation = Continuation::new(move |options| source.nominal(redundant, sets_inputs, options));
         let (adjusting, columns) = (adjusting.clone(), compiled.columns().len());
         let shared = Shared { checked, compiled, continuation, nominal, inputs, params, adjusting, columns, batch };
         Ok(MechanismEvaluator(Arc::new(shared)))
+    }
+
+    /// Returns the mechanism with inputs of its model as settable numbers.
+    fn with_settable_inputs(mut self, inputs: &SettableInputs) -> Result<Checked, Box<Diagnostic>> {
+        self.model.as_mut().map_or(Ok(()), |model| inputs.add_to(Arc::make_mut(model)))?;
+        Ok(self)
     }
 
     /// Returns the params of the given names, each of which takes a number in SI.

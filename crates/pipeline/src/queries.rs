@@ -1,6 +1,5 @@
 //! Queries of editors about one declaration of a mechanism that was checked or compiled.
 
-use crate::lowering::lower_model;
 use crate::{Assembly, Checked, Compiled};
 use mechc_expr::Symbol;
 use mechc_lang::check::{self, DeclarationInfo, NameKind};
@@ -78,7 +77,7 @@ impl Checked {
     /// errors.
     #[must_use]
     pub fn equations_of(&self, name: &str) -> Option<String> {
-        let lowered = self.query_cache.lowered.get_or_init(|| self.model.as_ref().map(|model| lower_model(model)));
+        let lowered = self.query_cache.lowered.get_or_init(|| self.lowered());
         lowered.as_ref()?.equations_of(name)
     }
 

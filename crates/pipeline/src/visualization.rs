@@ -1,6 +1,5 @@
 //! Visualizations of a mechanism: its scene, its motion as a table, its diagnostics. The only source of what is drawn.
 
-use crate::lowering::lower_model;
 use crate::options::RunOptions;
 use crate::run::Run;
 use crate::{Checked, Compiled};
@@ -180,7 +179,7 @@ impl Checked {
         diagnostics: &Diagnostics,
     ) -> Option<Visualization> {
         let model = self.model()?;
-        let lowered = if compiled.is_none() { Some(lower_model(model)) } else { None };
+        let lowered = if compiled.is_none() { self.lowered() } else { None };
         let system = compiled.map(Compiled::system).or(lowered.as_ref())?;
         let nearest = compiled.and_then(|compiled| compiled.nearest(t, options));
         let joints = if nearest.is_some() { Joints::Open } else { Joints::Drawn };

@@ -51,7 +51,7 @@ pub struct ContinuationBase {
     nominal_params: Vec<f64>,
     /// The position with the nominal parameters, at the nominal first time.
     nominal: Configuration,
-    /// The system on a path, with further parameters for the path's end (`lower::lower_continuation`), and where all paths begin.
+    /// The system on a path, with further parameters for the path's end (`lower::Inputs::ParamsAlongPath`), and where all paths begin.
     path_system: CompiledSystem,
     path_start: Configuration,
     /// The parameters that a path may change, as indices.

@@ -8,6 +8,7 @@ use mechc_engine::analysis::{self, ContinuationOptions, Horizon, PathOutcome};
 use mechc_expr::math::{acos, cos, sin};
 use mechc_ir::program::Program;
 use mechc_lang::check;
+use mechc_lang::lower::{InputPath, Inputs, LowerOptions};
 use mechc_pipeline as lower;
 use mechc_syntax as syntax;
 use std::f64::consts::PI;
@@ -231,16 +232,16 @@ fn inputs_are_continued_to_numbers() {
     let file = sources.add("four_bar.mech", text);
     let tree = syntax::parse(&sources, file).tree;
     // time goes from 1 s to 3 s, and the other input is not set: 21 deg are added at first, and 63 deg at last
-    let inputs = vec![("turn".to_owned(), 250_f64.to_radians())];
-    let lead = Some(check::ContinuationPath { times: [1.0, 3.0], inputs });
-    let surroundings = check::CheckOptions { continuation: lead, ..check::CheckOptions::default() };
-    let (model, messages) = check::check(&tree.mechanisms[0], &surroundings, &sources);
+    let targets = [("turn".to_owned(), 250_f64.to_radians())];
+    let (model, messages) = check::check(&tree.mechanisms[0], &check::CheckOptions::default(), &sources);
     let model = model.unwrap_or_else(|| panic!("{messages:?}"));
-    let lines: Vec<(&str, [f64; 2])> =
-        model.continued.iter().map(|led| (led.declared.name.as_str(), led.line)).collect();
+    let path = InputPath::new(&model, [1.0, 3.0], &targets).expect("both inputs have values");
+    let continued = path.continued(&model);
+    let lines: Vec<(&str, [f64; 2])> = continued.iter().map(|led| (led.declared.name.as_str(), led.line)).collect();
     assert_eq!(lines, [("turn", [30.0, 250.0]), ("more", [20.0, 60.0])].map(|(n, l)| (n, l.map(f64::to_radians))));
-    let (determined, _) =
-        analysis::determine(lower::lower_model(&model), false, Horizon::of_analysis(None)).expect("determined");
+    let on_path = LowerOptions { inputs: Inputs::AlongPath(path), ..LowerOptions::default() };
+    let system = lower::lower_model(&model, &on_path);
+    let (determined, _) = analysis::determine(system, false, Horizon::of_analysis(None)).expect("determined");
     let program = Arc::new(Program::new(determined.system()));
     let (cancel, t) = (Cancel::default(), 1.0);
     let options = ContinuationOptions { tolerance: mechc::TOLERANCE, pass_bifurcations: false, t, cancel };

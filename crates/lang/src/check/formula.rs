@@ -296,7 +296,7 @@ impl Checker<'_> {
     /// Evaluates `t`.
     fn time_named(&mut self, name: &Name, context: &Context<'_>) -> Option<Value> {
         if context.time {
-            let id = self.time();
+            let id = self.model.graph.symbol(Symbol::Time);
             // In a plain formula it is a number of seconds.
             return Some(Value { id, dim: Dim::Plain { read: Dimension::TIME, fits: true } });
         }

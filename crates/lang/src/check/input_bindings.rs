@@ -7,6 +7,7 @@ use super::free_names::visit_free_names;
 use super::names::DefinitionOrder;
 use super::{Checker, errors};
 use crate::check::suggest::lost_rate;
+use mechc_expr::Symbol;
 use mechc_syntax::ast::{Binding, Expr, Name};
 use mechc_text::source::Span;
 use rustc_hash::{FxHashMap, FxHashSet};
@@ -131,9 +132,10 @@ impl<'a> Checker<'a> {
         let child = &self.parts[part];
         let local = child.inputs.iter().filter_map(|input| Some((input.name.text.clone(), input.value?.id)));
         let mut inputs: Vec<_> = local.collect();
-        let deeper = self.model.inputs.iter().filter_map(|input| {
+        let graph = &mut self.model.graph;
+        let deeper = self.model.inputs.iter().zip(0..).filter_map(|(input, index)| {
             let name = input.declared.name.strip_prefix(child.address.path.as_str())?;
-            name.contains('.').then(|| (name.to_owned(), input.value))
+            name.contains('.').then(|| (name.to_owned(), graph.symbol(Symbol::Signal { index, order: 0 })))
         });
         inputs.extend(deeper);
         self.model.parts[id.index()].inputs = inputs;

@@ -1,12 +1,11 @@
 //! Inputs: their formulas in the text, and their overrides.
 
-use super::continuation::ConditionMarks;
 use super::formula::{Context, Dim, Value};
 use super::overrides::override_matches;
 use super::samples::{self, Column, ColumnHeader, Samples};
 use super::suggest::lost_rate::Part;
 use super::{Checker, errors};
-use crate::model::{Condition, ConditionKind, Input};
+use crate::model::{Condition, ConditionKind, Input, TimeFormula};
 use mechc_expr::{ExprId, Symbol};
 use mechc_syntax::ast::{Expr, ItemKind, Name};
 use mechc_text::diag::{Diagnostic, nearest};
@@ -150,41 +149,37 @@ impl Checker<'_> {
         let (name, formula) = (self.inputs[k].name, self.inputs[k].formula);
         let before = self.model.conditions.len();
         let Some(in_file) = self.input_value(name, formula) else { return };
-        let needs = ConditionMarks { before, after_nominal: self.model.conditions.len() };
+        // Conditions of inputs are kept with the inputs. The own formula of a bound input does not affect the motion.
+        let conditions = self.model.conditions.split_off(before);
         if self.bound.inputs.contains(&name.text.as_str()) {
             self.inputs[k].value = Some(in_file);
-            // Its own formula does not affect the motion.
-            self.model.conditions.truncate(before);
             return;
         }
+        let nominal = TimeFormula { value: in_file.id, conditions };
+        let formula = match self.overridden_input(name, in_file.dim) {
+            None => nominal.clone(),
+            Some(None) => return,
+            Some(Some(value)) => TimeFormula { value: value.id, conditions: self.model.conditions.split_off(before) },
+        };
+        let (declared, dimension) = (self.declared(name), in_file.dim.settled());
+        let index = self.model.inputs.len() as u32;
+        self.model.inputs.push(Input { declared: declared.clone(), formula, nominal, dimension });
+        let id = self.model.graph.symbol(Symbol::Signal { index, order: 0 });
+        self.inputs[k].value = Some(self.with_shift(&declared, Value { id, ..in_file }));
+    }
+
+    /// Evaluates what an option gives in place of the formula of an input; `None` if no option does, `Some(None)` if it is broken.
+    #[allow(clippy::option_option)] // a broken override is not the absence of one
+    fn overridden_input(&mut self, name: &Name, expected: Dim) -> Option<Option<Value>> {
         let full = format!("{}{}", self.address.path, name.text);
         let samples = self.samples.clone();
         let column = samples.as_ref().and_then(|samples| samples.columns.iter().find(|column| column.name == full));
-        let formulas = &self.options.given.formulas;
-        let given = formulas.iter().rev().find(|(path, _)| override_matches(&full, path)).map(|(_, formula)| formula);
-        let value = match (&samples, column, given) {
-            (Some(samples), Some(column), _) => self.sampled(&samples.times, column, in_file.dim),
-            (_, _, Some(formula)) => self.override_value(name, formula, in_file.dim),
-            _ => Some(in_file),
-        };
-        let value = self.continued_input(name, in_file, value, &needs);
-        let value = value.and_then(|value| self.set_input(name, value, before));
-        let declared = self.declared(name);
-        let has_signals = self.model.has_signals;
-        // The variable is the signal then, whatever its formula is.
-        let value = value.map(|value| if has_signals { value } else { self.with_shift(&declared, value) });
-        self.inputs[k].value = value;
-        if let Some(value) = value {
-            let number = self.model.inputs.len();
-            let dimension = value.dim.settled();
-            self.model.inputs.push(Input { declared: declared.clone(), number, value: value.id, dimension });
-            if has_signals {
-                // The conditions of the formula do not apply to given signals.
-                self.model.conditions.truncate(before);
-                let id = self.model.graph.symbol(Symbol::Signal { index: number as u32, order: 0 });
-                self.inputs[k].value = Some(self.with_shift(&declared, Value { id, ..value }));
-            }
+        if let Some((samples, column)) = samples.as_ref().zip(column) {
+            return Some(self.sampled(&samples.times, column, expected));
         }
+        let formulas = &self.options.given.formulas;
+        let (_, given) = formulas.iter().rev().find(|(path, _)| override_matches(&full, path))?;
+        Some(self.override_value(name, given, expected))
     }
 
     fn input_value(&mut self, name: &Name, formula: &Expr) -> Option<Value> {
@@ -227,8 +222,7 @@ impl Checker<'_> {
         let points: Vec<[ExprId; 2]> =
             times.iter().zip(&column.values).map(|(&t, &value)| [t, value].map(|x| graph.constant(x))).collect();
         let table = graph.spline(&column.name, false, &points);
-        let t = self.time();
-        let graph = &mut self.model.graph;
+        let t = graph.symbol(Symbol::Time);
         let id = graph.table(table, 0, t);
         let (first, last) = (graph.constant(times[0]), graph.constant(times[times.len() - 1]));
         // Both ends are inside in spite of rounding.

@@ -12,7 +12,6 @@ mod calls;
 mod cli_formulas;
 mod column_variables;
 mod constants;
-mod continuation;
 mod declaration_info;
 mod definitions;
 mod dimensions;
@@ -48,7 +47,6 @@ mod quantities;
 mod repetition;
 mod results;
 mod samples;
-mod settable_inputs;
 mod suggest;
 mod symbols;
 mod table_file;
@@ -56,8 +54,8 @@ mod tables;
 mod variables;
 
 pub use cli_formulas::{FormulaOfTime, amount, constant, formula_of_time};
-pub use continuation::ContinuationPath;
 pub use declaration_info::{Amount, DeclarationCount, DeclarationInfo, Index, Value as ConstantValue, known, slopes};
+pub(crate) use errors::not_finite;
 pub use free_names::name_of;
 pub use inputs::InputOverrides;
 pub use library::{Library, LibraryFile, LibraryMechanism, LookupError};
@@ -65,7 +63,6 @@ pub use options::{CheckOptions, ParamOverride};
 pub use overrides::override_matches;
 pub use results::UNTIL;
 pub use samples::{Column, variants};
-pub use settable_inputs::SettableInputs;
 pub use suggest::missing_unit::usual_unit_of_length;
 pub use symbols::{DeclaredName, Meaning, NameId, NameKind, Symbols, Use};
 pub use tables::TableFiles;
@@ -214,12 +211,7 @@ impl<'a> Checker<'a> {
             options,
             sources,
             diagnostics: Diagnostics::default(),
-            model: Mechanism {
-                has_signals: options.has_signals,
-                reactions: options.reactions,
-                pictures_forces: options.pictures_forces,
-                ..Mechanism::new(Declared { name: tree.name.text.clone(), span: tree.name.span }, tree.docs.clone())
-            },
+            model: Mechanism::new(Declared { name: tree.name.text.clone(), span: tree.name.span }, tree.docs.clone()),
             common: SharedState::default(),
             space: Space::new(),
             count: names::Count::default(),
@@ -278,7 +270,6 @@ impl<'a> Checker<'a> {
         self.analysis();
         self.results();
         self.reject_derivatives_of_forces();
-        self.strip_outputs();
         self.warn_of_plain_lengths();
         if self.model.bodies.is_empty() && !self.holds_broken() {
             self.report(errors::empty(&self.tree.name));

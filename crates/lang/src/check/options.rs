@@ -1,6 +1,6 @@
 //! The options of a check.
 
-use super::{ContinuationPath, InputOverrides, Library, SettableInputs, TableFiles};
+use super::{InputOverrides, Library, TableFiles};
 use mechc_syntax::ast::Expr;
 
 /// The options of a check, and the files that the text names.
@@ -16,8 +16,6 @@ pub struct CheckOptions {
     pub given: InputOverrides,
     /// For a part that is checked on its own: the values of its bound params (SI).
     pub bound: Vec<(String, f64)>,
-    /// The target of a continuation, if the model is one of a continuation.
-    pub continuation: Option<ContinuationPath>,
     /// The paths of parameters that may change after the check. They become symbols even if their formulas depend on others, and the model
     /// lists them.
     pub open: Vec<String>,
@@ -26,14 +24,6 @@ pub struct CheckOptions {
     /// Present if results are differentiated by these names too: for the start and the end of the analysis, true if it is that of the text,
     /// which may depend on parameters.
     pub slopes: Option<[bool; 2]>,
-    /// True if the reactions of all joints and the efforts of all drivers are tabulated.
-    pub reactions: bool,
-    /// True if pictures show forces.
-    pub pictures_forces: bool,
-    /// True if inputs stay signals in the model, and are not replaced by their formulas.
-    pub has_signals: bool,
-    /// Inputs that become settable numbers.
-    pub set_inputs: Option<SettableInputs>,
 }
 
 /// The override of a parameter: `--set crank_length=60mm`.

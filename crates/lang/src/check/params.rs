@@ -5,7 +5,7 @@ use super::formula_scope::InitialPoint;
 use super::overrides::override_matches;
 use super::{Checker, ParamOverride, errors};
 use crate::check::suggest::lost_rate;
-use crate::model::{Declared, Dimension, GuardKind, Param};
+use crate::model::{ContinuedParam, Declared, Dimension, GuardKind, Param};
 use mechc_expr::Symbol;
 use mechc_syntax::ast::{Expr, Name};
 
@@ -82,10 +82,20 @@ impl<'a> Checker<'a> {
         self.register_param(&declared, Symbol::Param(index), value.dim);
         let dimension = value.dim.settled();
         if is_open {
-            self.record_open_param(&declared, number, dimension);
+            let (declared, param) = (declared.clone(), Some(index));
+            self.model.continued.push(ContinuedParam { declared, param, line: [number; 2], dimension });
         }
         self.model.params.push(Param { declared, docs: docs.to_vec(), value: number, dimension });
         Some(Value { id: self.model.graph.symbol(Symbol::Param(index)), dim: value.dim })
+    }
+
+    /// Returns whether a parameter, or a coordinate of one that is a point, may change after the check, so that it is independent.
+    fn is_open(&self, declared: &Declared, name: &str) -> bool {
+        if self.options.open.is_empty() {
+            return false;
+        }
+        let full = format!("{}{name}", self.address.path);
+        self.options.open.iter().any(|path| override_matches(&full, path) || override_matches(&declared.name, path))
     }
 
     /// Evaluates a parameter that is a point. Each independent coordinate becomes a parameter of the model.

@@ -39,10 +39,8 @@ impl Checker<'_> {
     /// Evaluates and lists the results. They follow all that rows need.
     pub(super) fn results(&mut self) {
         self.model.named_before_results = self.model.named.len();
-        if self.options.continuation.is_none() {
-            self.result_values();
-            self.list_results();
-        }
+        self.result_values();
+        self.list_results();
     }
 
     /// Evaluates results: those of parts first, then in order of dependence.

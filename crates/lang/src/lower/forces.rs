@@ -1,7 +1,7 @@
 //! Generalized forces of a determined motion: inertia minus weights and loads, which joints and drivers balance (`forces.md`; H 11.3).
 
-use super::Lowering;
 use super::frames::Vector;
+use super::{Lowering, TabulatedForces};
 use crate::model::{
     Declared, EquationForm, EquationId, Force, Frame, JointId, Load, Mass, Mechanism, Named, PartId, Quantity,
 };
@@ -21,7 +21,8 @@ pub(super) struct Reaction {
 }
 
 /// Returns for each named symbol whether it holds forces, which are resolved after all rows.
-pub(super) fn symbols_with_forces(model: &Mechanism) -> Vec<bool> {
+pub(super) fn symbols_with_forces(model: &Mechanism, tabulated: TabulatedForces) -> Vec<bool> {
+    let requires_forces = requires_forces(model, tabulated);
     let mut holds = Vec::with_capacity(model.named.len());
     for named in &model.named {
         let of_others = |inner: ExprId| {
@@ -30,11 +31,22 @@ pub(super) fn symbols_with_forces(model: &Mechanism) -> Vec<bool> {
         };
         holds.push(match *named {
             Named::Force(..) => true,
-            Named::Derivative(inner) | Named::By(inner, _) => model.requires_forces() && of_others(inner),
+            Named::Derivative(inner) | Named::By(inner, _) => requires_forces && of_others(inner),
             Named::Quantity(..) | Named::Exists(..) | Named::Reduction(_) | Named::Argument => false,
         });
     }
     holds
+}
+
+/// Returns whether pictures show forces and there are masses or loads.
+fn draws_forces(model: &Mechanism, tabulated: TabulatedForces) -> bool {
+    tabulated.for_pictures && !(model.masses.is_empty() && model.loads.is_empty())
+}
+
+/// Returns whether any output requires forces.
+fn requires_forces(model: &Mechanism, tabulated: TabulatedForces) -> bool {
+    let is_force = |named: &Named| matches!(named, Named::Force(..));
+    tabulated.reactions || draws_forces(model, tabulated) || model.named.iter().any(is_force)
 }
 
 impl Lowering<'_> {
@@ -47,7 +59,8 @@ impl Lowering<'_> {
     /// Returns the right side `p` of `Φ_qᵀ λ = p`; `None` if no output requires forces.
     pub(super) fn forces(&mut self) -> Option<Forces> {
         let model = self.model;
-        if !model.requires_forces() {
+        let tabulated = self.options.forces;
+        if !requires_forces(model, tabulated) {
             return None;
         }
         let zero = self.graph.constant(0.0);
@@ -58,9 +71,10 @@ impl Lowering<'_> {
         for load in &model.loads {
             self.add_load(load, &mut needed);
         }
-        let only_for_drawing = model.draws_forces() && !model.reactions;
-        let mut reactions = if model.reactions || only_for_drawing { self.reactions() } else { Vec::new() };
-        if model.draws_forces() {
+        let draws_forces = draws_forces(model, tabulated);
+        let only_for_drawing = draws_forces && !tabulated.reactions;
+        let mut reactions = if tabulated.reactions || only_for_drawing { self.reactions() } else { Vec::new() };
+        if draws_forces {
             reactions.extend(model.loads.iter().map(|load| self.load_column(load)));
         }
         let loads = model.loads.iter().map(|load| self.load_force(load)).collect();

@@ -1,6 +1,6 @@
 //! Points and directions relative to the ground or to a part, the *view*: `r^P = r + A(φ) s'`, `v = A(φ) v'` (`elements.md`, "Notation").
 
-use super::{Lowering, carry};
+use super::Lowering;
 use crate::model::{Axis, AxisId, Frame, Mechanism, PartId, Placement, PointId};
 use mechc_expr::{Binary, Comparison, ExprId, Symbol, Unary};
 
@@ -113,16 +113,16 @@ impl Lowering<'_> {
         let part = &model[part];
         // The mount has the handedness of the text that declares the part, as everything in that text.
         let is_mirrored = model.is_mirrored(part.within) != model.is_mirrored(view);
-        let (imported, named) = (&mut self.imported, &self.named);
-        let mut formula = |graph: &mut _, id| carry(graph, model, imported, named, id);
+        let (imported, inputs, named) = (&mut self.imported, &self.options.inputs, &self.named);
+        let mut formula = |graph: &mut _, id| imported.formula(graph, model, inputs, named, id);
         Mechanism::on_mount(&mut self.graph, &mut formula, Placement { is_mirrored, ..mount }, part)
     }
 
     /// Returns the drawn placement of a frame in that of a part or of the ground.
     pub(super) fn drawn(&mut self, within: Option<PartId>, frame: Frame) -> Placement {
         let model = self.model;
-        let (imported, named) = (&mut self.imported, &self.named);
-        let mut formula = |graph: &mut _, id| carry(graph, model, imported, named, id);
+        let (imported, inputs, named) = (&mut self.imported, &self.options.inputs, &self.named);
+        let mut formula = |graph: &mut _, id| imported.formula(graph, model, inputs, named, id);
         model.drawn(&mut self.graph, &mut formula, within, frame)
     }
 

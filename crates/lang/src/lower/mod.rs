@@ -4,7 +4,6 @@
 
 mod contact_forces;
 mod contacts;
-mod continuation;
 mod features;
 mod forces;
 mod frames;
@@ -12,6 +11,7 @@ mod gears;
 mod inputs;
 mod joints;
 mod numbering;
+mod param_path;
 mod part_derivatives;
 mod part_starts;
 mod quantities;
@@ -27,8 +27,9 @@ mod velocities;
 use crate::model::{
     self, BodyId, ConditionKind, EquationForm, Frame, JointId, Mechanism, Named, PartId, Placement, PointId, Quantity,
 };
-pub use continuation::{TimeOnPath, lower_continuation};
-use mechc_expr::{Comparison, Dependence, ExprId, Graph, Symbol, TIME_SIGNAL};
+use inputs::Imported;
+pub use inputs::{InputPath, Inputs, TimeOnPath};
+use mechc_expr::{Comparison, Dependence, ExprId, Graph};
 use mechc_ir::{
     self as ir, Body, Condition, ConstraintSystem, Coordinate, CoordinateKind, Declaration, DeclarationId,
     DeclarationKind, Fit, Forces, IdVec, Measure, Monitor, OpenContact, Owner, Param, Row, RowUnit, Units, Variations,
@@ -43,15 +44,48 @@ const FAR_FRAME: f64 = 10.0;
 /// Order of time derivatives in a reduced formula from which its reduction needs third derivatives.
 const HOLDS_JERK: u8 = 2;
 
-/// Returns the constraint system of a model. Cannot fail, as `check` has rejected every model that could make it fail.
+/// What a constraint system holds of a model.
+#[derive(Clone, Debug, Default)]
+pub struct LowerOptions {
+    /// The expressions that stand for inputs and time.
+    pub inputs: Inputs,
+    /// The forces that are tabulated, except those of measures. On a path there are none.
+    pub forces: TabulatedForces,
+}
+
+/// The forces that are tabulated in addition to those of measures.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub struct TabulatedForces {
+    /// True for the reactions of all joints and the efforts of all drivers.
+    pub reactions: bool,
+    /// True for the forces of pictures: all loads, and all reactions that are determined, if there are masses or loads.
+    pub for_pictures: bool,
+}
+
+/// Returns the constraint system of a model. Cannot fail, as `check` has rejected every model that could make it fail. On a path, the system
+/// has no outputs and no forces, which have no part in a continuation.
 #[must_use]
-pub fn lower(model: &Mechanism) -> ConstraintSystem {
-    let mut lowering = Lowering::new(model);
-    let written = lowering.build();
+pub fn lower(model: &Mechanism, options: &LowerOptions) -> ConstraintSystem {
+    match &options.inputs {
+        Inputs::Inlined | Inputs::Signals => lower_whole(model, options),
+        inputs @ (Inputs::AlongPath(_) | Inputs::ParamsAlongPath(_)) => {
+            let mut model = model.clone();
+            model.strip_outputs();
+            lower_whole(&model, &LowerOptions { inputs: inputs.clone(), ..LowerOptions::default() })
+        }
+    }
+}
+
+fn lower_whole(model: &Mechanism, options: &LowerOptions) -> ConstraintSystem {
+    let mut lowering = Lowering::new(model, options);
+    let mut written = lowering.build();
+    if let Inputs::ParamsAlongPath(clock) = options.inputs {
+        param_path::put_on_path(model, clock, &mut written);
+    }
     let with_jerk = needs_jerk(model, &written);
     let mut system = ConstraintSystem::of(written, with_jerk);
     // Inputs and results follow the equations, so that neither changes the ids of the equations' expressions.
-    inputs::add(model, &mut system);
+    lowering.add_inputs(&mut system);
     if !model.outcomes.is_empty() {
         lowering.add_results(&mut system);
     }
@@ -71,7 +105,7 @@ fn needs_jerk(model: &Mechanism, written: &Written) -> bool {
     // The slope of an extremum needs two more derivatives.
     let holds = if model.slopes.is_some() { HOLDS_JERK - 1 } else { HOLDS_JERK };
     let is_requested = model.reductions.iter().any(|reduction| reduction.order >= holds);
-    (is_measured || is_of_forces || is_requested) && !model.has_signals
+    (is_measured || is_of_forces || is_requested) && !written.has_signals
 }
 
 /// Returns the parameters, each with the length of the part's path in its name.
@@ -108,10 +142,10 @@ fn joint_declaration(joint: JointId) -> DeclarationId {
 
 struct Lowering<'m> {
     model: &'m Mechanism,
+    options: &'m LowerOptions,
     numbering: Numbering,
     graph: Graph,
-    /// The model's formulas that have been imported, with their expressions in `graph`.
-    imported: FxHashMap<ExprId, ExprId>,
+    imported: Imported,
     /// The model's named symbols as expressions of the coordinates.
     named: Vec<ExprId>,
     /// True while frames have their drawn poses instead of those of the coordinates.
@@ -144,22 +178,6 @@ struct Lowering<'m> {
     fits: Vec<Fit>,
     /// The variables of derivatives other than time, with these derivatives.
     variations: Option<Variations>,
-}
-
-/// Imports a formula of the model into another graph.
-fn carry(
-    graph: &mut Graph,
-    model: &Mechanism,
-    imported: &mut FxHashMap<ExprId, ExprId>,
-    named: &[ExprId],
-    id: ExprId,
-) -> ExprId {
-    graph.import(&model.graph, &[id], imported, |graph, symbol| match symbol {
-        Symbol::Named(k) => named[k as usize],
-        Symbol::Time if model.has_signals => graph.symbol(Symbol::Signal { index: TIME_SIGNAL, order: 0 }),
-        other => graph.symbol(other),
-    });
-    imported[&id]
 }
 
 fn units(of: &model::Units) -> Units {
@@ -198,13 +216,14 @@ fn equation_unit(equation: &model::Equation) -> RowUnit {
 }
 
 impl<'m> Lowering<'m> {
-    fn new(model: &'m Mechanism) -> Lowering<'m> {
+    fn new(model: &'m Mechanism, options: &'m LowerOptions) -> Lowering<'m> {
         let sizes = size::body_sizes(model);
         Lowering {
             model,
+            options,
             numbering: Numbering::new(model),
             graph: Graph::new(),
-            imported: FxHashMap::default(),
+            imported: Imported::default(),
             named: Vec::new(),
             as_drawn: false,
             view: None,
@@ -216,7 +235,7 @@ impl<'m> Lowering<'m> {
             rows: Vec::new(),
             declarations: IdVec::default(),
             equation_declarations: vec![DeclarationId::from(0); model.equations.len()],
-            holds_forces: forces::symbols_with_forces(model),
+            holds_forces: forces::symbols_with_forces(model, options.forces),
             has_rows: false,
             loads_hold_jerks: None,
             rate_sums: None,
@@ -248,7 +267,7 @@ impl Lowering<'_> {
             name: model.declared.name.clone(),
             span: model.declared.span,
             params: params(model),
-            has_signals: model.has_signals,
+            has_signals: self.has_signals(),
             bodies: self.bodies(),
             points,
             coordinates: std::mem::take(&mut self.coordinates),
@@ -293,12 +312,12 @@ impl Lowering<'_> {
 
     /// Imports a formula of the model.
     fn formula(&mut self, id: ExprId) -> ExprId {
-        carry(&mut self.graph, self.model, &mut self.imported, &self.named, id)
+        self.imported.formula(&mut self.graph, self.model, &self.options.inputs, &self.named, id)
     }
 
     fn tables(&mut self) {
         // Tables hold parameters only.
-        self.graph.import_tables(&self.model.graph, &mut self.imported, Graph::symbol);
+        self.graph.import_tables(&self.model.graph, &mut self.imported.formulas, Graph::symbol);
     }
 
     /// Resolves the named symbols before `end` in order; each refers to earlier ones only.
@@ -498,7 +517,7 @@ impl Lowering<'_> {
 
     fn conditions(&mut self) {
         let model = self.model;
-        for condition in &model.conditions {
+        for condition in self.conditions_of_inputs().chain(&model.conditions) {
             let positive = self.formula(condition.positive);
             self.condition(condition, positive);
         }

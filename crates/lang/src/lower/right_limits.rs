@@ -20,7 +20,7 @@ impl Lowering<'_> {
     /// Returns a formula of the motion with its jumps decided for the time just after the state.
     pub(super) fn right_limit(&mut self, formula: ExprId) -> ExprId {
         let span = self.model.analysis.map_or(DEFAULT_SPAN, |analysis| analysis.to - analysis.from);
-        let highest = if self.model.has_signals { 2 } else { 3 };
+        let highest = if self.has_signals() { 2 } else { 3 };
         let span = if span > 0.0 { span } else { DEFAULT_SPAN };
         let mut limits = RightLimits { span, highest, coordinates: &self.coordinates, rate_sums: &mut self.rate_sums };
         self.graph.rewritten(formula, |graph, node, plain| limits.rewrite(graph, node, plain))

@@ -75,12 +75,6 @@ impl Mechanism {
         }
     }
 
-    /// Returns whether pictures show forces and there are masses or loads.
-    #[must_use]
-    pub fn draws_forces(&self) -> bool {
-        self.pictures_forces && !(self.masses.is_empty() && self.loads.is_empty())
-    }
-
     /// Returns whether the mechanism declares masses, gravity or loads.
     #[must_use]
     pub fn has_forces(&self) -> bool {

@@ -22,14 +22,14 @@ pub use forces::{Force, Load, Mass};
 pub use joints::{JoinedFeatures, Joint};
 pub use mechc_text::vocabulary::{CompoundUnit, Dimension};
 pub use named::Named;
-pub use params::{ContinuedParam, Input, Param, Variable};
+pub use params::{ContinuedParam, Input, Param, TimeFormula, Variable};
 pub use parts::{Part, PartDerivative};
 pub use placement::Placement;
 pub use quantities::{Direction, Quantity};
 pub use quotients::quotient;
 pub use results::{Outcome, Reduction, ReductionKind};
 
-use mechc_expr::{ExprId, Graph};
+use mechc_expr::{ExprId, Graph, Symbol};
 use mechc_text::source::Span;
 
 /// The name of a declaration and its location.
@@ -106,9 +106,9 @@ pub struct Mechanism {
     pub named: Vec<Named>,
     /// The independent parameters, by the number of their symbol.
     pub params: Vec<Param>,
-    /// The inputs, ordered so that each depends only on earlier ones.
+    /// The inputs, by the number of their symbol.
     pub inputs: Vec<Input>,
-    /// The parameters and inputs that vary along a continuation path; then time runs from 0 to 1.
+    /// The parameters that may vary along a continuation path.
     pub continued: Vec<ContinuedParam>,
     /// The parts; a part within another one follows it.
     pub parts: Vec<Part>,
@@ -118,12 +118,6 @@ pub struct Mechanism {
     pub part_derivatives: Vec<PartDerivative>,
     /// The numbers of the variables by which all columns are differentiated, in the order of the columns.
     pub by: Vec<u32>,
-    /// True if the reactions of all joints and the efforts of all drivers are tabulated.
-    pub reactions: bool,
-    /// True if pictures show forces. Then all loads, and all reactions that are determined, are tabulated if there are masses or loads.
-    pub pictures_forces: bool,
-    /// True if inputs stand in formulas as signals, and not as their own formulas.
-    pub has_signals: bool,
     /// The bodies, in order of declaration like all lists below; those of a part stand where the part is declared.
     pub bodies: Vec<Body>,
     /// The declared points, and literal points in the order in which they occur.
@@ -157,7 +151,7 @@ pub struct Mechanism {
     pub slopes: Option<[Option<ExprId>; 2]>,
     /// The number of named symbols that precede those of results.
     pub named_before_results: usize,
-    /// Formulas that must be positive for other formulas to be defined.
+    /// Formulas that must be positive for other formulas to be defined. Those of inputs are with the inputs.
     pub conditions: Vec<Condition>,
     /// The times that `run` computes by default.
     pub analysis: Option<Analysis>,
@@ -192,9 +186,6 @@ impl Mechanism {
             variables: Vec::new(),
             part_derivatives: Vec::new(),
             by: Vec::new(),
-            reactions: false,
-            pictures_forces: false,
-            has_signals: false,
             bodies: Vec::new(),
             points: Vec::new(),
             axes: Vec::new(),
@@ -217,7 +208,7 @@ impl Mechanism {
         }
     }
 
-    /// Removes the outputs and the forces, which have no part in a continuation.
+    /// Removes the outputs with their derivatives, and the forces, which have no part in a continuation.
     pub fn strip_outputs(&mut self) {
         self.measures.clear();
         self.masses.clear();
@@ -226,6 +217,9 @@ impl Mechanism {
         self.outcomes.clear();
         self.reductions.clear();
         self.analysis = None;
+        self.slopes = None;
+        self.by.clear();
+        self.variables.clear();
     }
 
     /// Returns the ids of the bodies, in order.
@@ -301,9 +295,13 @@ impl Mechanism {
         part.is_some_and(|part| self[part].is_mirrored)
     }
 
-    /// Returns whether any output requires forces.
+    /// Returns the value of a formula of parameters and time at a time (s).
     #[must_use]
-    pub fn requires_forces(&self) -> bool {
-        self.reactions || self.draws_forces() || self.named.iter().any(|named| matches!(named, Named::Force(..)))
+    pub fn value_at(&self, formula: ExprId, t: f64) -> f64 {
+        self.graph.value(formula, |symbol| match symbol {
+            Symbol::Param(k) => self.params[k as usize].value,
+            Symbol::Time => t,
+            _ => f64::NAN,
+        })
     }
 }

@@ -1,6 +1,6 @@
 //! Parameters, inputs, and the variables of derivatives.
 
-use super::{Declared, Dimension};
+use super::{Condition, Declared, Dimension};
 use mechc_expr::{ExprId, Symbol};
 
 /// A parameter that depends on no other parameter.
@@ -16,17 +16,26 @@ pub struct Param {
     pub dimension: Dimension,
 }
 
-/// A signal whose values may come from outside.
+/// A signal whose values may come from outside. Formulas of the model hold its symbol, whose number is its position in the list of inputs.
 #[derive(Clone, Debug)]
 pub struct Input {
     /// The input's name.
     pub declared: Declared,
-    /// The index among the inputs in order of declaration, which is the number of its signal.
-    pub number: usize,
-    /// The input as a formula of time, in SI units.
-    pub value: ExprId,
+    /// The formula in force: that of an option, or else of the text.
+    pub formula: TimeFormula,
+    /// The formula of the text.
+    pub nominal: TimeFormula,
     /// The dimension of the value.
     pub dimension: Dimension,
+}
+
+/// A formula of time and parameters.
+#[derive(Clone, Debug)]
+pub struct TimeFormula {
+    /// The value, in SI units.
+    pub value: ExprId,
+    /// The conditions under which it is defined.
+    pub conditions: Vec<Condition>,
 }
 
 /// A parameter or input that moves from one value to another along a continuation path.

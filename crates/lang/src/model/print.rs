@@ -91,10 +91,7 @@ impl Text<'_> {
         let printer = Printer::new(&self.model.graph, |symbol| match symbol {
             Symbol::Param(k) => self.model.params[k as usize].declared.name.clone(),
             Symbol::Time => "t".to_owned(),
-            Symbol::Signal { index, .. } => {
-                let input = self.model.inputs.iter().find(|input| input.number == index as usize);
-                input.map_or_else(|| "t".to_owned(), |input| input.declared.name.clone())
-            }
+            Symbol::Signal { index, .. } => self.model.inputs[index as usize].declared.name.clone(),
             Symbol::Named(k) => match self.model.named[k as usize] {
                 Named::Quantity(_, quantity) => self.quantity_text(quantity, &text),
                 Named::Derivative(inner) => format!("der({})", self.formula_text(inner)),
@@ -338,7 +335,7 @@ impl std::fmt::Display for Mechanism {
             writeln!(f, "\ninputs, in SI")?;
         }
         for input in &self.inputs {
-            writeln!(f, "  {} = {}", input.declared.name, text.print(input.value, false))?;
+            writeln!(f, "  {} = {}", input.declared.name, text.print(input.formula.value, false))?;
         }
         text.write_frames(f)?;
         text.write_equations(f)?;

@@ -7,14 +7,13 @@ use crate::{Checked, Redundant, RunOptions};
 use mechc_engine::analysis::Horizon;
 use mechc_engine::sweep::CompiledSystem;
 use mechc_lang::check::{CheckOptions, InputOverrides, ParamOverride};
-use mechc_text::diag::Diagnostics;
 use std::sync::Arc;
 
 impl Checked {
     /// Returns the continuation from nominal values to what is set; all mechanisms whose settings are of the same params have the same one.
     pub(crate) fn continuation(&self, redundant: Redundant) -> Arc<Continuation> {
         let checked = self.clone();
-        Arc::new(Continuation::new(move |options| checked.with_nominal_values()?.nominal(redundant, options)))
+        Arc::new(Continuation::new(move |options| checked.with_nominal_values()?.nominal(redundant, false, options)))
     }
 
     /// Returns the mechanism with its nominal values, the params of all settings as symbols; settings that decide counts are kept.
@@ -42,24 +41,23 @@ impl Checked {
         let open = self.check_options.settings.iter().map(|setting| setting.path.clone()).collect();
         let options =
             CheckOptions { settings, given: InputOverrides::default(), open, ..(*self.check_options).clone() };
-        Some(Checked::with_check_options(self.parsed.clone(), self.index?, options, false, Diagnostics::default()))
+        self.checked_again(options, false)
     }
 
     /// Returns the mechanism with params of the given names as symbols of the model.
     pub(crate) fn with_symbolic_params(&self, open: Vec<String>) -> Option<Checked> {
         let options = CheckOptions { open, ..(*self.check_options).clone() };
-        Some(Checked::with_check_options(self.parsed.clone(), self.index?, options, false, Diagnostics::default()))
+        self.checked_again(options, false)
     }
 
-    /// Compiles the mechanism and assembles it at its first time; `None` if that fails.
-    pub(crate) fn nominal(&self, redundant: Redundant, options: &RunOptions) -> Option<Nominal> {
+    /// Compiles the mechanism and assembles it at its first time; `None` if that fails. If `sets_inputs`, its model has settable inputs.
+    pub(crate) fn nominal(&self, redundant: Redundant, sets_inputs: bool, options: &RunOptions) -> Option<Nominal> {
         let (compiled, model) = (self.compile(redundant, &options.cancel).0?, Arc::clone(self.model.as_ref()?));
         let t = compiled.analysis().map_or(0.0, |[from, ..]| from);
         let horizon = Horizon::of_analysis(compiled.analysis()).beginning(t);
         let started = compiled.start(horizon, &RunOptions { configuration: None, ..options.clone() }).0.ok()?;
         let (determined, program) = (Arc::clone(compiled.determined()), Arc::clone(compiled.program()));
         let angles = Angles::new(self.library(), self.sources());
-        let sets_inputs = self.check_options.set_inputs.as_ref().is_some_and(|set| !set.names.is_empty());
         let leave_out_redundant = redundant == Redundant::LeftOut;
         Some(Nominal {
             compiled: CompiledSystem { determined, program },

@@ -2,13 +2,13 @@
 
 use super::messages::{ContinuationTarget, passed_bifurcation, stopped_path};
 use crate::angles::Angles;
-use crate::lowering::lower_on_path;
+use crate::lowering::lower_model;
 use crate::options::RunOptions;
 use mechc_engine::analysis::{self, ContinuationOptions, Horizon, Started, Stop, Times, Warning};
 use mechc_engine::sweep::{CompiledSystem, ContinuationBase, ContinuationError, ContinuedVariant};
 use mechc_ir::ConstraintSystem;
 use mechc_ir::structure::Determined;
-use mechc_lang::lower::TimeOnPath;
+use mechc_lang::lower::{Inputs, LowerOptions, TimeOnPath};
 use mechc_lang::model;
 use mechc_text::cancel::Cancel;
 use mechc_text::diag::{Diagnostic, Diagnostics};
@@ -168,7 +168,8 @@ impl ContinuationContext {
 
     fn new_base(&self, time_moves: bool, cancel: &Cancel) -> Option<ContinuationBase> {
         let clock = if time_moves { TimeOnPath::Moving } else { TimeOnPath::Still(self.options.t) };
-        let system = lower_on_path(&self.nominal.model, clock);
+        let on_path = LowerOptions { inputs: Inputs::ParamsAlongPath(clock), ..LowerOptions::default() };
+        let system = lower_model(&self.nominal.model, &on_path);
         let leave_out = self.nominal.leave_out_redundant;
         let (determined, _) = analysis::determine(system, leave_out, Horizon::of_analysis(None)).ok()?;
         let on_path = CompiledSystem::new(determined);

@@ -8,11 +8,10 @@ use crate::lowering::lower_model;
 use crate::options::RunOptions;
 use mechc_engine::analysis::{self, ContinuationOptions, Horizon, Request, Solving, Unassembled, Warning};
 use mechc_engine::sweep::CompiledSystem;
-use mechc_expr::Symbol;
 use mechc_ir::{ConstraintSystem, PartStart};
-use mechc_lang::check::{self, CheckOptions, ContinuationPath, InputOverrides, ParamOverride};
-use mechc_lang::model::{ContinuedParam, Mechanism};
-use mechc_syntax::{self as syntax, ast};
+use mechc_lang::check::{self, CheckOptions, ParamOverride};
+use mechc_lang::lower::{InputPath, Inputs, LowerOptions};
+use mechc_lang::model::{ContinuedParam, Input, Mechanism};
 use mechc_text::diag::{Diagnostic, Diagnostics};
 use mechc_text::source::{Sources, Span};
 use rustc_hash::{FxHashMap, FxHashSet};
@@ -22,10 +21,9 @@ use std::sync::Arc;
 /// Finds the starting position of a mechanism that has parts or is given inputs.
 #[derive(Debug)]
 pub(crate) struct StartSolver {
-    pub read: Arc<syntax::ParsedText>,
-    /// Index of the mechanism in its file.
-    pub index: usize,
-    pub check_options: CheckOptions,
+    pub model: Arc<Mechanism>,
+    /// The options of its check.
+    pub check_options: Arc<CheckOptions>,
     pub sources: Sources,
     pub has_given_inputs: bool,
 }
@@ -83,7 +81,7 @@ impl StartSolver {
             stopped_path: None,
         };
         let position = if self.has_given_inputs && !matches!(origin, ContinuationOrigin::Estimates) {
-            search.continue_to_given_inputs(&self.read.tree.mechanisms[self.index], horizon.from)
+            search.continue_to_given_inputs(&self.model, horizon.from)
         } else {
             None
         };
@@ -101,7 +99,9 @@ impl StartSolver {
 
 /// A mechanism at the first time of its own analysis, with its nominal inputs.
 struct Standalone {
-    check_options: CheckOptions,
+    model: Mechanism,
+    /// What is set in it.
+    settings: Vec<ParamOverride>,
     /// The first time (s).
     t: f64,
     /// The values of its inputs then (SI), by their names.
@@ -178,30 +178,16 @@ struct StartSearch<'s> {
 
 impl<'s> StartSearch<'s> {
     /// Continues the whole to the inputs that are given, at a time (s); `None` if no path leads there.
-    fn continue_to_given_inputs(&mut self, tree: &ast::Mechanism, t: f64) -> Option<Vec<f64>> {
+    fn continue_to_given_inputs(&mut self, model: &Mechanism, t: f64) -> Option<Vec<f64>> {
         let times = [self.options.t, t];
-        let lead = Some(ContinuationPath { times, inputs: Vec::new() });
-        let on_path = CheckOptions {
-            continuation: lead,
-            by: Vec::new(),
-            slopes: None,
-            reactions: false,
-            pictures_forces: false,
-            ..self.check_options.clone()
-        };
-        // fails if a nominal input has no value, which was reported before
-        let PathModel { system, inputs, span } = self.path_model(tree, &on_path)?;
+        // fails if an input has no value at an end of the path
+        let PathModel { system, inputs, span } = self.path_model(model, times, &[])?;
         let from = if let Some(configuration) = self.configuration {
             Some(configuration.to_vec())
         } else if has_parts(&system) {
-            let nominal = CheckOptions {
-                given: InputOverrides::default(),
-                by: Vec::new(),
-                reactions: false,
-                pictures_forces: false,
-                ..self.check_options.clone()
-            };
-            Some(self.assembled(tree, nominal)?.q)
+            let mut nominal = model.clone();
+            nominal.inputs.iter_mut().for_each(|input| input.formula = input.nominal.clone());
+            Some(self.assembled(nominal, self.check_options.settings.clone()).q)
         } else {
             None
         };
@@ -227,13 +213,14 @@ impl<'s> StartSearch<'s> {
         path.reached.into_iter().next()
     }
 
-    fn path_model(&self, tree: &ast::Mechanism, check_options: &CheckOptions) -> Option<PathModel> {
-        let (model, _) = check::check(tree, check_options, self.sources);
-        let model = model?;
-        let system = lower_model(&model);
+    fn path_model(&self, model: &Mechanism, times: [f64; 2], targets: &[(String, f64)]) -> Option<PathModel> {
+        let path = InputPath::new(model, times, targets)?;
+        let inputs = path.continued(model);
+        let on_path = LowerOptions { inputs: Inputs::AlongPath(path), ..LowerOptions::default() };
+        let system = lower_model(model, &on_path);
         let horizon = Horizon::of_analysis(system.analysis());
         let (determined, _) = analysis::determine(system, self.leave_out_redundant, horizon).ok()?;
-        Some(PathModel { system: CompiledSystem::new(determined), inputs: model.continued, span: model.declared.span })
+        Some(PathModel { system: CompiledSystem::new(determined), inputs, span: model.declared.span })
     }
 
     /// Returns the estimates of a mechanism [m, rad], its parts at their starting positions.
@@ -336,13 +323,11 @@ impl<'s> StartSearch<'s> {
     ) {
         let PendingPart { start, ref standalone, inputs, .. } = parts[shared.farthest];
         let times = [standalone.t, t];
-        let targets = start.inputs.iter().zip(inputs).map(|((name, _), value)| (name.clone(), *value)).collect();
-        let on_path = CheckOptions {
-            continuation: Some(ContinuationPath { times, inputs: targets }),
-            ..standalone.check_options.clone()
+        let targets = start.inputs.iter().zip(inputs).map(|((name, _), value)| (name.clone(), *value));
+        let targets: Vec<(String, f64)> = targets.collect();
+        let Some(PathModel { system, inputs, span }) = self.path_model(&standalone.model, times, &targets) else {
+            return;
         };
-        let model = self.tree_of(start).and_then(|tree| self.path_model(tree, &on_path));
-        let Some(PathModel { system, inputs, span }) = model else { return };
         let stops: Vec<f64> = shared.stops.iter().map(|(fraction, _)| *fraction).collect();
         let from = Some(standalone.q.as_slice());
         let Ok(path) = analysis::lead(&system.determined, &system.program, from, &stops, self.options) else { return };
@@ -384,22 +369,10 @@ impl<'s> StartSearch<'s> {
             return cached.clone();
         }
         let CheckOptions { library, files, .. } = self.check_options.clone();
-        let check_options = CheckOptions {
-            settings,
-            library,
-            files,
-            given: InputOverrides::default(),
-            by: Vec::new(),
-            slopes: None,
-            reactions: false,
-            pictures_forces: false,
-            bound: params,
-            continuation: None,
-            open: Vec::new(),
-            set_inputs: None,
-            has_signals: false,
-        };
-        let standalone = self.tree_of(start).and_then(|tree| self.assembled(tree, check_options)).map(Rc::new);
+        let check_options = CheckOptions { settings, library, files, bound: params, ..CheckOptions::default() };
+        let tree = self.check_options.library.mechanism_at(start.text);
+        let model = tree.and_then(|tree| check::check(tree, &check_options, self.sources).0);
+        let standalone = model.map(|model| Rc::new(self.assembled(model, check_options.settings)));
         if let Some(standalone) = &standalone {
             self.diagnostics.extend(standalone.remarks.clone());
         }
@@ -408,21 +381,20 @@ impl<'s> StartSearch<'s> {
     }
 
     /// Assembles a mechanism at the first time of its own analysis, with its nominal inputs.
-    fn assembled(&mut self, tree: &ast::Mechanism, check_options: CheckOptions) -> Option<Standalone> {
-        let (model, _) = check::check(tree, &check_options, self.sources);
-        let model = model?;
+    fn assembled(&mut self, mut model: Mechanism, settings: Vec<ParamOverride>) -> Standalone {
+        model.by.clear();
         let t = model.analysis.map_or(0.0, |analysis| analysis.from);
         let inputs = nominal_inputs(&model, t);
-        let system = lower_model(&model);
+        let system = lower_model(&model, &LowerOptions::default());
         let (q, remarks) = (estimates(&system), Diagnostics::default());
-        let mut standalone = Standalone { check_options, t, inputs, q, is_assembled: false, remarks };
+        let mut standalone = Standalone { model, settings, t, inputs, q, is_assembled: false, remarks };
         let horizon = Horizon::of_analysis(system.analysis()).beginning(t);
         let Ok((determined, _)) = analysis::determine(system, self.leave_out_redundant, horizon) else {
-            return Some(standalone);
+            return standalone;
         };
         let system = CompiledSystem::new(determined);
         if has_parts(&system) {
-            standalone.q = self.estimates_with_parts(&system, horizon, &standalone.check_options.settings);
+            standalone.q = self.estimates_with_parts(&system, horizon, &standalone.settings);
         }
         let ContinuationOptions { tolerance, pass_bifurcations, ref cancel, .. } = *self.options;
         let (CompiledSystem { determined, program }, cancel) = (system, cancel.clone());
@@ -432,17 +404,12 @@ impl<'s> StartSearch<'s> {
             standalone.q = started.q().to_vec();
             standalone.is_assembled = true;
         }
-        Some(standalone)
+        standalone
     }
 
     /// Returns inputs as messages list them.
     fn targets(&self, inputs: &[ContinuedParam]) -> Vec<ContinuationTarget> {
         ContinuationTarget::from_params(inputs, &Angles::new(&self.check_options.library, self.sources))
-    }
-
-    fn tree_of(&self, start: &PartStart) -> Option<&'s ast::Mechanism> {
-        let check_options: &'s CheckOptions = self.check_options;
-        check_options.library.mechanism_at(start.text)
     }
 }
 
@@ -453,12 +420,8 @@ fn estimates(system: &ConstraintSystem) -> Vec<f64> {
 
 /// Returns the values (SI) of the inputs of a mechanism at a time (s), by their names.
 fn nominal_inputs(model: &Mechanism, t: f64) -> FxHashMap<String, f64> {
-    let value = |symbol| match symbol {
-        Symbol::Param(k) => model.params[k as usize].value,
-        Symbol::Time => t,
-        _ => f64::NAN,
-    };
-    model.inputs.iter().map(|input| (input.declared.name.clone(), model.graph.value(input.value, value))).collect()
+    let value = |input: &Input| (input.declared.name.clone(), model.value_at(input.formula.value, t));
+    model.inputs.iter().map(value).collect()
 }
 
 /// Returns inputs whose paths end at a fraction of theirs.

@@ -1,39 +1,16 @@
-//! Equations of a continuation: parameters, inputs and time move from one value to another on straight lines. The ends of the lines are
-//! parameters, so that one system serves for every target.
+//! Equations of a continuation of parameters: they move from one value to another on straight lines. The ends of the lines are parameters,
+//! so that one system serves for every target.
 
-use super::{Lowering, inputs, needs_jerk};
+use super::TimeOnPath;
 use crate::model::{Dimension, Mechanism};
 use mechc_expr::{ExprId, Graph, Symbol};
-use mechc_ir::{ConstraintSystem, Param, Written};
+use mechc_ir::{Param, Written};
 use rustc_hash::FxHashMap;
 
-/// Time during a continuation.
-#[derive(Clone, Copy, PartialEq, Debug)]
-pub enum TimeOnPath {
-    /// Time is constant (s).
-    Still(f64),
-    /// Time moves too.
-    Moving,
-}
-
-/// Returns the equations of a continuation. Time is replaced by the path parameter: at 0 the continued parameters have their nominal
-/// values, at 1 those of the target. For each of them one parameter is appended to those of the model, its target value; if time moves, two
-/// more, its first and last value.
-#[must_use]
-pub fn lower_continuation(model: &Mechanism, clock: TimeOnPath) -> ConstraintSystem {
-    let mut model = model.clone();
-    model.strip_outputs();
-    model.by.clear();
-    (model.reactions, model.pictures_forces) = (false, false);
-    let mut lowering = Lowering::new(&model);
-    let mut written = lowering.build();
-    PathLines::append(&model, clock, &mut written.params).substitute(&mut written);
-    let with_jerk = needs_jerk(&model, &written);
-    let mut system = ConstraintSystem::of(written, with_jerk);
-    inputs::add(&model, &mut system);
-    lowering.add_features(&mut system);
-    debug_assert_eq!(system.validate(), Ok(()));
-    system
+/// Replaces parameters and time by lines along the path. For each of the model's continued parameters, its target value is appended to the
+/// parameters; if time moves, its first and its last value follow.
+pub(super) fn put_on_path(model: &Mechanism, clock: TimeOnPath, written: &mut Written) {
+    PathLines::append(model, clock, &mut written.params).substitute(written);
 }
 
 /// The appended parameters, which are ends of lines.
