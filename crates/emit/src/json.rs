@@ -131,7 +131,7 @@ impl Writer<'_> {
             json!({
                 "name": input.name,
                 "line": self.line(input.span),
-                "unit": input.unit,
+                "unit": input.unit(),
                 "value": value,
                 "rate": rate,
                 "acceleration": acceleration,
@@ -204,7 +204,7 @@ impl Writer<'_> {
         let left_out = checks.map(|check| {
             json!({
                 "declaration": check.declaration.index(),
-                "unit": check.unit.to_string(),
+                "unit": check.unit.display_unit(),
                 "phi": (self.text)(check.phi),
             })
         });
@@ -216,7 +216,7 @@ impl Writer<'_> {
             json!({
                 "name": self.system.row_name(k),
                 "declaration": row.declaration.index(),
-                "unit": row.unit.to_string(),
+                "unit": row.unit.display_unit(),
                 "phi": (self.text)(row.phi),
             })
         });

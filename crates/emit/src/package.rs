@@ -424,7 +424,7 @@ impl Writer<'_> {
             .iter()
             .zip(names)
             .map(|(input, name)| {
-                line(&[format!("`{name}`"), format!("`{}`", input.name), unit(&input.unit).to_owned()])
+                line(&[format!("`{name}`"), format!("`{}`", input.name), unit(&input.unit()).to_owned()])
             })
             .collect();
         format!("\n## Inputs\n\n{INPUTS}\n| field of `Inputs` | input | unit |\n| --- | --- | --- |\n{rows}")

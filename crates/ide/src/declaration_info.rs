@@ -1,7 +1,7 @@
 //! Computed information on a declaration: its position and value at the start, its equations. Only results that are cached or quick to
 //! compute are used.
 
-use super::numbers::{degrees, in_unit, short, si_unit, with_unit};
+use super::numbers::{degrees, in_unit, short, with_unit};
 use super::snapshot::{MotionOutcome, Proof, ResultValue, Snapshot};
 use mechc_lang::check::{Amount, DeclaredName, NameKind};
 use mechc_pipeline::{Assembly, Checked, Compiled};
@@ -159,11 +159,10 @@ fn value_of_param(subject: &Subject<'_>) -> Option<String> {
     let value = subject.checked.declaration_info().values.iter().find(|value| value.name == Some(*name))?;
     Some(match &value.amount {
         Amount::Point([x, y]) => format!("= ({}, {}) m, a point", short(*x), short(*y)),
-        Amount::Number { si, dimension, is_angle, unit } => {
-            let mut forms = vec![with_unit(*si, &si_unit(*dimension, *is_angle))];
+        Amount::Number { si, dimension, unit } => {
+            let mut forms = vec![with_unit(*si, &dimension.display_unit())];
             forms.extend(unit.as_ref().and_then(|unit| in_unit(*si, unit)));
-            let what =
-                if *is_angle && dimension.is(Dimension::PURE) { "an angle".to_owned() } else { dimension.in_words() };
+            let what = if dimension.is_angle() { "an angle".to_owned() } else { dimension.in_words() };
             format!("= {}, {what}", forms.join(" = "))
         }
     })
@@ -175,7 +174,7 @@ fn value_in_part(subject: &Subject<'_>) -> Option<String> {
         return Some(bound);
     }
     let (value, dimension) = subject.checked.param_in_part(subject.path)?;
-    Some(format!("= {}, {}", with_unit(value, &si_unit(dimension, false)), dimension.in_words()))
+    Some(format!("= {}, {}", with_unit(value, &dimension.display_unit()), dimension.in_words()))
 }
 
 /// Formats the binding of a param of a part: the value of a number, or the formula as it is written.
@@ -191,7 +190,7 @@ fn bound_in_part(subject: &Subject<'_>) -> Option<String> {
     let number = match &bound.value.bare().kind {
         ExprKind::Literal { value, unit: Some((unit, power)) } => Unit::named(&unit.text).map(|unit| {
             let dimension = unit.dimension.to_the(f64::from(*power));
-            let si = with_unit(unit.to_si(*value, *power), &si_unit(dimension, unit.measures_angle()));
+            let si = with_unit(unit.to_si(*value, *power), &dimension.display_unit());
             format!("= {si}, {}", dimension.in_words())
         }),
         _ => None,

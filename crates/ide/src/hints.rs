@@ -1,10 +1,9 @@
 //! Inlay hints: the coordinates and equations that declarations add, and the values of formulas.
 
-use super::numbers::{degrees, in_unit, short, si_unit, signed, with_unit};
+use super::numbers::{degrees, in_unit, short, signed, with_unit};
 use super::snapshot::Snapshot;
 use mechc_lang::check::{Amount, ConstantValue, DeclarationCount, Index};
 use mechc_pipeline::Checked;
-use mechc_text::vocabulary::Dimension;
 use std::ops::Range;
 use std::path::Path;
 
@@ -85,11 +84,11 @@ fn of_value(value: &ConstantValue) -> Option<Hint> {
         Amount::Point(_) if value.is_number => return None,
         Amount::Point([x, y]) => format!("= ({}, {}) m", short(*x), short(*y)),
         Amount::Number { si, .. } if *si == 0.0 && value.is_number => return None,
-        Amount::Number { si, dimension, is_angle, unit } => {
-            let in_si = with_unit(*si, &si_unit(*dimension, *is_angle));
+        Amount::Number { si, dimension, unit } => {
+            let in_si = with_unit(*si, &dimension.display_unit());
             let written = unit.as_ref().and_then(|unit| in_unit(*si, unit));
             let is_in_degrees = unit.as_ref().is_some_and(|unit| unit.per_second(0) == "deg");
-            let in_degrees = (*is_angle && dimension.is(Dimension::PURE) && !is_in_degrees).then(|| degrees(*si));
+            let in_degrees = (dimension.is_angle() && !is_in_degrees).then(|| degrees(*si));
             let mut forms: Vec<String> = Vec::new();
             // a number already shows its value in the written unit
             forms.extend((!value.is_number || written.is_some()).then_some(in_si));

@@ -1,7 +1,7 @@
 //! Short formats of values with units, for display next to a text.
 
 use mechc_text::diag::readable;
-use mechc_text::vocabulary::{CompoundUnit, Dimension};
+use mechc_text::vocabulary::CompoundUnit;
 
 /// Formats a number to six digits.
 pub(super) fn short(value: f64) -> String {
@@ -17,15 +17,6 @@ pub(super) fn with_unit(value: f64, unit: &str) -> String {
         // as in `60/s`
         unit if unit.starts_with("1/") => format!("{}{}", short(value), &unit[1..]),
         unit => format!("{} {unit}", short(value)),
-    }
-}
-
-/// Returns the SI unit of a value, with radians for an angle.
-pub(super) fn si_unit(dimension: Dimension, is_angle: bool) -> String {
-    match dimension.unit() {
-        unit if !is_angle => unit,
-        unit if unit == "1" => "rad".to_owned(),
-        unit => unit.strip_prefix("1/").map_or(unit.clone(), |below| format!("rad/{below}")),
     }
 }
 
@@ -53,8 +44,7 @@ pub(super) fn signed(number: i64) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{degrees, short, si_unit, signed, with_unit};
-    use mechc_text::vocabulary::Dimension;
+    use super::{degrees, short, signed, with_unit};
 
     #[test]
     fn values_are_short() {
@@ -63,8 +53,6 @@ mod tests {
         assert_eq!(short(1.0 / 3.0), "0.333333");
         assert_eq!(with_unit(0.05, "m"), "0.05 m");
         assert_eq!(with_unit(2.0, "1/s"), "2/s");
-        assert_eq!(si_unit(Dimension::RATE, true), "rad/s");
-        assert_eq!(si_unit(Dimension::RATE, false), "1/s");
         assert_eq!(degrees(std::f64::consts::FRAC_PI_3), "60°");
         assert_eq!([3, -2, 0].map(signed), ["+3", "−2", "±0"]);
     }

@@ -30,16 +30,7 @@ fn equations(word: &Word) -> Option<String> {
 
 fn in_si(word: &Word) -> Option<String> {
     let unit = Unit::named(word.name).filter(|_| word.category == Category::Unit)?;
-    let si = match unit.dimension.unit() {
-        si if unit.measures_angle() => {
-            if si == "1" {
-                "rad".to_owned()
-            } else {
-                "rad/s".to_owned()
-            }
-        }
-        si => si,
-    };
+    let si = unit.dimension.display_unit();
     Some(format!("`1 {} = {}`", word.name, with_unit(unit.to_si(1.0, 1), &si)))
 }
 

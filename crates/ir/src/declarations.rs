@@ -35,8 +35,8 @@ pub struct Input {
     pub name: String,
     /// Number of its signal symbol.
     pub index: u32,
-    /// SI unit: `m`, `1/s`, or `1` for a pure number.
-    pub unit: String,
+    /// Dimension of the value; that of a plain number is pure.
+    pub dimension: Dimension,
     /// Span of the name.
     pub span: Span,
     /// Default value, rate and acceleration from the text, as formulas of time.
@@ -44,6 +44,12 @@ pub struct Input {
 }
 
 impl Input {
+    /// Returns the SI unit: `m`, `1/s`, or `1` for a pure number.
+    #[must_use]
+    pub fn unit(&self) -> String {
+        self.dimension.unit()
+    }
+
     /// Returns the symbol of its value.
     #[must_use]
     pub fn symbol(&self) -> Symbol {

@@ -60,7 +60,7 @@ pub use monitors::{
 };
 pub use results::{Outcome, Reduction, ReductionKind, Results};
 pub use right_sides::{RightSide, With};
-pub use rows::{Row, RowUnit};
+pub use rows::Row;
 pub use sparse::SparseRows;
 pub use variations::{DerivativeColumn, Variable, Variation, Variations};
 

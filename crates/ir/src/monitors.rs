@@ -1,9 +1,10 @@
 //! Quantities that are monitored in addition to the solved equations: conditions, redundant equations, branch monitors, and the starts of contacts
 //! and parts.
 
-use super::{BodyId, DeclarationId, RowUnit};
+use super::{BodyId, DeclarationId};
 use mechc_expr::{ExprId, TableId};
 use mechc_text::source::Span;
+use mechc_text::vocabulary::Dimension;
 use std::ops::Range;
 
 /// A formula that must stay above zero.
@@ -38,7 +39,7 @@ pub struct Check {
     /// The entry of `Φ`.
     pub phi: ExprId,
     /// Unit of `phi`.
-    pub unit: RowUnit,
+    pub unit: Dimension,
     /// The declaration that wrote it.
     pub declaration: DeclarationId,
     /// Norm of its row in the scaled `Φ_q` at the estimates.

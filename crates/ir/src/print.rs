@@ -105,7 +105,7 @@ impl ConstraintSystem {
             list.iter().enumerate().map(|(k, &id)| (self.row_name(k), format!("= {}", text(id)))).collect()
         };
         let phi = self.rows.iter().enumerate().map(|(k, row)| {
-            let name = format!("{} [{}]", self.row_name(k), row.unit);
+            let name = format!("{} [{}]", self.row_name(k), row.unit.display_unit());
             (name, format!("0 = {}", text(row.phi)))
         });
         section(f, "equations Φ = 0, with what each is measured in", phi)?;

@@ -6,9 +6,10 @@
 
 use super::{
     BodyId, ConstraintSystem, CoordinateKind, DeclarationId, DeclarationKind, Forces, JointKind, Owner, ReductionKind,
-    Row, RowUnit, Variations, With,
+    Row, Variations, With,
 };
 use mechc_expr::{ExprId, Symbol, TIME_SIGNAL};
+use mechc_text::vocabulary::Dimension;
 
 impl ConstraintSystem {
     /// Checks all invariants and returns the first violation, in terms of the compiler's internals. Takes about as long as printing the
@@ -114,10 +115,10 @@ impl ConstraintSystem {
             DeclarationKind::Constraint | DeclarationKind::Driver => None,
         });
         for (k, Row { declaration, unit, .. }) in self.rows.iter().enumerate() {
-            ensure(unit.dimension.is_finite(), || format!("a unit of row {k} that is none"))?;
+            ensure(unit.is_finite(), || format!("a unit of row {k} that is none"))?;
             let matches_kind =
                 expected_units[*declaration].as_mut().is_none_or(|units| units.any(|expected| expected == unit));
-            ensure(matches_kind, || format!("row {k} is in {unit}"))?;
+            ensure(matches_kind, || format!("row {k} is in {}", unit.display_unit()))?;
         }
         Ok(())
     }
@@ -244,14 +245,14 @@ impl ConstraintSystem {
 }
 
 /// Returns the units of the rows of a joint, in order.
-fn units_of(kind: JointKind) -> &'static [RowUnit] {
-    const LENGTH: RowUnit = RowUnit::LENGTH;
+fn units_of(kind: JointKind) -> &'static [Dimension] {
+    const LENGTH: Dimension = Dimension::LENGTH;
     match kind {
-        JointKind::Translational => &[LENGTH, RowUnit::NUMBER],
-        JointKind::Weld => &[LENGTH, LENGTH, RowUnit::ANGLE],
-        JointKind::RevoluteRevolute => &[RowUnit::AREA],
+        JointKind::Translational => &[LENGTH, Dimension::PURE],
+        JointKind::Weld => &[LENGTH, LENGTH, Dimension::ANGLE],
+        JointKind::RevoluteRevolute => &[Dimension::AREA],
         JointKind::RevoluteTranslational | JointKind::RackPinion => &[LENGTH],
-        JointKind::Cam => &[LENGTH, LENGTH, RowUnit::AREA],
+        JointKind::Cam => &[LENGTH, LENGTH, Dimension::AREA],
         JointKind::Revolute
         | JointKind::Gear
         | JointKind::InternalGear
@@ -267,13 +268,14 @@ fn ensure(holds: bool, fault: impl Fn() -> String) -> Result<(), String> {
 #[cfg(test)]
 mod tests {
     use super::{
-        BodyId, ConstraintSystem, CoordinateKind, DeclarationId, DeclarationKind, JointKind, Owner, Row, RowUnit, With,
+        BodyId, ConstraintSystem, CoordinateKind, DeclarationId, DeclarationKind, JointKind, Owner, Row, With,
     };
     use crate::{
         Body, Coordinate, Declaration, DomainBoundary, Measure, Monitor, MonitorKind, Outcome, Point, Units, Written,
     };
     use mechc_expr::{ExprId, Graph, Symbol, Unary};
     use mechc_text::source::{Sources, Span};
+    use mechc_text::vocabulary::Dimension;
 
     /// Returns two arms with a measure: the first is pinned to the ground and driven, the second pinned to its tip.
     fn system() -> ConstraintSystem {
@@ -289,7 +291,7 @@ mod tests {
         let rows = phi.into_iter().enumerate().map(|(k, phi)| Row {
             declaration: DeclarationId::from(k / 2),
             phi,
-            unit: if k < 4 { RowUnit::LENGTH } else { RowUnit::ANGLE },
+            unit: if k < 4 { Dimension::LENGTH } else { Dimension::ANGLE },
         });
         let body =
             |k: usize| Body { name: format!("arm{k}"), span, pose_span: None, pose: [3 * k, 3 * k + 1, 3 * k + 2] };
@@ -378,8 +380,8 @@ mod tests {
 
     #[test]
     fn rows_are_in_their_units() {
-        assert_eq!(broken(|s| s.rows[0].unit = RowUnit::AREA), "row 0 is in m^2");
-        assert_eq!(broken(|s| s.rows[0].unit.dimension.time = f64::NAN), "a unit of row 0 that is none");
+        assert_eq!(broken(|s| s.rows[0].unit = Dimension::AREA), "row 0 is in m^2");
+        assert_eq!(broken(|s| s.rows[0].unit.time = f64::NAN), "a unit of row 0 that is none");
     }
 
     #[test]

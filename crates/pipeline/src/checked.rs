@@ -14,6 +14,7 @@ use mechc_lang::check::{
 };
 use mechc_lang::lower::{Inputs, LowerOptions, TabulatedForces};
 use mechc_lang::model::Mechanism;
+use mechc_lang::settable_inputs::SettableInputs;
 use mechc_syntax::{self as syntax, ast};
 use mechc_text::cancel::Cancel;
 use mechc_text::diag::{Applicability, Code, Diagnostic, Diagnostics, Fix, nearest};
@@ -93,6 +94,8 @@ pub struct Checked {
     pub(crate) check_options: Arc<CheckOptions>,
     /// The forces that are tabulated in addition to those of measures.
     forces: TabulatedForces,
+    /// The inputs that are settable numbers in its models.
+    pub(crate) settable_inputs: Option<Arc<SettableInputs>>,
     diagnostics: Arc<Diagnostics>,
     symbols: Arc<OnceLock<Symbols>>,
     pub(crate) query_cache: Arc<QueryCache>,
@@ -239,7 +242,23 @@ impl Checked {
         let Some(tree) = self.tree() else { return (None, self.parsed.faults().clone()) };
         let mut check_options = (*self.check_options).clone();
         check_options.settings.extend(settings);
-        check::check(tree, &check_options, sources)
+        let (mut model, mut diagnostics) = check::check(tree, &check_options, sources);
+        if let (Some(settable), Some(whole)) = (&self.settable_inputs, &mut model)
+            && let Err(why) = settable.add_to(whole)
+        {
+            diagnostics.push(*why);
+            model = None;
+        }
+        (model, diagnostics)
+    }
+
+    /// Returns the mechanism with inputs of its models as settable numbers.
+    ///
+    /// # Errors
+    /// An input is not finite at the time of the settable inputs.
+    pub(crate) fn with_settable_inputs(mut self, inputs: SettableInputs) -> Result<Checked, Box<Diagnostic>> {
+        self.model.as_mut().map_or(Ok(()), |model| inputs.add_to(Arc::make_mut(model)))?;
+        Ok(Checked { settable_inputs: Some(Arc::new(inputs)), ..self })
     }
 
     /// Returns whether options give inputs.
@@ -274,7 +293,7 @@ impl Checked {
     ) -> Checked {
         diagnostics.sort_by_span();
         let (diagnostics, check_options, symbols) = (Arc::new(diagnostics), Arc::default(), Arc::default());
-        let (forces, is_continued, query_cache) = Default::default();
+        let (forces, settable_inputs, is_continued, query_cache) = Default::default();
         Checked {
             parsed,
             index,
@@ -283,6 +302,7 @@ impl Checked {
             is_continued,
             check_options,
             forces,
+            settable_inputs,
             diagnostics,
             symbols,
             query_cache,

@@ -1,7 +1,6 @@
 //! Controls of a page: the params and inputs that a user can change by hand.
 
-use crate::angles::Angles;
-use crate::option_reader::{is_of_angles, number_and_unit, si_unit, written};
+use crate::option_reader::{number_and_unit, si_unit, unit_without_angles, written};
 use crate::queries::item_named;
 use crate::{Checked, Compiled, Formula};
 use mechc_engine::sweep::round_to_15_digits;
@@ -71,20 +70,18 @@ impl Checked {
                 _ => None,
             });
             let Some((name, formula)) = declared else { continue };
-            let kind =
-                |dimension, is_angle| ValueKind { dimension, is_angle, usual: usual.filter(|_| dimension == LENGTH) };
+            let kind = |dimension: Dimension| ValueKind { dimension, usual: usual.filter(|_| dimension.is(LENGTH)) };
             match &value.amount {
-                Amount::Number { si, dimension, is_angle, unit } => {
+                Amount::Number { si, dimension, unit } => {
                     let unit = unit.as_ref().map(|unit| unit.per_second(0));
-                    let unit = unit.or_else(|| unit_of_named(formula, self, &knobs, *dimension, *is_angle));
-                    knobs.push(self.knob(&name.text, formula, *si, &kind(*dimension, *is_angle), unit));
+                    let unit = unit.or_else(|| unit_of_named(formula, self, &knobs, *dimension));
+                    knobs.push(self.knob(&name.text, formula, *si, &kind(*dimension), unit));
                 }
                 Amount::Point(at) => {
                     let parts = coordinates(formula);
                     for (k, axis) in ["x", "y"].into_iter().enumerate() {
                         let formula = parts.map_or(formula, |parts| &parts[k]);
-                        let knob =
-                            self.knob(&format!("{}.{axis}", name.text), formula, at[k], &kind(LENGTH, false), None);
+                        let knob = self.knob(&format!("{}.{axis}", name.text), formula, at[k], &kind(LENGTH), None);
                         // a plain 0 has the unit of the other coordinate
                         let other = parts.and_then(|parts| number_and_unit(self.sources().text(parts[1 - k].span)));
                         let is_plain = knob.unit.is_empty();
@@ -110,7 +107,7 @@ impl Checked {
         let place = Some(formula.span);
         let param = self.param_in_part(name);
         let si = param.map_or(si, |(value, _)| value);
-        let dimension = si_unit(kind.dimension, false);
+        let dimension = unit_without_angles(kind.dimension);
         let name = name.to_owned();
         if let Some((number, unit)) = number_and_unit(text) {
             let value = if self.is_set(&name) { in_unit(si, unit) } else { number };
@@ -129,8 +126,7 @@ impl Checked {
                 is_continuous: leads,
             };
         }
-        let unit =
-            unit.or_else(|| kind.usual.map(str::to_owned)).unwrap_or_else(|| si_unit(kind.dimension, kind.is_angle));
+        let unit = unit.or_else(|| kind.usual.map(str::to_owned)).unwrap_or_else(|| si_unit(kind.dimension));
         let value = in_unit(si, &unit);
         let (formula, is_half, of) = (Some(text.to_owned()), false, None);
         ParamControl {
@@ -153,9 +149,9 @@ impl Checked {
         let text = source.as_ref().map(|source| self.sources().text(source.formula.span));
         let number = text.and_then(number_and_unit);
         let unit = number.map(|(_, unit)| unit).filter(|unit| !unit.is_empty());
-        let usual = || source.as_ref().and_then(|source| source.usual).filter(|_| dimension == LENGTH);
-        let unit = unit.or_else(usual).map_or_else(|| si_unit(dimension, false), str::to_owned);
-        let (value, dimension) = (in_unit(si, &unit), si_unit(dimension, false));
+        let usual = || source.as_ref().and_then(|source| source.usual).filter(|_| dimension.is(LENGTH));
+        let unit = unit.or_else(usual).map_or_else(|| si_unit(dimension), str::to_owned);
+        let (value, dimension) = (in_unit(si, &unit), unit_without_angles(dimension));
         let formula = text.filter(|_| number.is_none()).map(str::to_owned);
         let stands = source.as_ref().map(|source| source.formula.span);
         let (is_half, is_bound) = source.map_or((false, true), |source| (source.is_half, source.is_bound));
@@ -257,38 +253,29 @@ fn without_copy_indices(path: &str) -> String {
 /// The kind of a value, which decides its unit.
 struct ValueKind {
     dimension: Dimension,
-    is_angle: bool,
     /// The unit in which the text writes this dimension.
     usual: Option<&'static str>,
 }
 
 /// Returns the unit of the first param of the same dimension that a formula names.
-fn unit_of_named(
-    formula: &Expr,
-    checked: &Checked,
-    knobs: &[ParamControl],
-    dimension: Dimension,
-    is_angle: bool,
-) -> Option<String> {
-    let dimension = si_unit(dimension, false);
+fn unit_of_named(formula: &Expr, checked: &Checked, knobs: &[ParamControl], dimension: Dimension) -> Option<String> {
+    let is_number = dimension.is(Dimension::PURE) && !dimension.is_angle();
+    let dimension = unit_without_angles(dimension);
     let text = checked.sources().text(formula.span);
     let mut words = text.split(|c: char| !(c.is_alphanumeric() || matches!(c, '_' | '.')));
     let named = words.find_map(|word| {
         knobs.iter().find(|knob| knob.name == word && knob.dimension == dimension && !knob.unit.is_empty())
     });
-    named.filter(|_| !dimension.is_empty() || is_angle).map(|knob| knob.unit.clone())
+    named.filter(|_| !is_number).map(|knob| knob.unit.clone())
 }
 
-/// Returns the unit of the first number in a formula that has the kind of an SI unit.
-fn unit_of_literals(formula: &Expr, si: &str) -> Option<String> {
-    let is_of_kind = |unit: &Unit| match si {
-        "rad" => is_of_angles(unit.word.name),
-        si => si.strip_prefix('1').unwrap_or(si) == si_unit(unit.dimension, false) && !is_of_angles(unit.word.name),
-    };
+/// Returns the unit of the first number in a formula that has a dimension.
+fn unit_of_literals(formula: &Expr, dimension: Dimension) -> Option<String> {
+    let fits = |unit: &&Unit| unit.dimension.is(dimension) && unit.dimension.is_angular() == dimension.is_angular();
     if let ExprKind::Literal { unit: Some((name, 1)), .. } = &formula.kind {
-        return Unit::named(&name.text).filter(|unit| is_of_kind(unit)).map(|unit| unit.word.name.to_owned());
+        return Unit::named(&name.text).filter(fits).map(|unit| unit.word.name.to_owned());
     }
-    formula.children().into_iter().find_map(|part| unit_of_literals(part, si))
+    formula.children().into_iter().find_map(|part| unit_of_literals(part, dimension))
 }
 
 /// Converts a value (SI) to a unit.
@@ -322,7 +309,6 @@ impl Checked {
     #[must_use]
     pub fn input_controls(&self, compiled: &Compiled, times: &[f64]) -> Vec<InputControl> {
         let system = compiled.system();
-        let angles = Angles::new(self.library(), self.sources());
         let formula = |span: Span| {
             let items =
                 self.library().files().iter().flat_map(|file| &file.read.tree.mechanisms).flat_map(|m| &m.items);
@@ -333,47 +319,21 @@ impl Checked {
             inputs.next()
         };
         let jog = |input: &Input| {
-            let unit = match input.unit.as_str() {
-                "1" if angles.has(input.span) || compiled.turns(input) => "rad".to_owned(),
-                "1" => String::new(),
-                unit => unit.to_owned(),
-            };
             let formula = formula(input.span);
             let text = formula.map_or("", |formula| self.sources().text(formula.span));
             let whole = number_and_unit(text).map(|(_, unit)| unit.to_owned()).filter(|unit| !unit.is_empty());
-            let written = whole.or_else(|| unit_of_literals(formula?, &unit));
-            // as the unit follows a number
-            let si = unit.strip_prefix('1').unwrap_or(&unit);
+            let written = whole.or_else(|| unit_of_literals(formula?, input.dimension));
+            let si = si_unit(input.dimension);
             InputControl {
                 name: input.name.clone(),
-                written: written.unwrap_or_else(|| si.to_owned()),
-                dimension: if si == "rad" { String::new() } else { si.to_owned() },
-                unit,
+                written: written.unwrap_or_else(|| si.clone()),
+                dimension: unit_without_angles(input.dimension),
+                unit: if si.starts_with('/') { format!("1{si}") } else { si },
                 values: times.iter().map(|&t| at_time(system, input.formulas[0], t)).collect(),
                 formula: text.to_owned(),
             }
         };
         system.inputs().iter().map(jog).collect()
-    }
-}
-
-impl Compiled {
-    /// Returns whether a driver turns something by an input.
-    fn turns(&self, input: &Input) -> bool {
-        let system = self.system();
-        let is_angle = |&(column, _): &(u32, ExprId)| {
-            system.body_of(column as usize).is_some_and(|body| system.pose_of(body)[2] == column as usize)
-        };
-        (0..system.rows().len())
-            .filter(|&row| system.is_driver(row) && system.phi_q().row(row).iter().all(is_angle))
-            .any(|row| self.names_input(row, input))
-    }
-
-    /// Returns whether the formula of a driver's row names an input.
-    fn names_input(&self, row: usize, input: &Input) -> bool {
-        let written = self.system().declaration_of(row).written.map(|span| self.sources().text(span));
-        let is_name = |c: char| c.is_alphanumeric() || matches!(c, '_' | '.' | '[' | ']');
-        written.is_some_and(|written| written.split(|c| !is_name(c)).any(|word| word == input.name))
     }
 }
 

@@ -118,7 +118,7 @@ impl Checked {
         let Some(checked) = self.checked_again(check_options, false) else {
             return Err(Error::new(self.diagnostics().clone(), self.sources()));
         };
-        let checked = checked.with_settable_inputs(&set_inputs).map_err(|why| refused(*why))?;
+        let checked = checked.with_settable_inputs(set_inputs).map_err(|why| refused(*why))?;
         let (compiled, diagnostics) = checked.compile(adjusting.redundant, cancel);
         let Some((compiled, model)) = compiled.zip(checked.model()) else {
             let why = if checked.is_sound() { &diagnostics } else { checked.diagnostics() };
@@ -148,17 +148,10 @@ impl Checked {
         let batch = BatchEvaluator::new(model.continued.iter().filter_map(|param| param.param).collect());
         let params = self.params_to_adjust(&adjusting.params)?.map(|params| Binder::new(&checked, &params));
         let (source, redundant) = (checked.clone(), adjusting.redundant);
-        let sets_inputs = !adjusting.inputs.is_empty();
-        let continuation = Continuation::new(move |options| source.nominal(redundant, sets_inputs, options));
+        let continuation = Continuation::new(move |options| source.nominal(redundant, options));
         let (adjusting, columns) = (adjusting.clone(), compiled.columns().len());
         let shared = Shared { checked, compiled, continuation, nominal, inputs, params, adjusting, columns, batch };
         Ok(MechanismEvaluator(Arc::new(shared)))
-    }
-
-    /// Returns the mechanism with inputs of its model as settable numbers.
-    fn with_settable_inputs(mut self, inputs: &SettableInputs) -> Result<Checked, Box<Diagnostic>> {
-        self.model.as_mut().map_or(Ok(()), |model| inputs.add_to(Arc::make_mut(model)))?;
-        Ok(self)
     }
 
     /// Returns the params of the given names, each of which takes a number in SI.

@@ -24,7 +24,8 @@ const LARGEST_WHOLE: u64 = 150;
 pub struct Formula {
     graph: Graph,
     roots: [ExprId; 3],
-    dimension: Option<Dimension>,
+    dimension: Dimension,
+    is_dimensional: bool,
     conditions: Vec<Condition>,
     remarks: Diagnostics,
     span: Span,
@@ -41,7 +42,7 @@ impl Formula {
         let file = sources.add_option("EXPR", text);
         let refused = |why: Diagnostics| Error::new(why, sources);
         let tree = syntax::parse_expression(sources, file).map_err(refused)?;
-        let FormulaOfTime { mut graph, value, dimension, conditions, remarks } =
+        let FormulaOfTime { mut graph, value, dimension, is_dimensional, conditions, remarks } =
             check::formula_of_time(&tree, sources).map_err(refused)?;
         let mut derivative = |formula: ExprId| {
             let slopes =
@@ -60,6 +61,7 @@ impl Formula {
             graph,
             roots: [value, first, second],
             dimension,
+            is_dimensional,
             conditions,
             remarks,
             span: tree.span,
@@ -73,9 +75,14 @@ impl Formula {
         &self.remarks
     }
 
-    /// Returns the dimension; `None` if the formula has no unit.
-    pub(crate) fn known_dimension(&self) -> Option<Dimension> {
+    /// Returns the dimension, if numbers without units are pure.
+    pub(crate) fn pure_dimension(&self) -> Dimension {
         self.dimension
+    }
+
+    /// Returns the dimension; `None` if the formula has no unit of length, time or mass.
+    pub(crate) fn known_dimension(&self) -> Option<Dimension> {
+        self.is_dimensional.then_some(self.dimension)
     }
 
     /// Returns the values at a time (s).
@@ -128,7 +135,7 @@ impl Formula {
     /// Describes its dimension and the units of its values; `None` if the formula has no unit.
     #[must_use]
     pub fn dimension(&self) -> Option<String> {
-        self.dimension.map(dimension_line)
+        self.known_dimension().map(dimension_line)
     }
 }
 

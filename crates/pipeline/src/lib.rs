@@ -7,7 +7,6 @@
 //! A stage reports its diagnostics and goes on with what is sound. The crate joins the crates below it; it opens no file, reads no clock and
 //! writes to no terminal.
 
-mod angles;
 mod batch;
 mod checked;
 mod column_selection;

@@ -4,13 +4,21 @@
 use crate::checked::TOL;
 use crate::options::spaceless;
 use crate::{Checked, Choice, Formula, Parsed};
-use mechc_lang::model::{Dimension, Units};
+use mechc_lang::model::Dimension;
 use mechc_text::diag::{Code, Diagnostic, Diagnostics, Error, Severity, readable};
 use mechc_text::vocabulary::Unit;
 use mechc_text::world::World;
 
-/// Words that make an angle of a pure number.
-const ANGLES: [&str; 3] = ["deg", "rad", "rev"];
+/// A number that an option gives as a formula.
+#[derive(Clone, Copy)]
+pub(crate) struct OptionNumber {
+    /// Value in SI.
+    pub si: f64,
+    /// Dimension, if numbers without units are pure.
+    pub dimension: Dimension,
+    /// True if the formula has a unit of length, time or mass.
+    pub is_dimensional: bool,
+}
 
 /// Refuses params that are given twice, and a param of one copy before that of all copies, which would overwrite it.
 pub(crate) fn refuse_duplicates<'n>(
@@ -83,10 +91,10 @@ impl OptionReader<'_> {
     }
 
     /// Checks the mechanism with a param set to a number; returns it with the value (SI) and its dimension, if it has one.
-    pub fn number(&self, name: &str, formula: &str) -> Result<(Checked, f64, Option<Dimension>), Error> {
+    pub fn number(&self, name: &str, formula: &str) -> Result<(Checked, OptionNumber), Error> {
         let number = self.check_with(name, formula).and_then(|checked| {
-            let (value, dimension) = self.value(formula)?;
-            Ok((checked, value, dimension))
+            let number = self.value(formula)?;
+            Ok((checked, number))
         });
         let refused = || Error::new(self.point_needs_axis(name, formula), self.checked.sources());
         number.map_err(|why| if self.is_point(name) { refused() } else { why })
@@ -104,12 +112,13 @@ impl OptionReader<'_> {
             .help(format!("say it of a coordinate: `{option} {name}.x=…`, `{option} {name}.y=…`, or both"))
     }
 
-    /// Returns the value of a formula (SI) and its dimension, if it has one.
-    pub fn value(&self, formula: &str) -> Result<(f64, Option<Dimension>), Error> {
+    /// Returns the value of a formula.
+    pub fn value(&self, formula: &str) -> Result<OptionNumber, Error> {
         let mut sources = self.checked.sources().clone();
         let formula = Formula::parse(formula, &mut sources)?;
-        let [value, ..] = formula.values(0.0)?;
-        Ok((value, formula.known_dimension()))
+        let [si, ..] = formula.values(0.0)?;
+        let is_dimensional = formula.known_dimension().is_some();
+        Ok(OptionNumber { si, dimension: formula.pure_dimension(), is_dimensional })
     }
 }
 
@@ -139,17 +148,18 @@ fn is_unit(text: &str) -> bool {
     })
 }
 
-/// Returns the SI unit of a dimension; empty for a pure number.
-pub(crate) fn si_unit(dimension: Dimension, is_angle: bool) -> String {
-    match Units::si(dimension, is_angle).si {
-        unit if unit == "1" => String::new(),
-        unit => unit.strip_prefix('1').map_or(unit.clone(), str::to_owned),
-    }
+/// Returns the SI unit of a dimension as it follows a number; empty for a pure number that is no angle.
+pub(crate) fn si_unit(dimension: Dimension) -> String {
+    behind_number(&dimension.display_unit())
 }
 
-/// Returns whether a formula has a word that makes an angle of a pure number.
-pub(crate) fn is_of_angles(formula: &str) -> bool {
-    formula.split(|c: char| !c.is_alphabetic()).any(|word| ANGLES.contains(&word))
+/// Returns the SI unit of a dimension as it follows a number, in which angles are pure numbers.
+pub(crate) fn unit_without_angles(dimension: Dimension) -> String {
+    behind_number(&dimension.unit())
+}
+
+fn behind_number(unit: &str) -> String {
+    unit.strip_prefix('1').unwrap_or(unit).to_owned()
 }
 
 /// Writes a value with its unit as a formula.

@@ -1,7 +1,6 @@
 //! Params and inputs that options can set, with their SI values.
 
-use crate::formula::Formula;
-use crate::option_reader::{is_of_angles, si_unit};
+use crate::option_reader::si_unit;
 use crate::{Checked, Compiled};
 use mechc_lang::check::{self, Amount};
 use mechc_lang::model::Dimension;
@@ -51,16 +50,13 @@ impl Checked {
         let mut params: Vec<SettableParam> = Vec::new();
         for declared_value in &self.declaration_info().values {
             let declared = tree.items.iter().find_map(|item| match &item.kind {
-                ItemKind::Param { name, value } if Some(name.span) == declared_value.name => {
-                    Some((&name.text, value.span))
-                }
+                ItemKind::Param { name, .. } if Some(name.span) == declared_value.name => Some(&name.text),
                 _ => None,
             });
-            let Some((name, formula)) = declared else { continue };
-            let is_angle = is_of_angles(self.sources().text(formula));
+            let Some(name) = declared else { continue };
             match &declared_value.amount {
-                Amount::Number { si, dimension, is_angle: is_angle_value, .. } => {
-                    let unit = si_unit(*dimension, is_angle || *is_angle_value);
+                Amount::Number { si, dimension, .. } => {
+                    let unit = si_unit(*dimension);
                     params.push(SettableParam { name: name.clone(), unit, value: *si, dimension: *dimension });
                 }
                 Amount::Point(at) => params.extend(["x", "y"].into_iter().zip(at).map(|(axis, &value)| {
@@ -76,7 +72,7 @@ impl Checked {
                 // the value in the model is the one that is computed with
                 Some(listed) => listed.value = param.value,
                 None if name.contains('.') => {
-                    let unit = si_unit(param.dimension, false);
+                    let unit = si_unit(param.dimension);
                     params.push(SettableParam {
                         name: name.clone(),
                         unit,
@@ -95,19 +91,16 @@ impl Checked {
     pub fn settable_inputs(&self, compiled: &Compiled) -> Vec<SettableParam> {
         let first = compiled.analysis().map_or(0.0, |[from, ..]| from);
         let jogs = self.input_controls(compiled, &[first]).into_iter();
-        jogs.map(|jog| {
-            let dimension = dimension_of(&jog.unit);
-            SettableParam { name: jog.name, unit: jog.unit, value: jog.values[0], dimension }
-        })
-        .collect()
+        let inputs = jogs.zip(compiled.system().inputs());
+        inputs
+            .map(|(jog, input)| SettableParam {
+                name: jog.name,
+                unit: jog.unit,
+                value: jog.values[0],
+                dimension: input.dimension,
+            })
+            .collect()
     }
-}
-
-/// Returns the dimension of a unit; that of a pure number if there is none.
-fn dimension_of(unit: &str) -> Dimension {
-    let one = if unit.starts_with('/') { format!("1{unit}") } else { format!("1 {unit}") };
-    let formula = Formula::parse(&one, &mut Sources::default());
-    formula.ok().and_then(|formula| formula.known_dimension()).unwrap_or(Dimension::PURE)
 }
 
 #[cfg(test)]

@@ -145,7 +145,7 @@ impl Compiled {
             Symbol::Param(k) => system.params()[k as usize].value,
             _ => f64::NAN,
         });
-        Some((value, input.unit.clone()))
+        Some((value, input.dimension.display_unit()))
     }
 
     /// Returns the position of a point, as `crank.pin` or `ground.O`, in the ground's frame (m).

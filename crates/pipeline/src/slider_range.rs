@@ -1,9 +1,7 @@
 //! Slider ranges: reads `--vary NAME=A..B:N` for pages, where params take values one after the other.
 
 use crate::checked::VARY;
-use crate::option_reader::{
-    OptionReader, is_of_angles, number_and_unit, refuse_duplicates, si_unit, unusable, written,
-};
+use crate::option_reader::{OptionReader, number_and_unit, refuse_duplicates, si_unit, unusable, written};
 use crate::options::spaceless;
 use crate::{Checked, Choice};
 use mechc_engine::sweep::{linspace_value, round_to_15_digits};
@@ -107,8 +105,8 @@ impl SliderRequest {
 impl OptionReader<'_> {
     fn slider_range(&self, request: &SliderRequest) -> Result<SliderRange, Error> {
         let SliderRequest { name, ends: [first, last], count } = request;
-        let [(low, a, _), (high, b, _)] = [self.number(name, first)?, self.number(name, last)?];
-        let (at_ends, si) = ([low, high], [a, b]);
+        let [(low, a), (high, b)] = [self.number(name, first)?, self.number(name, last)?];
+        let (at_ends, si) = ([low, high], [a.si, b.si]);
         let refused = |why: Diagnostic| Error::new(why, self.checked.sources());
         let of_param = |checked: &Checked| checked.param_in_part(name);
         if at_ends.iter().any(Checked::is_sound) && at_ends.iter().all(|checked| of_param(checked).is_none()) {
@@ -116,7 +114,7 @@ impl OptionReader<'_> {
         }
         let dimension = at_ends.iter().find_map(of_param).map_or(Dimension::PURE, |(_, dimension)| dimension);
         let (ends, unit) = same_unit(first, last)
-            .unwrap_or_else(|| (si, si_unit(dimension, is_of_angles(first) || is_of_angles(last))));
+            .unwrap_or_else(|| (si, si_unit(dimension.marked_by(a.dimension).marked_by(b.dimension))));
         let values = grid(ends, *count);
         if values.windows(2).any(|pair| pair[0] >= pair[1]) {
             return Err(refused(too_near(name, first, last)));

@@ -290,7 +290,7 @@ impl Interface<'_> {
         let names = Case::Snake.names_of_inputs(inputs);
         let fields = inputs.iter().zip(names);
         fields
-            .map(|(input, name)| (field(&name), format!("{} ({})", input.name, unit(&input.unit)), input.is_time()))
+            .map(|(input, name)| (field(&name), format!("{} ({})", input.name, unit(&input.unit())), input.is_time()))
             .collect()
     }
 }

@@ -90,7 +90,7 @@ impl Interface<'_> {
             let names = Case::Constant.names_of_inputs(inputs);
             let inputs = inputs.iter().zip(names).filter(|(of, _)| !of.is_time());
             let inputs =
-                inputs.map(|(of, name)| (name, format!("{} ({})", of.name, unit(&of.unit)))).collect::<Vec<_>>();
+                inputs.map(|(of, name)| (name, format!("{} ({})", of.name, unit(&of.unit())))).collect::<Vec<_>>();
             self.places(page, "INPUT", "INPUTS", "The numbers of the inputs.", &inputs);
         }
         if self.unit.has_forces() {

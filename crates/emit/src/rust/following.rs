@@ -139,7 +139,7 @@ impl Writer<'_> {
         let system = self.unit.system;
         let lengths = system.coordinates().iter().filter(|of| of.kind.unit() == "m").map(|of| of.scale);
         let longest = lengths.fold(0.0, f64::max);
-        let of = |input: &Input| match input.unit.as_str() {
+        let of = |input: &Input| match input.unit().as_str() {
             _ if input.is_time() => f64::INFINITY,
             "rad" | "1" => LARGEST_TURN_OF_INPUT,
             "m" if longest > 0.0 => LARGEST_SHIFT_OF_INPUT * longest,
@@ -224,7 +224,7 @@ impl Inputs<'_> {
         page.constant(docs, "const SIGNALS: usize", &self.all.len().to_string());
         let constants = Case::Constant.names_of_inputs(self.all);
         let descriptions =
-            |(input, _): (&Input, &String)| format!("`{}` ({})", one_line(&input.name), unit(&input.unit));
+            |(input, _): (&Input, &String)| format!("`{}` ({})", one_line(&input.name), unit(&input.unit()));
         numbered(
             page,
             "Where each input stands in what [`influence`] gives.",
@@ -236,7 +236,7 @@ impl Inputs<'_> {
         self.as_in_c(page);
         page.item("pub struct Inputs", |page| {
             for (input, name) in self.without_time() {
-                page.docs(&format!("`{}` ({})", one_line(&input.name), unit(&input.unit)));
+                page.docs(&format!("`{}` ({})", one_line(&input.name), unit(&input.unit())));
                 page.line(&format!("pub {name}: Signal,"));
             }
             if self.has_time() {

@@ -25,7 +25,7 @@ impl Writer<'_> {
         let names = Case::Constant.names(rows.iter().map(String::as_str));
         let equations = rows.iter().enumerate().map(|(k, row)| {
             let declaration = system.declaration_of(k);
-            let of = system.rows()[k].unit.to_string();
+            let of = system.rows()[k].unit.display_unit();
             format!("{} `{row}` ({}){}", declaration.kind.noun(), unit(&of), self.line(declaration.span))
         });
         numbered(

@@ -83,6 +83,7 @@ impl Checker<'_> {
                     return None;
                 }
                 let dim = if value.dim.is_pure() { self.pure_number_dim(arguments) } else { Dim::UNFIT };
+                let dim = if ["asin", "acos", "atan"].contains(&name) { dim.of_angle() } else { dim };
                 Some(Value { id, dim })
             }
             Group::Motion => self.motion(name, MotionLaw::named(name)?, arguments, context),
@@ -109,7 +110,7 @@ impl Checker<'_> {
             "sqrt" => (graph.unary(Unary::Sqrt, ids[0]), dim.map(|dimension| dimension.to_the(0.5))),
             "abs" => (graph.unary(Unary::Abs, ids[0]), dim),
             "sign" => (graph.unary(Unary::Sign, ids[0]), made),
-            "atan2" => (graph.binary(Binary::Atan2, ids[0], ids[1]), made),
+            "atan2" => (graph.binary(Binary::Atan2, ids[0], ids[1]), made.of_angle()),
             "hypot" => (graph.binary(Binary::Hypot, ids[0], ids[1]), dim),
             "mod" => (graph.modulo(ids[0], ids[1]), dim),
             _ => {

@@ -45,8 +45,10 @@ pub struct FormulaOfTime {
     pub graph: Graph,
     /// The formula, in SI units.
     pub value: ExprId,
-    /// The dimension; `None` for a plain formula, whose dimension is open.
-    pub dimension: Option<Dimension>,
+    /// The dimension, if numbers without units are pure.
+    pub dimension: Dimension,
+    /// True if the formula holds a unit of a dimension; the dimension of a plain formula is open.
+    pub is_dimensional: bool,
     /// Formulas that must be positive for the formula to be defined at a time.
     pub conditions: Vec<Condition>,
     /// Warnings.
@@ -70,7 +72,8 @@ pub fn formula_of_time(formula: &Expr, sources: &Sources) -> Result<FormulaOfTim
         Some(value) if !diagnostics.has_errors() => Ok(FormulaOfTime {
             graph: model.graph,
             value: value.id,
-            dimension: judged.then(|| value.dim.settled()),
+            dimension: value.dim.settled(),
+            is_dimensional: judged,
             conditions: model.conditions,
             remarks: diagnostics,
         }),

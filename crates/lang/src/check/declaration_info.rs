@@ -82,8 +82,6 @@ pub enum Amount {
         si: f64,
         /// The dimension.
         dimension: Dimension,
-        /// True if it is an angle, as far as its formula shows it.
-        is_angle: bool,
         /// The first unit of this dimension in the formula.
         unit: Option<CompoundUnit>,
     },
@@ -222,9 +220,8 @@ impl Checker<'_> {
         let value = param.value?;
         let dimension = value.dim.settled();
         let si = self.constant_value(value.id)?;
-        let is_angle = param.angle == 1 && (dimension.is(Dimension::PURE) || dimension.is(Dimension::RATE));
         let unit = unit_in(formula, dimension, |name| self.entity_named(name).is_some());
-        si.is_finite().then_some(Amount::Number { si, dimension, is_angle, unit })
+        si.is_finite().then_some(Amount::Number { si, dimension, unit })
     }
 
     /// Returns the angle of a pose, unless it is given in degrees.
@@ -240,7 +237,7 @@ impl Checker<'_> {
             return None;
         }
         let si = self.any_constant(phi).filter(|si| si.is_finite())?;
-        let amount = Amount::Number { si, dimension: Dimension::PURE, is_angle: true, unit: None };
+        let amount = Amount::Number { si, dimension: Dimension::ANGLE, unit: None };
         Some(Value { name: None, formula: phi.span, is_number: is_number(phi), amount })
     }
 

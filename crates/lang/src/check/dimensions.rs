@@ -117,19 +117,19 @@ impl Checker<'_> {
             [Dim::Any, other] | [other, Dim::Any] => return Some(other),
             [Dim::Of(x), Dim::Of(y)] => (x, y),
             // A number has the dimension of the other term.
-            [Dim::Of(dimension), Dim::Plain { .. }] | [Dim::Plain { .. }, Dim::Of(dimension)] => {
-                return Some(Dim::Of(dimension));
+            [Dim::Of(dimension), Dim::Plain { read, .. }] | [Dim::Plain { read, .. }, Dim::Of(dimension)] => {
+                return Some(Dim::Of(dimension.marked_by(read)));
             }
             [one @ Dim::Plain { read, .. }, other @ Dim::Plain { .. }] => {
                 let fits = one.fits() && other.fits() && read.is(other.settled());
-                return Some(Dim::Plain { read, fits });
+                return Some(Dim::Plain { read: read.marked_by(other.settled()), fits });
             }
         };
         if x.is(y) {
-            return Some(Dim::Of(x));
+            return Some(Dim::Of(x.marked_by(y)));
         }
         if !self.counts(a.1, context) && !self.counts(b.1, context) {
-            return Some(Dim::Plain { read: x, fits: false });
+            return Some(Dim::Plain { read: x.marked_by(y), fits: false });
         }
         let [x, y] = [(a.0, x), (b.0, y)].map(|(span, dimension)| Part { span, dimension });
         let texts = [a.0, b.0].map(|span| self.sources.text(span));

@@ -20,15 +20,13 @@ pub(super) struct MeasureState<'a> {
     pub unit: Option<&'a WrittenUnit>,
     pub dimensional: bool,
     pub sound: bool,
-    /// The exponent of angles in it.
-    pub angle: i32,
     /// The value with its conditions, from its evaluation until it is listed.
     made: Option<(Value, Vec<Condition>)>,
 }
 
 impl<'a> MeasureState<'a> {
     pub fn new(name: &'a Name, value: &'a Expr, unit: Option<&'a WrittenUnit>) -> MeasureState<'a> {
-        MeasureState { name, value, unit, dimensional: false, sound: false, angle: 0, made: None }
+        MeasureState { name, value, unit, dimensional: false, sound: false, made: None }
     }
 }
 
@@ -44,7 +42,6 @@ impl Checker<'_> {
             let conditions = self.conditions_in_time(conditions, &owner);
             self.measures[k].made = value.map(|value| (value, conditions));
             self.measures[k].sound = value.is_some();
-            self.measures[k].angle = self.angle_power(formula);
         }
     }
 
@@ -75,11 +72,7 @@ impl Checker<'_> {
 
     fn units_of_measure(&mut self, k: usize, value: Value) -> Option<Units> {
         let (formula, unit) = (self.measures[k].value, self.measures[k].unit);
-        let dimension = match unit {
-            Some(_) => determined_dimension(value),
-            None => Some(value.dim.settled()),
-        };
-        self.units(formula, dimension, self.measures[k].angle, unit)
+        self.units(formula, value.dim, unit)
     }
 
     /// Evaluates the path of a point as two measures.
@@ -102,7 +95,7 @@ impl Checker<'_> {
             !is_of_forces
         });
         let conditions_of_both = self.conditions_in_time(conditions, &name.text);
-        let units = self.units(point, Some(Dimension::LENGTH), 0, unit);
+        let units = self.units(point, Dim::LENGTH, unit);
         if let (Some(coordinates), Some(units)) = (coordinates, units) {
             let (declared, measure) = (self.declared(name), self.model.measures.len());
             self.model.traces.push(Trace { declared, part: self.address.part, point: fixed, measure });
@@ -154,9 +147,8 @@ impl Checker<'_> {
                     if let Some((form, dim)) = self.equation(*driver, name, [left, right]) {
                         let (declared, written) = (self.declared(name), left.span.to(right.span));
                         let driver = *driver && self.drives(form);
-                        let is_angle = [left, right].into_iter().any(|side| self.angle_power(side) == 1);
                         let dimension = dim.settled();
-                        let equation = Equation { declared, driver, form, dimension, is_angle, written };
+                        let equation = Equation { declared, driver, form, dimension, written };
                         let id = self.model.add_equation(equation);
                         self.common.plain_equations.extend((!matches!(dim, Dim::Of(_))).then_some(id));
                         self.equations[k] = Some(id);
@@ -245,7 +237,27 @@ impl Checker<'_> {
             return self.distance_equation(name, ends, right, b.id);
         }
         let dim = if context.judged { unify } else { self.plain_dimension([(left, a), (right, b)]) };
+        let dim =
+            [a, b].into_iter().fold(dim, |dim, side| dim.map(|dimension| dimension.marked_by(side.dim.settled())));
+        if driver && dim.settled().is_angle() {
+            self.mark_inputs_as_angles([a.id, b.id]);
+        }
         Some((EquationForm::Equality(a.id, b.id), dim))
+    }
+
+    /// Marks inputs that are numbers as angles, as a driver of an angle holds them.
+    fn mark_inputs_as_angles(&mut self, sides: [ExprId; 2]) {
+        let symbols = sides.into_iter().flat_map(|side| self.model.graph.symbols(side));
+        let inputs = symbols.filter_map(|symbol| match symbol {
+            Symbol::Signal { index, .. } => Some(index as usize),
+            _ => None,
+        });
+        for index in inputs.collect::<Vec<usize>>() {
+            let dimension = &mut self.model.inputs[index].dimension;
+            if dimension.is(Dimension::PURE) {
+                *dimension = dimension.marked_by(Dimension::ANGLE);
+            }
+        }
     }
 
     /// Evaluates the equation of a distance, which must be positive.
@@ -276,7 +288,7 @@ impl Checker<'_> {
     fn plain_dimension(&self, sides: [(&Expr, Value); 2]) -> Dim {
         let telling = sides.into_iter().filter(|(side, _)| self.holds_quantity(side)).map(|(_, value)| value);
         let telling: Vec<Value> = telling.collect();
-        let determined = telling.iter().find_map(|&value| determined_dimension(value));
+        let determined = telling.iter().find_map(|&value| determined_dimension(value.dim));
         // If numbers hide it on both sides, the first dimension that is not a pure number.
         let read = || telling.iter().map(|value| value.dim).find(|dim| !dim.settled().is(Dimension::PURE));
         determined.map(Dim::Of).or_else(read).unwrap_or(Dim::PURE)
@@ -375,9 +387,7 @@ pub(super) fn measure_context(judged: bool) -> Context<'static> {
 /// metres.
 fn is_a_curve(sides: [Value; 2]) -> bool {
     sides.into_iter().all(|side| match side.dim {
-        Dim::Of(Dimension { length, time, mass }) => {
-            Dimension::LENGTH.to_the(length).is(Dimension { length, time, mass }) && length.abs() > 0.0
-        }
+        Dim::Of(dimension) => Dimension::LENGTH.to_the(dimension.length).is(dimension) && dimension.length.abs() > 0.0,
         _ => false,
     })
 }

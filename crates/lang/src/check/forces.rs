@@ -400,6 +400,6 @@ impl Checker<'_> {
         let ExprKind::Name(name) = &e.bare().kind else { return false };
         let Some(Entity::Equation(k)) = self.entity(name) else { return false };
         let equation = self.equations.get(k).copied().flatten();
-        equation.is_some_and(|equation| self.model[equation].is_angle)
+        equation.is_some_and(|equation| self.model[equation].dimension.is_angular())
     }
 }

@@ -17,7 +17,7 @@ use mechc_text::source::Span;
 use mechc_text::vocabulary::{Constant, NamedConstant, QuantityWord, Unit, is_called};
 
 /// The identity of a dimension in a cache.
-pub(super) type DimKey = (bool, bool, [u64; 3]);
+pub(super) type DimKey = (bool, bool, [u64; 4]);
 
 /// The dimension of a formula.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -72,6 +72,11 @@ impl Dim {
         }
     }
 
+    /// Returns it marked as an angle.
+    pub fn of_angle(self) -> Dim {
+        self.map(|dimension| dimension.marked_by(Dimension::ANGLE))
+    }
+
     /// Returns the dimension of a product or quotient.
     pub fn with(self, other: Dim, f: impl Fn(Dimension, Dimension) -> Dimension) -> Dim {
         let read = f(self.settled(), other.settled());
@@ -89,7 +94,7 @@ impl Dim {
     /// Returns its identity in a cache.
     pub fn key(self) -> DimKey {
         let read = self.settled();
-        let powers = [read.length, read.time, read.mass].map(|power| (power + 0.0).to_bits());
+        let powers = [read.length, read.time, read.mass, read.angle].map(|power| (power + 0.0).to_bits());
         (matches!(self, Dim::Of(_)), self.fits() && self != Dim::Any, powers)
     }
 
@@ -279,7 +284,11 @@ impl Checker<'_> {
             BareName::Argument => return context.argument.map(|(_, value)| value),
             BareName::Constant(constant) => match constant.stands_for {
                 NamedConstant::Time => return self.time_named(name, context),
-                NamedConstant::Number(number) => return Some(self.pure(number)),
+                // A multiple of π is an angle.
+                NamedConstant::Number(number) => {
+                    let id = self.model.graph.constant(number);
+                    return Some(Value { id, dim: Dim::Of(Dimension::ANGLE) });
+                }
                 NamedConstant::Ground => {}
             },
             // `10 mm/s` in a text with `param s`.
@@ -446,10 +455,6 @@ impl Checker<'_> {
         self.report(diagnostic.help_if(argument.map(|(argument, _)| format!("the argument here is `{argument}`"))));
     }
 
-    fn pure(&mut self, value: f64) -> Value {
-        Value { id: self.model.graph.constant(value), dim: Dim::PURE }
-    }
-
     fn sum(&mut self, first: &Expr, rest: &[(Sign, Expr)], context: &Context<'_>) -> Option<Value> {
         self.warn_of_numbers_as_radians(std::iter::once(first).chain(rest.iter().map(|(_, term)| term)), context);
         let mut sum = self.number(first, context);
@@ -503,7 +508,8 @@ impl Checker<'_> {
         let id = self.model.graph.pow(a.id, b.id);
         let dimension = a.dim.settled();
         let dim = if dimension.is(Dimension::PURE) {
-            a.dim.of_term()
+            let power = exponent.bare_number().unwrap_or(0.0);
+            a.dim.map(|dimension| Dimension { angle: dimension.angle * power, ..dimension })
         } else {
             match self.constant_value(b.id) {
                 Some(power) => a.dim.map(|dimension| dimension.to_the(power)),

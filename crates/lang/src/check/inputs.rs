@@ -5,7 +5,7 @@ use super::overrides::override_matches;
 use super::samples::{self, Column, ColumnHeader, Samples};
 use super::suggest::lost_rate::Part;
 use super::{Checker, errors};
-use crate::model::{Condition, ConditionKind, Input, TimeFormula};
+use crate::model::{Condition, ConditionKind, Dimension, Input, TimeFormula};
 use mechc_expr::{ExprId, Symbol};
 use mechc_syntax::ast::{Expr, ItemKind, Name};
 use mechc_text::diag::{Diagnostic, nearest};
@@ -193,7 +193,8 @@ impl Checker<'_> {
         }
         // A plain formula of time is a number.
         let is_plain = !judged && !value.dim.of_term().is_a_pure_number();
-        let dim = if is_plain { Dim::PLAIN } else { value.dim.of_term() };
+        let angle = value.dim.settled().angle;
+        let dim = if is_plain { Dim::PLAIN.map(|pure| Dimension { angle, ..pure }) } else { value.dim.of_term() };
         Some(Value { dim, ..value })
     }
 

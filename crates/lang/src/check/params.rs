@@ -18,8 +18,6 @@ pub(super) struct ParamState<'a> {
     pub value: Option<Value>,
     /// The value of a point.
     pub drawn: Option<InitialPoint>,
-    /// The exponent of angles in it.
-    pub angle: i32,
     /// True if it is given in a unit of angle.
     pub is_in_angles: bool,
 }
@@ -30,7 +28,6 @@ impl<'a> Checker<'a> {
         if self.point_param(name) == Some(k) {
             self.params[k].drawn = self.point_of_param(name, docs, value);
         } else {
-            self.params[k].angle = self.angle_power(value);
             self.params[k].value = self.param(name, docs, value);
         }
     }

@@ -1,6 +1,5 @@
 //! Results: formulas of reductions, each of which takes a formula as in a measure to one number for the whole analysis.
 
-use super::display_units::determined_dimension;
 use super::elements::measure_context;
 use super::entity::Entity;
 use super::formula::{Context, Dim, Value};
@@ -19,8 +18,6 @@ pub(super) struct ResultState<'a> {
     pub dimensional: bool,
     /// `None` before evaluation, and if it is broken.
     pub value: Option<Value>,
-    /// The exponent of angles in it.
-    pub angle: i32,
 }
 
 /// A call that is not a reduction.
@@ -31,7 +28,7 @@ pub const UNTIL: &str = "--until";
 
 impl<'a> ResultState<'a> {
     pub fn new(formula: &'a Expr, unit: Option<&'a WrittenUnit>) -> ResultState<'a> {
-        ResultState { formula, unit, dimensional: false, value: None, angle: 0 }
+        ResultState { formula, unit, dimensional: false, value: None }
     }
 }
 
@@ -55,7 +52,6 @@ impl Checker<'_> {
             let value = self.formula(formula, &context);
             self.branch.is_untaken = false;
             self.results[k].value = value;
-            self.results[k].angle = self.angle_power(formula);
         }
     }
 
@@ -84,11 +80,7 @@ impl Checker<'_> {
 
     fn units_of_result(&mut self, k: usize, value: Value) -> Option<Units> {
         let (formula, unit) = (self.results[k].formula, self.results[k].unit);
-        let dimension = match unit {
-            Some(_) => determined_dimension(value),
-            None => Some(value.dim.settled()),
-        };
-        self.units(formula, dimension, self.results[k].angle, unit)
+        self.units(formula, value.dim, unit)
     }
 
     /// Returns the reduction of a call. A function or table of the mechanism takes precedence.

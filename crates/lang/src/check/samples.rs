@@ -49,8 +49,6 @@ pub struct Column {
     pub span: Span,
     /// The dimension of its unit, if it has one.
     pub dimension: Option<Dimension>,
-    /// True if its unit holds a unit of angle.
-    pub is_of_angles: bool,
     /// The values, in SI units.
     pub values: Vec<f64>,
 }
@@ -217,9 +215,7 @@ impl ColumnHeader<'_> {
 
     fn column(&self, values: Vec<f64>) -> Column {
         let (name, span, dimension) = (self.path(), self.span, self.unit.as_ref().map(CompoundUnit::dimension));
-        let mut units = self.unit.iter().flat_map(CompoundUnit::factors);
-        let is_of_angles = units.any(|(unit, _)| unit.measures_angle());
-        Column { name, span, dimension, is_of_angles, values }
+        Column { name, span, dimension, values }
     }
 
     /// Returns a suggestion if the brackets are not written as those of a unit.

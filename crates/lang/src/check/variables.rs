@@ -83,8 +83,7 @@ impl Checker<'_> {
     /// Registers an independent number, if it is a requested variable.
     pub(super) fn register_param(&mut self, declared: &Declared, symbol: Symbol, dim: Dim) {
         if self.common.variables.is_requested(&declared.name) {
-            let is_angle = self.is_angle(&declared.name);
-            self.add_variable(declared.clone(), symbol, dim, is_angle);
+            self.add_variable(declared.clone(), symbol, dim);
         }
     }
 
@@ -94,26 +93,16 @@ impl Checker<'_> {
             return value;
         }
         let symbol = Symbol::Shift(self.model.variables.len() as u32);
-        let is_angle = self.is_angle(&declared.name);
-        self.add_variable(declared.clone(), symbol, value.dim, is_angle);
+        self.add_variable(declared.clone(), symbol, value.dim);
         let shift = self.model.graph.symbol(symbol);
         Value { id: self.model.graph.add(value.id, shift), ..value }
     }
 
-    fn is_angle(&self, name: &str) -> bool {
-        let local = name.strip_prefix(self.address.path.as_str()).unwrap_or(name);
-        match self.space.get(local) {
-            Some(Entity::Param(k)) => self.params.get(k).is_some_and(|param| param.angle == 1),
-            Some(Entity::Input(k)) => self.inputs.get(k).is_some_and(|input| self.angle_power(input.formula) == 1),
-            _ => false,
-        }
-    }
-
-    fn add_variable(&mut self, declared: Declared, symbol: Symbol, dim: Dim, is_angle: bool) {
+    fn add_variable(&mut self, declared: Declared, symbol: Symbol, dim: Dim) {
         let number = self.model.variables.len() as u32;
         self.common.variables.numbers.insert(declared.name.clone(), number);
         self.common.variables.dims.push(dim);
-        self.model.variables.push(Variable { declared, symbol, dimension: dim.settled(), is_angle });
+        self.model.variables.push(Variable { declared, symbol, dimension: dim.settled() });
     }
 
     /// Evaluates `der(e, NAME)`.

@@ -4,7 +4,8 @@ use super::frames::Vector;
 use super::{Entry, Lowering, entries};
 use crate::model::{AxisId, Joint, Named, PointId, Profile};
 use mechc_expr::{ExprId, Node, Symbol, Unary};
-use mechc_ir::{Coordinate, CoordinateKind, Monitor, MonitorKind, OpenContact, Owner, RowUnit};
+use mechc_ir::{Coordinate, CoordinateKind, Monitor, MonitorKind, OpenContact, Owner};
+use mechc_text::vocabulary::Dimension;
 use rustc_hash::FxHashMap;
 
 /// A point of a profile at one argument, in its body's frame.
@@ -40,7 +41,7 @@ impl Lowering<'_> {
         let u = self.argument(joint, 0, profile);
         let local = self.constrained_point(profile, u);
         let (on_curve, point) = (self.transform_point(profile.frame(self.model), local.at), self.position(point));
-        let rows = entries(RowUnit::LENGTH, self.difference(on_curve, point));
+        let rows = entries(Dimension::LENGTH, self.difference(on_curve, point));
         self.record_open_arguments(&[(u, profile)], first_condition);
         rows
     }
@@ -56,7 +57,7 @@ impl Lowering<'_> {
         let (s, t) = (self.transform_vector(frames[0], k.tangent), self.transform_vector(frames[1], m.tangent));
         let parallel = self.left_of(s, t);
         // Arguments are pure numbers, so that tangents are lengths.
-        let rows = vec![(x, RowUnit::LENGTH), (y, RowUnit::LENGTH), (parallel, RowUnit::AREA)];
+        let rows = vec![(x, Dimension::LENGTH), (y, Dimension::LENGTH), (parallel, Dimension::AREA)];
         let together = self.dot(s, t);
         let scale = self.size(frames[0]) * self.size(frames[1]);
         self.add_monitor(together, MonitorKind::Tangents, scale);
@@ -81,7 +82,7 @@ impl Lowering<'_> {
         let d = self.difference(on_curve, origin);
         let v = self.direction(face);
         let (tangent, bend) = (self.transform_vector(frame, local.tangent), self.transform_vector(frame, local.bend));
-        let rows = entries(RowUnit::LENGTH, [self.left_of(v, d), self.left_of(v, tangent)]);
+        let rows = entries(Dimension::LENGTH, [self.left_of(v, d), self.left_of(v, tangent)]);
         let along = self.dot(v, tangent);
         let scale = self.size(frame);
         self.add_monitor(along, MonitorKind::Tangents, scale);

@@ -4,7 +4,8 @@ use super::frames::Vector;
 use super::{Entry, Lowering, entries};
 use crate::model::{AxisId, CircleId, Joint, Side};
 use mechc_expr::{Binary, ExprId, Unary};
-use mechc_ir::{CoordinateKind, Fit, MonitorKind, RowUnit};
+use mechc_ir::{CoordinateKind, Fit, MonitorKind};
+use mechc_text::vocabulary::Dimension;
 
 impl Lowering<'_> {
     /// Returns the rows of a gear: `[−dx sin θ + dy cos θ, R_i(φ_i − θ) ± R_j(φ_j − θ) − κ]`, θ the direction of the line of centres.
@@ -42,7 +43,7 @@ impl Lowering<'_> {
         let distance = self.graph.binary(Binary::Hypot, dx, dy);
         let radius = self.graph.binary(Binary::Max, radii[0], radii[1]);
         self.fits.push(Fit { distance, wanted, radius, declaration: self.declarations.next_id() });
-        entries(RowUnit::LENGTH, [across, mesh])
+        entries(Dimension::LENGTH, [across, mesh])
     }
 
     fn radius(&mut self, circle: CircleId) -> ExprId {
@@ -92,7 +93,7 @@ impl Lowering<'_> {
         let distance = self.graph.mul(sigma, height);
         let radius = self.radius(pinion);
         self.fits.push(Fit { distance, wanted: radius, radius, declaration: self.declarations.next_id() });
-        entries(RowUnit::LENGTH, [self.graph.sub(rolled, phase)])
+        entries(Dimension::LENGTH, [self.graph.sub(rolled, phase)])
     }
 
     /// Returns the vector from the rack's origin to the pinion's centre (m).

@@ -1,7 +1,7 @@
 //! Inputs and time in the equations: as formulas, as signals, or on a path.
 
 use super::Lowering;
-use crate::model::{self, ContinuedParam, Mechanism};
+use crate::model::{self, ContinuedParam, Dimension, Mechanism};
 use mechc_expr::{ExprId, Graph, Node, Symbol, TIME_SIGNAL};
 use mechc_ir::{ConstraintSystem, Input};
 use rustc_hash::FxHashMap;
@@ -159,9 +159,9 @@ impl<'m> Lowering<'m> {
         let time = Node::Symbol(Symbol::Signal { index: TIME_SIGNAL, order: 0 });
         if system.has_signals() && system.graph().nodes().any(|(_, node)| node == time) {
             let value = system.graph_mut().symbol(Symbol::Time);
-            let (name, unit) = ("t".to_owned(), "s".to_owned());
+            let (name, dimension) = ("t".to_owned(), Dimension::TIME);
             let formulas = with_derivatives(value, system);
-            inputs.push(Input { name, index: TIME_SIGNAL, unit, span: system.span(), formulas });
+            inputs.push(Input { name, index: TIME_SIGNAL, dimension, span: system.span(), formulas });
         }
         system.add_inputs(inputs);
     }
@@ -176,7 +176,7 @@ impl<'m> Lowering<'m> {
         let value = self::input(system.graph_mut(), self.model, inputs, &mut FxHashMap::default(), index);
         let formulas = with_derivatives(value, system);
         let (name, span) = (input.declared.name.clone(), input.declared.span);
-        Input { name, index: index as u32, unit: input.dimension.unit(), span, formulas }
+        Input { name, index: index as u32, dimension: input.dimension, span, formulas }
     }
 }
 

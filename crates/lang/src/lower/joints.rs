@@ -3,7 +3,7 @@
 use super::{Entry, Lowering, entries};
 use crate::model::{JoinedFeatures, Joint, PointId};
 use mechc_expr::ExprId;
-use mechc_ir::RowUnit;
+use mechc_text::vocabulary::Dimension;
 
 impl Lowering<'_> {
     pub(super) fn joint(&mut self, joint: &Joint) -> Vec<Entry> {
@@ -11,14 +11,14 @@ impl Lowering<'_> {
             // r_i^P − r_j^Q
             JoinedFeatures::Revolute(p, q) => {
                 let (p, q) = (self.position(p), self.position(q));
-                entries(RowUnit::LENGTH, self.difference(p, q))
+                entries(Dimension::LENGTH, self.difference(p, q))
             }
             // [v_i^⊥ᵀ d, v_i^⊥ᵀ v_j]
             JoinedFeatures::Translational(a, b) => {
                 let (origin, other) = (self.position(self.model[a].origin), self.position(self.model[b].origin));
                 let d = self.difference(other, origin);
                 let (v, w) = (self.direction(a), self.direction(b));
-                vec![(self.left_of(v, d), RowUnit::LENGTH), (self.left_of(v, w), RowUnit::NUMBER)]
+                vec![(self.left_of(v, d), Dimension::LENGTH), (self.left_of(v, w), Dimension::PURE)]
             }
             // [r_i^P − r_j^Q, φ_j − φ_i − φ_0]
             JoinedFeatures::Weld(p, q, angle) => {
@@ -30,12 +30,12 @@ impl Lowering<'_> {
                 let turn = self.graph.sub(turn, angle);
                 let (p, q) = (self.position(p), self.position(q));
                 let [x, y] = self.difference(p, q);
-                vec![(x, RowUnit::LENGTH), (y, RowUnit::LENGTH), (turn, RowUnit::ANGLE)]
+                vec![(x, Dimension::LENGTH), (y, Dimension::LENGTH), (turn, Dimension::ANGLE)]
             }
             // dᵀd − L²
             JoinedFeatures::RevoluteRevolute(p, q, length) => {
                 let length = self.formula(length);
-                entries(RowUnit::AREA, [self.squared_distance_row(p, q, length)])
+                entries(Dimension::AREA, [self.squared_distance_row(p, q, length)])
             }
             // v_j^⊥ᵀ (r_i^P − r_j^a) − c
             JoinedFeatures::RevoluteTranslational(p, a, offset) => {
@@ -45,7 +45,7 @@ impl Lowering<'_> {
                 let offset = self.formula(offset);
                 let left = self.left_of(v, d);
                 let left = self.with_handedness(joint.part, left);
-                entries(RowUnit::LENGTH, [self.graph.sub(left, offset)])
+                entries(Dimension::LENGTH, [self.graph.sub(left, offset)])
             }
             // Angles and phases of gears are relative to the part that declares them.
             JoinedFeatures::Gear { circles, internal, phase } => {

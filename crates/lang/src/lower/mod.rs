@@ -32,9 +32,9 @@ pub use inputs::{InputPath, Inputs, TimeOnPath};
 use mechc_expr::{Comparison, Dependence, ExprId, Graph};
 use mechc_ir::{
     self as ir, Body, Condition, ConstraintSystem, Coordinate, CoordinateKind, Declaration, DeclarationId,
-    DeclarationKind, Fit, Forces, IdVec, Measure, Monitor, OpenContact, Owner, Param, Row, RowUnit, Units, Variations,
-    Written,
+    DeclarationKind, Fit, Forces, IdVec, Measure, Monitor, OpenContact, Owner, Param, Row, Units, Variations, Written,
 };
+use mechc_text::vocabulary::Dimension;
 use numbering::Numbering;
 use rustc_hash::{FxHashMap, FxHashSet};
 
@@ -199,19 +199,19 @@ fn condition(of: &model::Condition, positive: ExprId) -> Option<Condition> {
     Some(Condition { positive, kind, span: of.span, owner: of.owner.clone() })
 }
 
-/// An entry of `Φ` with its unit.
-type Entry = (ExprId, RowUnit);
+/// An entry of `Φ` with its dimension.
+type Entry = (ExprId, Dimension);
 
 /// Returns entries of one unit.
-fn entries<const N: usize>(unit: RowUnit, phi: [ExprId; N]) -> Vec<Entry> {
+fn entries<const N: usize>(unit: Dimension, phi: [ExprId; N]) -> Vec<Entry> {
     phi.map(|phi| (phi, unit)).to_vec()
 }
 
 /// Returns the unit of an equation's row: that of its sides; for a distance its square.
-fn equation_unit(equation: &model::Equation) -> RowUnit {
+fn equation_unit(equation: &model::Equation) -> Dimension {
     match equation.form {
-        EquationForm::Equality(..) => RowUnit { dimension: equation.dimension, is_angle: equation.is_angle },
-        EquationForm::Distance(..) => RowUnit::AREA,
+        EquationForm::Equality(..) => equation.dimension,
+        EquationForm::Distance(..) => Dimension::AREA,
     }
 }
 

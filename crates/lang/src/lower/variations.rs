@@ -1,7 +1,7 @@
 //! Derivatives by inputs and parameters: those in measures, and the columns appended for them.
 
 use super::Lowering;
-use crate::model::{Mechanism, Units, quotient};
+use crate::model::{Mechanism, quotient};
 use mechc_expr::{Dependence, ExprId};
 use mechc_ir::{Coordinate, DerivativeColumn, Measure, Reaction, Variable, Variations};
 
@@ -10,7 +10,7 @@ pub(super) fn variables(model: &Mechanism) -> Option<Variations> {
     let variable = |of: &crate::model::Variable| Variable {
         name: of.declared.name.clone(),
         symbol: of.symbol,
-        unit: Units::si(of.dimension, of.is_angle).si,
+        unit: of.dimension.display_unit(),
         span: of.declared.span,
     };
     let variables: Vec<Variable> = model.variables.iter().map(variable).collect();

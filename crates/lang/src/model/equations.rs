@@ -15,8 +15,6 @@ pub struct Equation {
     pub form: EquationForm,
     /// The dimension of both sides, as far as plain numbers leave it determined.
     pub dimension: Dimension,
-    /// True if an angle is a factor of the sides, as far as their formulas show it.
-    pub is_angle: bool,
     /// The location of both sides.
     pub written: Span,
 }
@@ -70,16 +68,20 @@ pub struct Units {
 impl Units {
     /// Returns SI units; an angle has its own unit, unlike other pure numbers.
     #[must_use]
-    pub fn si(dimension: Dimension, is_angle: bool) -> Units {
-        let printed = [0.0, 1.0, 2.0].map(|times| dimension.over(Dimension::TIME.to_the(times)).unit_of(is_angle));
+    pub fn si(dimension: Dimension) -> Units {
+        let printed = [0.0, 1.0, 2.0].map(|times| dimension.over(Dimension::TIME.to_the(times)).display_unit());
         Units { si: printed[0].clone(), printed, scale: [1.0; 3] }
     }
 
-    /// Returns the units that belong to a unit of the language.
+    /// Returns the units that belong to a unit of the language, in which values of a dimension are printed.
     #[must_use]
-    pub fn of(unit: &CompoundUnit, is_angle: bool) -> Units {
+    pub fn of(unit: &CompoundUnit, dimension: Dimension) -> Units {
         let printed = [0, 1, 2].map(|times| unit.per_second(times));
-        Units { si: unit.dimension().unit_of(is_angle), printed, scale: unit.scale() }
+        Units {
+            si: Dimension { angle: dimension.angle, ..unit.dimension() }.display_unit(),
+            printed,
+            scale: unit.scale(),
+        }
     }
 }
 

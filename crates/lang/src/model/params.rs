@@ -60,6 +60,4 @@ pub struct Variable {
     pub symbol: Symbol,
     /// The dimension of the value.
     pub dimension: Dimension,
-    /// True if the value is an angle, as far as its formula shows it.
-    pub is_angle: bool,
 }

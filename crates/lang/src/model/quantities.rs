@@ -54,7 +54,7 @@ impl Quantity {
     pub fn dimension(self) -> Dimension {
         match self {
             Quantity::Angle(..) | Quantity::Rotation(..) | Quantity::Corner(_) | Quantity::PressureAngle(..) => {
-                Dimension::PURE
+                Dimension::ANGLE
             }
             Quantity::Curvature(_) => Dimension::PURE.over(Dimension::LENGTH),
             Quantity::Speed(_) | Quantity::Slip(_) => Dimension::LENGTH.over(Dimension::TIME),

@@ -2,7 +2,6 @@
 
 use super::context::Nominal;
 use super::nominal::Continuation;
-use crate::angles::Angles;
 use crate::{Checked, Redundant, RunOptions};
 use mechc_engine::analysis::Horizon;
 use mechc_engine::sweep::CompiledSystem;
@@ -13,7 +12,7 @@ impl Checked {
     /// Returns the continuation from nominal values to what is set; all mechanisms whose settings are of the same params have the same one.
     pub(crate) fn continuation(&self, redundant: Redundant) -> Arc<Continuation> {
         let checked = self.clone();
-        Arc::new(Continuation::new(move |options| checked.with_nominal_values()?.nominal(redundant, false, options)))
+        Arc::new(Continuation::new(move |options| checked.with_nominal_values()?.nominal(redundant, options)))
     }
 
     /// Returns the mechanism with its nominal values, the params of all settings as symbols; settings that decide counts are kept.
@@ -50,14 +49,14 @@ impl Checked {
         self.checked_again(options, false)
     }
 
-    /// Compiles the mechanism and assembles it at its first time; `None` if that fails. If `sets_inputs`, its model has settable inputs.
-    pub(crate) fn nominal(&self, redundant: Redundant, sets_inputs: bool, options: &RunOptions) -> Option<Nominal> {
+    /// Compiles the mechanism and assembles it at its first time; `None` if that fails.
+    pub(crate) fn nominal(&self, redundant: Redundant, options: &RunOptions) -> Option<Nominal> {
         let (compiled, model) = (self.compile(redundant, &options.cancel).0?, Arc::clone(self.model.as_ref()?));
         let t = compiled.analysis().map_or(0.0, |[from, ..]| from);
         let horizon = Horizon::of_analysis(compiled.analysis()).beginning(t);
         let started = compiled.start(horizon, &RunOptions { configuration: None, ..options.clone() }).0.ok()?;
         let (determined, program) = (Arc::clone(compiled.determined()), Arc::clone(compiled.program()));
-        let angles = Angles::new(self.library(), self.sources());
+        let sets_inputs = self.settable_inputs.as_ref().is_some_and(|inputs| !inputs.names.is_empty());
         let leave_out_redundant = redundant == Redundant::LeftOut;
         Some(Nominal {
             compiled: CompiledSystem { determined, program },
@@ -66,7 +65,6 @@ impl Checked {
             t,
             sets_inputs,
             leave_out_redundant,
-            angles,
         })
     }
 }

@@ -1,7 +1,6 @@
 //! Continuation of one mechanism from its nominal params to others. Keeps what all its variants share, and follows the path of one.
 
 use super::messages::{ContinuationTarget, passed_bifurcation, stopped_path};
-use crate::angles::Angles;
 use crate::lowering::lower_model;
 use crate::options::RunOptions;
 use mechc_engine::analysis::{self, ContinuationOptions, Horizon, Started, Stop, Times, Warning};
@@ -48,8 +47,6 @@ pub(crate) struct Nominal {
     /// True if it has inputs whose values are set at a time.
     pub sets_inputs: bool,
     pub leave_out_redundant: bool,
-    /// For messages.
-    pub angles: Angles,
 }
 
 /// The data that all continuations of one mechanism share.
@@ -147,7 +144,7 @@ impl ContinuationContext {
             })
         };
         let params: Vec<model::ContinuedParam> = self.nominal.model.continued.iter().filter_map(with_line).collect();
-        ContinuationTarget::from_params(&params, &self.nominal.angles)
+        ContinuationTarget::from_params(&params)
     }
 
     /// Returns what variants share that begin at `from` (s); `None` if the number of values differs.

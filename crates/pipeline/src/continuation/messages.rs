@@ -1,6 +1,5 @@
 //! Messages of continuations: a path that does not reach its target (E0612), and a bifurcation that a path passes (W0602).
 
-use crate::angles::Angles;
 use mechc_engine::analysis::{Stop, Warning};
 use mechc_ir::{ConstraintSystem, PartStart};
 use mechc_lang::model::ContinuedParam;
@@ -19,13 +18,12 @@ pub(crate) struct ContinuationTarget {
 
 impl ContinuationTarget {
     /// Returns those of some params and inputs that change along the path.
-    pub fn from_params(params: &[ContinuedParam], angles: &Angles) -> Vec<ContinuationTarget> {
+    pub fn from_params(params: &[ContinuedParam]) -> Vec<ContinuationTarget> {
         let moving = params.iter().filter(|param| param.line[0].total_cmp(&param.line[1]).is_ne());
         let target = |param: &ContinuedParam| {
-            let unit = match param.dimension.unit().as_str() {
-                "1" if angles.has(param.declared.span) => "rad".to_owned(),
-                "1" => String::new(),
-                unit => unit.to_owned(),
+            let unit = match param.dimension.display_unit() {
+                unit if unit == "1" => String::new(),
+                unit => unit,
             };
             ContinuationTarget { param: param.clone(), unit }
         };

@@ -3,7 +3,6 @@
 
 use super::messages::{ContinuationTarget, passed_bifurcation, stopped_path};
 use super::shared_paths::{PartTarget, SharedPath, shared_paths};
-use crate::angles::Angles;
 use crate::lowering::lower_model;
 use crate::options::RunOptions;
 use mechc_engine::analysis::{self, ContinuationOptions, Horizon, Request, Solving, Unassembled, Warning};
@@ -176,7 +175,7 @@ struct StartSearch<'s> {
     stopped_path: Option<f64>,
 }
 
-impl<'s> StartSearch<'s> {
+impl StartSearch<'_> {
     /// Continues the whole to the inputs that are given, at a time (s); `None` if no path leads there.
     fn continue_to_given_inputs(&mut self, model: &Mechanism, t: f64) -> Option<Vec<f64>> {
         let times = [self.options.t, t];
@@ -198,7 +197,7 @@ impl<'s> StartSearch<'s> {
                 self.diagnostics.extend(path.warnings);
                 let report = |warning: &Warning| {
                     let along = (warning, system.determined.system());
-                    passed_bifurcation(None, &self.targets(&inputs), times, warning.t, along)
+                    passed_bifurcation(None, &ContinuationTarget::from_params(&inputs), times, warning.t, along)
                 };
                 let passed: Vec<Diagnostic> = path.passed.iter().map(report).collect();
                 self.diagnostics.extend(passed);
@@ -206,7 +205,14 @@ impl<'s> StartSearch<'s> {
             Some(_) if self.options.cancel.is_cancelled() => {}
             Some(stop) => {
                 let along = (&*stop, system.determined.system());
-                self.diagnostics.push(stopped_path(None, &self.targets(&inputs), times, span, stop.t, along));
+                self.diagnostics.push(stopped_path(
+                    None,
+                    &ContinuationTarget::from_params(&inputs),
+                    times,
+                    span,
+                    stop.t,
+                    along,
+                ));
                 self.stopped_path.get_or_insert(stop.t);
             }
         }
@@ -342,12 +348,13 @@ impl<'s> StartSearch<'s> {
                         let inputs = shortened(&inputs, *end);
                         let before = path.passed.iter().filter(|warning| warning.t <= *end);
                         diagnostics.extend(before.map(|warning| {
-                            let (inputs, along) = (self.targets(&inputs), (warning, system.determined.system()));
+                            let (inputs, along) =
+                                (ContinuationTarget::from_params(&inputs), (warning, system.determined.system()));
                             (part, passed_bifurcation(Some(start), &inputs, times, warning.t / end, along))
                         }));
                     }
                     (None, Some(stop)) if !self.options.cancel.is_cancelled() => {
-                        let inputs = self.targets(&shortened(&inputs, *end));
+                        let inputs = ContinuationTarget::from_params(&shortened(&inputs, *end));
                         let (fraction, along) = (stop.t / end, (&**stop, system.determined.system()));
                         diagnostics.push((part, stopped_path(Some(start), &inputs, times, span, fraction, along)));
                         self.stopped_path.get_or_insert(fraction);
@@ -405,11 +412,6 @@ impl<'s> StartSearch<'s> {
             standalone.is_assembled = true;
         }
         standalone
-    }
-
-    /// Returns inputs as messages list them.
-    fn targets(&self, inputs: &[ContinuedParam]) -> Vec<ContinuationTarget> {
-        ContinuationTarget::from_params(inputs, &Angles::new(&self.check_options.library, self.sources))
     }
 }
 

@@ -1,7 +1,7 @@
 //! Specifications of sweeps: reads `--vary` and `--sample`, and lists the variants.
 
 use crate::checked::VARY;
-use crate::option_reader::{OptionReader, is_of_angles, refuse_duplicates, si_unit, unusable, written};
+use crate::option_reader::{OptionNumber, OptionReader, refuse_duplicates, si_unit, unusable, written};
 use crate::options::spaceless;
 use crate::{Checked, Choice};
 use mechc_engine::sweep::{Levels, MAX_SOBOL_DIMENSIONS, Method, Points, Sampling, Varying};
@@ -302,17 +302,15 @@ impl SpecBuilder<'_> {
 
     /// Evaluates formulas for a param, each of which it must accept; returns its index and their values (SI).
     fn param(&mut self, name: &str, formulas: &[String]) -> Result<(usize, Vec<f64>), Error> {
-        let (mut values, mut dimension) = (Vec::with_capacity(formulas.len()), None);
-        for formula in formulas {
-            let (_, value, dimension_of) = self.reader.number(name, formula)?;
-            values.push(value);
-            dimension = dimension.or(dimension_of);
-        }
-        let texts: Vec<&str> = formulas.iter().map(String::as_str).collect();
-        let unit = if dimension.is_none() && values.iter().all(|value| *value == 0.0) {
+        let read = |formula: &String| Ok::<_, Error>(self.reader.number(name, formula)?.1);
+        let numbers = formulas.iter().map(read).collect::<Result<Vec<OptionNumber>, Error>>()?;
+        let values = numbers.iter().map(|number| number.si).collect();
+        let unit = if numbers.iter().all(|number| !number.is_dimensional && number.si == 0.0) {
             self.unit_of_zeros(name)
         } else {
-            si_unit(dimension.unwrap_or(Dimension::PURE), texts.iter().any(|text| is_of_angles(text)))
+            let known =
+                numbers.iter().find(|number| number.is_dimensional).map_or(Dimension::PURE, |one| one.dimension);
+            si_unit(numbers.iter().fold(known, |known, number| known.marked_by(number.dimension)))
         };
         Ok((self.add(name, unit), values))
     }
@@ -342,11 +340,11 @@ impl SpecBuilder<'_> {
             Error::new(diagnostics, &self.sources)
         })?;
         let mut params = Vec::with_capacity(columns.len());
-        for Column { name, span, dimension, is_of_angles, values } in &columns {
+        for Column { name, span, dimension, values } in &columns {
             let nonzero = values.iter().copied().find(|value| *value != 0.0);
             let unit = match (dimension, nonzero) {
                 (None, None) => self.unit_of_zeros(name),
-                (dimension, _) => si_unit(dimension.unwrap_or(Dimension::PURE), *is_of_angles),
+                (dimension, _) => si_unit(dimension.unwrap_or(Dimension::PURE)),
             };
             let sample = written(nonzero.unwrap_or(0.0), &unit);
             self.reader.check_with(name, &sample).map_err(|why| self.at_header(*span, why))?;

@@ -7,7 +7,7 @@ mod deviation;
 pub use deviation::{CornerReport, Deviation, DisplayUnit, OutputSensitivity, Tolerance};
 
 use crate::checked::TOL;
-use crate::option_reader::{OptionReader, is_of_angles, number_and_unit, si_unit, unusable};
+use crate::option_reader::{OptionReader, number_and_unit, si_unit, unusable};
 use crate::options::spaceless;
 use crate::{Checked, Choice, Compiled, RequestedTimes, RunOptions, SweepOptions, Variants};
 use mechc_engine::sweep::{Levels, Method, Points, Sampling, Status, Swept, Varying};
@@ -105,9 +105,11 @@ impl ToleranceArgument {
 
     fn tolerances(&self, reader: &OptionReader<'_>) -> Result<Vec<Tolerance>, Error> {
         let refused = |why: Diagnostic| Error::new(why, reader.checked.sources());
-        let mut values = Vec::with_capacity(2);
+        let (mut values, mut mark) = (Vec::with_capacity(2), Dimension::PURE);
         for end in &self.ends {
-            values.push(reader.number(&self.name, end)?.1);
+            let (_, number) = reader.number(&self.name, end)?;
+            values.push(number.si);
+            mark = mark.marked_by(number.dimension);
         }
         let range = match values[..] {
             [one] if one < 0.0 => {
@@ -127,8 +129,7 @@ impl ToleranceArgument {
             let message = format!("`{}` decides what is repeated, and cannot be a little off", self.name);
             return Err(refused(unusable(message).help("give tolerances to lengths, angles and other numbers")));
         }
-        let is_angle = self.ends.iter().any(|end| is_of_angles(end));
-        let unit_of = |dimension| match si_unit(dimension, is_angle) {
+        let unit_of = |dimension: Dimension| match si_unit(dimension.marked_by(mark)) {
             unit if unit.is_empty() => "1".to_owned(),
             unit => unit,
         };
@@ -145,7 +146,7 @@ impl ToleranceArgument {
         let unit_of =
             |end: &String| number_and_unit(end).filter(|(value, _)| *value != 0.0).map(|(_, unit)| unit.to_owned());
         let unit = self.ends.iter().find_map(unit_of).filter(|unit| !unit.is_empty())?;
-        let (size, _) = reader.value(&format!("1 {unit}")).ok()?;
+        let size = reader.value(&format!("1 {unit}")).ok()?.si;
         let is_of_all = |end: &String| number_and_unit(end).is_some_and(|(value, other)| value == 0.0 || other == unit);
         self.ends.iter().all(is_of_all).then_some((unit, size))
     }

@@ -1,6 +1,8 @@
-//! Dimensions: powers of length, time and mass. Angles are pure numbers.
+//! Dimensions: powers of length, time and mass. Angles are pure numbers, and are marked as angles.
 
-/// Dimension `lengthᵃ · timeᵇ · massᶜ`. Powers may be fractions, as under a root.
+/// Dimension `lengthᵃ · timeᵇ · massᶜ`, with the power of angles as a mark. Powers may be fractions, as under a root.
+///
+/// An angle is a pure number, and may be added to one. The mark decides units that are shown, and never whether dimensions agree.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Dimension {
     /// Power of length.
@@ -9,11 +11,15 @@ pub struct Dimension {
     pub time: f64,
     /// Power of mass.
     pub mass: f64,
+    /// Power of angles: 1 for an angle or an angular velocity.
+    pub angle: f64,
 }
 
 impl Dimension {
     /// Pure number.
     pub const PURE: Dimension = Dimension::new(0.0, 0.0, 0.0);
+    /// Angle, which is a pure number.
+    pub const ANGLE: Dimension = Dimension { angle: 1.0, ..Dimension::PURE };
     /// Length.
     pub const LENGTH: Dimension = Dimension::new(1.0, 0.0, 0.0);
     /// Area.
@@ -22,6 +28,8 @@ impl Dimension {
     pub const TIME: Dimension = Dimension::new(0.0, 1.0, 0.0);
     /// Inverse time.
     pub const RATE: Dimension = Dimension::new(0.0, -1.0, 0.0);
+    /// Angular velocity, which is a rate.
+    pub const ANGULAR_VELOCITY: Dimension = Dimension { angle: 1.0, ..Dimension::RATE };
     /// Speed.
     pub const SPEED: Dimension = Dimension::new(1.0, -1.0, 0.0);
     /// Acceleration.
@@ -42,26 +50,54 @@ impl Dimension {
     pub const PRESSURE: Dimension = Dimension::new(-1.0, -2.0, 1.0);
 
     const fn new(length: f64, time: f64, mass: f64) -> Dimension {
-        Dimension { length, time, mass }
+        Dimension { length, time, mass, angle: 0.0 }
     }
 
-    /// Returns whether two dimensions are equal, fractions up to rounding.
+    /// Returns whether two dimensions are equal, fractions up to rounding. The powers of angles may differ.
     #[must_use]
     pub fn is(self, other: Dimension) -> bool {
-        let near = |a: f64, b: f64| (a - b).abs() < 1e-9;
         near(self.length, other.length) && near(self.time, other.time) && near(self.mass, other.mass)
+    }
+
+    /// Returns whether angles have the power 1, as in an angle and an angular velocity.
+    #[must_use]
+    pub fn is_angular(self) -> bool {
+        near(self.angle, 1.0)
+    }
+
+    /// Returns whether it is that of an angle.
+    #[must_use]
+    pub fn is_angle(self) -> bool {
+        self.is_angular() && self.is(Dimension::PURE)
+    }
+
+    /// Returns whether angles have the power 0.
+    #[must_use]
+    pub fn is_without_angles(self) -> bool {
+        near(self.angle, 0.0)
+    }
+
+    /// Returns the dimension with the power of angles that a sum with a term of another dimension has: the greater one.
+    #[must_use]
+    pub fn marked_by(self, other: Dimension) -> Dimension {
+        Dimension { angle: self.angle.max(other.angle), ..self }
     }
 
     /// Returns whether all powers are finite.
     #[must_use]
     pub fn is_finite(self) -> bool {
-        [self.length, self.time, self.mass].into_iter().all(f64::is_finite)
+        [self.length, self.time, self.mass, self.angle].into_iter().all(f64::is_finite)
     }
 
     /// Returns the dimension of a product.
     #[must_use]
     pub fn times(self, other: Dimension) -> Dimension {
-        Dimension::new(self.length + other.length, self.time + other.time, self.mass + other.mass)
+        Dimension {
+            length: self.length + other.length,
+            time: self.time + other.time,
+            mass: self.mass + other.mass,
+            angle: self.angle + other.angle,
+        }
     }
 
     /// Returns the dimension of a quotient.
@@ -73,7 +109,12 @@ impl Dimension {
     /// Returns the dimension of a power.
     #[must_use]
     pub fn to_the(self, power: f64) -> Dimension {
-        Dimension::new(self.length * power, self.time * power, self.mass * power)
+        Dimension {
+            length: self.length * power,
+            time: self.time * power,
+            mass: self.mass * power,
+            angle: self.angle * power,
+        }
     }
 
     /// Returns the dimension in words: `a length`, `a speed`, or else the unit.
@@ -119,13 +160,17 @@ impl Dimension {
 
     /// Returns [`Dimension::unit`] with `rad` for angles: `rad/s` for an angular velocity.
     #[must_use]
-    pub fn unit_of(self, is_angle: bool) -> String {
+    pub fn display_unit(self) -> String {
         let unit = self.unit();
         match unit.strip_prefix('1') {
-            Some(rest) if is_angle => format!("rad{rest}"),
+            Some(rest) if self.is_angular() => format!("rad{rest}"),
             _ => unit,
         }
     }
+}
+
+fn near(a: f64, b: f64) -> bool {
+    (a - b).abs() < 1e-9
 }
 
 /// Formats a product of units with powers as `m^2/s`, or `1` if all powers are zero.

@@ -132,7 +132,7 @@ pub static UNITS: &[Unit] = &[
         word("rad", &["2 rad"], "the radian, which is the pure number 1", "driver motor: rotation(main) = 2 rad/s * t"),
         1.0,
         1.0,
-        Dimension::PURE,
+        Dimension::ANGLE,
     ),
     Unit {
         gives_way: true,
@@ -145,7 +145,7 @@ pub static UNITS: &[Unit] = &[
             ),
             1.0,
             1e3,
-            Dimension::PURE,
+            Dimension::ANGLE,
         )
     },
     angular(
@@ -157,7 +157,7 @@ pub static UNITS: &[Unit] = &[
         ),
         PI,
         180.0,
-        Dimension::PURE,
+        Dimension::ANGLE,
     ),
     angular(
         word(
@@ -168,7 +168,7 @@ pub static UNITS: &[Unit] = &[
         ),
         TAU,
         1.0,
-        Dimension::PURE,
+        Dimension::ANGLE,
     ),
     time("s", &["2 s"], "the second", 1.0, "analysis from 0 s to 2 s every 0.01 s"),
     time("ms", &["10 ms"], "the millisecond", 1e3, "analysis from 0 s to 2 s every 10 ms"),
@@ -203,7 +203,7 @@ pub static UNITS: &[Unit] = &[
         ),
         TAU,
         60.0,
-        Dimension::RATE,
+        Dimension::ANGULAR_VELOCITY,
     ),
     dynamic(
         "kg",
@@ -310,12 +310,6 @@ impl Unit {
     /// Returns all names.
     pub fn names() -> impl Iterator<Item = &'static str> {
         UNITS.iter().map(|unit| unit.word.name)
-    }
-
-    /// Returns whether the unit is for angles or angular velocities, whose dimensions are those of pure numbers and rates.
-    #[must_use]
-    pub fn measures_angle(&self) -> bool {
-        self.dimension.is(Dimension::PURE) || self.word.name == "rpm"
     }
 
     /// Converts a value in a power of this unit to SI.

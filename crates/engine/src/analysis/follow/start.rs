@@ -8,10 +8,10 @@ use crate::analysis::assemble::{Doubt, Solving, Started, Unassembled, close_with
 use crate::analysis::explain::{Stop, StopCause, Warning, WarningCause};
 use crate::analysis::state::{Horizon, Times};
 use mechc_expr::math;
+use mechc_ir::Homotopy;
 use mechc_ir::layout::RowLayout;
 use mechc_ir::program::Program;
 use mechc_ir::structure::Determined;
-use mechc_ir::{Homotopy, RowUnit};
 use mechc_text::cancel::Cancel;
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
@@ -114,7 +114,7 @@ struct Closed {
 /// doubt what is turned with it.
 fn close_and_drive(whole: &Unassembled, drawn: &[f64], residuals: &[(usize, f64)]) -> Option<Closed> {
     let rows = whole.determined.whole().rows();
-    let turns = |&(row, from): &(usize, f64)| if rows[row].unit == RowUnit::ANGLE { from / TAU } else { 0.0 };
+    let turns = |&(row, from): &(usize, f64)| if rows[row].unit.is_angle() { from / TAU } else { 0.0 };
     let beyond = |turns: f64| (-math::floor(-f64::max(turns.abs() - MOST_TURNS, 0.0))).copysign(turns);
     close_and_continue(whole, drawn, residuals, |residual| beyond(turns(residual))).or_else(|| {
         let nearest = |residual: &(usize, f64)| math::floor(turns(residual) + 0.5);
@@ -127,7 +127,7 @@ fn close_and_drive(whole: &Unassembled, drawn: &[f64], residuals: &[(usize, f64)
 /// Returns whether a driver begins more than half a turn away from where it is drawn.
 fn is_round(whole: &Unassembled, residuals: &[(usize, f64)]) -> bool {
     let rows = whole.determined.whole().rows();
-    residuals.iter().any(|&(row, from)| rows[row].unit == RowUnit::ANGLE && from.abs() > PI)
+    residuals.iter().any(|&(row, from)| rows[row].unit.is_angle() && from.abs() > PI)
 }
 
 /// Closes a mechanism as it is drawn [m, rad], and continues it to where so many whole turns are left of each residual: the last step of

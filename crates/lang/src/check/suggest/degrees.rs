@@ -80,7 +80,8 @@ impl Checker<'_> {
             }
             ExprKind::Name(name) => match self.entity(name) {
                 Some(Entity::Param(k)) => self.params.get(k).is_some_and(|param| {
-                    param.angle == 0 && param.value.is_some_and(|value| matches!(value.dim, Dim::Plain { .. }))
+                    let is_plain = |dim| matches!(dim, Dim::Plain { read, .. } if read.is_without_angles());
+                    param.value.is_some_and(|value| is_plain(value.dim))
                 }),
                 _ => false,
             },
@@ -160,5 +161,5 @@ impl Checker<'_> {
 /// Returns whether a unit holds a unit of angle other than the radian.
 fn is_of_degrees(written: &WrittenUnit) -> bool {
     let mut units = written.factors.iter().filter_map(|factor| Unit::named(&factor.name.text));
-    units.any(|unit| unit.measures_angle() && unit.word.name != "rad")
+    units.any(|unit| unit.dimension.is_angular() && unit.word.name != "rad")
 }

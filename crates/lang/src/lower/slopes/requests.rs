@@ -14,14 +14,14 @@ impl Slopes<'_, '_> {
             Symbol::Param(_) => self.lowering.graph.symbol(symbol),
             _ => self.lowering.graph.constant(0.0),
         };
-        let usual = if dimension == Dimension::TIME {
+        let usual = if dimension.is(Dimension::TIME) {
             self.span()
-        } else if dimension == Dimension::RATE {
+        } else if dimension.is(Dimension::RATE) {
             let (span, one) = (self.span(), self.lowering.graph.constant(1.0));
             self.lowering.graph.div(one, span)
         } else {
             let usual = [(Dimension::LENGTH, largest_size), (Dimension::PURE, 1.0)];
-            let usual = usual.into_iter().find(|(of, _)| *of == dimension).map_or(0.0, |(_, size)| size);
+            let usual = usual.into_iter().find(|(of, _)| of.is(dimension)).map_or(0.0, |(_, size)| size);
             self.lowering.graph.constant(usual)
         };
         let graph = &mut self.lowering.graph;
