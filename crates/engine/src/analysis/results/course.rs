@@ -4,7 +4,7 @@
 //! In a cell between two steps the second derivative stays close to the straight line between its ends, as far as the quintic through both is
 //! accurate; this bounds where the slope may pass zero.
 
-use crate::limits::interval_search;
+use super::extremum_refinement::{CELL, FARTHEST};
 use mechc_expr::math::{along, between, integral_of_quintic, quintic, value_and_derivatives};
 
 /// Factor by which a second derivative may deviate from the straight line between its ends, relative to the quintic in the middle of a
@@ -14,18 +14,11 @@ const SAFETY: f64 = 6.0;
 const MARGIN: f64 = 1e-5;
 /// An end is an extremum if the slope there would change the formula over the analysis by this part of its range.
 const STEEP: f64 = 1e-3;
-/// Smallest distance of an extremum from an end, as a part of the span.
-const AWAY: f64 = 1e-4;
 /// Largest terms of a sum, in multiples of its range or of what the second derivative causes over the span: beyond it rounding shifts
 /// the time of an extremum.
 const CERTAIN: f64 = 250.0;
-/// A formula is at rest if it deviates from its start by at most this part of the size of its terms: a quarter of the bound for a
-/// single variant (`limits::interval_search::ROUNDING`).
-const RESTS: f64 = 0.25 * interval_search::ROUNDING;
 /// Number of corrections of a time on the curve between two steps.
 const ITERATIONS: usize = 3;
-/// A length is smooth along steps if at least this many of them, at its greatest speed, separate it from zero.
-const STEPS_TO_KINK: f64 = 2.0;
 
 /// Value, slope and second derivative at a time.
 pub type Tower = [f64; 3];
@@ -51,8 +44,6 @@ pub enum Place {
     End(f64),
     /// The extremum is near a time (s) between these.
     Turn(f64),
-    /// The formula is constant.
-    Rest,
 }
 
 /// The contents of a cell.
@@ -91,9 +82,6 @@ impl Course<'_> {
     /// Returns the location of the largest or least value, or `None` if it is in doubt.
     #[must_use]
     pub fn extreme(&self, largest: bool) -> Option<Place> {
-        if self.is_constant() {
-            return Some(Place::Rest);
-        }
         let sign = if largest { 1.0 } else { -1.0 };
         let values = || self.towers.iter().map(|[value, ..]| sign * value);
         let (low, high) = (values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max));
@@ -112,7 +100,7 @@ impl Course<'_> {
                 Cell::Nothing => {}
                 Cell::Bounded(most) => best.add(most, 0.0, None),
                 Cell::Turn { t, value, error, second } => {
-                    let is_within = f64::min(t - self.times[0], self.times[last] - t) >= AWAY * span;
+                    let is_within = f64::min(t - self.times[0], self.times[last] - t) >= FARTHEST * CELL * span;
                     let is_certain = weight <= CERTAIN * f64::min(range, -second * span * span);
                     best.add(value, error, (is_within && is_certain).then_some(Place::Turn(t)));
                 }
@@ -128,13 +116,6 @@ impl Course<'_> {
         let times = self.times.windows(2).map(|pair| [pair[0], pair[1]]);
         self.towers.windows(2).map(|pair| [pair[0], pair[1]]).zip(times)
     }
-
-    /// Returns whether the formula is constant up to rounding.
-    fn is_constant(&self) -> bool {
-        let (first, rounding) = (self.towers[0][0], RESTS * self.weight);
-        let is_equal = |value: f64| (value - first).abs() <= rounding;
-        self.cells().all(|(ends, times)| Limits::new(ends, times).values.into_iter().all(is_equal))
-    }
 }
 
 /// Returns an upper bound in a cell in which a length comes too close to its kink at zero, or else `None`. The square of a length has no kink: its
@@ -144,26 +125,9 @@ fn kink([a, b]: [Tower; 2], [from, to]: [f64; 2]) -> Option<Cell> {
     let fastest = (b[0] * b[1] - a[0] * a[1]) / h;
     let path = 2.0 * h * fastest.max(a[1] * a[1]).max(b[1] * b[1]).sqrt();
     let least = f64::min(a[0].abs(), b[0].abs());
-    let is_far = path == 0.0 || STEPS_TO_KINK * path <= 2.0 * least;
+    let is_far = path == 0.0 || path <= least;
     let most = a[0].max(b[0]) + path;
     (!is_far).then(|| Cell::Bounded(if most.is_finite() { most } else { f64::INFINITY }))
-}
-
-/// Bounds of a formula between two steps.
-struct Limits {
-    curvatures: [f64; 2],
-    slopes: [f64; 2],
-    values: [f64; 2],
-}
-
-impl Limits {
-    fn new([[v, s, c], [w, r, d]]: [Tower; 2], [from, to]: [f64; 2]) -> Limits {
-        let h = to - from;
-        let deviation = SAFETY * ((r - s) / h - 0.5 * (c + d)).abs();
-        let curvatures = [c.min(d) - deviation, c.max(d) + deviation];
-        let slopes = between(s, r, curvatures, h);
-        Limits { curvatures, slopes, values: between(v, w, slopes, h) }
-    }
 }
 
 impl Cell {
@@ -171,7 +135,10 @@ impl Cell {
     fn new([a, b]: [Tower; 2], [from, to]: [f64; 2]) -> Cell {
         let h = to - from;
         let ([v, s, c], [w, r, d]) = (a, b);
-        let Limits { curvatures, slopes, values: [_, most] } = Limits::new([a, b], [from, to]);
+        let deviation = SAFETY * ((r - s) / h - 0.5 * (c + d)).abs();
+        let curvatures = [c.min(d) - deviation, c.max(d) + deviation];
+        let slopes = between(s, r, curvatures, h);
+        let [_, most] = between(v, w, slopes, h);
         let is_monotone = slopes[0] > 0.0 || slopes[1] < 0.0;
         if is_monotone || curvatures[0] > 0.0 {
             return Cell::Nothing;
