@@ -510,8 +510,8 @@ impl IntervalSearch<'_> {
         let sign = extremum.sign;
         let mut within = cell.clone();
         let ends = [&cell.a, &cell.b].map(|end| [end.state.t, end.sample.first.abs()]);
-        // where the motion cannot be solved for, the narrowest cell so far counts
-        let _ = enclose_root(ends, power_of_two_below(TIMES * scale.span), |t| {
+        // a peak may be narrower than any part of the span; where the motion cannot be solved for, the narrowest cell so far counts
+        let _ = enclose_root(ends, power_of_two_below(self.shortest), |t| {
             let point = self.point(&within, t)?;
             let (is_behind, slope) = (sign * point.sample.first <= 0.0, point.sample.first.abs());
             *if is_behind { &mut within.b } else { &mut within.a } = point;
