@@ -5,6 +5,7 @@
 //! accurate; this bounds where the slope may pass zero.
 
 use super::extremum_refinement::{CELL, FARTHEST};
+use crate::limits::interval_search;
 use mechc_expr::math::{along, between, integral_of_quintic, quintic, value_and_derivatives};
 
 /// Factor by which a second derivative may deviate from the straight line between its ends, relative to the quintic in the middle of a
@@ -17,6 +18,9 @@ const STEEP: f64 = 1e-3;
 /// Largest terms of a sum, in multiples of its range or of what the second derivative causes over the span: beyond it rounding shifts
 /// the time of an extremum.
 const CERTAIN: f64 = 250.0;
+/// A formula is at rest if it deviates from its start by at most this part of the size of its terms: a quarter of the bound for a
+/// single variant (`limits::interval_search::ROUNDING`).
+const RESTS: f64 = 0.25 * interval_search::ROUNDING;
 /// Number of corrections of a time on the curve between two steps.
 const ITERATIONS: usize = 3;
 
@@ -44,6 +48,8 @@ pub enum Place {
     End(f64),
     /// The extremum is near a time (s) between these.
     Turn(f64),
+    /// The formula is constant.
+    Rest,
 }
 
 /// The contents of a cell.
@@ -82,6 +88,9 @@ impl Course<'_> {
     /// Returns the location of the largest or least value, or `None` if it is in doubt.
     #[must_use]
     pub fn extreme(&self, largest: bool) -> Option<Place> {
+        if self.is_constant() {
+            return Some(Place::Rest);
+        }
         let sign = if largest { 1.0 } else { -1.0 };
         let values = || self.towers.iter().map(|[value, ..]| sign * value);
         let (low, high) = (values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max));
@@ -116,6 +125,13 @@ impl Course<'_> {
         let times = self.times.windows(2).map(|pair| [pair[0], pair[1]]);
         self.towers.windows(2).map(|pair| [pair[0], pair[1]]).zip(times)
     }
+
+    /// Returns whether the formula is constant up to rounding.
+    fn is_constant(&self) -> bool {
+        let (first, rounding) = (self.towers[0][0], RESTS * self.weight);
+        let is_equal = |value: f64| (value - first).abs() <= rounding;
+        self.cells().all(|(ends, times)| Limits::new(ends, times).values.into_iter().all(is_equal))
+    }
 }
 
 /// Returns an upper bound in a cell in which a length comes too close to its kink at zero, or else `None`. The square of a length has no kink: its
@@ -130,15 +146,29 @@ fn kink([a, b]: [Tower; 2], [from, to]: [f64; 2]) -> Option<Cell> {
     (!is_far).then(|| Cell::Bounded(if most.is_finite() { most } else { f64::INFINITY }))
 }
 
+/// Bounds of a formula between two steps.
+struct Limits {
+    curvatures: [f64; 2],
+    slopes: [f64; 2],
+    values: [f64; 2],
+}
+
+impl Limits {
+    fn new([[v, s, c], [w, r, d]]: [Tower; 2], [from, to]: [f64; 2]) -> Limits {
+        let h = to - from;
+        let deviation = SAFETY * ((r - s) / h - 0.5 * (c + d)).abs();
+        let curvatures = [c.min(d) - deviation, c.max(d) + deviation];
+        let slopes = between(s, r, curvatures, h);
+        Limits { curvatures, slopes, values: between(v, w, slopes, h) }
+    }
+}
+
 impl Cell {
     /// Classifies the cell between two steps by the values that exceed both ends.
     fn new([a, b]: [Tower; 2], [from, to]: [f64; 2]) -> Cell {
         let h = to - from;
         let ([v, s, c], [w, r, d]) = (a, b);
-        let deviation = SAFETY * ((r - s) / h - 0.5 * (c + d)).abs();
-        let curvatures = [c.min(d) - deviation, c.max(d) + deviation];
-        let slopes = between(s, r, curvatures, h);
-        let [_, most] = between(v, w, slopes, h);
+        let Limits { curvatures, slopes, values: [_, most] } = Limits::new([a, b], [from, to]);
         let is_monotone = slopes[0] > 0.0 || slopes[1] < 0.0;
         if is_monotone || curvatures[0] > 0.0 {
             return Cell::Nothing;

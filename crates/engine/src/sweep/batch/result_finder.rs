@@ -13,6 +13,7 @@ use crate::analysis::course::{Course, Place, Tower, integral_by_steps};
 use crate::analysis::{MOST_LOOKS, Sampled, Settled, Settling, SpectralIntegral, Turning};
 use crate::solver::{VariantBatch, VariantLanes};
 use mechc_text::cancel::Cancel;
+use std::array::from_fn;
 
 /// Largest difference of an integral from its estimate by the steps, as a part of it; far less than a single variant allows
 /// (`ALIKE` in `spectral.rs`), so that a variant accepted here is accepted there.
@@ -149,11 +150,13 @@ impl ResultFinder {
             return;
         }
         let mut search = Search { query: number, times: [from; LANES], extrema: [None; LANES] };
+        let mut is_constant = [false; LANES];
         for lane in 0..LANES {
             let place = if open[lane] { self.locate(queries, query, params, lane) } else { None };
             match place {
                 None => open[lane] = false,
                 Some(Place::End(t)) => search.times[lane] = t,
+                Some(Place::Rest) => is_constant[lane] = true,
                 Some(Place::Turn(t)) => {
                     let has_second = queries.has_second_derivative(query.quantity);
                     search.extrema[lane] = Settling::near(t, to - from, has_second);
@@ -162,6 +165,9 @@ impl ResultFinder {
             }
         }
         self.settle(inputs, search, open);
+        if is_constant.contains(&true) {
+            self.settle_constant(inputs, number, is_constant, open);
+        }
     }
 
     /// Answers a query for an integral in the `open` lanes.
@@ -194,6 +200,30 @@ impl ResultFinder {
                 }
                 left[lane] = false;
             }
+        }
+    }
+
+    /// Evaluates constant quantities, whose values at the first time are settled, at the last time as well: the larger value of both ends is
+    /// the answer, or the smaller one.
+    fn settle_constant(
+        &mut self,
+        inputs: Inputs<'_>,
+        number: usize,
+        is_constant: [bool; LANES],
+        open: &mut [bool; LANES],
+    ) {
+        let queries = inputs.queries;
+        let QueryKind::Extreme { largest } = queries.queries[number].kind else { return };
+        let at_first = self.answers[number];
+        let [_, to] = queries.interval;
+        let mut evaluated = from_fn(|lane| is_constant[lane] && open[lane]);
+        let search = Search { query: number, times: [to; LANES], extrema: [None; LANES] };
+        self.settle(inputs, search, &mut evaluated);
+        for lane in (0..LANES).filter(|&lane| is_constant[lane]) {
+            let ([t, first], [_, last]) = (at_first[lane], self.answers[number][lane]);
+            let is_last = if largest { last > first } else { last < first };
+            self.answers[number][lane] = [t, if is_last { last } else { first }];
+            open[lane] = evaluated[lane];
         }
     }
 
