@@ -135,7 +135,7 @@ limits! {
     Number GROWTH = domain_boundaries::GROWTH, "What grows by so much with each look has no bound.";
     Count ITERATIONS = lanes::ITERATIONS, "Iterations of Newton at most.";
     Number JUMP = follow::JUMP, "A position jumps that is so many times farther away than slopes lead.";
-    Number LARGEST_CORRECTION = lanes::LARGEST_CORRECTION,
+    Number LARGEST_CORRECTION = step_control::LARGEST_CORRECTION,
         "Newton's first correction at most, beside the size of a body or 1 rad.";
     Number LARGEST_GAP = step::LARGEST_GAP,
         "How far velocities may lead elsewhere than positions, likewise: more is another branch.";

@@ -9,8 +9,18 @@ pub const TOLERANCE: f64 = 1e-12;
 
 /// Assembly.
 pub mod assembly {
-    /// Estimates agree with a driver if its residual, scaled, is at most this.
+    /// Drawn poses satisfy an equation, and a loop is closed, if the residual, scaled, is at most this.
     pub(crate) const AGREES: f64 = 1e-6;
+    /// Maximum number of steps of an iteration from the drawn poses.
+    pub(crate) const MOST_STEPS: usize = 300;
+    /// Times at which equations that depend on each other at a start are examined again, before and after it, as parts of the span.
+    pub(crate) const NEARBY: [f64; 3] = [1.3e-3, 3.1e-3, 7.7e-3];
+    /// Positions that differ by less than this, scaled, are equal.
+    pub(crate) const SAME: f64 = 1e-4;
+    /// Distance of trial positions from a position in which equations may be degenerate, scaled.
+    pub(crate) const NUDGE: f64 = 0.02;
+    /// Largest number of equations that are solved together by least squares, or searched for other solutions.
+    pub(crate) const LARGEST_DENSE: usize = 300;
     /// Largest step, scaled: small enough to stay on the branch of the estimates.
     pub(crate) const LARGEST_STEP: f64 = 0.3;
 }
@@ -19,8 +29,28 @@ pub mod assembly {
 pub mod redundancy {
     /// Largest residual, in scales of the equation: lengths are written with so many digits.
     pub const LARGEST_OPENING: f64 = 1e-9;
-    /// An equation takes part in a dependency if its share exceeds this.
-    pub(crate) const TAKES_PART: f64 = 1e-6;
+    /// Smaller shares, and what is left of an equation without those that it depends on, are zero: an assembled position is accurate to the square
+    /// root of rounding.
+    pub(crate) const NO_SHARE: f64 = 1e-6;
+    /// A row with a larger weight in a dependent row takes its place: without it the others are far from dependent.
+    pub(crate) const HEAVY: f64 = 5.0;
+    /// Maximum number of row exchanges at one position.
+    pub(crate) const MOST_EXCHANGES: usize = 100;
+}
+
+/// Explanations.
+pub mod explain {
+    /// Maximum number of equations that are examined together: they form a dense matrix.
+    pub(crate) const LARGEST: usize = 600;
+    /// Smallest part in a dependency or a motion that is reported, relative to the largest.
+    pub(crate) const SEEN: f64 = 1e-3;
+    /// Smallest part of the largest share with which an equation, a force or a coordinate is named as a cause.
+    pub(crate) const NAMED: f64 = 0.1;
+    /// Weight reduction of the equations that stay open where others cannot hold with them; the residual of the others is smaller by the square of
+    /// this.
+    pub(crate) const YIELDING: f64 = 1e4;
+    /// Maximum number of bodies, motions or joints that one message names.
+    pub(crate) const MOST_NAMED: usize = 3;
 }
 
 /// Jumps: differences between both sides of a time.
@@ -39,7 +69,7 @@ pub mod jumps {
 pub mod step_control {
     /// Largest first correction of a step, scaled. Like all sizes that steps are judged by, it does not bound positions that follow from
     /// other coordinates: the upper end of a tall lift moves far.
-    pub(crate) const LARGEST_CORRECTION: f64 = 0.05;
+    pub const LARGEST_CORRECTION: f64 = 0.05;
     /// Largest correction between the ends of a step, on the curve through both, scaled.
     pub(crate) const LARGEST_BETWEEN: f64 = 1e-3;
     /// Largest predicted motion of a step, scaled: displacement in sizes of the body, or rotation in radians.
@@ -108,16 +138,16 @@ pub mod solver {
     pub(crate) const LEAST_PIVOT: f64 = 1e-18;
     /// Largest scaled multiplier of an elimination; larger ones lose digits.
     pub const LARGEST_MULTIPLIER: f64 = 16.0;
+    /// Largest block that is solved densely, with partial pivoting.
+    pub(crate) const LARGEST_BLOCK: usize = 100;
     /// Cell of the grid, as a part of the scale of a coordinate. Half of its square is below rounding.
     pub(crate) const CELL: f64 = 1.0 / 134_217_728.0;
 }
 
 /// Newton's method in lanes.
 pub mod lanes {
-    /// Maximum number of iterations of a block, two of which may be at a border of two cells.
+    /// Maximum number of iterations on a grid, two of which may be at a border of two cells.
     pub const ITERATIONS: usize = 8;
-    /// Largest first correction, scaled: the dense output of a step is closer than this.
-    pub const LARGEST_CORRECTION: f64 = 0.05;
     /// A correction within this distance of half a cell, in cells, leads to a border of two cells. The rounding of corrections is smaller.
     pub const BORDER: f64 = 1.0 / 4_096.0;
 }
@@ -129,6 +159,9 @@ pub mod interval_search {
     /// Ratio of successive distances from a time at which the growth of a formula is examined; the first distance is where the values are
     /// reliable.
     pub(crate) const FACTOR: f64 = 16.0;
+    /// A formula grows without bound if its gain between successive distances from a time, which shrink by equal factors, does not shrink by this
+    /// factor; it converges if its distance from the limit does. A pole has at least this growth when the distance is halved.
+    pub(crate) const LEAST_GROWTH: f64 = 1.03;
     /// Rounding of a value, as a part of it.
     pub(crate) const ROUNDING: f64 = 32.0 * f64::EPSILON;
 }
@@ -137,6 +170,8 @@ pub mod interval_search {
 pub mod extremum {
     /// Largest error of the time of an extremum, as a part of the span, for a formula with a known slope.
     pub(crate) const TIMES: f64 = 1e-11;
+    /// Values on two sides of a time differ, rather than by rounding, if they do so by more than this part of the range.
+    pub(crate) const APART: f64 = 1e-6;
 }
 
 /// Integrals.

@@ -3,7 +3,8 @@
 
 use super::predictor::Bend;
 use super::{Instruction, LARGEST_MULTIPLIER, Solver, Tear, from_bits};
-use crate::limits::lanes::{BORDER, ITERATIONS, LARGEST_CORRECTION};
+use crate::limits::lanes::{BORDER, ITERATIONS};
+use crate::limits::step_control::LARGEST_CORRECTION;
 use mechc_expr::math::grid::{bound_at_first, going_on, next_point, on_grid};
 use mechc_expr::math::{self, Vectors, WIDE};
 use mechc_ir::program::{LaneMachine, LaneValues, Machine, Program, Register, Registers};

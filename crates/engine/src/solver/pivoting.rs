@@ -2,14 +2,11 @@
 
 use super::build::cell;
 use crate::limits::lanes::{BORDER, ITERATIONS};
-use crate::limits::solver::CELL;
+use crate::limits::solver::{CELL, LARGEST_BLOCK};
 use mechc_expr::math::blocks::{Blocks, solve, work_of};
 use mechc_expr::math::grid::{bound_at_first, going_on, next_point, on_grid};
 use mechc_expr::math::max;
 use mechc_ir::structure::Determined;
-
-/// Largest block that is solved with pivoting.
-const LARGEST_BLOCK: usize = 100;
 
 /// The blocks of a system with memory to solve them with partial pivoting. Iterates lie on a grid, like those of the [`Solver`](super::Solver), but
 /// in all coordinates.

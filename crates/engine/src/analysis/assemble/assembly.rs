@@ -6,36 +6,22 @@
 use super::search::{Noise, levenberg_marquardt};
 use crate::analysis::explain::{Stop, StopCause, open_loop, singular};
 use crate::analysis::state::{Fault, Horizon, Kinematics, State, behind_start};
-use crate::limits::assembly::{AGREES, LARGEST_STEP};
+use crate::limits::assembly::{AGREES, LARGEST_DENSE, LARGEST_STEP, MOST_STEPS, NEARBY, NUDGE, SAME};
+use crate::limits::redundancy::LARGEST_OPENING;
 use mechc_ir::{BodyId, ConstraintSystem, CoordinateKind, MonitorKind};
 use std::f64::consts::PI;
 
-/// Maximum number of passes over the explicit coordinates; each pass resolves those that depend on the previous one.
-const EXPLICIT_STEPS: usize = 50;
-/// Maximum number of Newton steps.
-const NEWTON_STEPS: usize = 200;
 /// Smallest damping of a Newton step before another method is tried.
 const SMALLEST_DAMPING: f64 = 1e-3;
 /// A smaller correction, scaled, needs no further step.
 const SETTLED: f64 = 1e-7;
-/// Systems up to this size are assembled as a whole by least squares, larger ones block by block.
-const LARGEST_DENSE: usize = 300;
 /// Sizes of the perturbations of estimates, scaled, one attempt after another.
 const PERTURBATIONS: [f64; 6] = [0.01, 0.05, 0.1, 0.2, 0.4, 0.8];
-/// A start closer to a singular position than this is singular: there q is accurate only to the square root of the tolerance.
+/// A start closer to a singular position than this is singular, and an equation whose slope is below this part of the slope nearby fixes nothing:
+/// there q is accurate only to the square root of the tolerance.
 const SINGULAR_START: f64 = 1e-5;
-/// Times at which the neighborhood of a singular start is examined, as parts of the span.
-const NEARBY: [f64; 4] = [3e-3, -3e-3, 1e-2, -1e-2];
-/// Distance along a free motion at which the neighborhood of a singular start is examined, scaled.
-const BESIDE: f64 = 0.02;
-/// Positions that differ by less than this, scaled, are equal.
-const MOVED: f64 = 1e-4;
-/// Equations with smaller residuals are almost satisfied.
-const OPEN_NEARBY: f64 = 1e-9;
 /// A tangent shorter than this, in sizes of its body, vanishes.
 const VANISHING_TANGENT: f64 = 1e-7;
-/// An equation whose slope is below this part of the slope nearby fixes nothing.
-const WITHOUT_SLOPE: f64 = 1e-5;
 
 /// Displacement of the bodies from their estimates in assembly.
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
@@ -137,7 +123,7 @@ pub fn close_without_drivers(kinematics: &mut Kinematics, t: f64) -> Option<(Vec
     let rows: Vec<u32> = columns.iter().copied().filter(|&row| !driving.contains(&(row as usize))).collect();
     levenberg_marquardt(kinematics, &mut q, &rows, &columns);
     let residuals = residuals_of_drivers(kinematics, t, &q)?;
-    (kinematics.hold_nearly(&rows, OPEN_NEARBY) && kinematics.turned_lines().is_empty()).then_some((q, residuals))
+    (kinematics.hold_nearly(&rows, LARGEST_OPENING) && kinematics.turned_lines().is_empty()).then_some((q, residuals))
 }
 
 /// Sets the start time; at a switch its later side counts.
@@ -181,7 +167,7 @@ pub(super) fn moved(system: &ConstraintSystem, from: &[f64], to: &[f64]) -> Move
 fn explicit_first(kinematics: &mut Kinematics, estimates: &[f64]) -> Vec<f64> {
     let mut q = estimates.to_vec();
     let mut delta = vec![0.0; q.len()];
-    for _ in 0..EXPLICIT_STEPS {
+    for _ in 0..MOST_STEPS {
         if kinematics.set_position(&q).is_err() {
             return estimates.to_vec();
         }
@@ -224,7 +210,7 @@ fn newton(kinematics: &mut Kinematics, start: &[f64]) -> Option<Vec<f64>> {
     let (mut q, mut trial) = (start.to_vec(), start.to_vec());
     let (mut delta, mut next) = (vec![0.0; n], vec![0.0; n]);
     kinematics.set_position(&q).ok()?;
-    for _ in 0..NEWTON_STEPS {
+    for _ in 0..MOST_STEPS {
         kinematics.factor().ok()?;
         let size = kinematics.correction(&mut delta);
         if !size.is_finite() {
@@ -338,7 +324,7 @@ fn refuse_singular(kinematics: &mut Kinematics, q: &[f64], t: f64) -> Result<(),
     if let Err(fault @ (Fault::NotFinite { .. } | Fault::Condition { .. })) = factored {
         return Err(singular::without_value(system, fault).at(t));
     }
-    if let Some(row) = kinematics.row_without_slope(WITHOUT_SLOPE) {
+    if let Some(row) = kinematics.row_without_slope(SINGULAR_START) {
         return Err(StopCause::WithoutEffect { row }.at(t));
     }
     if factored.is_ok() && kinematics.nearness(SINGULAR_START) > SINGULAR_START {
@@ -366,7 +352,7 @@ fn independent_without(kinematics: &mut Kinematics, q: &[f64], driver: usize, fr
     kinematics.set_time(t);
     let columns: Vec<u32> = (0..q.len() as u32).collect();
     let rows: Vec<u32> = columns.iter().copied().filter(|&row| row as usize != driver).collect();
-    [BESIDE, -BESIDE].into_iter().find_map(|way| {
+    [NUDGE, -NUDGE].into_iter().find_map(|way| {
         let mut near = moved_along(kinematics, q, free, way);
         levenberg_marquardt(kinematics, &mut near, &rows, &columns);
         independent_where(kinematics, q, &near, &rows)
@@ -375,7 +361,7 @@ fn independent_without(kinematics: &mut Kinematics, q: &[f64], driver: usize, fr
 
 /// Returns whether the equations are independent near a position, where its free motion leads; `None` if it leads nowhere.
 fn independent_nearby(kinematics: &mut Kinematics, q: &[f64], free: &[f64]) -> Option<bool> {
-    [BESIDE, -BESIDE].into_iter().find_map(|way| {
+    [NUDGE, -NUDGE].into_iter().find_map(|way| {
         let start = moved_along(kinematics, q, free, way);
         independent_at(kinematics, q, start)
     })
@@ -389,7 +375,7 @@ fn moved_along(kinematics: &Kinematics, q: &[f64], free: &[f64], way: f64) -> Ve
 /// Returns whether the equations are independent at a time nearby; `None` if no position can be had there, as when every driver rests.
 fn independent_later(kinematics: &mut Kinematics, q: &[f64], t: f64) -> Option<bool> {
     let span = kinematics.span();
-    NEARBY.into_iter().find_map(|part| {
+    NEARBY.into_iter().flat_map(|part| [part, -part]).find_map(|part| {
         kinematics.set_time(t + part * span);
         independent_at(kinematics, q, q.to_vec())
     })
@@ -404,11 +390,11 @@ fn independent_at(kinematics: &mut Kinematics, q: &[f64], start: Vec<f64>) -> Op
 
 /// Returns whether the equations are independent in a position where some of them hold; `None` if it is `q`, or they do not hold.
 fn independent_where(kinematics: &mut Kinematics, q: &[f64], near: &[f64], rows: &[u32]) -> Option<bool> {
-    let far = |k: usize| (near[k] - q[k]).abs() > MOVED * kinematics.linear().column_scale(k);
+    let far = |k: usize| (near[k] - q[k]).abs() > SAME * kinematics.linear().column_scale(k);
     let moved = (0..q.len()).any(far);
     let holds = kinematics.set_position(near).is_ok() && {
         let _ = kinematics.factor();
-        kinematics.hold_nearly(rows, OPEN_NEARBY)
+        kinematics.hold_nearly(rows, LARGEST_OPENING)
     };
     (moved && holds).then(|| kinematics.nearness(SINGULAR_START) > SINGULAR_START)
 }

@@ -6,6 +6,7 @@
 
 use super::search::{Noise, levenberg_marquardt};
 use crate::analysis::state::{Kinematics, State};
+use crate::limits::assembly::{LARGEST_DENSE, SAME};
 use mechc_ir::structure::Determined;
 use mechc_ir::{BodyId, ConstraintSystem, CoordinateKind};
 use std::f64::consts::{PI, TAU};
@@ -14,12 +15,8 @@ use std::f64::consts::{PI, TAU};
 const TURNED_OVER: f64 = std::f64::consts::FRAC_PI_2;
 /// Another position is an alternative if it is at most this many times as far from the estimates as the chosen one.
 const AS_NEAR: f64 = 2.0;
-/// Positions that differ by less than this, scaled, are equal.
-const SAME: f64 = 1e-3;
 /// Largest number of coordinates of a loop whose alternatives are searched for.
 const LARGEST_LOOP: usize = 60;
-/// Largest system in which alternatives are searched for: each search evaluates the whole system.
-const LARGEST_SYSTEM: usize = 300;
 /// Maximum number of loops in which alternatives are searched for.
 const MOST_LOOPS: usize = 8;
 /// Number of random starts of the search.
@@ -75,7 +72,7 @@ pub fn doubt(kinematics: &mut Kinematics, from: &[f64], state: &State) -> Option
     let system = determined.system();
     // most estimates are near
     farthest(system, 0..from.len(), from, &state.q)?;
-    let is_large = |found: &Loop| from.len() > LARGEST_SYSTEM || found.columns.len() > LARGEST_LOOP;
+    let is_large = |found: &Loop| from.len() > LARGEST_DENSE || found.columns.len() > LARGEST_LOOP;
     let loops = loops(&determined);
     let far = loops.iter().filter_map(|found| Some((found, farthest(system, found.columns(), from, &state.q)?)));
     let doubt = far.take(MOST_LOOPS).find(|(found, doubt)| {

@@ -3,14 +3,10 @@
 use super::assembly::Moved;
 use super::branches::{Doubt, FarBody, Off};
 use crate::analysis::explain::errors::{at, degrees, length};
+use crate::limits::assembly::AGREES;
 use crate::limits::printed::NOTHING;
 use mechc_ir::{ConstraintSystem, DeclarationKind, Fit, JointKind};
 use mechc_text::diag::{Applicability, Code, Diagnostic, Fix, readable};
-
-/// A pose is suggested for a body that assembly has moved by more than this, scaled.
-const MOVED: f64 = 1e-6;
-/// Largest misfit of a gear pair, as a part of the larger radius.
-const LARGEST_MISFIT: f64 = 1e-6;
 
 /// Returns a warning about the doubt that the assembled position is the intended one.
 ///
@@ -74,7 +70,7 @@ fn assembled_poses(system: &ConstraintSystem, from: &[f64], to: &[f64]) -> Optio
     for (id, body) in system.bodies().pairs() {
         let pose @ [x, y, phi] = system.pose_of(id);
         let has_moved =
-            |&column: &usize| (to[column] - from[column]).abs() > MOVED * system.coordinates()[column].scale;
+            |&column: &usize| (to[column] - from[column]).abs() > AGREES * system.coordinates()[column].scale;
         if !pose.iter().any(has_moved) {
             continue;
         }
@@ -96,11 +92,11 @@ fn assembled_poses(system: &ConstraintSystem, from: &[f64], to: &[f64]) -> Optio
 pub fn misfit(system: &ConstraintSystem, fit: &Fit, q: &[f64], t: f64) -> Option<Diagnostic> {
     let [distance, required, radius] = [fit.distance, fit.wanted, fit.radius].map(|id| system.value_at(id, q));
     let off = distance - required;
-    if off.abs() <= LARGEST_MISFIT * radius {
+    if off.abs() <= AGREES * radius {
         return None;
     }
     let joint = &system.declarations()[fit.declaration];
-    if distance < -LARGEST_MISFIT * radius {
+    if distance < -AGREES * radius {
         let message =
             format!("the pinion of `{}` is on the other side of its rack than is said at {}", joint.name, at(t));
         return Some(
@@ -115,7 +111,7 @@ pub fn misfit(system: &ConstraintSystem, fit: &Fit, q: &[f64], t: f64) -> Option
         _ => ("centre and axis", "the radius", None),
     };
     // the sum of the radii, of gears that take the difference, and the other way round
-    let fits_another = (distance - (2.0 * radius - required)).abs() <= LARGEST_MISFIT * radius;
+    let fits_another = (distance - (2.0 * radius - required)).abs() <= AGREES * radius;
     let message = format!(
         "the {what} of `{}` are {} apart at {}, and {why} is {}",
         joint.name,

@@ -6,6 +6,7 @@
 
 use super::search::levenberg_marquardt;
 use crate::analysis::state::{Horizon, Kinematics};
+use crate::limits::assembly::LARGEST_DENSE;
 use mechc_expr::math;
 use mechc_expr::{ExprId, Symbol};
 use mechc_ir::PartStart;
@@ -13,9 +14,6 @@ use mechc_ir::program::Program;
 use mechc_ir::structure::{Block, Determined};
 use mechc_text::cancel::Cancel;
 use std::sync::Arc;
-
-/// Largest block that is solved to start parts.
-const LARGEST: usize = 300;
 
 /// Request for the coordinates of a part that is solved alone.
 pub struct Request {
@@ -171,7 +169,7 @@ impl<'d> Placing<'d> {
             let block = &self.determined.blocks()[number];
             let holds_open_part = block.columns.iter().any(|&column| self.is_of_an_open_part[column as usize]);
             let is_ready = self.behind(block).all(|column| self.is_settled[column as usize]);
-            if is_ready && !holds_open_part && block.columns.len() <= LARGEST {
+            if is_ready && !holds_open_part && block.columns.len() <= LARGEST_DENSE {
                 levenberg_marquardt(&mut self.kinematics, &mut self.q, &block.rows, &block.columns);
                 block.columns.iter().for_each(|&column| self.is_settled[column as usize] = true);
                 was_solved = true;

@@ -10,12 +10,11 @@ use super::redundancy::{Dependent, dependents, times_nearby};
 use super::sharing::{along_motion, shared};
 use crate::analysis::state::Horizon;
 use crate::limits::assembly::AGREES;
+use crate::limits::explain::LARGEST;
 use mechc_ir::structure::{self, Determined, Refused, Subsystem};
 use mechc_ir::{ConstraintSystem, DeclarationKind, Homotopy, JointKind};
 use mechc_text::diag::{Diagnostic, Diagnostics};
 
-/// Largest part that is examined with values: its equations form a dense matrix.
-const LARGEST: usize = 600;
 /// Largest part if redundant equations are allowed: that takes some seconds.
 const LARGEST_ALLOWED: usize = 1500;
 

@@ -3,14 +3,13 @@
 
 use super::errors;
 use crate::analysis::state::{Evaluated, Linear, aslant, minimize};
+use crate::limits::assembly::NUDGE;
 use mechc_expr::math;
 use mechc_ir::program::{Program, Registers, Stage};
 use mechc_ir::{ConstraintSystem, DeclarationId, DeclarationKind, JointKind, PointId};
 
 /// An equation whose residual over its slope exceeds this, scaled, has a vanishing slope.
 const HOPELESS: f64 = 30.0;
-/// Size of trial changes of coordinates, scaled.
-const NUDGE: f64 = 0.02;
 
 /// A system with a program that evaluates it, and a position.
 pub struct Evaluator<'s> {

@@ -1,10 +1,8 @@
 //! Free motions in words.
 
 use super::errors;
+use crate::limits::explain::SEEN;
 use mechc_ir::{ConstraintSystem, CoordinateKind};
-
-/// Smallest motion that is reported, as a part of the largest.
-const SEEN: f64 = 1e-3;
 
 /// Describes a motion: how far one body turns for each degree of another.
 pub fn motion_in_words(system: &ConstraintSystem, right: &[f64]) -> String {

@@ -6,20 +6,18 @@ use super::free_motion::motion_in_words;
 use super::orthonormal::Orthonormal;
 use super::proposals::Proposals;
 use super::redundancy::basis_of;
+use crate::limits::explain::MOST_NAMED;
+use crate::limits::redundancy::NO_SHARE;
 use mechc_ir::structure::Subsystem;
 use mechc_ir::{BodyId, ConstraintSystem, CoordinateKind, DeclarationKind, IdVec};
 use nalgebra::DVector;
 
 /// Largest residual of an assembled position; free motions are only reported at one.
 const ASSEMBLED: f64 = 1e-8;
-/// A coordinate moves if its share of the free motions exceeds this.
-const MOVES: f64 = 1e-6;
 /// A coordinate with at least this share is not constrained at all.
 const LOOSE: f64 = 1.0 - 1e-9;
 /// Free motions are described by angles whose share is at least this part of the largest.
 const ANGLE_SHARE: f64 = 0.01;
-/// Maximum number of reported motions.
-const TOLD: usize = 3;
 
 /// Motion of the bodies in a degree of freedom that equations leave: at whichever speed, and either way.
 #[derive(Clone, PartialEq, Debug)]
@@ -74,7 +72,7 @@ impl Freedom {
             counts.ids().filter(|&body| counts[body] >= least).collect()
         };
         let loose = bodies_where(with_share(LOOSE), 3);
-        let moving = bodies_where(with_share(MOVES), 1);
+        let moving = bodies_where(with_share(NO_SHARE), 1);
         let motions = motions_left(system, part, taken);
         let is_driven = system.declarations().iter().any(|one| one.kind == DeclarationKind::Driver);
         let mut freedom =
@@ -110,13 +108,13 @@ impl Freedom {
         let is_loose = |column: usize| system.body_of(column).is_some_and(|body| self.loose.contains(&body));
         let mut sentences: Vec<String> = Vec::new();
         for motion in &self.motions {
-            let moves = |k: &usize| motion[*k].abs() > MOVES;
+            let moves = |k: &usize| motion[*k].abs() > NO_SHARE;
             if !(0..motion.len()).filter(moves).all(is_loose) {
                 sentences.push(motion_in_words(system, motion));
             }
         }
-        let left_out = sentences.len().saturating_sub(TOLD);
-        sentences.truncate(TOLD);
+        let left_out = sentences.len().saturating_sub(MOST_NAMED);
+        sentences.truncate(MOST_NAMED);
         if left_out > 0 {
             sentences.push(format!("and {left_out} more motions"));
         }
@@ -175,9 +173,9 @@ pub fn motions_as_drawn(system: &ConstraintSystem, part: &Subsystem, t: f64) -> 
 fn of_bodies(system: &ConstraintSystem, motion: &[f64]) -> FreeMotion {
     let fastest = motion.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
     let velocity = |body: BodyId| system.pose_of(body).map(|column| (column, motion[column]));
-    let moves = |body: &BodyId| velocity(*body).iter().any(|(_, x)| x.abs() > MOVES * fastest);
+    let moves = |body: &BodyId| velocity(*body).iter().any(|(_, x)| x.abs() > NO_SHARE * fastest);
     let moved = |body: BodyId| {
-        let of_rounding = |x: f64| if x.abs() > MOVES * fastest { x / fastest } else { 0.0 };
+        let of_rounding = |x: f64| if x.abs() > NO_SHARE * fastest { x / fastest } else { 0.0 };
         (body, velocity(body).map(|(column, x)| of_rounding(x) * system.coordinates()[column].scale))
     };
     FreeMotion { bodies: system.bodies().ids().filter(moves).map(moved).collect() }

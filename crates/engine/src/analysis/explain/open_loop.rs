@@ -6,28 +6,20 @@
 use super::errors;
 use super::evaluator::Evaluator;
 use crate::analysis::state::Linear;
+use crate::limits::assembly::AGREES;
+use crate::limits::explain::{LARGEST, NAMED, YIELDING};
 use mechc_expr::math;
 use mechc_ir::structure::{Block, Determined, Subsystem};
 use mechc_ir::{BodyId, ConstraintSystem, CoordinateKind, DeclarationId, DeclarationKind, JointKind, PointId};
 
-/// Maximum number of equations that are examined together.
-const LARGEST: usize = 600;
-/// A force takes part in the balance of a link if it exceeds this part of the largest force.
-const PULLS: f64 = 0.1;
 /// An equation is part of the loop if its share of the residual exceeds this part of the largest.
 const TAKES_PART: f64 = 0.01;
-/// Weight reduction of one joint, so that the loop opens there.
-const LIGHT: f64 = 1e4;
 /// A link is too short or too long if at least this part of the force acts along it.
 const ALONG: f64 = 0.3;
 /// Larger gaps, in sizes of the mechanism, are not shown.
 const FAR: f64 = 10.0;
-/// A loop is open in length if the gap exceeds this part of the gap in angles, scaled.
-const IN_LENGTH: f64 = 0.1;
 /// A joint may be reported as open if its gap is this part of the widest.
 const WIDE: f64 = 0.3;
-/// Smaller gaps, scaled, are closed.
-const CLOSED: f64 = 1e-6;
 
 /// A loop that does not close.
 #[derive(Clone, Debug)]
@@ -127,7 +119,7 @@ struct OpenPart {
 fn open_part(evaluator: &mut Evaluator<'_>, determined: &Determined, t: f64) -> Option<OpenPart> {
     let blocks = determined.blocks();
     let closes =
-        |linear: Option<Linear>| linear.is_some_and(|linear| linear.residual.iter().all(|open| open.abs() <= CLOSED));
+        |linear: Option<Linear>| linear.is_some_and(|linear| linear.residual.iter().all(|open| open.abs() <= AGREES));
     let together = |numbers: &[usize]| Some(in_order(blocks, numbers)).filter(|part| part.rows.len() <= LARGEST);
     evaluator.evaluate(t);
     for (k, block) in blocks.iter().enumerate().filter(|(_, block)| block.rows.len() <= LARGEST) {
@@ -159,7 +151,7 @@ fn open_loop(evaluator: &mut Evaluator<'_>, part: &Subsystem, t: f64) -> Option<
     let system = evaluator.system;
     let linear = evaluator.assemble(&part.rows, &part.columns, None, t)?;
     let largest = linear.residual.iter().fold(0.0, |m: f64, open| m.max(open.abs()));
-    if largest < CLOSED {
+    if largest < AGREES {
         return None;
     }
     let mut declarations: Vec<DeclarationId> = part
@@ -176,7 +168,7 @@ fn open_loop(evaluator: &mut Evaluator<'_>, part: &Subsystem, t: f64) -> Option<
         .rows
         .iter()
         .zip(&linear.weights)
-        .map(|(&row, weight)| if system.rows()[row as usize].declaration == at { weight * LIGHT } else { *weight })
+        .map(|(&row, weight)| if system.rows()[row as usize].declaration == at { weight * YIELDING } else { *weight })
         .collect();
     evaluator.assemble(&part.rows, &part.columns, Some(&weights), t)?;
     let rows = part.rows.iter().map(|&row| row as usize).filter(|&row| system.rows()[row].declaration == at);
@@ -199,10 +191,10 @@ fn widest_gap(evaluator: &Evaluator<'_>, rows: impl Iterator<Item = usize>) -> O
     };
     let (length, angle) = (of_kind(CoordinateKind::Length), of_kind(CoordinateKind::Angle));
     // the loop closes from here: the estimates are too far off, and no length is wrong
-    if length <= CLOSED * system.length() && angle <= CLOSED {
+    if length <= AGREES * system.length() && angle <= AGREES {
         return None;
     }
-    let is_length = length / system.length() > IN_LENGTH * angle;
+    let is_length = length / system.length() > NAMED * angle;
     Some(if is_length { (CoordinateKind::Length, length) } else { (CoordinateKind::Angle, angle) })
 }
 
@@ -257,7 +249,7 @@ fn links(
         bodies.map(|body| (body, pulls(evaluator, part, linear, declarations, body))).collect();
     let largest = pulls.iter().flat_map(|(_, pulls)| pulls).map(Pull::size).fold(0.0, f64::max);
     for (body, pulls) in &pulls {
-        let acting: Vec<&Pull> = pulls.iter().filter(|pull| pull.size() > PULLS * largest).collect();
+        let acting: Vec<&Pull> = pulls.iter().filter(|pull| pull.size() > NAMED * largest).collect();
         let &[first, second] = acting.as_slice() else {
             continue;
         };
@@ -265,7 +257,7 @@ fn links(
         let way = [to[0] - from[0], to[1] - from[1]];
         let length = math::hypot(way[0], way[1]);
         let along = (second.force[0] * way[0] + second.force[1] * way[1]) / length;
-        if length > CLOSED * system.length() && along.abs() > ALONG * f64::max(first.size(), second.size()) {
+        if length > AGREES * system.length() && along.abs() > ALONG * f64::max(first.size(), second.size()) {
             let ends = [first.declaration, second.declaration];
             links.push(FaultyLink { of: FaultyLinkKind::Body(*body, ends), length, too_short: along > 0.0 });
         }

@@ -75,8 +75,8 @@ pub struct Basis {
 
 impl Basis {
     /// Takes vectors of length `n`, each of about unit norm, in order. A vector is dependent if its rest orthogonal to those before it is
-    /// shorter than `nothing`; it depends on those that have a weight above `weighs` in it.
-    pub fn new(vectors: &[f64], n: usize, [nothing, weighs]: [f64; 2]) -> Basis {
+    /// shorter than `nothing`; it depends on those that have a larger weight in it.
+    pub fn new(vectors: &[f64], n: usize, nothing: f64) -> Basis {
         let mut basis = Basis { span: Orthonormal::of_dimension(n), kept: Vec::new(), dependent: Vec::new() };
         // each kept vector by the span up to its own
         let mut factors = DMatrix::zeros(n, n);
@@ -90,7 +90,7 @@ impl Basis {
                 continue;
             }
             let weights = factors.view((0, 0), (rank, rank)).solve_upper_triangular(&shares).unwrap_or(shares);
-            let on = basis.kept.iter().zip(&weights).filter(|(_, weight)| weight.abs() > weighs);
+            let on = basis.kept.iter().zip(&weights).filter(|(_, weight)| weight.abs() > nothing);
             basis.dependent.push((k, on.map(|(&k, &weight)| (k, weight)).collect()));
         }
         basis
@@ -143,7 +143,7 @@ mod tests {
             [0.0, 1.0, 0.0, 0.0],
             [0.0, 0.0, -1.0, 0.0],
         ];
-        let basis = Basis::new(rows.as_flattened(), 4, [1e-6, 1e-6]);
+        let basis = Basis::new(rows.as_flattened(), 4, 1e-6);
         assert_eq!(basis.kept, [0, 1, 2]);
         let on = |k: usize| basis.dependent[k].1.iter().map(|&(k, _)| k).collect::<Vec<usize>>();
         assert_eq!([(basis.dependent[0].0, on(0)), (basis.dependent[1].0, on(1))], [(3, vec![0, 1]), (4, vec![2])]);
@@ -157,7 +157,7 @@ mod tests {
     #[test]
     fn a_dependent_vector_takes_the_place_of_one_that_it_depends_on() {
         let rows = [[1.0, 0.0], [0.8, 0.6], [0.6, 0.8], [0.0, 1.0]];
-        let mut basis = Basis::new(rows.as_flattened(), 2, [1e-6, 1e-6]);
+        let mut basis = Basis::new(rows.as_flattened(), 2, 1e-6);
         assert_eq!(basis.kept, [0, 1]);
         basis.exchange(1, 0, 1e-6);
         assert_eq!(basis.kept, [1, 3]);
@@ -184,7 +184,7 @@ mod tests {
 
     #[test]
     fn without_coordinates_no_vector_is_kept() {
-        let basis = Basis::new(&[], 0, [1e-6, 1e-6]);
+        let basis = Basis::new(&[], 0, 1e-6);
         assert!(basis.kept.is_empty() && basis.dependent.is_empty() && basis.span.is_whole());
     }
 }

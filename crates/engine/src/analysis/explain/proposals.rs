@@ -2,6 +2,7 @@
 
 use super::evaluator::Evaluator;
 use super::orthonormal::Orthonormal;
+use crate::limits::explain::{MOST_NAMED, SEEN};
 use mechc_expr::math;
 use mechc_ir::{
     Axis, AxisId, BodyId, ConstraintSystem, Declaration, DeclarationKind, IdVec, JointKind, Point, PointId,
@@ -10,14 +11,10 @@ use nalgebra::DVector;
 use rustc_hash::FxHashMap;
 use std::collections::hash_map::Entry;
 
-/// A driver fixes a freedom if its quantity changes at this rate along it.
-const TAKEN: f64 = 1e-3;
 /// Points that are drawn closer than this, in sizes of the mechanism, may be intended to coincide.
 const COINCIDE: f64 = 0.02;
 /// Distance within which two points that no joint uses may be intended to coincide, in sizes of the mechanism.
 const DANGLING: f64 = 0.15;
-/// Maximum number of suggested joints.
-const SUGGESTED: usize = 3;
 /// Maximum number of points that are compared with each other.
 const MOST_POINTS: usize = 1000;
 
@@ -36,14 +33,14 @@ impl Proposals<'_, '_> {
     pub fn drivers(&self) -> Vec<String> {
         let candidates = self.candidates();
         if self.motions.len() == 1 {
-            let takes = |(_, rates): &(String, Vec<f64>)| rates[0].abs() > TAKEN;
-            return candidates.into_iter().filter(takes).map(|(text, _)| text).take(SUGGESTED).collect();
+            let takes = |(_, rates): &(String, Vec<f64>)| rates[0].abs() > SEEN;
+            return candidates.into_iter().filter(takes).map(|(text, _)| text).take(MOST_NAMED).collect();
         }
         let mut taken = Orthonormal::of_dimension(self.motions.len());
         let mut chosen = Vec::new();
         for (text, rates) in candidates {
             let (rest, _) = taken.split(DVector::from_vec(rates));
-            if taken.take(&rest, TAKEN) {
+            if taken.take(&rest, SEEN) {
                 chosen.push(text);
             }
         }
@@ -134,7 +131,7 @@ impl Proposals<'_, '_> {
             suggested.push(both);
             is_new
         });
-        pairs.iter().filter_map(text).take(SUGGESTED.min(usize::max(self.motions.len() / 2, 1))).collect()
+        pairs.iter().filter_map(text).take(MOST_NAMED.min(usize::max(self.motions.len() / 2, 1))).collect()
     }
 
     /// Axes of one name that no joint takes, of bodies that move on each other: a slider's way is missing.
@@ -154,7 +151,7 @@ impl Proposals<'_, '_> {
             let others = free[k + 1..].iter().filter(fits);
             suggested.extend(others.map(|other| format!("`joint NAME: translational({}, {})`", one.name, other.name)));
         }
-        suggested.truncate(SUGGESTED);
+        suggested.truncate(MOST_NAMED);
         suggested
     }
 

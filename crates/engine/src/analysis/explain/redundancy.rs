@@ -7,21 +7,10 @@
 use super::errors;
 use super::evaluator::Evaluator;
 use super::orthonormal::Basis;
-use crate::limits::redundancy::{LARGEST_OPENING, TAKES_PART};
+use crate::limits::assembly::NEARBY;
+use crate::limits::explain::YIELDING;
+use crate::limits::redundancy::{HEAVY, LARGEST_OPENING, MOST_EXCHANGES, NO_SHARE};
 use mechc_ir::structure::Subsystem;
-
-/// Equations are dependent below this residual: an assembled position is accurate to the square root of rounding.
-const DEPENDENT: f64 = 1e-6;
-/// Rows on which others depend with a larger weight are eliminated last: without them the others are far from dependent.
-const HEAVY: f64 = 5.0;
-/// Maximum number of row exchanges.
-const MOST_EXCHANGES: usize = 30;
-/// Weight reduction of the equations whose minimum residual is computed; the residual of the others is smaller by the square of this.
-const YIELDING: f64 = 100.0;
-/// Number of restarts of that least-squares method.
-const PASSES: usize = 4;
-/// Times at which the equations are examined, as parts of the span after the first time.
-const NEARBY: [f64; 3] = [1.3e-3, 3.1e-3, 7.7e-3];
 
 /// An equation that depends on others.
 #[derive(Clone, Debug)]
@@ -149,9 +138,7 @@ fn gap_of_declaration(evaluator: &mut Evaluator<'_>, part: &Subsystem, row: usiz
     let weights = evaluator.linear(&part.rows, &part.columns, None, t)?.weights;
     let weight = |(row, weight): (&u32, &f64)| if is_of_declaration(row) { weight * YIELDING } else { *weight };
     let weights: Vec<f64> = part.rows.iter().zip(&weights).map(weight).collect();
-    for _ in 0..PASSES {
-        evaluator.assemble(&part.rows, &part.columns, Some(&weights), t)?;
-    }
+    evaluator.assemble(&part.rows, &part.columns, Some(&weights), t)?;
     let kind = errors::gap_kind(system, row);
     let of_kind = rows.map(|&row| row as usize).filter(|&row| errors::gap_kind(system, row) == kind);
     let gap = of_kind.map(|row| evaluator.gap(row)).map(|gap| gap * gap).sum::<f64>().sqrt();
@@ -197,7 +184,7 @@ fn well_chosen(mut basis: Basis, is_driver: impl Fn(usize) -> bool) -> Basis {
         let Some((index, (heaviest, _))) = heavy.max_by(|(_, (_, a)), (_, (_, b))| a.abs().total_cmp(&b.abs())) else {
             break;
         };
-        basis.exchange(index, heaviest, TAKES_PART);
+        basis.exchange(index, heaviest, NO_SHARE);
     }
     basis.dependent.sort_unstable_by_key(|&(k, _)| k);
     basis
@@ -222,5 +209,5 @@ fn add_hidden(evaluator: &mut Evaluator<'_>, part: &Subsystem, t: f64, dependent
 
 /// Returns the basis of the rows of a Jacobian over `n` coordinates.
 pub fn basis_of(jacobian: &[f64], n: usize) -> Basis {
-    Basis::new(jacobian, n, [DEPENDENT, TAKES_PART])
+    Basis::new(jacobian, n, NO_SHARE)
 }

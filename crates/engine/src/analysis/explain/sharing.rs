@@ -8,7 +8,9 @@ use super::evaluator::Evaluator;
 use super::orthonormal::Basis;
 use super::redundancy::basis_of;
 use crate::analysis::state::{Horizon, Linear, aslant};
-use crate::limits::redundancy::{LARGEST_OPENING, TAKES_PART};
+use crate::limits::assembly::LARGEST_STEP;
+use crate::limits::redundancy::{LARGEST_OPENING, NO_SHARE};
+use crate::limits::step_control::FEWEST_STEPS;
 use mechc_expr::{Dependence, ExprId, Graph, Node, Symbol};
 use mechc_ir::ConstraintSystem;
 use mechc_ir::limits::DEFAULT_SPAN;
@@ -17,10 +19,6 @@ use rustc_hash::FxHashSet;
 
 /// First step along the motion, as a part of the span.
 const FIRST_STEP: f64 = 1e-3;
-/// Longest step, as a part of the span: long enough to pass a rest.
-const LONGEST_STEP: f64 = 1.0 / 32.0;
-/// Largest motion of a coordinate in a step, scaled.
-const LARGEST_STEP: f64 = 0.3;
 /// Largest deviation of the end of a step from its prediction, scaled; beyond it the step is on another branch.
 const APART: f64 = 0.1;
 /// Distance between the examined positions, scaled.
@@ -208,7 +206,7 @@ impl Place<'_, '_> {
             .iter()
             .flat_map(|form| self.dependencies.iter().map(move |dependency| (form, dependency)))
             .find(|(form, dependency)| self.changes(form, dependency))?;
-        let takes_part = |row: &usize| dependency.scaled[*row].abs() > TAKES_PART;
+        let takes_part = |row: &usize| dependency.scaled[*row].abs() > NO_SHARE;
         Some((0..dependency.scaled.len()).filter(takes_part).collect())
     }
 
@@ -216,9 +214,9 @@ impl Place<'_, '_> {
     fn changes(&self, form: &Form, dependency: &Dependency) -> bool {
         let weight = |row: u32| dependency.scaled[row as usize];
         if form.is_varied || form.rows.len() == 1 {
-            return form.rows.iter().any(|&row| weight(row).abs() > TAKES_PART);
+            return form.rows.iter().any(|&row| weight(row).abs() > NO_SHARE);
         }
-        if form.rows.iter().all(|&row| weight(row).abs() <= TAKES_PART) {
+        if form.rows.iter().all(|&row| weight(row).abs() <= NO_SHARE) {
             return false;
         }
         let nothing = self.value(form, None);
@@ -230,7 +228,7 @@ impl Place<'_, '_> {
             .collect();
         let largest = slopes.iter().fold(0.0, |largest: f64, slope| largest.max(slope.abs()));
         let change: f64 = form.rows.iter().zip(&slopes).map(|(&row, slope)| weight(row) * slope).sum();
-        change.abs() > TAKES_PART * largest
+        change.abs() > NO_SHARE * largest
     }
 
     /// Returns the value of a form where one multiplier is 1 and the others vanish.
@@ -300,7 +298,7 @@ pub(super) fn along_motion(
         for (speed, (now, before)) in speed.iter_mut().zip(evaluator.q.iter().zip(&before.1)) {
             *speed = (now - before) / (next - t);
         }
-        (t, h) = (next, f64::min(1.5 * h, LONGEST_STEP * span));
+        (t, h) = (next, f64::min(1.5 * h, span / FEWEST_STEPS));
         before = (t, evaluator.q.clone());
         if found == 0 || moved(&evaluator.q, &looked_at) > FRESH {
             found += usize::from(look(evaluator, &linear, t));

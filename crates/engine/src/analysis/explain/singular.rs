@@ -3,6 +3,8 @@
 use super::errors::{self, StartVerdict};
 use super::stop::{SingularPosition, Stop, StopCause, Warning, WarningCause};
 use crate::analysis::state::{Fault, Horizon, Kinematics, Singular, State};
+use crate::limits::explain::{NAMED, SEEN};
+use crate::limits::redundancy::NO_SHARE;
 use crate::limits::singular::NEAR_FOLD;
 use mechc_ir::program::BoundaryRegisters;
 use mechc_ir::{ConstraintSystem, DeclarationId, DeclarationKind, JointKind, Monitor, MonitorKind};
@@ -19,12 +21,6 @@ const VANISHED: f64 = 1e-6;
 const STEPS_AHEAD: f64 = 1000.0;
 /// Largest deviation from a parabola, which is four times as large at twice the distance from zero, for an event function.
 const PARABOLA: f64 = 0.25;
-/// Smallest share that is reported of an equation in a dependency or a coordinate in a free motion, as a part of the largest.
-const TOLD: f64 = 0.1;
-/// Resolution of shares, in parts of the largest: rounding must not order equal shares.
-const WEIGHTS: f64 = 1e6;
-/// A driver takes part in a dependency if its share exceeds this part of the largest.
-const TAKES_PART: f64 = 1e-3;
 
 /// Returns why no step leads on from the last accepted state, where even one as small as `h` (s) towards `target` (s) failed.
 pub fn find_stop(kinematics: &mut Kinematics, state: &State, fault: Fault, [h, target]: [f64; 2]) -> Box<Stop> {
@@ -279,7 +275,7 @@ pub fn singular_start(
 /// Returns the driver's row that weighs most in a dependency, if one takes part.
 pub fn driver_in(system: &ConstraintSystem, left: &[f64]) -> Option<usize> {
     let largest = left.iter().fold(0.0, |m: f64, w| m.max(w.abs()));
-    heaviest_driver(system, left).filter(|&row| left[row].abs() > TAKES_PART * largest)
+    heaviest_driver(system, left).filter(|&row| left[row].abs() > SEEN * largest)
 }
 
 /// Returns the driver's row that weighs most in a dependency, however small its weight.
@@ -297,8 +293,8 @@ fn joints_in(system: &ConstraintSystem, left: &[f64]) -> Vec<DeclarationId> {
 /// Returns the declarations of the dependency, by decreasing weight.
 fn declarations_in(system: &ConstraintSystem, left: &[f64]) -> Vec<DeclarationId> {
     let largest = left.iter().fold(0.0, |m: f64, w| m.max(w.abs()));
-    let mut rows: Vec<usize> = (0..left.len()).filter(|&row| left[row].abs() > TOLD * largest).collect();
-    let weight = |row: usize| (left[row].abs() / largest * WEIGHTS).round();
+    let mut rows: Vec<usize> = (0..left.len()).filter(|&row| left[row].abs() > NAMED * largest).collect();
+    let weight = |row: usize| (left[row].abs() / largest / NO_SHARE).round();
     rows.sort_by(|&a, &b| weight(b).total_cmp(&weight(a)));
     let mut joints: Vec<DeclarationId> = Vec::new();
     for row in rows {
@@ -313,7 +309,7 @@ fn declarations_in(system: &ConstraintSystem, left: &[f64]) -> Vec<DeclarationId
 /// Returns the coordinates that the free motion moves.
 fn columns_in(right: &[f64]) -> Vec<usize> {
     let fastest = right.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
-    (0..right.len()).filter(|&column| right[column].abs() > TOLD * fastest).collect()
+    (0..right.len()).filter(|&column| right[column].abs() > NAMED * fastest).collect()
 }
 
 /// Returns the row of the driver that prescribes the fastest motion from the state on, or by a jump up to a time `t` just ahead (s).

@@ -7,6 +7,7 @@
 use super::checkpoint::Checkpoint;
 use super::rows::RowBatch;
 use crate::analysis::state::{Kinematics, State};
+use crate::limits::redundancy::{HEAVY, MOST_EXCHANGES};
 use crate::solver::Solver;
 use mechc_expr::ExprId;
 use mechc_ir::program::{Program, Register, Registers, Stage};
@@ -15,10 +16,6 @@ use std::sync::Arc;
 
 /// Largest weight of a row in a left-out one at the end of a step, both scaled: it bounds the loss of digits.
 const LARGEST_WEIGHT: f64 = 10.0;
-/// At such an end and at a start, rows with a larger weight are left out instead.
-const HEAVY: f64 = 5.0;
-/// Maximum number of row exchanges at one position.
-const MOST_EXCHANGES: usize = 100;
 
 /// Equations that are solved, with their solver.
 pub struct SelectedRows {

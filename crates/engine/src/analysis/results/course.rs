@@ -4,6 +4,7 @@
 //! In a cell between two steps the second derivative stays close to the straight line between its ends, as far as the quintic through both is
 //! accurate; this bounds where the slope may pass zero.
 
+use super::extremum_refinement::{CELL, FARTHEST};
 use crate::limits::interval_search;
 use mechc_expr::math::{along, between, integral_of_quintic, quintic, value_and_derivatives};
 
@@ -14,8 +15,6 @@ const SAFETY: f64 = 6.0;
 const MARGIN: f64 = 1e-5;
 /// An end is an extremum if the slope there would change the formula over the analysis by this part of its range.
 const STEEP: f64 = 1e-3;
-/// Smallest distance of an extremum from an end, as a part of the span.
-const AWAY: f64 = 1e-4;
 /// Largest terms of a sum, in multiples of its range or of what the second derivative causes over the span: beyond it rounding shifts
 /// the time of an extremum.
 const CERTAIN: f64 = 250.0;
@@ -24,8 +23,6 @@ const CERTAIN: f64 = 250.0;
 const RESTS: f64 = 0.25 * interval_search::ROUNDING;
 /// Number of corrections of a time on the curve between two steps.
 const ITERATIONS: usize = 3;
-/// A length is smooth along steps if at least this many of them, at its greatest speed, separate it from zero.
-const STEPS_TO_KINK: f64 = 2.0;
 
 /// Value, slope and second derivative at a time.
 pub type Tower = [f64; 3];
@@ -112,7 +109,7 @@ impl Course<'_> {
                 Cell::Nothing => {}
                 Cell::Bounded(most) => best.add(most, 0.0, None),
                 Cell::Turn { t, value, error, second } => {
-                    let is_within = f64::min(t - self.times[0], self.times[last] - t) >= AWAY * span;
+                    let is_within = f64::min(t - self.times[0], self.times[last] - t) >= FARTHEST * CELL * span;
                     let is_certain = weight <= CERTAIN * f64::min(range, -second * span * span);
                     best.add(value, error, (is_within && is_certain).then_some(Place::Turn(t)));
                 }
@@ -144,7 +141,7 @@ fn kink([a, b]: [Tower; 2], [from, to]: [f64; 2]) -> Option<Cell> {
     let fastest = (b[0] * b[1] - a[0] * a[1]) / h;
     let path = 2.0 * h * fastest.max(a[1] * a[1]).max(b[1] * b[1]).sqrt();
     let least = f64::min(a[0].abs(), b[0].abs());
-    let is_far = path == 0.0 || STEPS_TO_KINK * path <= 2.0 * least;
+    let is_far = path == 0.0 || path <= least;
     let most = a[0].max(b[0]) + path;
     (!is_far).then(|| Cell::Bounded(if most.is_finite() { most } else { f64::INFINITY }))
 }

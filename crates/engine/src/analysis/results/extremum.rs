@@ -5,41 +5,27 @@
 //! divided, so that a pole in the other direction costs nothing and hides nothing.
 
 use super::curve::{Cell, Estimate, Point, Verdict};
-use super::extremum_refinement::{MOST_LOOKS, Sampled, Settling, Turning};
-use super::interval_search::{IntervalSearch, NoValueCause, Scale};
+use super::extremum_refinement::{CELL, MOST_LOOKS, Sampled, Settling, Turning};
+use super::interval_search::{IntervalSearch, NoValueCause, Ranked, Scale};
 use crate::analysis::state::State;
 use crate::limits::curve::KNOWN;
-use crate::limits::extremum::TIMES;
-use crate::limits::interval_search::{FACTOR, SHORTEST};
-use mechc_expr::math::{between, median};
+use crate::limits::extremum::{APART, TIMES};
+use crate::limits::interval_search::{FACTOR, LEAST_GROWTH, SHORTEST};
+use mechc_expr::math::{between, enclose_root, median, power_of_two_below};
 use mechc_ir::program::Range;
-use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 use std::rc::Rc;
 
 /// A cell that can improve the extremum by at most this part of the range is not divided.
 const GAP: f64 = 1e-11;
-/// Bound like `GAP` for formulas without derivative.
-const GAP_OF_VALUES: f64 = 1e-9;
-/// Accuracy of a time, as a part of the span.
-const CERTAIN: f64 = 1e-13;
 /// The vertex of a parabola through three points is accepted up to this many point distances from the middle point.
 const FARTHEST: f64 = 2.0;
 /// Factor by which the three points approach each other in each step.
 const CLOSER: f64 = 0.1;
 /// Smallest distance of the three points, as a part of the span.
 const FINEST: f64 = 1e-4;
-/// Maximum number of corrections of a time.
-const ITERATIONS: usize = 100;
 /// Bound like `TIMES` for a formula whose slope is unknown.
 const TIMES_OF_VALUES: f64 = 1e-6;
-/// A value at a threshold differs from the limit of one side if the difference exceeds this part of the range.
-const APART: f64 = 1e-6;
-/// A formula is unbounded if its gain between successive positions, whose distances shrink by equal factors, does not shrink by this
-/// factor; it converges if its distance from the limit does.
-const CONVERGES: f64 = 0.97;
-/// An edge this close behind an extremum with the same value, as a part of the span, is the extremum.
-const BESIDE: f64 = 1e-7;
 
 /// The search for the largest value of a formula or, by its negative, for the least.
 #[derive(Clone, Debug)]
@@ -112,25 +98,10 @@ struct OpenCell {
     upper: f64,
 }
 
-impl PartialEq for OpenCell {
-    fn eq(&self, other: &OpenCell) -> bool {
-        self.cmp(other).is_eq()
-    }
-}
-
-impl Eq for OpenCell {}
-
-impl PartialOrd for OpenCell {
-    fn partial_cmp(&self, other: &OpenCell) -> Option<Ordering> {
-        Some(self.cmp(other))
-    }
-}
-
-impl Ord for OpenCell {
-    /// Orders cells by the largest value that they may hold; among equal ones the earlier cell is greater.
-    fn cmp(&self, other: &OpenCell) -> Ordering {
-        let t = |open: &OpenCell| open.cell.a.state.t;
-        self.upper.total_cmp(&other.upper).then(t(other).total_cmp(&t(self)))
+impl OpenCell {
+    /// Ranks the cell by the largest value that it may hold.
+    fn ranked(self) -> Ranked<OpenCell> {
+        Ranked { rank: self.upper, t: self.cell.a.state.t, item: self }
     }
 }
 
@@ -218,7 +189,7 @@ impl Extremum {
                 Estimate { value: self.sign * candidate.value, error: candidate.error.max(self.excess) }
             }
             _ => Estimate {
-                error: self.best_estimate.error.max(scale.gap(GAP_OF_VALUES)).max(self.excess),
+                error: self.best_estimate.error.max(scale.tolerance()).max(self.excess),
                 ..self.best_estimate
             },
         }
@@ -229,7 +200,8 @@ impl Extremum {
         let estimate = |t: f64, part: f64| Estimate { value: t, error: part * scale.span };
         let Some(first) = self.first(scale) else { return estimate(self.best_at, TIMES_OF_VALUES) };
         let is_it = |next: &&Candidate| {
-            let distance = if first.kind == CandidateKind::Turn { BESIDE } else { FACTOR * SHORTEST };
+            // the refinement of a turn does not tell it from an edge that is closer than a cell of its grid
+            let distance = if first.kind == CandidateKind::Turn { CELL } else { FACTOR * SHORTEST };
             let is_behind = next.t > first.t && next.t - first.t <= distance * scale.span;
             next.kind == CandidateKind::Edge && is_behind && next.upper(scale) >= first.lower
         };
@@ -280,12 +252,11 @@ impl IntervalSearch<'_> {
         self.is_timed = extremum.is_timed;
         let mut heap = BinaryHeap::new();
         for cell in cells {
-            let open = self.open(cell.clone(), extremum, scale);
-            heap.push(open);
+            heap.push(self.open(cell.clone(), extremum, scale).ranked());
         }
         let (mut scale, mut best) = (scale, f64::NAN);
         let mut parts = Vec::new();
-        while let Some(open) = heap.pop() {
+        while let Some(Ranked { item: open, .. }) = heap.pop() {
             self.range = scale.range;
             // the scale follows the best value so far
             if extremum.best.total_cmp(&best).is_ne() {
@@ -293,7 +264,7 @@ impl IntervalSearch<'_> {
                 scale = Scale { range: extremum.spread(samples, scale.gap(0.0)), ..scale };
             }
             if extremum.is_above(open.upper, scale) {
-                heap.push(open);
+                heap.push(open.ranked());
                 break;
             }
             if self.notes.are_exhausted() {
@@ -307,7 +278,7 @@ impl IntervalSearch<'_> {
                 // the magnitudes of loads may have grown since the cell was opened, which narrows its bounds
                 let reopened = self.open(open.cell.clone(), extremum, scale);
                 if reopened.upper < open.upper {
-                    heap.push(reopened);
+                    heap.push(reopened.ranked());
                     continue;
                 }
             }
@@ -315,10 +286,10 @@ impl IntervalSearch<'_> {
             if self.notes.cause.is_some() || extremum.unbounded.is_some() {
                 return scale;
             }
-            heap.extend(parts.drain(..));
+            heap.extend(parts.drain(..).map(OpenCell::ranked));
         }
         if extremum.is_timed {
-            self.search_earlier(heap.into_vec(), extremum, scale);
+            self.search_earlier(heap.into_iter().map(|open| open.item).collect(), extremum, scale);
         }
         scale
     }
@@ -470,7 +441,7 @@ impl IntervalSearch<'_> {
         [(&cell.a, -1.0), (&cell.b, 1.0)].into_iter().any(|(point, direction)| {
             self.samples_near(cell.step, point, direction, cell.length(), scale).is_some_and(|[near, far, _]| {
                 let [remaining, before] = [near, far].map(|sample| (sample.value - value).abs());
-                remaining <= CONVERGES * before + near.error + far.error
+                remaining <= before / LEAST_GROWTH + near.error + far.error
             })
         })
     }
@@ -484,7 +455,7 @@ impl IntervalSearch<'_> {
             let gain =
                 |near: Estimate, far: Estimate| (extremum.sign * (near.value - far.value), near.error + far.error);
             let ((last, error), (before, error_before)) = (gain(near, middle), gain(middle, far));
-            if before > error_before && error <= before && last + error >= CONVERGES * before {
+            if before > error_before && error <= before && last + error >= before / LEAST_GROWTH {
                 extremum.unbounded = Some(cell.b.state.t);
             }
         }
@@ -534,46 +505,22 @@ impl IntervalSearch<'_> {
         is_small || turns_once || second_low > 0.0
     }
 
-    /// Finds and records the time at which the slope times the sign falls through zero in a cell, by Newton's method safeguarded by bisection.
+    /// Finds and records the time at which the slope times the sign falls through zero in a cell.
     fn solve_for_turn(&mut self, cell: &Cell, extremum: &mut Extremum, scale: Scale) {
         let sign = extremum.sign;
-        let slope = |point: &Point| sign * point.sample.first;
         let mut within = cell.clone();
-        let mut guess = chord(&within, sign);
-        let mut top = if sign * cell.a.sample.value > sign * cell.b.sample.value {
-            Rc::clone(&cell.a)
-        } else {
-            Rc::clone(&cell.b)
-        };
-        for iteration in 0..ITERATIONS {
-            let (from, to) = (within.a.state.t, within.b.state.t);
-            // every third guess bisects, in case the others do not narrow the bounds
-            let t = if iteration % 3 == 2 || !(guess > from && guess < to) { 0.5 * from + 0.5 * to } else { guess };
-            if t <= from || t >= to {
-                break;
-            }
-            let Some(point) = self.point(&within, t) else { break };
-            if sign * point.sample.value >= sign * top.sample.value {
-                top = Rc::clone(&point);
-            }
-            let next = t - point.sample.first / point.sample.second;
-            guess = if next.is_finite() { next } else { f64::NAN };
-            let is_rising = slope(&point) > 0.0;
-            let ends = if is_rising { [&point, &within.b] } else { [&within.a, &point] };
-            within = within.between(ends[0], ends[1]);
-            if !guess.is_finite() {
-                guess = chord(&within, sign);
-            }
-            let is_inside = guess > within.a.state.t && guess < within.b.state.t;
-            let is_close = is_inside && (guess - t).abs() <= CERTAIN * scale.span;
-            if is_close || within.length() <= CERTAIN * scale.span {
-                break;
-            }
-        }
+        let ends = [&cell.a, &cell.b].map(|end| [end.state.t, end.sample.first.abs()]);
+        // a peak may be narrower than any part of the span; where the motion cannot be solved for, the narrowest cell so far counts
+        let _ = enclose_root(ends, power_of_two_below(self.shortest), |t| {
+            let point = self.point(&within, t)?;
+            let (is_behind, slope) = (sign * point.sample.first <= 0.0, point.sample.first.abs());
+            *if is_behind { &mut within.b } else { &mut within.a } = point;
+            Some((is_behind, slope))
+        });
+        let [a, b] = extremum.values(&within);
         // the slope defines the time: values near the top differ by rounding only
-        let is_inside = guess > within.a.state.t && guess < within.b.state.t;
-        let turn = if is_inside { guess } else { within.b.state.t };
-        self.note_turn(cell, &top, turn, extremum, scale);
+        let turn = chord(&within, sign).max(within.a.state.t).min(within.b.state.t);
+        self.note_turn(cell, if a > b { &within.a } else { &within.b }, turn, extremum, scale);
     }
 
     /// Adds a turn at a time (s) near a point as a candidate.
@@ -619,10 +566,10 @@ impl IntervalSearch<'_> {
     /// records it and the top near it.
     fn is_done_by_values(&mut self, cell: &Cell, upper: f64, extremum: &mut Extremum, scale: Scale) -> bool {
         let [a, b] = extremum.values(cell);
-        let is_small = upper <= f64::max(a, b).min(extremum.best) + scale.gap(GAP_OF_VALUES);
+        let is_small = upper <= f64::max(a, b).min(extremum.best) + scale.tolerance();
         if is_small && f64::max(a, b) >= extremum.best - scale.tolerance() {
             let (point, value) = if b > a { (&cell.b, b) } else { (&cell.a, a) };
-            let (t, error, kind) = (point.state.t, scale.gap(GAP_OF_VALUES), CandidateKind::Sample);
+            let (t, error, kind) = (point.state.t, scale.tolerance(), CandidateKind::Sample);
             extremum.add(Candidate { t, time_error: 0.0, value, error, lower: value, kind }, scale);
             if let Some(top) = self.top_near(cell, point, extremum.sign, scale) {
                 extremum.add(top, scale);
@@ -660,7 +607,7 @@ impl IntervalSearch<'_> {
             distance = finest.max(CLOSER * distance);
         }
         let [value] = self.values_at(cell.step, [t], sign)?;
-        let error = scale.gap(GAP_OF_VALUES);
+        let error = scale.tolerance();
         Some(Candidate { t, time_error: 0.0, value, error, lower: value, kind: CandidateKind::Turn })
     }
 

@@ -1,19 +1,16 @@
 //! Refinement of the time of an extremum on a grid, like that of the solver's tearing variables (`crates/runtime/src/grid.rs`): from any start the
 //! formula is sampled at the same times, so that the extremum has the same bits.
 
+use crate::limits::lanes::{BORDER, ITERATIONS};
 use mechc_expr::math::grid::{bound_at_first, going_on, next_point, on_grid};
 use mechc_expr::math::power_of_two_below;
 
 /// Width of a cell of the time grid, as a part of the span, rounded down to a power of two.
-const CELL: f64 = 1.0 / 16_777_216.0;
+pub const CELL: f64 = 1.0 / 16_777_216.0;
 /// Times farther from 0 than this many cells have no grid.
 const MOST_CELLS: f64 = 1_125_899_906_842_624.0;
-/// A correction within this distance of half a cell, in cells, leads to a border of two cells: the rounding of corrections is smaller.
-const BORDER: f64 = 1.0 / 4_096.0;
-/// Maximum number of corrections, two of which may be at a border.
-const ITERATIONS: u32 = 8;
 /// Largest distance of the refined extremum from the start, in cells.
-const FARTHEST: f64 = 4_096.0;
+pub const FARTHEST: f64 = 4_096.0;
 /// Distance on both sides at which slopes are taken for an unknown second derivative, in cells.
 const APART: f64 = 64.0;
 
@@ -48,7 +45,7 @@ pub struct Settling {
     /// The largest correction, in cells, that counts as converged.
     bound: f64,
     /// The number of corrections that are left.
-    left: u32,
+    left: usize,
     /// True if the second derivative of the formula is available.
     has_second: bool,
 }

@@ -4,10 +4,11 @@ use super::curve::{Cell, Curve, Estimate, Point, Shift, Verdict};
 use super::state_sampler::StateSampler;
 use crate::analysis::follow::SmoothSegment;
 use crate::analysis::state::State;
-use crate::limits::extremum::TIMES;
+use crate::limits::extremum::{APART, TIMES};
 use crate::limits::interval_search::{FACTOR, ROUNDING, SHORTEST};
 use mechc_expr::math::{enclose_root, power_of_two_below};
 use mechc_ir::program::Range;
+use std::cmp::Ordering;
 use std::rc::Rc;
 
 /// Maximum number of cells that are divided for one formula; a cell whose middle has to be solved for counts as several.
@@ -18,8 +19,6 @@ const MOST_OF_A_STEP: usize = 4_000;
 const SOLVED: usize = 20;
 /// Longest short cell, as a part of the span.
 const SHORT: f64 = 1e-3;
-/// A guard within rounding matters if the values on both sides of it differ by more than this part of the range.
-const DIFFERENT: f64 = 1e-6;
 /// Longest interval without solution, or with values hidden by rounding, as a part of the span.
 const OPAQUE: f64 = 1e-6;
 /// A value is reliable if rounding changes it by at most this part of itself or of the range.
@@ -114,6 +113,34 @@ impl Notes {
         if self.missing.is_none_or(|earlier| t < earlier) {
             self.missing = Some(t);
         }
+    }
+}
+
+/// A part of a search that takes the largest rank first, and of equal ranks the earliest time.
+pub(super) struct Ranked<T> {
+    pub rank: f64,
+    /// The time (s).
+    pub t: f64,
+    pub item: T,
+}
+
+impl<T> PartialEq for Ranked<T> {
+    fn eq(&self, other: &Ranked<T>) -> bool {
+        self.cmp(other).is_eq()
+    }
+}
+
+impl<T> Eq for Ranked<T> {}
+
+impl<T> PartialOrd for Ranked<T> {
+    fn partial_cmp(&self, other: &Ranked<T>) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl<T> Ord for Ranked<T> {
+    fn cmp(&self, other: &Ranked<T>) -> Ordering {
+        self.rank.total_cmp(&other.rank).then(other.t.total_cmp(&self.t))
     }
 }
 
@@ -312,7 +339,7 @@ impl<'r> IntervalSearch<'r> {
                     _ => return (verdict, range),
                 };
                 let Some(values) = self.values_of_rounding(cell, guard) else { return (verdict, range) };
-                let differ = |value: &f64| (value - values[0]).abs() > DIFFERENT * self.range;
+                let differ = |value: &f64| (value - values[0]).abs() > APART * self.range;
                 let are_alike = !values.iter().any(differ);
                 match verdict {
                     Verdict::Crosses(_) if are_alike => ignored.push(guard),
@@ -398,7 +425,7 @@ impl<'r> IntervalSearch<'r> {
             }
         }
         let jump = (before.sample.value - behind.sample.value).abs();
-        if self.curve.holds_forces && jump > DIFFERENT * self.range {
+        if self.curve.holds_forces && jump > APART * self.range {
             // the time of a load's jump is less accurate than the crossing
             let error = TIMES / SHORTEST * self.shortest;
             self.shift(cell.step, &mut before, -error);

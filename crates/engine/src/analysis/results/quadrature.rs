@@ -2,11 +2,11 @@
 //! without derivatives, from values within (Lobatto and Kronrod).
 
 use super::curve::{Cell, Estimate, Point, Verdict};
-use super::interval_search::{IntervalSearch, NoValueCause, Scale};
+use super::interval_search::{IntervalSearch, NoValueCause, Ranked, Scale};
 use crate::limits::curve::NOTHING;
+use crate::limits::interval_search::LEAST_GROWTH;
 use crate::limits::quadrature::{ACCURACY, ROUNDING};
 use mechc_expr::math::{integral_of_quintic, log10, pow};
-use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
 /// Safety factor of the error of a cell, relative to the improvement by halving it.
@@ -27,8 +27,6 @@ const STEEPEST: f64 = 0.95;
 const POLE_DISTANCE: f64 = 1e-8;
 /// Two growth factors that differ by at most this belong to one power.
 const ALIKE: f64 = 1e-5;
-/// Smallest growth factor at a pole when the distance is halved.
-const LEAST_GROWTH: f64 = 1.03;
 /// Uncertainty of an integral near a pole, as a part of what the shortest cell may hold.
 const PART_OF_POLE: f64 = 0.02;
 
@@ -114,36 +112,12 @@ impl Integral {
     }
 }
 
-/// A divided cell with the estimate of the integral over it.
+/// A divided cell with the estimate of the integral over it; its rank is the error bound of that.
 struct Part {
     halves: [Cell; 2],
-    /// The first time (s) of the cell.
-    from: f64,
     /// The length (s) of the cell.
     length: f64,
     sum: f64,
-    error: f64,
-}
-
-impl PartialEq for Part {
-    fn eq(&self, other: &Part) -> bool {
-        self.cmp(other).is_eq()
-    }
-}
-
-impl Eq for Part {}
-
-impl PartialOrd for Part {
-    fn partial_cmp(&self, other: &Part) -> Option<Ordering> {
-        Some(self.cmp(other))
-    }
-}
-
-impl Ord for Part {
-    /// Orders parts by their error bounds; among equal ones the earlier part is greater.
-    fn cmp(&self, other: &Part) -> Ordering {
-        self.error.total_cmp(&other.error).then(other.from.total_cmp(&self.from))
-    }
 }
 
 impl IntervalSearch<'_> {
@@ -163,11 +137,11 @@ impl IntervalSearch<'_> {
                 integral.error += jump * behind.shift.time;
             }
         }
-        let is_open = |parts: &BinaryHeap<Part>, integral: &Integral| {
+        let is_open = |parts: &BinaryHeap<Ranked<Part>>, integral: &Integral| {
             let (mut error, mut size) = (0.0, 0.0);
-            for part in parts {
-                error += part.error;
-                size += if part.error.is_finite() { (part.sum - usual * part.length).abs() } else { 0.0 };
+            for Ranked { rank, item: part, .. } in parts {
+                error += rank;
+                size += if rank.is_finite() { (part.sum - usual * part.length).abs() } else { 0.0 };
             }
             let is_inaccurate = error > f64::max(ACCURACY * size, ROUNDING * scale.weight * scale.span).max(NOTHING);
             is_inaccurate && integral.unbounded_with(size).is_none()
@@ -183,23 +157,23 @@ impl IntervalSearch<'_> {
             }
             left -= 1;
             let Some(part) = parts.pop() else { break };
-            for cell in part.halves {
+            for cell in part.item.halves {
                 self.take(cell, &mut parts, integral);
             }
         }
         let mut parts = parts.into_vec();
-        parts.sort_unstable_by(|a, b| a.from.total_cmp(&b.from));
-        for part in parts {
-            if self.notes.are_exhausted() && part.error == f64::INFINITY {
-                self.notes.fail(NoValueCause::Unknown(part.from));
+        parts.sort_unstable_by(|a, b| a.t.total_cmp(&b.t));
+        for Ranked { rank: error, t, item: part } in parts {
+            if self.notes.are_exhausted() && error == f64::INFINITY {
+                self.notes.fail(NoValueCause::Unknown(t));
             }
-            integral.add(part.sum, part.error, part.length);
+            integral.add(part.sum, error, part.length);
         }
     }
 
     /// Integrates over a cell, which is divided where guards cross their thresholds. What may need refinement is added to `parts`, the rest to
     /// `integral`.
-    fn take(&mut self, cell: Cell, parts: &mut BinaryHeap<Part>, integral: &mut Integral) {
+    fn take(&mut self, cell: Cell, parts: &mut BinaryHeap<Ranked<Part>>, integral: &mut Integral) {
         let mut open = vec![cell];
         while let Some(mut cell) = open.pop() {
             let h = cell.length();
@@ -252,7 +226,7 @@ impl IntervalSearch<'_> {
                 let by_rule = if is_smooth { rule.error - rounding } else { f64::INFINITY };
                 error = by_rule.min((range.high - range.low) * h).max(0.0);
             }
-            parts.push(Part { halves, from: cell.a.state.t, length: h, sum, error });
+            parts.push(Ranked { rank: error, t: cell.a.state.t, item: Part { halves, length: h, sum } });
         }
     }
 

@@ -10,14 +10,12 @@ use super::state_sampler::StateSampler;
 use crate::analysis::follow::SmoothSegment;
 use crate::analysis::state::{State, shortly_after};
 use crate::limits::curve::ROUNDING;
-use crate::limits::extremum::TIMES;
+use crate::limits::extremum::{APART, TIMES};
 use crate::limits::interval_search::{FACTOR, SHORTEST};
 use mechc_expr::math::median;
 use mechc_ir::ReductionKind;
 use std::rc::Rc;
 
-/// A value without certain digits is 0 if its error is at most this part of the largest value so far.
-const SMALL: f64 = 1e-6;
 /// Larger values overflow.
 const LARGEST: f64 = 1e300;
 
@@ -202,7 +200,7 @@ impl FormulaReductions {
     /// `deviation`, the usual difference of values.
     fn is_uncertain(&self, estimate: Estimate, deviation: f64, scale: Scale) -> bool {
         let usual = median(self.samples.iter().map(|estimate| estimate.value.abs()).collect());
-        estimate.certain_digits() == 0 && estimate.error > SMALL * usual.max(scale.weight).max(deviation)
+        estimate.certain_digits() == 0 && estimate.error > APART * usual.max(scale.weight).max(deviation)
     }
 
     /// Evaluates the formula at the requested times that lie in a step.

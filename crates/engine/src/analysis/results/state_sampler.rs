@@ -5,17 +5,15 @@ use super::sensitivities::Sensitivities;
 use crate::analysis::follow::{SelectedRows, SingleRow, SmoothSegment, quintic_between, state_of_row};
 use crate::analysis::state::{Kinematics, State};
 use crate::solver::{Batch, Solver};
-use mechc_expr::math::along;
+use mechc_expr::math::{GOLDEN, along};
 use mechc_ir::program::{Ranges, Register, Stage};
 use rustc_hash::FxHashMap;
 use std::sync::Arc;
 
 /// Maximum number of corrections of a position, where the solver cannot be used.
 const ITERATIONS: usize = 10;
-/// Fraction of a step at which its dense output is verified; no symmetry of the motion maps it to the middle. The output is rejected if
-/// a moving quantity deviates by more than `LITTLE` of itself, and by more than a parabola could.
-const WITHIN: f64 = 0.381_966;
-/// Largest deviation of a state from the dense output of its step, as a part of its size.
+/// Largest deviation of a moving quantity from the dense output of its step, as a part of its size, unless a parabola could deviate as much. It is
+/// verified at the golden section, which no symmetry of the motion maps to the middle.
 const LITTLE: f64 = 1e-9;
 /// A position closer to a singular one than this is taken from the bridge across it.
 const SOLVABLE: f64 = 4e-3;
@@ -205,7 +203,7 @@ impl StateSampler {
         let SmoothSegment { from, to, bridge: None, .. } = segment else { return None };
         let h = to.t - from.t;
         self.enter(segment);
-        let within = self.solve(segment, [from, to], from.t + WITHIN * h)?;
+        let within = self.solve(segment, [from, to], from.t + (1.0 - GOLDEN) * h)?;
         let x = (within.t - from.t) / h;
         let deviates = |k: usize| {
             let (a, b) = (from.tower(k), to.tower(k));

@@ -1,12 +1,10 @@
 //! Least squares: brings equations as near to zero as possible; they may be more or fewer than their unknowns, or contradict each other (K.
 //! Levenberg, 1944; D. Marquardt, 1963). Dense: for parts of a mechanism, and never in the time loop.
 
-use crate::limits::assembly::LARGEST_STEP;
+use crate::limits::assembly::{LARGEST_STEP, MOST_STEPS};
 use mechc_expr::math;
 use mechc_ir::ConstraintSystem;
 
-/// Maximum number of steps.
-const STEPS: usize = 300;
 /// Initial damping.
 const DAMPING: f64 = 1e-3;
 /// Largest damping; beyond it no step helps.
@@ -85,7 +83,7 @@ pub fn minimize(
     let mut now = linear(q, weights)?;
     let weights = now.weights.clone();
     let mut damping = DAMPING;
-    for _ in 0..STEPS {
+    for _ in 0..MOST_STEPS {
         let size = square(&now.residual);
         if size.sqrt() < CLOSED {
             break;

@@ -7,12 +7,9 @@ use super::{LANES, PerLane, ZERO};
 use crate::analysis::course::{Tower, find_bends};
 use crate::solver::VariantLanes;
 use mechc_expr::math::{along, quintic};
-use std::array::from_fn;
 
 /// Number of ways in which the size of terms is estimated.
 const WAYS: usize = 3;
-/// The size of terms is estimated at every this many steps.
-const EVERY: usize = 4;
 
 /// The states of a batch at all its steps.
 #[derive(Default)]
@@ -60,11 +57,8 @@ impl StepHistory {
             let tower = queries.tower(quantity, registers);
             let magnitude = &mut self.term_magnitudes[quantity].0;
             magnitude.iter_mut().zip(tower[0].0).for_each(|(largest, value)| *largest = largest.max(value.abs()));
-            if number.is_multiple_of(EVERY) {
-                let direction = number / EVERY % WAYS;
-                let terms = queries.term_magnitude(quantity, &tower[0], registers, solution, direction);
-                magnitude.iter_mut().zip(terms.0).for_each(|(largest, term)| *largest = largest.max(term));
-            }
+            let terms = queries.term_magnitude(quantity, &tower[0], registers, solution, number % WAYS);
+            magnitude.iter_mut().zip(terms.0).for_each(|(largest, term)| *largest = largest.max(term));
             self.towers.push(tower);
         }
     }
@@ -72,34 +66,12 @@ impl StepHistory {
     /// Writes the guesses for Newton at a time of each lane (s): the quintics of the tears over their steps.
     pub fn write_guesses(&self, times: &[f64; LANES], guesses: &mut [PerLane]) {
         let count = guesses.len();
-        if times.iter().all(|t| t.to_bits() == times[0].to_bits()) {
-            self.write_guesses_at(times[0], guesses);
-            return;
-        }
         for (lane, &t) in times.iter().enumerate() {
             let step = self.step_at(t);
             let (from, h) = (self.times[step], self.times[step + 1] - self.times[step]);
             for (tear, guess) in guesses.iter_mut().enumerate() {
                 let ends = [step, step + 1].map(|step| self.tears[step * count + tear].map(|values| values.0[lane]));
                 guess.0[lane] = along(&quintic(ends[0], ends[1], h), (t - from) / h);
-            }
-        }
-    }
-
-    /// Writes the guesses at one time of all lanes (s), for which the weights of the quintic are computed once.
-    fn write_guesses_at(&self, t: f64, guesses: &mut [PerLane]) {
-        let (count, step) = (guesses.len(), self.step_at(t));
-        let (from, h) = (self.times[step], self.times[step + 1] - self.times[step]);
-        let weights: [f64; 6] = from_fn(|k| {
-            let mut ends = [[0.0; 3]; 2];
-            ends[k / 3][k % 3] = 1.0;
-            along(&quintic(ends[0], ends[1], h), (t - from) / h)
-        });
-        for (tear, guess) in guesses.iter_mut().enumerate() {
-            let [a, b] = [step, step + 1].map(|step| &self.tears[step * count + tear]);
-            for (lane, guess) in guess.0.iter_mut().enumerate() {
-                let ends = [a[0].0[lane], a[1].0[lane], a[2].0[lane], b[0].0[lane], b[1].0[lane], b[2].0[lane]];
-                *guess = ends.iter().zip(&weights).map(|(value, weight)| value * weight).sum();
             }
         }
     }

@@ -4,6 +4,7 @@ use super::{LISTED, at, degrees, gap_kind, length, with_places};
 use crate::analysis::explain::freedom::Freedom;
 use crate::analysis::explain::redundancy::Dependent;
 use crate::analysis::explain::sharing::Shared;
+use crate::limits::explain::MOST_NAMED;
 use mechc_expr::ExprId;
 use mechc_ir::{ConstraintSystem, CoordinateKind, Declaration, DeclarationId, DeclarationKind, JointKind, PointId};
 use mechc_text::diag::{Code, Diagnostic, Diagnostics};
@@ -332,8 +333,6 @@ pub fn does_not_hold(system: &ConstraintSystem, index: usize, t: f64) -> Diagnos
 const NOTHING_TO_MOVE: [&str; 2] = ["has nothing left to move", "have nothing left to move"];
 /// Largest number of redundant declarations in a headline.
 const MAX_LISTED_FAULTS: usize = 2;
-/// Largest number of movable bodies that are marked.
-const MAX_LISTED_BODIES: usize = 3;
 
 /// Adds the free motions to the diagnostic of a system with too few equations.
 pub fn too_few(mut diagnostic: Diagnostic, system: &ConstraintSystem, freedom: &Freedom) -> Diagnostic {
@@ -367,7 +366,7 @@ pub fn too_many_and_too_few(system: &ConstraintSystem, dependents: &[Dependent],
     for (_, stuck) in &groups {
         diagnostic = with_places(diagnostic, system, stuck, NOTHING_TO_MOVE);
     }
-    for &body in freedom.moving().iter().take(MAX_LISTED_BODIES) {
+    for &body in freedom.moving().iter().take(MOST_NAMED) {
         diagnostic = diagnostic.also(system.bodies()[body].span, "can still move");
     }
     let (n, m) = (system.coordinates().len(), system.rows().len());

@@ -10,10 +10,8 @@ use std::rc::Rc;
 /// Largest amplification of the uncertainty of a load by a formula.
 const MAX_AMPLIFICATION: f64 = 1e200;
 /// Factor by which a second or third derivative may deviate from a straight line between two states, relative to the deviation that
-/// follows from the lower derivative at both; a parabola has 1.5.
+/// follows from the lower derivative at both; a parabola has 1.5. In a part of a cell the deviation falls with the square of the part, up to this factor.
 const SAFETY: f64 = 2.0;
-/// Factor of the deviation in a part of a cell, which falls with the square of the part.
-const LESS: f64 = 2.0;
 
 /// The interval between two points of one step of the motion.
 #[derive(Clone)]
@@ -227,7 +225,7 @@ impl Curve {
         let previous = |k: usize| cell.deviations.as_ref().map_or([f64::INFINITY; 2], |deviations| deviations[k]);
         // in very short cells differences are rounding; the deviation in a part of a cell falls with the square of its length
         let part = h / cell.measured_length;
-        let less = f64::min(LESS * part * part, 1.0);
+        let less = f64::min(SAFETY * part * part, 1.0);
         let of = |(k, of): (usize, &Moving)| {
             let (a, b) = (&cell.a.moving[k], &cell.b.moving[k]);
             let error = |order: usize| ((b[order - 1] - a[order - 1]) / h - 0.5 * (a[order] + b[order])).abs();

@@ -1,7 +1,7 @@
 //! Scaling and factoring of the blocks.
 
 use super::factors::{Factors, borne_out};
-use super::{BlockLu, Factored, Form, LARGEST_DENSE, Part};
+use super::{BlockLu, Factored, Form, LARGEST_BLOCK, Part};
 use crate::analysis::state::dense::factor_dense;
 use crate::analysis::state::sparse::Plan;
 use crate::limits::solver::LARGEST_MULTIPLIER;
@@ -91,7 +91,7 @@ impl BlockLu {
                 pivots.map(|(row, column, pivot)| judged(row, column, pivot)).fold(f64::INFINITY, smaller)
             }
             Form::Dense => {
-                let mut rows: [usize; LARGEST_DENSE] = std::array::from_fn(|row| row);
+                let mut rows: [usize; LARGEST_BLOCK] = std::array::from_fn(|row| row);
                 let mut least = f64::INFINITY;
                 for (place, &other) in self.pivots[part.at..part.at + part.size].iter().enumerate() {
                     rows.swap(place, other as usize);

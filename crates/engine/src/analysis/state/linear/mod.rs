@@ -7,8 +7,6 @@
 
 /// Number of coordinates of a block that is no chain yet.
 const A_FEW: f64 = 24.0;
-/// Largest block that is factored densely.
-const LARGEST_DENSE: usize = 100;
 
 /// The factors, borrowed separately from the workspace.
 macro_rules! factors {
@@ -36,6 +34,7 @@ mod solve;
 use super::determinant::Determinant;
 use super::equilibration::Equilibration;
 use super::sparse::Plan;
+use crate::limits::solver::LARGEST_BLOCK;
 use factors::Factors;
 use mechc_expr::{Dependence, ExprId, Symbol};
 use mechc_ir::structure::Block;
@@ -97,7 +96,7 @@ impl Part {
     }
 
     fn is_small(&self) -> bool {
-        self.size <= LARGEST_DENSE
+        self.size <= LARGEST_BLOCK
     }
 }
 
