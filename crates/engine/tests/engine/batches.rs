@@ -188,7 +188,7 @@ fn forces_are_batched() {
 fn evaluated_points_match_single_queries() {
     let text = four_bar("turn", "0.5").replace("param base", "input turn = 0.5 + 2 * t param base");
     let text = text.replace("measure reach", "measure drift = der(rotation(main)) * (1 + t) measure reach");
-    let checked = Parsed::new("text.mech", text).check(&Choice::default(), &Memory::default());
+    let checked = Parsed::new("text.mech", &text).check(&Choice::default(), &Memory::default());
     for (t, has_accelerations) in [(0.0, false), (0.0, true), (1.25, false), (1.25, true)] {
         let options = EvaluatorOptions {
             inputs: vec!["turn".to_owned()],

@@ -25,15 +25,16 @@ pub struct SignalBounds {
 impl SignalBounds {
     /// Returns the signals without conditions, with bounds from their effect on the equations of a state.
     pub fn new(kinematics: &mut Kinematics, state: &State) -> SignalBounds {
-        SignalBounds::and(Vec::new(), kinematics, state)
+        SignalBounds::build(kinematics, state, Vec::new())
     }
 
     /// Returns the signals with the conditions that time alone decides.
     pub fn with_conditions(kinematics: &mut Kinematics, state: &State) -> SignalBounds {
-        SignalBounds::and(kinematics.conditions_of_time(), kinematics, state)
+        let conditions = kinematics.conditions_of_time();
+        SignalBounds::build(kinematics, state, conditions)
     }
 
-    fn and(conditions: Vec<Register>, kinematics: &mut Kinematics, state: &State) -> SignalBounds {
+    fn build(kinematics: &mut Kinematics, state: &State, conditions: Vec<Register>) -> SignalBounds {
         let all = kinematics.signals();
         kinematics.restore(state);
         // explicit equations have no branches: only a formula may end there

@@ -56,8 +56,8 @@ impl LaneSignals {
                         let counts = rejections.0.part_mut::<CHUNK>(chunk);
                         for k in 0..CHUNK {
                             let (least, most) = if a[k] < b[k] { (a[k], b[k]) } else { (b[k], a[k]) };
-                            let keeps_within = (high[k] - most <= bound) & (least - low[k] <= bound);
-                            counts[k] += if keeps_within { 0.0 } else { 1.0 };
+                            let (is_below, is_above) = (high[k] - most <= bound, least - low[k] <= bound);
+                            counts[k] += if is_below & is_above { 0.0 } else { 1.0 };
                         }
                     }
                 }
