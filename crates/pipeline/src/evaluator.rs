@@ -19,7 +19,7 @@ use std::sync::Arc;
 pub struct EvaluatorOptions {
     /// Names of the inputs that queries set.
     pub inputs: Vec<String>,
-    /// True if inputs may have accelerations; if not, accelerations of queries are ignored, and points can be evaluated in lanes.
+    /// True if inputs may have accelerations; if not, accelerations of queries are ignored.
     pub has_accelerations: bool,
     /// Names of the params that queries set.
     pub params: Vec<String>,
@@ -145,7 +145,9 @@ impl Checked {
             });
         }
         let nominal = Bindings::new(model);
-        let batch = BatchEvaluator::new(model.continued.iter().filter_map(|param| param.param).collect());
+        let rates_of = |&first: &usize| (first as u32 + 2..).take(if adjusting.has_accelerations { 2 } else { 1 });
+        let continued = model.continued.iter().filter_map(|param| param.param).collect();
+        let batch = BatchEvaluator::new(continued, inputs.iter().flat_map(rates_of).collect());
         let params = self.params_to_adjust(&adjusting.params)?.map(|params| Binder::new(&checked, &params));
         let (source, redundant) = (checked.clone(), adjusting.redundant);
         let continuation = Continuation::new(move |options| source.nominal(redundant, options));

@@ -77,6 +77,8 @@ impl<S: CodeContext> Printer<'_, S> {
                 self.line(indent, self.context.act(instruction, &value), text);
             }
             Instruction::Store { column, a } => self.store(column, a, indent, text),
+            // code monitors branches by itself
+            Instruction::Monitor { .. } => {}
         }
     }
 

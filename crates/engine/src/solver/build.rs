@@ -52,9 +52,10 @@ pub(super) fn build(
     builder.store_outputs(&outputs[shared]);
     all.append(builder.finish_component(is_kept), purpose);
     let Builder { weights, tears, pivots, turns, layout, .. } = builder;
+    let monitors = if purpose == Purpose::Variants { system.monitors().len() } else { 0 };
     let (prologue_len, all) = (all.prologue.len(), all.with_prologue_first());
     let Component { instructions, segments, registers, .. } = all;
-    Some(Solver { instructions, prologue_len, segments, registers, weights, tears, pivots, turns, layout })
+    Some(Solver { instructions, prologue_len, segments, registers, weights, tears, pivots, turns, monitors, layout })
 }
 
 impl Component {
@@ -351,9 +352,16 @@ impl<'s, V: Values> Builder<'s, V> {
         }
     }
 
-    /// Stores the requested outputs of a component: reactions, measures and appended columns.
+    /// Stores the requested outputs of a component: reactions, measures and appended columns; for variants emits its monitors.
     fn store_outputs(&mut self, requested: &ComponentOutputs) {
         let outputs = &self.program.outputs;
+        if self.is_for_variants() {
+            for &k in &requested.monitors {
+                let value = self.symbolic.value(outputs.watches[k]);
+                let a = self.symbolic.tape.register(value);
+                self.symbolic.tape.emit(Instruction::Monitor { a, monitor: k as u32 });
+            }
+        }
         for &k in &requested.reactions {
             let value = self.symbolic.value(outputs.reactions[k]);
             self.symbolic.tape.store(self.layout.reactions + k as u32, value);
@@ -449,6 +457,10 @@ impl<'s, V: Values> Builder<'s, V> {
     /// Returns whether shared outputs read a column. In code only these third derivatives and variations are stored.
     pub(super) fn is_shared(&self, column: u32) -> bool {
         self.shared_columns.contains(&column)
+    }
+
+    pub(super) fn is_for_variants(&self) -> bool {
+        self.purpose == Purpose::Variants
     }
 
     pub(super) fn is_for_code(&self) -> bool {

@@ -21,10 +21,12 @@ pub(super) struct ComponentOutputs {
     pub measures: Vec<usize>,
     /// Columns of appended derivatives.
     pub appended: Vec<usize>,
+    /// Monitors of the branch, which have no columns.
+    pub monitors: Vec<usize>,
 }
 
 impl ComponentOutputs {
-    /// Returns the formulas of all outputs.
+    /// Returns the formulas of all outputs with columns.
     pub fn formulas(&self, system: &ConstraintSystem) -> Vec<ExprId> {
         let reactions = self.reactions.iter().map(|&k| system.reactions()[k].value);
         let measures = self.measures.iter().flat_map(|&k| {
@@ -90,6 +92,9 @@ impl Partition {
         }
         for (k, column) in system.derivative_columns().iter().enumerate() {
             outputs[self.component_of(system, [column.value])].appended.push(k);
+        }
+        for (k, monitor) in system.monitors().iter().enumerate() {
+            outputs[self.component_of(system, [monitor.value])].monitors.push(k);
         }
         outputs
     }

@@ -22,6 +22,8 @@ pub enum Instruction {
     Multiplier { to: Register, a: Register, b: Register, weight: u32 },
     /// The inverse of a pivot, given by its number. The sign of the product of a block's pivots distinguishes its branches.
     Pivot { a: Register, pivot: u32 },
+    /// A monitor, given by its number, whose sign distinguishes branches; only in lanes of variants.
+    Monitor { a: Register, monitor: u32 },
     /// The residual of a row of `Φ`, which is checked.
     Residual { a: Register, row: u32 },
     /// Stores a result in a column.
@@ -54,9 +56,10 @@ impl Instruction {
                 (*a, *b) = (read(*a), read(*b));
                 *to = write(*to);
             }
-            Instruction::Residual { a, .. } | Instruction::Pivot { a, .. } | Instruction::Store { a, .. } => {
-                *a = read(*a);
-            }
+            Instruction::Residual { a, .. }
+            | Instruction::Pivot { a, .. }
+            | Instruction::Monitor { a, .. }
+            | Instruction::Store { a, .. } => *a = read(*a),
         }
         self
     }

@@ -21,6 +21,7 @@ impl Solver {
                 | Instruction::Time { .. }
                 | Instruction::Multiplier { .. }
                 | Instruction::Pivot { .. }
+                | Instruction::Monitor { .. }
                 | Instruction::Residual { .. } => {}
             }
             for &register in instruction.writes().iter() {

@@ -83,6 +83,8 @@ pub(super) trait LaneEnvironment<const P: usize> {
     fn inverse_bound(&self, row: u32) -> f64;
     /// Records the inverse of a pivot.
     fn note_pivot(&mut self, pivot: u32, chunk: usize, inverse: &[f64; P]);
+    /// Records the value of a monitor.
+    fn note_monitor(&mut self, monitor: u32, chunk: usize, value: &[f64; P]);
     /// Returns the largest correction, in cells, with which Newton ends if bits do not matter; 0 if only the grid point next to the solution will do.
     fn loose_bound(&self) -> f64;
 }
@@ -309,6 +311,9 @@ impl<const W: usize, const P: usize> LaneEnvironment<P> for TimesEnvironment<'_,
     fn note_pivot(&mut self, _: u32, _: usize, _: &[f64; P]) {}
 
     #[inline(always)]
+    fn note_monitor(&mut self, _: u32, _: usize, _: &[f64; P]) {}
+
+    #[inline(always)]
     fn loose_bound(&self) -> f64 {
         0.0
     }
@@ -452,6 +457,9 @@ impl<A: LaneEnvironment<P>, const W: usize, const P: usize> Run<'_, A, W, P> {
             match *instruction {
                 Instruction::Compute(_) => {}
                 Instruction::Pivot { a, pivot } => by_chunk!(chunk, env.note_pivot(pivot, chunk, &machine.read(a))),
+                Instruction::Monitor { a, monitor } => {
+                    by_chunk!(chunk, env.note_monitor(monitor, chunk, &machine.read(a)));
+                }
                 Instruction::Number { to, bits } => by_chunk!(chunk, machine.write(to, [from_bits(bits); P])),
                 Instruction::Load { to, from } => by_chunk!(chunk, machine.write(to, env.loaded(from, chunk))),
                 Instruction::Time { to } => by_chunk!(chunk, machine.write(to, env.times(chunk))),

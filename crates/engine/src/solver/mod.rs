@@ -69,6 +69,8 @@ pub struct Solver {
     /// The variable pivots; empty for [`Purpose::Lanes`].
     pivots: Vec<Pivot>,
     turns: Vec<Turn>,
+    /// The number of monitors; 0 unless the purpose is [`Purpose::Variants`].
+    monitors: usize,
     layout: RowLayout,
 }
 
@@ -194,7 +196,7 @@ impl Tear {
 enum Purpose {
     /// Lanes at several times: registers are reused.
     Lanes,
-    /// Lanes of several variants: registers are reused, the pivots are recorded, and every multiplier is checked.
+    /// Lanes of several variants: registers are reused, pivots and monitors are recorded, and every multiplier is checked.
     Variants,
     /// Emitted code: the pivots, which distinguish branches, are recorded, and every value has its own register.
     Code,
@@ -222,8 +224,8 @@ impl Solver {
         build::build(determined, program, reference, Purpose::Code, &|_| true)
     }
 
-    /// Generates a solver for lanes of variants, with the operations of [`Solver::new`], which records the pivots and computes only what the
-    /// requested columns depend on. Returns `None` if that takes too many instructions.
+    /// Generates a solver for lanes of variants, with the operations of [`Solver::new`], which records pivots and monitors and computes only what
+    /// these and the requested columns depend on. Returns `None` if that takes too many instructions.
     #[must_use]
     pub(crate) fn for_variants(
         determined: &Determined,

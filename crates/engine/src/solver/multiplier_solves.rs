@@ -41,7 +41,7 @@ impl<V: Values> Builder<'_, V> {
             let solution: Vec<Value> = factors.solve_transposed(&mut self.symbolic.tape, sums);
             for (&row, &value) in block.rows.iter().zip(&solution) {
                 self.symbolic.define(unknown + row, value);
-                if self.is_shared(column + row) {
+                if self.is_shared(column + row) || self.is_for_variants() {
                     self.symbolic.tape.store(column + row, value);
                 }
                 for (at, other) in self.entries_outside(block, row) {

@@ -28,8 +28,9 @@ struct VariantOutputs<const W: usize> {
     kept: Vec<LaneValues<W>>,
     /// The row that is written and read.
     row: usize,
-    /// By turn of the solver: the product of the inverse pivots, which is the inverse of the determinant up to a constant sign.
-    determinants: Vec<LaneValues<W>>,
+    /// By turn of the solver: the product of the inverse pivots, which is the inverse of the determinant up to a constant sign; then by
+    /// monitor: its value.
+    branch_values: Vec<LaneValues<W>>,
     /// The largest scaled inverse of a pivot.
     max_inverse_pivots: LaneValues<W>,
 }
@@ -78,10 +79,10 @@ impl<const W: usize> VariantLanes<W> {
             }
         }
         let zero = LaneValues([0.0; W]);
-        let (kept, determinants) = (vec![zero; count as usize], vec![zero; solver.turns.len()]);
+        let (kept, branch_values) = (vec![zero; count as usize], vec![zero; solver.turns.len() + solver.monitors]);
         VariantLanes {
             lanes: Lanes::new(solver, vectors),
-            outputs: VariantOutputs { slots, kept, row: 0, determinants, max_inverse_pivots: zero },
+            outputs: VariantOutputs { slots, kept, row: 0, branch_values, max_inverse_pivots: zero },
         }
     }
 
@@ -89,7 +90,7 @@ impl<const W: usize> VariantLanes<W> {
     /// rows, where they stay until the next call.
     pub fn load(&mut self, solver: &Solver, program: (&Program, &Registers), loaded: &[LaneValues<W>], chunks: usize) {
         let batch = VariantBatch { times: [0.0; W], tears: &[], loaded, bounds: &[], chunks, loose_bound: 0.0 };
-        let env = VariantsEnvironment { batch: &batch, pivots: &solver.pivots, outputs: &mut self.outputs };
+        let env = VariantsEnvironment { batch: &batch, solver, outputs: &mut self.outputs };
         self.lanes.run_prologue::<CHUNK>(solver, program, env);
         for column in solver.prologue_columns() {
             let (value, rows) = (*self.column(column), self.outputs.rows_of(column));
@@ -100,9 +101,9 @@ impl<const W: usize> VariantLanes<W> {
     /// Solves for all variants; their parameters must have been loaded.
     pub fn run(&mut self, solver: &Solver, program: (&Program, &Registers), batch: &VariantBatch<'_, W>) {
         let outputs = &mut self.outputs;
-        outputs.determinants.fill(LaneValues([1.0; W]));
+        outputs.branch_values.fill(LaneValues([1.0; W]));
         outputs.max_inverse_pivots = LaneValues([0.0; W]);
-        self.lanes.solve::<CHUNK>(solver, program, VariantsEnvironment { batch, pivots: &solver.pivots, outputs });
+        self.lanes.solve::<CHUNK>(solver, program, VariantsEnvironment { batch, solver, outputs });
     }
 
     /// Increments the count of each lane that is rejected: Newton has not converged, a residual exceeds its bound, a multiplier is too close to its
@@ -125,10 +126,11 @@ impl<const W: usize> VariantLanes<W> {
         &self.outputs.max_inverse_pivots
     }
 
-    /// Returns by turn of the solver the inverse of the block's determinant, up to a constant sign.
+    /// Returns the values whose signs distinguish branches: by turn of the solver the inverse of the block's determinant, up to a constant
+    /// sign; then by monitor its value.
     #[must_use]
-    pub fn determinants(&self) -> &[LaneValues<W>] {
-        &self.outputs.determinants
+    pub fn branch_values(&self) -> &[LaneValues<W>] {
+        &self.outputs.branch_values
     }
 
     /// Selects the kept row that is written and read from now on.
@@ -168,7 +170,7 @@ impl<const W: usize> VariantOutputs<W> {
 /// Several variants, with the inputs and outputs of a run.
 struct VariantsEnvironment<'r, const W: usize> {
     batch: &'r VariantBatch<'r, W>,
-    pivots: &'r [Pivot],
+    solver: &'r Solver,
     outputs: &'r mut VariantOutputs<W>,
 }
 
@@ -220,8 +222,8 @@ impl<const W: usize> LaneEnvironment<CHUNK> for VariantsEnvironment<'_, W> {
 
     #[inline(always)]
     fn note_pivot(&mut self, pivot: u32, chunk: usize, inverse: &[f64; CHUNK]) {
-        let Pivot { turn, weight } = self.pivots[pivot as usize];
-        let of_block = &mut self.outputs.determinants[turn as usize];
+        let Pivot { turn, weight } = self.solver.pivots[pivot as usize];
+        let of_block = &mut self.outputs.branch_values[turn as usize];
         let mut determinants = *of_block.part::<CHUNK>(chunk);
         let mut max_inverse_pivots = *self.outputs.max_inverse_pivots.part::<CHUNK>(chunk);
         for k in 0..CHUNK {
@@ -230,5 +232,10 @@ impl<const W: usize> LaneEnvironment<CHUNK> for VariantsEnvironment<'_, W> {
         }
         *of_block.part_mut(chunk) = determinants;
         *self.outputs.max_inverse_pivots.part_mut(chunk) = max_inverse_pivots;
+    }
+
+    #[inline(always)]
+    fn note_monitor(&mut self, monitor: u32, chunk: usize, value: &[f64; CHUNK]) {
+        *self.outputs.branch_values[self.solver.turns.len() + monitor as usize].part_mut(chunk) = *value;
     }
 }

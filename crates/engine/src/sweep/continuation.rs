@@ -1,7 +1,7 @@
 //! Continuation from the nominal parameters of a mechanism, those of its text, to those of a variant, along the branch. A variant's start
 //! depends on its own parameters alone, not on the other variants of a sweep.
 
-use crate::analysis::{self, ContinuationOptions, Horizon, Solving, Started, Stop, Unassembled, Warning};
+use crate::analysis::{self, ContinuationOptions, Horizon, SignalBounds, Solving, Started, Stop, Unassembled, Warning};
 use crate::solver::Solver;
 use mechc_ir::ConstraintSystem;
 use mechc_ir::program::Program;
@@ -58,8 +58,9 @@ pub struct ContinuationBase {
     continued_params: Vec<u32>,
     /// True if time changes along a path.
     time_varies: bool,
-    /// True if the equations are smooth all along every path.
-    is_smooth: bool,
+    /// The terms of the equations that the fraction of a path alone decides, not linearly; `None` if the equations are not smooth along every
+    /// path.
+    signals: Option<SignalBounds>,
     options: ContinuationOptions,
 }
 
@@ -96,9 +97,10 @@ impl ContinuationBase {
     ) -> Result<ContinuationBase, Box<Stop>> {
         let (nominal_params, nominal) =
             (compiled.determined.system().param_values(), Configuration::from_started(started));
-        let path_start = analysis::start_of_paths(&path_system.determined, &path_system.program, &nominal.q, &options)?;
-        // a path that bends may turn back between its ends
-        let (is_smooth, path_start) = (path_start.is_plain(), Configuration::from_started(&path_start));
+        let mut path_start =
+            analysis::start_of_paths(&path_system.determined, &path_system.program, &nominal.q, &options)?;
+        let signals = path_start.is_smooth().then(|| path_start.signal_bounds());
+        let path_start = Configuration::from_started(&path_start);
         Ok(ContinuationBase {
             compiled,
             nominal_params,
@@ -107,7 +109,7 @@ impl ContinuationBase {
             path_start,
             continued_params,
             time_varies,
-            is_smooth,
+            signals,
             options,
         })
     }
@@ -117,9 +119,37 @@ impl ContinuationBase {
         (&self.compiled, &self.nominal_params)
     }
 
+    /// Returns the first time of the nominal configuration (s).
+    pub(super) fn nominal_time(&self) -> f64 {
+        self.options.t
+    }
+
     /// Returns whether paths change all of `params` (indices) and are free of events, so that batches may follow them.
     pub(super) fn is_smooth_in(&self, params: &[u32]) -> bool {
-        self.is_smooth && !self.time_varies && params.iter().all(|param| self.continued_params.contains(param))
+        self.signals.is_some() && params.iter().all(|param| self.continued_params.contains(param))
+    }
+
+    /// Returns the terms of the equations that the fraction of a path alone decides, not linearly; `None` if these are not smooth along every
+    /// path.
+    pub(super) fn signals_on_path(&self) -> Option<&SignalBounds> {
+        self.signals.as_ref()
+    }
+
+    /// Returns the system along a path, with its operations.
+    pub(super) fn compiled_path(&self) -> &CompiledSystem {
+        &self.path_system
+    }
+
+    /// Returns the parameters that a path may change, as indices.
+    pub(super) fn continued_params(&self) -> &[u32] {
+        &self.continued_params
+    }
+
+    /// Returns the parameters of the system along the path to other parameters (SI) and a first time `t` (s).
+    pub(super) fn path_params(&self, values: &[f64], t: f64) -> Vec<f64> {
+        let ends = self.continued_params.iter().map(|&k| values[k as usize]);
+        let times = self.time_varies.then_some([self.options.t, t]).into_iter().flatten();
+        self.nominal_params.iter().copied().chain(ends).chain(times).collect()
     }
 
     /// Returns the equations along a path, whose stops and warnings speak of them.
@@ -173,10 +203,7 @@ impl ContinuationBase {
         if !self.time_varies && self.continued_params.iter().all(is_nominal) {
             return Ok((self.nominal.q.clone(), Vec::new()));
         }
-        let ends = self.continued_params.iter().map(|&k| values[k as usize]);
-        let times = self.time_varies.then_some([self.options.t, t]).into_iter().flatten();
-        let path_params: Vec<f64> = self.nominal_params.iter().copied().chain(ends).chain(times).collect();
-        let determined = Arc::new(self.path_system.determined.with_values(&path_params));
+        let determined = Arc::new(self.path_system.determined.with_values(&self.path_params(values, t)));
         let options = ContinuationOptions { cancel: cancel.clone(), ..self.options.clone() };
         let (start, solver) = self.path_start.to_shared();
         let path = analysis::continue_from(&determined, &self.path_system.program, start, solver, &options);

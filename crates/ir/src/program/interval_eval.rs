@@ -3,6 +3,7 @@
 //! An enclosure holds every value of an operation while time, and optionally the coordinates, vary in their intervals. It may be wider than
 //! these values; the excess vanishes with the width of the intervals.
 
+use super::lane_intervals::LaneEnclosure;
 use super::{Column, Machine, Op, Program, Register, Registers, Stage};
 use mechc_expr::{Binary, Comparison, Unary, binary_value, compare, piece, unary_value};
 use std::f64::consts::{FRAC_PI_2, PI};
@@ -159,12 +160,16 @@ impl Enclosure {
         }
     }
 
-    /// Returns the registers that its operations read and do not compute, but for the time; each may be read more than once.
+    /// Returns the enclosure of the same registers for several variants.
     #[must_use]
-    pub fn operands(&self, program: &Program) -> Vec<Register> {
+    pub fn in_lanes<const W: usize>(&self, program: &Program) -> LaneEnclosure<W> {
         let is_computed = |register: &Register| self.operations.iter().any(|op| op.writes().contains(register));
         let read = self.operations.iter().flat_map(|&op| program.reads(op));
-        read.filter(|register| *register != self.time && !is_computed(register)).collect()
+        let mut operands: Vec<Register> =
+            read.filter(|register| *register != self.time && !is_computed(register)).collect();
+        operands.sort_unstable();
+        operands.dedup();
+        LaneEnclosure::new(self.operations.clone(), operands, self.time, &self.values)
     }
 
     /// Returns the enclosure `[low, high]` of a register.

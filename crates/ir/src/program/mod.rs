@@ -12,6 +12,7 @@ mod compile;
 mod evaluate;
 mod formulas;
 mod interval_eval;
+mod lane_intervals;
 mod lanes;
 mod op;
 mod range_bounds;
@@ -20,6 +21,7 @@ mod time_terms;
 
 pub use evaluate::{FrozenSwitches, Registers, truth};
 pub use interval_eval::Enclosure;
+pub use lane_intervals::LaneEnclosure;
 pub use lanes::{LaneMachine, LaneValues};
 pub use op::{Machine, Op, RegisterList};
 pub use range_bounds::{Range, Ranges, Restriction};

@@ -43,8 +43,9 @@ impl BatchPlan {
         let times = requested.times.over(table.checked().analysis).and_then(|times| times.times()).ok()?;
         let params: BTreeSet<u32> = table.targets().flatten().map(|&at| at as u32).collect();
         let params: Vec<u32> = params.into_iter().collect();
-        let wanted = BatchRequest { rows: (&times, requested.columns), results: requested.results };
-        let batch = Arc::new(group.continuation.batch(&params, &wanted, options)?);
+        let rows = (&times, requested.columns);
+        let wanted = BatchRequest { rows, results: requested.results, params: &params, rates: &[] };
+        let batch = Arc::new(group.continuation.batch(&wanted, options)?);
         Some(BatchPlan { batch, table })
     }
 

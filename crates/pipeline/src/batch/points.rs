@@ -24,8 +24,9 @@ const MIN_FOR_NEW_TIME: usize = LANES / 2;
 
 /// Evaluates query points in lanes; what a time needs is cached for the last time.
 pub(crate) struct BatchEvaluator {
-    /// Indices of the params that may differ between points.
+    /// Indices of the params that may differ between points, and of the rates of inputs.
     params: Vec<u32>,
+    rates: Vec<u32>,
     cache: Mutex<Option<Cache>>,
 }
 
@@ -49,8 +50,8 @@ pub(crate) struct PointLanes {
 }
 
 impl BatchEvaluator {
-    pub fn new(params: Vec<u32>) -> BatchEvaluator {
-        BatchEvaluator { params, cache: Mutex::default() }
+    pub fn new(params: Vec<u32>, rates: Vec<u32>) -> BatchEvaluator {
+        BatchEvaluator { params, rates, cache: Mutex::default() }
     }
 
     /// Evaluates the first `LANES` points, with `columns` columns each; `None` if they have to be computed alone.
@@ -97,8 +98,9 @@ impl BatchEvaluator {
                 return None;
             }
             let all: Vec<usize> = (0..columns).collect();
-            let wanted = BatchRequest { rows: (times, Some(&all)), results: false };
-            let batch = continuation.batch(&self.params, &wanted, options).map(Arc::new);
+            let BatchEvaluator { params, rates, .. } = self;
+            let wanted = BatchRequest { rows: (times, Some(&all)), results: false, params, rates };
+            let batch = continuation.batch(&wanted, options).map(Arc::new);
             // the outcome of cancelled work must not be kept
             if options.cancel.is_cancelled() {
                 return None;

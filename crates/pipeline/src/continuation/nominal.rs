@@ -34,14 +34,16 @@ impl Continuation {
         self.context(options).map_or(Outcome::NoPath(None), start)
     }
 
-    /// Returns what a batch of variants shares that differ in the given params; `None` if such variants have to be computed alone.
-    pub fn batch(&self, params: &[u32], wanted: &BatchRequest<'_>, options: &RunOptions) -> Option<BatchContext> {
+    /// Returns what a batch of variants shares; `None` if such variants have to be computed alone.
+    pub fn batch(&self, wanted: &BatchRequest<'_>, options: &RunOptions) -> Option<BatchContext> {
         let context = self.context(options)?;
-        if wanted.rows.0.from().to_bits() != context.options.t.to_bits() {
+        // a variant that begins at another time without inputs set there is followed to that time
+        let is_at_start = wanted.rows.0.from().to_bits() == context.options.t.to_bits();
+        if !is_at_start && !context.nominal.sets_inputs {
             return None;
         }
         let base = context.base(&context.values, wanted.rows.0.from(), &options.cancel)?;
-        BatchContext::of(base, &context.nominal.started, params, wanted, options.vectors)
+        BatchContext::of(base, &context.nominal.started, wanted, options.vectors)
     }
 
     fn context(&self, options: &RunOptions) -> Option<Arc<ContinuationContext>> {

@@ -250,7 +250,7 @@ impl Started {
         self.kinematics.solver_of_variants(is_requested)
     }
 
-    /// Returns whether the equations are smooth wherever the motion is, and nothing is monitored.
+    /// Returns whether the equations are smooth wherever the motion is.
     #[must_use]
     pub fn is_smooth(&self) -> bool {
         self.kinematics.is_smooth()
@@ -262,9 +262,9 @@ impl Started {
         self.kinematics.is_plain()
     }
 
-    /// Returns the terms of the equations that time alone decides and that are not linear in it.
+    /// Returns the terms of the equations that time alone decides and that are not linear in it, with the conditions that time alone decides.
     pub fn signal_bounds(&mut self) -> SignalBounds {
-        SignalBounds::new(&mut self.kinematics, &self.state)
+        SignalBounds::with_conditions(&mut self.kinematics, &self.state)
     }
 
     /// By row of `Φ`: its largest residual at the start.

@@ -22,8 +22,8 @@ pub(super) struct LaneStates {
     pub t: f64,
     /// By tracked coordinate: value, velocity, and acceleration where [`TrackedDerivatives`] includes it.
     pub tracked: Vec<[PerLane; 3]>,
-    /// By turn of the solver: the inverse of the determinant.
-    pub determinants: Vec<PerLane>,
+    /// The values whose signs distinguish branches: inverse determinants of blocks, and monitors.
+    pub branch_values: Vec<PerLane>,
     /// The distance to a singular position: an estimate of the smallest singular value of the scaled `Φ_q`.
     pub singular_distance: PerLane,
 }
@@ -76,11 +76,11 @@ impl Rejections {
 
 impl LaneStates {
     /// Creates equal states for all lanes, at rest.
-    pub fn at_rest(t: f64, q: &[f64], determinants: &[f64], singular_distance: f64) -> LaneStates {
+    pub fn at_rest(t: f64, q: &[f64], branch_values: &[f64], singular_distance: f64) -> LaneStates {
         LaneStates {
             t,
             tracked: q.iter().map(|&q| [LaneValues([q; LANES]), ZERO, ZERO]).collect(),
-            determinants: determinants.iter().map(|&inverse| LaneValues([inverse; LANES])).collect(),
+            branch_values: branch_values.iter().map(|&inverse| LaneValues([inverse; LANES])).collect(),
             singular_distance: LaneValues([singular_distance; LANES]),
         }
     }
@@ -102,7 +102,7 @@ impl LaneStates {
                 *to = *solution.column(column);
             }
         }
-        self.determinants.copy_from_slice(solution.determinants());
+        self.branch_values.copy_from_slice(solution.branch_values());
         for chunk in 0..LANES / CHUNK {
             let mut distance = *solution.max_inverse_pivots().part::<CHUNK>(chunk);
             for k in 0..CHUNK {
@@ -117,7 +117,7 @@ impl LaneStates {
         for (to, from) in self.tracked.iter_mut().zip(&from.tracked) {
             to[0].0[lane] = from[0].0[lane];
         }
-        for (to, from) in self.determinants.iter_mut().zip(&from.determinants) {
+        for (to, from) in self.branch_values.iter_mut().zip(&from.branch_values) {
             to.0[lane] = from.0[lane];
         }
         self.singular_distance.0[lane] = from.singular_distance.0[lane];
@@ -179,7 +179,7 @@ pub(super) fn check_step(
         }
         *rejections.0.part_mut(chunk) = counts;
     }
-    for (now, next) in now.determinants.iter().zip(&next.determinants) {
+    for (now, next) in now.branch_values.iter().zip(&next.branch_values) {
         for chunk in 0..LANES / CHUNK {
             let (from, to) = (*now.part::<CHUNK>(chunk), *next.part::<CHUNK>(chunk));
             let mut counts = *rejections.0.part::<CHUNK>(chunk);

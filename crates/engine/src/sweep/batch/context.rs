@@ -2,16 +2,19 @@
 //! other cases are left to variants that are computed alone.
 
 use super::acceptance::{LaneStates, TrackedCoordinate, TrackedDerivatives, singular_distance};
-use super::lane_signals::BatchSignals;
+use super::lane_program::LaneProgram;
+use super::lane_signals::LaneSignals;
+use super::path_signals::PathSignals;
 use super::result_queries::ResultQueries;
-use super::{CHUNK, LANES, NEARLY, PerLane, ZERO};
+use super::{LANES, NEARLY, PerLane, ZERO};
 use crate::analysis::{Started, Times};
 use crate::solver::{Solver, VariantBatch, VariantLanes};
 use crate::sweep::continuation::{CompiledSystem, ContinuationBase};
 use mechc_expr::math::Vectors;
 use mechc_ir::CoordinateKind;
-use mechc_ir::program::{LaneMachine, LaneValues, Op, Program, Register, Registers, Stage};
-use std::sync::Arc;
+use mechc_ir::layout::RowLayout;
+use mechc_ir::program::{LaneValues, Program, Register, Stage};
+use std::ops::Range;
 
 /// Largest residual, relative to that of a variant on its own: rounding leaves orders of magnitude less.
 const CERTAIN_RESIDUAL: f64 = 1e-3;
@@ -26,11 +29,8 @@ const BESIDE: f64 = 1e-6;
 
 /// The data that all batches of a mechanism share: its solvers, its requests, and its nominal state.
 pub struct BatchContext {
-    pub(super) program: Arc<Program>,
-    /// The program's registers with the nominal parameters.
-    pub(super) scalars: Registers,
-    /// The operations on parameters alone whose results the solvers load.
-    prologue: Vec<Op>,
+    /// The program, of which the solvers and the signals load what depends on parameters alone.
+    pub(super) program: LaneProgram,
     /// The nominal parameters, and the indices of those that variants change.
     pub(super) nominal_params: Vec<f64>,
     varied_params: Vec<u32>,
@@ -47,18 +47,20 @@ pub struct BatchContext {
     pub(super) tears: Vec<usize>,
     /// By row of `Φ`: the inverse of the bound on its residual, for steps and for rows.
     pub(super) bounds: [Vec<f64>; 2],
-    /// The nominal state: the tracked coordinates, and by turn of the solver the inverse of the determinant.
+    /// The nominal state: the tracked coordinates, and the values whose signs distinguish branches.
     q: Vec<f64>,
-    determinants: Vec<f64>,
+    branch_values: Vec<f64>,
     /// By varied parameter and tear: the derivative of the tear there.
     tear_slopes: Vec<Vec<f64>>,
     /// The factor that makes a smallest pivot an estimated distance to a singular position.
     pub(super) pivot_scale: f64,
     /// Estimated distance of the nominal state to a singular position.
     nominal_distance: f64,
-    /// The signals that steps check; `None` if there are none.
-    pub(super) signals: Option<BatchSignals>,
-    /// The first time (s).
+    /// The signals that steps check, and those that paths check; `None` if there are none.
+    pub(super) signals: Option<LaneSignals>,
+    pub(super) path_signals: Option<PathSignals>,
+    /// The nominal first time, and that of the variants (s); paths change the time if they differ.
+    nominal_time: f64,
     pub(super) from: f64,
     pub(super) vectors: Vectors,
 }
@@ -96,22 +98,24 @@ pub struct BatchRequest<'w> {
     pub rows: (&'w Times, Option<&'w [usize]>),
     /// True if results are requested.
     pub results: bool,
+    /// The parameters that variants change, as indices, but for `rates`.
+    pub params: &'w [u32],
+    /// The parameters, as indices, that variants change and that move nothing at the first time: rates of inputs.
+    pub rates: &'w [u32],
 }
 
 impl BatchContext {
-    /// Prepares batches of a mechanism that is started with its nominal parameters, for variants that change `params` (indices). Returns
-    /// `None` if variants are to be computed alone.
+    /// Prepares batches of a mechanism that is started with its nominal parameters. Returns `None` if variants are to be computed alone.
     #[must_use]
     pub fn of(
         base: &ContinuationBase,
         started: &Started,
-        params: &[u32],
         request: &BatchRequest<'_>,
         vectors: Vectors,
     ) -> Option<BatchContext> {
         let mut started = started.clone();
         let (times, columns) = request.rows;
-        if times.is_empty() || !started.is_smooth() || !base.is_smooth_in(params) {
+        if times.is_empty() || !started.is_smooth() || !base.is_smooth_in(request.params) {
             return None;
         }
         // results are found between steps, which must show all of the motion; without them rows alone are worth a batch
@@ -125,34 +129,35 @@ impl BatchContext {
         let derivatives = required_derivatives(&mut started, request, &indices);
         let is_tracked =
             |column: u32| tracked.iter().any(|coordinate| coordinate.columns[..derivatives.orders()].contains(&column));
+        let varied_params = [request.params, request.rates].concat();
         let queries = if request.results && is_plain {
             ResultQueries::new(determined, &mut started, times, &is_tracked, vectors)
         } else {
             None
         };
-        // a variant with all its results has completed the motion, so rows need not show that
-        let rows = if columns.is_none() && queries.is_some() {
+        // a variant with all its results has completed the motion, so rows need not show that, but only that loads have values
+        let rows = if columns.is_none() && queries.is_some() && determined.system().forces().is_none() {
             None
         } else {
-            let varies = varying_registers(program, params);
-            Some(RowPlan::new(&mut started, times, columns, &is_tracked, &|register| varies[register as usize])?)
+            let varies = varying_registers(program, &varied_params);
+            let multipliers = checked_multipliers(&started);
+            let is_checked = |column: u32| is_tracked(column) || multipliers.contains(&column);
+            Some(RowPlan::new(&mut started, times, columns, &is_checked, &|register| varies[register as usize])?)
         };
         let step_solver = started.solver_of_variants(&is_tracked)?;
         let tears = step_solver.tears().iter().map(|&tear| indices.iter().position(|&k| k == tear as usize));
         let tears = tears.collect::<Option<Vec<usize>>>()?;
         let row_solver = rows.as_ref().map(|rows| &rows.solver);
         let solvers = [Some(&step_solver), row_solver, queries.as_ref().map(|queries| &queries.solver)];
-        let signals = BatchSignals::new(program, started.signal_bounds());
-        let operands = signals.iter().flat_map(|signals| signals.operands.iter().copied());
+        let signals = LaneSignals::new(program, &started.signal_bounds(), vectors);
+        let operands = signals.iter().flat_map(|signals| signals.operands().iter().copied());
         let loaded: Vec<Register> = solvers.into_iter().flatten().flat_map(Solver::loads).chain(operands).collect();
         let bounds = started.bounds();
         let inverse_bounds = |factor: f64| bounds.iter().map(|bound| 1.0 / (factor * bound)).collect();
         let mut context = BatchContext {
-            prologue: prologue(program, &loaded),
-            program: Arc::clone(program),
-            scalars: program.start(nominal_params),
+            program: LaneProgram::new(program, nominal_params, &loaded),
             nominal_params: nominal_params.to_vec(),
-            varied_params: params.to_vec(),
+            varied_params,
             step_solver,
             rows,
             queries,
@@ -161,11 +166,13 @@ impl BatchContext {
             tears,
             bounds: [RESIDUAL_OF_STEP, CERTAIN_RESIDUAL].map(inverse_bounds),
             q: indices.iter().map(|&k| started.q()[k]).collect(),
-            determinants: Vec::new(),
+            branch_values: Vec::new(),
             tear_slopes: Vec::new(),
             pivot_scale: 1.0,
             nominal_distance: 1.0,
             signals,
+            path_signals: PathSignals::new(base, times.from(), vectors),
+            nominal_time: base.nominal_time(),
             from: times.from(),
             vectors,
         };
@@ -173,12 +180,12 @@ impl BatchContext {
         Some(context)
     }
 
-    /// Solves at the nominal state for the scale of pivots, the determinants and, by finite differences, the slopes of tears.
+    /// Solves at the nominal state for the scale of pivots, the branch values and, by finite differences, the slopes of tears.
     fn measure_nominal_state(&mut self, started: &mut Started) -> Option<()> {
-        let (mut lanes, mut loaded) = (self.new_lanes(&self.step_solver, |_| 1), self.new_registers());
+        let (mut lanes, mut loaded) = (self.new_lanes(&self.step_solver, |_| 1), self.program.new_registers());
         let nominal: Vec<PerLane> = self.nominal_params.iter().map(|&value| LaneValues([value; LANES])).collect();
         self.solve_near_nominal(&mut lanes, &mut loaded, &nominal)?;
-        self.determinants = lanes.determinants().iter().map(|inverse| inverse.0[0]).collect();
+        self.branch_values = lanes.branch_values().iter().map(|inverse| inverse.0[0]).collect();
         // pivots of rows of unit norm overestimate the singular value, if only by little, so the scale is at most 1
         self.pivot_scale = f64::min(1.0, started.conditioning() * lanes.max_inverse_pivots().0[0].max(1.0));
         self.nominal_distance = singular_distance(self.pivot_scale, lanes.max_inverse_pivots().0[0]);
@@ -206,13 +213,13 @@ impl BatchContext {
         loaded: &mut [PerLane],
         params: &[PerLane],
     ) -> Option<()> {
-        self.load(loaded, params, 1);
-        lanes.load(&self.step_solver, (&self.program, &self.scalars), loaded, 1);
+        self.program.load(loaded, params, 1);
+        lanes.load(&self.step_solver, self.program.parts(), loaded, 1);
         let tears: Vec<PerLane> = self.tears.iter().map(|&tear| LaneValues([self.q[tear]; LANES])).collect();
         let [bounds, _] = &self.bounds;
-        let times = [self.from; LANES];
+        let times = [self.nominal_time; LANES];
         let batch = VariantBatch { times, tears: &tears, loaded, bounds, chunks: 1, loose_bound: NEARLY };
-        lanes.run(&self.step_solver, (&self.program, &self.scalars), &batch);
+        lanes.run(&self.step_solver, self.program.parts(), &batch);
         let mut rejections = ZERO;
         lanes.add_rejections(&mut rejections);
         (rejections.0[0] == 0.0).then_some(())
@@ -220,7 +227,13 @@ impl BatchContext {
 
     /// Returns the nominal state in all lanes.
     pub(super) fn nominal_states(&self) -> Box<LaneStates> {
-        Box::new(LaneStates::at_rest(self.from, &self.q, &self.determinants, self.nominal_distance))
+        Box::new(LaneStates::at_rest(self.nominal_time, &self.q, &self.branch_values, self.nominal_distance))
+    }
+
+    /// Returns the time (s) at a fraction of the path of a variant.
+    pub(super) fn time_on_path(&self, fraction: f64) -> f64 {
+        let gone = fraction * (self.from - self.nominal_time);
+        if fraction < 1.0 { self.nominal_time + gone } else { self.from }
     }
 
     /// Writes guesses for the tears: linear in the parameters around the nominal state.
@@ -245,23 +258,6 @@ impl BatchContext {
         let is_stored = solver.is_stored_column();
         VariantLanes::new(solver, |column| if is_stored(column) { rows(column) } else { 0 }, self.vectors)
     }
-
-    /// Returns new registers of the program, a lane for each variant.
-    pub(super) fn new_registers(&self) -> Vec<PerLane> {
-        let mut registers = vec![LaneValues([0.0; LANES]); self.program.registers()];
-        for &(register, value) in self.program.constants() {
-            registers[register as usize].0 = [value; LANES];
-        }
-        registers
-    }
-
-    /// Computes the registers that depend on parameters alone, in the leading `chunks`.
-    pub(super) fn load(&self, registers: &mut [PerLane], params: &[PerLane], chunks: usize) {
-        let first = self.program.inputs.params as usize;
-        registers[first..first + params.len()].copy_from_slice(params);
-        let mut machine = LaneMachine::<LANES, CHUNK>::new(registers, chunks, (&self.program, &self.scalars));
-        self.prologue.iter().for_each(|op| op.run(&mut machine));
-    }
 }
 
 /// Returns the coordinates that the acceptance test compares, as indices: all angles, and the tears.
@@ -270,6 +266,14 @@ fn tracked_indices(started: &Started) -> Vec<usize> {
     let is_tear = |k: usize| started.solver().is_some_and(|solver| solver.tears().contains(&(k as u32)));
     let is_tracked = |&k: &usize| is_tear(k) || coordinates[k].kind != CoordinateKind::Length;
     (0..coordinates.len()).filter(is_tracked).collect()
+}
+
+/// Returns the columns of multipliers that rows compute for their finiteness alone: a load without a value ends a motion, whichever columns are
+/// requested.
+fn checked_multipliers(started: &Started) -> Range<u32> {
+    let (system, layout) = (started.system(), RowLayout::new(started.system()));
+    let count = if system.loads().is_empty() { 0 } else { system.rows().len() as u32 };
+    layout.multipliers..layout.multipliers + count
 }
 
 /// Returns the derivatives that steps need: velocities alone, which are cheapest, if only rows close to each other are requested.
@@ -307,21 +311,4 @@ fn varying_registers(program: &Program, params: &[u32]) -> Vec<bool> {
         op.writes().iter().for_each(|&to| varies[to as usize] |= reads_varying);
     }
     varies
-}
-
-/// Returns the operations of the prologue that the registers `live` depend on: dead-code elimination.
-fn prologue(program: &Program, live: &[Register]) -> Vec<Op> {
-    let mut is_read = vec![false; program.registers()];
-    for &register in live {
-        is_read[register as usize] = true;
-    }
-    let mut kept = Vec::new();
-    for &op in program.stage(Stage::Prologue).iter().rev() {
-        if op.writes().iter().any(|&to| is_read[to as usize]) {
-            program.reads(op).for_each(|register| is_read[register as usize] = true);
-            kept.push(op);
-        }
-    }
-    kept.reverse();
-    kept
 }

@@ -3,7 +3,9 @@
 
 mod acceptance;
 mod context;
+mod lane_program;
 mod lane_signals;
+mod path_signals;
 mod result_finder;
 mod result_queries;
 mod row_collector;

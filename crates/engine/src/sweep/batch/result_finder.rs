@@ -295,7 +295,7 @@ impl ResultFinder {
             chunks: active_chunks(open),
             loose_bound: 0.0,
         };
-        lanes.run(&queries.solver, (&context.program, &context.scalars), &batch);
+        lanes.run(&queries.solver, context.program.parts(), &batch);
         let mut rejections = ZERO;
         lanes.add_rejections(&mut rejections);
         for (lane, open) in open.iter_mut().enumerate() {

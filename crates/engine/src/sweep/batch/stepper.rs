@@ -5,6 +5,7 @@
 use super::acceptance::{LaneStates, Rejections, TrackedDerivatives, check_step};
 use super::context::{BatchContext, RowPlan};
 use super::lane_signals::LaneSignals;
+use super::path_signals::PathSignals;
 use super::row_collector::RowCollector;
 use super::{CHUNK, LANES, NEARLY, PerLane, ZERO, active_chunks};
 use crate::limits::step_control::CRUMB;
@@ -51,6 +52,7 @@ pub(super) struct BatchStepper {
     extrapolation: Extrapolation,
     guesses: Vec<PerLane>,
     signals: Option<LaneSignals>,
+    path_signals: Option<PathSignals>,
     /// The present step length (s), its limit (s), and the number of steps of that length so far.
     step_length: f64,
     max_step: f64,
@@ -112,7 +114,7 @@ impl BatchStepper {
     /// Creates a stepper at the nominal state, without active lanes.
     pub fn new(context: &BatchContext) -> BatchStepper {
         BatchStepper {
-            registers: context.new_registers(),
+            registers: context.program.new_registers(),
             params: context.nominal_params.iter().map(|&value| LaneValues([value; LANES])).collect(),
             step_lanes: context.new_lanes(&context.step_solver, |_| 1),
             now: context.nominal_states(),
@@ -121,7 +123,8 @@ impl BatchStepper {
             node_count: 0,
             extrapolation: Extrapolation::default(),
             guesses: vec![ZERO; context.tears.len()],
-            signals: context.signals.as_ref().map(LaneSignals::new),
+            signals: context.signals.clone(),
+            path_signals: context.path_signals.clone(),
             step_length: 0.0,
             max_step: 0.0,
             steps_taken: 0,
@@ -147,15 +150,15 @@ impl BatchStepper {
         (self.max_step, self.steps_taken, self.calm_steps) = (max_step, 0, CALM_STEPS);
         self.step_length = self.max_step;
         self.active = self.continue_to(context, params);
-        solver.lanes.load(solver.solver, (&context.program, &context.scalars), &self.registers, self.chunks);
+        solver.lanes.load(solver.solver, context.program.parts(), &self.registers, self.chunks);
         for (guess, &tear) in self.guesses.iter_mut().zip(&context.tears) {
             *guess = self.now.tracked[tear][0];
         }
         let rejections = self.solve_at(context, context.from, None, Some(solver));
         rejections.lanes().for_each(|k| self.active[k] = false);
         self.commit();
-        if let (Some(all), Some(signals)) = (&context.signals, &mut self.signals) {
-            signals.begin((&context.program, &context.scalars), all, &self.registers, &self.active, context.from);
+        if let Some(signals) = &mut self.signals {
+            signals.begin(&self.registers, self.chunks, context.from);
         }
         self.node_count = 1;
     }
@@ -188,8 +191,12 @@ impl BatchStepper {
         mut open: [bool; LANES],
     ) -> [bool; LANES] {
         (self.now, self.before[0]) = (context.nominal_states(), context.nominal_states());
+        if let Some(signals) = &mut self.path_signals {
+            signals.begin(targets, self.chunks);
+        }
         for part in 1..=parts {
-            self.load(context, targets, f64::from(part) / f64::from(parts));
+            let ends = [part - 1, part].map(|end| f64::from(end) / f64::from(parts));
+            self.load(context, targets, ends[1]);
             if part == 1 {
                 context.write_first_guesses(&self.params, &mut self.guesses);
             } else {
@@ -199,7 +206,10 @@ impl BatchStepper {
                     guess.0 = from_fn(|k| now[k] + (now[k] - before[k]));
                 }
             }
-            let rejections = self.solve_at(context, context.from, None, None);
+            let mut rejections = self.solve_at(context, context.time_on_path(ends[1]), None, None);
+            if let Some(signals) = &mut self.path_signals {
+                signals.check_part(self.chunks, ends, &mut rejections);
+            }
             rejections.lanes().for_each(|k| open[k] = false);
             self.commit();
         }
@@ -212,9 +222,8 @@ impl BatchStepper {
             param.0 =
                 if fraction < 1.0 { target.0.map(|target| nominal + fraction * (target - nominal)) } else { target.0 };
         }
-        context.load(&mut self.registers, &self.params, self.chunks);
-        let of_program = (&*context.program, &context.scalars);
-        self.step_lanes.load(&context.step_solver, of_program, &self.registers, self.chunks);
+        context.program.load(&mut self.registers, &self.params, self.chunks);
+        self.step_lanes.load(&context.step_solver, context.program.parts(), &self.registers, self.chunks);
     }
 
     /// Advances to a time (s), in as many steps as that takes. The state there is computed by `solver`; with `at_every_step` those before it
@@ -256,9 +265,8 @@ impl BatchStepper {
         let h = t - self.now.t;
         self.extrapolate(context, h);
         let mut rejections = self.solve_at(context, t, Some(h), solver);
-        if let (Some(all), Some(signals)) = (&context.signals, &mut self.signals) {
-            let of_program = (&*context.program, &context.scalars);
-            signals.check(of_program, all, &self.registers, &self.active, [self.now.t, t], &mut rejections);
+        if let Some(signals) = &mut self.signals {
+            signals.check(self.chunks, [self.now.t, t], &mut rejections);
         }
         let mut is_taken = true;
         for k in rejections.lanes() {
@@ -328,7 +336,7 @@ impl BatchStepper {
         let (bounds, loose_bound) = if is_exact { (row_bounds, 0.0) } else { (step_bounds, NEARLY) };
         let chunks = *chunks;
         let batch = VariantBatch { times: [t; LANES], tears: guesses, loaded: registers, bounds, chunks, loose_bound };
-        lanes.run(solver, (&context.program, &context.scalars), &batch);
+        lanes.run(solver, context.program.parts(), &batch);
         let mut rejections = Rejections(ZERO);
         context.vectors.run(
             #[inline(always)]

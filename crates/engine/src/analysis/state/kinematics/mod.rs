@@ -223,18 +223,16 @@ impl Kinematics {
         Solver::for_variants(&self.determined, &self.program, self, is_requested)
     }
 
-    /// Returns whether equations are such that their smoothness does not depend on where the motion is: no formula of them has branches or ends, none
-    /// may lose its slope, and nothing is monitored.
+    /// Returns whether the smoothness of the equations does not depend on where the motion is: no formula of them has branches or ends, and none
+    /// may lose its slope.
     pub fn is_smooth(&self) -> bool {
         let system = self.system();
         let has_branches = !self.program.switches().is_empty() || !self.program.tables().is_empty();
-        let is_watched =
-            !system.monitors().is_empty() || !system.checks().is_empty() || !system.domain_boundaries().is_empty();
-        let on_the_way = system.conditions().iter().any(|it| !system.graph().dependence(it.positive).is_constant());
-        let has_more =
-            !system.required_forces().is_empty() || !system.loads().is_empty() || !system.contact_forces().is_empty();
+        let is_watched = !system.checks().is_empty() || !system.domain_boundaries().is_empty();
+        let depends_on_motion = |positive| system.graph().dependence(positive).highest_order().is_some();
+        let on_the_way = system.conditions().iter().any(|condition| depends_on_motion(condition.positive));
         let is_varied = system.has_signals() || system.all_variations().is_some() || !system.open_contacts().is_empty();
-        !(has_branches || is_watched || on_the_way || has_more || is_varied || !self.bent.is_empty())
+        !(has_branches || is_watched || on_the_way || is_varied || !self.bent.is_empty())
     }
 
     /// Returns whether the equations are smooth, and what time alone decides goes straight on, so that steps show all of the motion.

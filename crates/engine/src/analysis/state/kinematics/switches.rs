@@ -1,6 +1,7 @@
 //! Switches, domain boundaries and signals, which time and motion decide.
 
 use super::Kinematics;
+use mechc_expr::Dependence;
 use mechc_ir::program::{BoundaryRegisters, Enclosure, FrozenSwitches, Op, Register, Signal, Stage, Switch};
 
 impl Kinematics {
@@ -119,9 +120,16 @@ impl Kinematics {
         }
     }
 
-    pub fn enclosure_of(&self, signals: &[Signal]) -> Enclosure {
-        let registers: Vec<Register> = signals.iter().map(|signal| signal.register).collect();
-        Enclosure::for_registers(&self.program, &self.registers, &registers)
+    /// Returns the registers of the formulas of time alone that must stay above zero.
+    pub fn conditions_of_time(&self) -> Vec<Register> {
+        let (conditions, graph) = (self.system().conditions(), self.system().graph());
+        let is_of_time = |positive| graph.dependence(positive).on(Dependence::TIME);
+        let registers = conditions.iter().zip(&self.program.outputs.conditions);
+        registers.filter(|(condition, _)| is_of_time(condition.positive)).map(|(_, &register)| register).collect()
+    }
+
+    pub fn enclosure_of(&self, registers: &[Register]) -> Enclosure {
+        Enclosure::for_registers(&self.program, &self.registers, registers)
     }
 
     /// Encloses signals from one time (s) to another.
