@@ -7,7 +7,7 @@ use super::page;
 use super::requests::{ManualInputs, MotionRequest, WriteRequest};
 use super::response::encode;
 use super::solution::{Solution, SolutionBuilder};
-use mechc_pipeline::{Choice, ParamControl, Parsed, Redundant, size_of_unit};
+use mechc_pipeline::{Choice, ParamControl, ParametricMechanism, Parsed, Redundant, size_of_unit};
 use mechc_text::cancel::Cancel;
 use mechc_text::diag::Error;
 use mechc_text::source::Span;
@@ -82,6 +82,8 @@ struct Texts {
     earlier_files: Vec<PathBuf>,
     /// The last settings, with their solution.
     last: Mutex<Option<(Settings, Arc<Solution>)>>,
+    /// The names of the params of the last settings, and the mechanism with these as numbers, if they can take other values.
+    parametric: Mutex<Option<(Vec<String>, Option<Arc<ParametricMechanism>>)>>,
 }
 
 /// The solution of the file as it is written. It is computed once for all pages, as long as one of them waits for it.
@@ -107,8 +109,8 @@ impl Texts {
     fn read(version: u64, world: Arc<dyn World>, path: &Path, earlier_files: Vec<PathBuf>) -> Texts {
         let files = FileSnapshot::new(world);
         let parsed = Parsed::read(path, &files);
-        let (cancel, baseline, baseline_changed, last) = Default::default();
-        Texts { version, files, parsed, cancel, baseline, baseline_changed, earlier_files, last }
+        let (cancel, baseline, baseline_changed, last, parametric) = Default::default();
+        Texts { version, files, parsed, cancel, baseline, baseline_changed, earlier_files, last, parametric }
     }
 
     /// Returns the files to watch, as far as they are determined.
@@ -118,6 +120,29 @@ impl Texts {
             files.extend(self.earlier_files.iter().filter(|file| !files.contains(file)).cloned().collect::<Vec<_>>());
         }
         files
+    }
+
+    /// Returns the mechanism with the params of settings as numbers that take other values.
+    fn parametric(
+        &self,
+        builder: &SolutionBuilder<'_>,
+        baseline: &Solution,
+        set: &[(String, String)],
+        cancel: &Cancel,
+    ) -> Option<Arc<ParametricMechanism>> {
+        let mut cached = lock(&self.parametric);
+        if let Some((_, parametric)) =
+            cached.as_ref().filter(|(names, _)| names.iter().eq(set.iter().map(|(name, _)| name)))
+        {
+            return parametric.clone();
+        }
+        let names: Vec<String> = set.iter().map(|(name, _)| name.clone()).collect();
+        let parametric = builder.parametric(baseline, &names, cancel).map(Arc::new);
+        // the outcome of cancelled work must not be kept
+        if !cancel.is_cancelled() {
+            *cached = Some((names, parametric.clone()));
+        }
+        parametric
     }
 
     /// Waits until the computation of the baseline ends.
@@ -254,11 +279,14 @@ impl LiveSession {
         let solution = if set.is_empty() {
             Arc::clone(&baseline)
         } else {
-            cached(texts, &set, || builder.with_params(&baseline, &set, cancel))?
+            cached(texts, &set, || {
+                let parametric = texts.parametric(&builder, &baseline, &set, cancel);
+                builder.with_params(&baseline, parametric.as_deref(), &set, cancel)
+            })?
         };
         let context = RequestContext { version: texts.version, builder, baseline, solution, cancel };
         match (&request.manual, request.at) {
-            (Some(manual), _) => context.manual(&set, manual),
+            (Some(manual), _) => context.manual(manual),
             (None, Some(t)) => context.preview(&texts.cancel, t),
             (None, None) => context.motion(&texts.cancel, &params),
         }
@@ -394,8 +422,8 @@ struct RequestContext<'a> {
 
 impl RequestContext<'_> {
     /// Responds with the row that inputs reach when they are moved by hand.
-    fn manual(&self, set: &[(String, String)], ManualInputs { time, inputs }: &ManualInputs) -> Option<Response> {
-        let outcome = self.builder.move_inputs(&self.solution, set, *time, inputs, self.cancel)?;
+    fn manual(&self, ManualInputs { time, inputs }: &ManualInputs) -> Option<Response> {
+        let outcome = self.builder.move_inputs(&self.solution, *time, inputs, self.cancel)?;
         let input = json!({ "reached": outcome.reached, "said": outcome.message });
         Some((json!({ "live": { "version": self.version, "jog": input } }), outcome.columns))
     }
@@ -448,7 +476,9 @@ impl RequestContext<'_> {
     /// Returns the params that the page may set.
     fn params_json(&self, params: &[ParamControl]) -> Value {
         let sources = &self.baseline.sources;
-        let set = self.solution.params();
+        // only these follow from values of others, which takes a check
+        let has_followers = params.iter().any(|param| param.formula.is_some() || param.of.is_some());
+        let set = if has_followers { self.solution.params() } else { Vec::new() };
         let set: FxHashMap<&str, f64> = set.iter().map(|param| (param.name.as_str(), param.value)).collect();
         let now = |param: &ParamControl| {
             set.get(param.name.as_str()).filter(|_| param.formula.is_some() || param.of.is_some())

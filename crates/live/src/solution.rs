@@ -4,11 +4,11 @@ use super::file_snapshot::FileSnapshot;
 use super::host::Host;
 use mechc_engine::analysis::Times;
 use mechc_pipeline::{
-    Checked, Choice, Compiled, Configuration, DragHandle, InputControl, ParamControl, Parsed, Redundant, RunOptions,
-    Visualization,
+    Checked, Choice, Compiled, DragHandle, EvaluatorOptions, InputControl, InputMotion, MechanismEvaluator, NotReached,
+    ParamControl, ParametricMechanism, Parsed, Redundant, RunOptions, Visualization,
 };
 use mechc_text::cancel::Cancel;
-use mechc_text::diag::{Code, Color, Diagnostics, Error, Format, render};
+use mechc_text::diag::{Color, Diagnostic, Diagnostics, Error, Format, render};
 use mechc_text::source::Sources;
 use serde_json::{Value, json};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -27,8 +27,8 @@ pub(super) struct Solution {
     diagnostics: Diagnostics,
     /// The motion, once it was requested.
     motion: Mutex<Option<Arc<Motion>>>,
-    /// The configuration at the time at which inputs were last moved by hand.
-    configuration: Mutex<Option<Configuration>>,
+    /// What moves the inputs that were last moved by hand.
+    mover: Mutex<Option<Arc<InputMover>>>,
 }
 
 /// The motion of a mechanism, or its picture at rest if it does not move.
@@ -40,8 +40,8 @@ pub(super) struct Motion {
 
 impl Solution {
     fn unreadable(sources: Sources, diagnostics: Diagnostics) -> Solution {
-        let (motion, configuration) = Default::default();
-        Solution { sources, checked: None, compiled: None, times: None, diagnostics, motion, configuration }
+        let (checked, compiled, times, motion, mover) = Default::default();
+        Solution { sources, checked, compiled, times, diagnostics, motion, mover }
     }
 
     pub fn is_sound(&self) -> bool {
@@ -89,10 +89,26 @@ impl SolutionBuilder<'_> {
         self.solve(self.choice, cancel)
     }
 
-    /// Solves the mechanism with params set; `None` if it is cancelled.
-    pub fn with_params(&self, baseline: &Solution, set: &[(String, String)], cancel: &Cancel) -> Option<Solution> {
-        let solution = self.solve(&self.choice(baseline, set), cancel);
+    /// Solves the mechanism with params set; `None` if it is cancelled. `parametric` is the mechanism with these params as numbers.
+    pub fn with_params(
+        &self,
+        baseline: &Solution,
+        parametric: Option<&ParametricMechanism>,
+        set: &[(String, String)],
+        cancel: &Cancel,
+    ) -> Option<Solution> {
+        let formulas: Vec<&str> = set.iter().map(|(_, formula)| formula.as_str()).collect();
+        let bound = parametric.and_then(|parametric| parametric.with(&formulas));
+        let solution = match bound {
+            Some((checked, compiled, diagnostics)) => self.solution(checked, Some(compiled), diagnostics),
+            None => self.solve(&self.choice(baseline, set), cancel),
+        };
         (!cancel.is_cancelled()).then_some(solution)
+    }
+
+    /// Returns the mechanism with params as numbers that take other values; `None` if one of them cannot, or if it is cancelled.
+    pub fn parametric(&self, baseline: &Solution, names: &[String], cancel: &Cancel) -> Option<ParametricMechanism> {
+        baseline.checked.as_ref()?.parametric(names, self.redundant, cancel)
     }
 
     /// Returns the options of `run --lead --set …`. A param that decides the number of bodies is set without continuation.
@@ -117,9 +133,9 @@ impl SolutionBuilder<'_> {
         self.choice.set.iter().rev().find(sets_it).map(String::as_str)
     }
 
-    fn options(&self, stand: Option<Configuration>, cancel: &Cancel) -> RunOptions {
+    fn options(&self, cancel: &Cancel) -> RunOptions {
         let pass_bifurcations = self.pass_bifurcations;
-        RunOptions { pass_bifurcations, configuration: stand, cancel: cancel.clone(), ..RunOptions::default() }
+        RunOptions { pass_bifurcations, cancel: cancel.clone(), ..RunOptions::default() }
     }
 
     fn solve(&self, choice: &Choice, cancel: &Cancel) -> Solution {
@@ -130,13 +146,18 @@ impl SolutionBuilder<'_> {
             }
         };
         let checked = parsed.check(choice, self.files);
-        let (mut diagnostics, mut sources) = (checked.diagnostics().clone(), checked.sources().clone());
+        let mut diagnostics = checked.diagnostics().clone();
         let (compiled, more) = checked.compile(self.redundant, cancel);
         diagnostics.extend(more);
+        self.solution(checked, compiled, diagnostics)
+    }
+
+    fn solution(&self, checked: Checked, compiled: Option<Compiled>, mut diagnostics: Diagnostics) -> Solution {
+        let mut sources = checked.sources().clone();
         let times = compiled.as_ref().map(|compiled| self.host.times(compiled, &mut sources));
         let times = times.and_then(|times| times.map_err(|why| diagnostics.extend(why)).ok());
-        let (motion, configuration) = Default::default();
-        Solution { sources, checked: Some(checked), compiled, times, diagnostics, motion, configuration }
+        let (motion, mover) = Default::default();
+        Solution { sources, checked: Some(checked), compiled, times, diagnostics, motion, mover }
     }
 
     /// Computes the motion of a solution; `None` if it is cancelled. Symbols and extent are those of the baseline, so that the picture
@@ -151,7 +172,7 @@ impl SolutionBuilder<'_> {
             return Some(Arc::clone(motion));
         }
         let mut diagnostics = solution.diagnostics.clone();
-        let options = self.options(None, cancel);
+        let options = self.options(cancel);
         let visualization = solution.checked.as_ref().and_then(|checked| {
             let (compiled, times) = (solution.compiled.as_ref(), solution.times.as_ref());
             let moving = compiled.zip(times).and_then(|(compiled, times)| {
@@ -181,51 +202,48 @@ impl SolutionBuilder<'_> {
     ) -> Option<Visualization> {
         let (checked, compiled) = solution.checked.as_ref().zip(solution.compiled.as_ref())?;
         let from = solution.times.as_ref().map(Times::from).filter(|from| *from <= t)?;
-        checked
-            .visualize_at(compiled, [from, t], &self.options(None, cancel), baseline)
-            .filter(|_| !cancel.is_cancelled())
+        checked.visualize_at(compiled, [from, t], &self.options(cancel), baseline).filter(|_| !cancel.is_cancelled())
     }
 
-    /// Moves inputs by hand while time stands still, as far as they get; `None` if it is cancelled.
+    /// Moves inputs (by name, to SI values) by hand while time stands still, as far as they get; `None` if it is cancelled.
     pub fn move_inputs(
         &self,
         solution: &Solution,
-        set: &[(String, String)],
         t: f64,
         inputs: &[(String, f64)],
         cancel: &Cancel,
     ) -> Option<MoveOutcome> {
         let failure = |text: String| Some(MoveOutcome { reached: json!([]), message: Some(text), columns: Vec::new() });
-        let Some(compiled) = &solution.compiled else { return failure(solution.rendered()) };
-        let start = match self.configuration(solution, compiled, t, cancel) {
-            Ok(start) => start,
+        let mover = match self.mover(solution, t, inputs, cancel) {
+            Ok(Some(mover)) => mover,
+            Ok(None) => return failure(solution.rendered()),
             Err(_) if cancel.is_cancelled() => return None,
-            Err(why) => return failure(rendered(&why.diagnostics, &solution.sources)),
+            Err(why) => return failure(rendered(&why.diagnostics, &why.sources)),
         };
-        let available = solution.inputs(&[t]);
-        let moves = inputs.iter().filter_map(|(name, to)| InputMove::new(&available, name, *to));
-        let moves: Vec<InputMove> = moves.collect();
+        let ends: Vec<f64> = mover
+            .names
+            .iter()
+            .map(|name| inputs.iter().find(|(input, _)| input == name).map_or(f64::NAN, |(_, to)| *to))
+            .collect();
         let (mut message, mut limit) = (None, 1.0);
         for shortened in std::iter::once(1.0).chain(FRACTIONS_BEFORE_DEAD_POINT) {
             let fraction = limit * if limit < 1.0 { shortened } else { 1.0 };
-            let overrides: Vec<(&str, String)> =
-                moves.iter().map(|input| (input.name.as_str(), input.override_at(fraction))).collect();
-            let RowAttempt { row, diagnostics, sources, stopped_path } =
-                self.row_with(self.choice(solution, set), &start, &overrides, cancel);
+            let values = mover.values(&ends, fraction);
+            let motions: Vec<InputMotion> =
+                values.iter().map(|&value| InputMotion { value, ..InputMotion::default() }).collect();
+            let outcome = mover.evaluator.reach(&motions, t, cancel);
             if cancel.is_cancelled() {
                 return None;
             }
-            match (row, stopped_path) {
-                (Some(row), None) => {
+            match outcome {
+                Ok(row) => {
                     let reached: Vec<Value> =
-                        moves.iter().map(|input| json!([input.name, input.at(fraction)])).collect();
-                    let message =
-                        message.or_else(|| (!diagnostics.is_empty()).then(|| rendered(&diagnostics, &sources)));
+                        mover.names.iter().zip(values).map(|(name, value)| json!([name, value])).collect();
                     let columns = row.into_iter().map(|value| vec![value]).collect();
                     return Some(MoveOutcome { reached: json!(reached), message, columns });
                 }
-                (_, stop) => {
-                    message = message.or_else(|| Some(rendered(&without_fallback(&diagnostics), &sources)));
+                Err(NotReached { error, fraction: stop }) => {
+                    message = message.or_else(|| Some(without_help(error)));
                     limit = stop.map_or(limit, |stop| fraction * stop).min(1.0 - f64::EPSILON);
                 }
             }
@@ -233,69 +251,55 @@ impl SolutionBuilder<'_> {
         failure(message.unwrap_or_default())
     }
 
-    /// Returns the configuration at a time, with the inputs as they are written.
-    fn configuration(
+    /// Returns what moves inputs from where the motion is at a time (s); `None` if the mechanism does not move.
+    fn mover(
         &self,
         solution: &Solution,
-        compiled: &Compiled,
         t: f64,
+        inputs: &[(String, f64)],
         cancel: &Cancel,
-    ) -> Result<Configuration, Error> {
-        let mut cached = lock(&solution.configuration);
-        if let Some(configuration) = cached.as_ref().filter(|cached| cached.t.to_bits() == t.to_bits()) {
-            return Ok(configuration.clone());
-        }
-        let configuration = compiled.configuration_at(t, &self.options(None, cancel))?;
-        *cached = Some(configuration.clone());
-        Ok(configuration)
-    }
-
-    /// Computes the row with inputs overridden (by name, as `--input` takes them), if it is reached from a configuration.
-    fn row_with(
-        &self,
-        mut choice: Choice,
-        start: &Configuration,
-        overrides: &[(&str, String)],
-        cancel: &Cancel,
-    ) -> RowAttempt {
-        let Ok(parsed) = self.parsed else { return RowAttempt::default() };
-        let is_replaced = |input: &String| {
-            input.split_once('=').is_some_and(|(name, _)| overrides.iter().any(|(moved, _)| *moved == name.trim()))
+    ) -> Result<Option<Arc<InputMover>>, Error> {
+        let Some((checked, compiled)) = solution.checked.as_ref().zip(solution.compiled.as_ref()) else {
+            return Ok(None);
         };
-        choice.inputs.retain(|input| !is_replaced(input));
-        choice.inputs.extend(overrides.iter().map(|(_, text)| text.clone()));
-        let checked = parsed.check(&choice, self.files);
-        let sources = checked.sources().clone();
-        let mut diagnostics = checked.diagnostics().clone();
-        let (compiled, more) = checked.compile(self.redundant, cancel);
-        diagnostics.extend(more);
-        let times = Times::listed(start.t, vec![start.t]);
-        let mut stopped_path = None;
-        let run = compiled.and_then(|compiled| {
-            let (run, report) = compiled.run_with_report(&times, &self.options(Some(start.clone()), cancel));
-            diagnostics.extend(report.diagnostics);
-            stopped_path = report.stopped_path;
-            run
-        });
-        let row = run.and_then(|mut run| match run.next()? {
-            Ok(row) => Some(row),
-            Err(why) => {
-                diagnostics.extend(why.diagnostics);
-                None
-            }
-        });
-        RowAttempt { row, diagnostics, sources, stopped_path }
+        let available = solution.inputs(&[t]);
+        let moved: Vec<&InputControl> =
+            available.iter().filter(|input| inputs.iter().any(|(name, _)| *name == input.name)).collect();
+        let mut cached = lock(&solution.mover);
+        let is_current = |mover: &&Arc<InputMover>| {
+            mover.t.to_bits() == t.to_bits() && mover.names.iter().eq(moved.iter().map(|input| &input.name))
+        };
+        if let Some(mover) = cached.as_ref().filter(is_current) {
+            return Ok(Some(Arc::clone(mover)));
+        }
+        let start = compiled.configuration_at(t, &self.options(cancel))?;
+        let names: Vec<String> = moved.iter().map(|input| input.name.clone()).collect();
+        let (redundant, pass_bifurcations) = (self.redundant, self.pass_bifurcations);
+        let (inputs, start) = (names.clone(), Some(start));
+        let options = EvaluatorOptions { inputs, start, redundant, pass_bifurcations, ..EvaluatorOptions::default() };
+        let evaluator = checked.evaluator(&options, cancel)?;
+        let starts = moved.iter().filter_map(|input| input.values.first().copied()).collect();
+        let mover = Arc::new(InputMover { t, names, starts, evaluator });
+        Ok(Some(Arc::clone(cached.insert(mover))))
     }
 }
 
-/// A row, if it is reached, with the diagnostics and the texts that these refer to.
-#[derive(Default)]
-struct RowAttempt {
-    row: Option<Vec<f64>>,
-    diagnostics: Diagnostics,
-    sources: Sources,
-    /// The fraction of the inputs' path, from 0 to 1, at which it stopped.
-    stopped_path: Option<f64>,
+/// Moves inputs from where they are at a time.
+struct InputMover {
+    /// The time (s).
+    t: f64,
+    names: Vec<String>,
+    /// The values of the inputs then (SI).
+    starts: Vec<f64>,
+    evaluator: MechanismEvaluator,
+}
+
+impl InputMover {
+    /// Returns the values (SI) at a fraction of the way to others.
+    fn values(&self, ends: &[f64], fraction: f64) -> Vec<f64> {
+        let value = |(&from, &to): (&f64, &f64)| if fraction < 1.0 { from + (to - from) * fraction } else { to };
+        self.starts.iter().zip(ends).map(value).collect()
+    }
 }
 
 /// The outcome of moving inputs by hand.
@@ -308,47 +312,12 @@ pub(super) struct MoveOutcome {
     pub columns: Vec<Vec<f64>>,
 }
 
-/// The path of an input that is moved by hand.
-struct InputMove {
-    name: String,
-    unit: String,
-    /// Its first and last value (SI).
-    range: [f64; 2],
-}
-
-impl InputMove {
-    fn new(available: &[InputControl], name: &str, to: f64) -> Option<InputMove> {
-        let input = available.iter().find(|input| input.name == name)?;
-        Some(InputMove { name: input.name.clone(), unit: input.unit.clone(), range: [*input.values.first()?, to] })
-    }
-
-    fn at(&self, fraction: f64) -> f64 {
-        let [from, to] = self.range;
-        if fraction < 1.0 { from + (to - from) * fraction } else { to }
-    }
-
-    /// Formats the value at a fraction of the path as `--input` takes it.
-    fn override_at(&self, fraction: f64) -> String {
-        let (name, value) = (&self.name, self.at(fraction));
-        match self.unit.strip_prefix('1') {
-            Some(per) => format!("{name}={value}{per}"),
-            None if self.unit.is_empty() => format!("{name}={value}"),
-            None => format!("{name}={value} {}", self.unit),
-        }
-    }
-}
-
-/// Returns the diagnostic that stopped a continuation, without the notes about what was tried instead.
-fn without_fallback(diagnostics: &Diagnostics) -> Diagnostics {
-    let stop = diagnostics.iter().find(|diagnostic| diagnostic.code == Code::E0612).cloned();
-    match stop {
-        None => diagnostics.clone(),
-        Some(mut stop) => {
-            // the page keeps the position that was reached, so neither notes nor help apply
-            (stop.notes, stop.help) = (Vec::new(), Vec::new());
-            stop.into()
-        }
-    }
+/// Renders errors without their help: the page keeps the position that was reached, so it does not apply.
+fn without_help(error: Error) -> String {
+    let shortened = |diagnostic: Diagnostic| Diagnostic { help: Vec::new(), ..diagnostic };
+    let mut diagnostics = Diagnostics::default();
+    diagnostics.extend(error.diagnostics.into_iter().map(shortened));
+    rendered(&diagnostics, &error.sources)
 }
 
 fn rendered(diagnostics: &Diagnostics, sources: &Sources) -> String {

@@ -226,6 +226,18 @@ impl Checked {
         Some(Checked { forces: self.forces, ..checked })
     }
 
+    /// Returns the mechanism with another model of its text, as `settings` make it, whose formulas are in `sources`.
+    pub(crate) fn bound(&self, model: Arc<Mechanism>, settings: Vec<ParamOverride>, sources: Sources) -> Checked {
+        let check_options = Arc::new(CheckOptions { settings, ..(*self.check_options).clone() });
+        let (parsed, query_cache) = (self.parsed.with_sources(sources), Arc::default());
+        Checked { parsed, model: Some(model), is_continued: true, check_options, query_cache, ..self.clone() }
+    }
+
+    /// Returns the mechanism assembled with its own values, without continuation.
+    pub(crate) fn not_continued(&self) -> Checked {
+        Checked { is_continued: false, ..self.clone() }
+    }
+
     /// Returns the mechanism with params of the given names as symbols of its models, too, without a model of its own.
     pub(crate) fn with_open_params(&self, names: &[String]) -> Checked {
         let mut options = (*self.check_options).clone();
@@ -433,6 +445,18 @@ impl Checked {
         })
     }
 
+    /// Returns what its model is compiled from.
+    pub(crate) fn origin(&self, model: &Arc<Mechanism>, redundant: Redundant) -> Origin {
+        Origin {
+            sources: self.sources().clone(),
+            model: Arc::clone(model),
+            forces: self.forces,
+            start_solver: self.start_solver(model),
+            backtrace: PartBacktrace::new(model),
+            redundant,
+        }
+    }
+
     /// Proves that the mechanism is determined, and compiles it; returns the diagnostics of that. `None` if it has errors, is not determined, or
     /// the work is cancelled.
     #[must_use]
@@ -440,14 +464,7 @@ impl Checked {
         match &self.model {
             None => (None, Diagnostics::default()),
             Some(model) => {
-                let origin = Origin {
-                    sources: self.sources().clone(),
-                    model: Arc::clone(model),
-                    forces: self.forces,
-                    start_solver: self.start_solver(model),
-                    backtrace: PartBacktrace::new(model),
-                    redundant,
-                };
+                let origin = self.origin(model, redundant);
                 let system = origin.lowered(Inputs::Inlined);
                 let (mut compiled, mut diagnostics) = origin.compile(system, cancel);
                 if let Some(Err(why)) = compiled.as_ref().map(|compiled| compiled.determined().check_part_derivatives())

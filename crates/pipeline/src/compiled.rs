@@ -1,5 +1,6 @@
 //! The third stage: a mechanism that is proved determined, with the operations that evaluate it. Follows no motion.
 
+use crate::Checked;
 use crate::continuation::Continuation;
 use crate::continuation::StartSolver;
 use crate::lowering::lower_model;
@@ -51,6 +52,8 @@ pub struct Compiled {
     program: Arc<OnceLock<Arc<Program>>>,
     /// Present if it is continued from nominal values of its params.
     continuation: Option<Arc<Continuation>>,
+    /// True if its equations are those of other values of its params, with values bound to them.
+    is_bound: bool,
 }
 
 /// What a mechanism is compiled from, except for its equations.
@@ -82,8 +85,9 @@ impl Origin {
             Err(why) => (None, self.backtrace.annotate_all(why)),
             Ok((determined, diagnostics)) => {
                 let diagnostics = self.backtrace.annotate_all(diagnostics);
-                let (program, continuation) = Default::default();
-                let compiled = Compiled { origin: self, determined: Arc::new(determined), program, continuation };
+                let (program, continuation, is_bound) = Default::default();
+                let determined = Arc::new(determined);
+                let compiled = Compiled { origin: self, determined, program, continuation, is_bound };
                 (Some(compiled), diagnostics)
             }
         }
@@ -91,6 +95,20 @@ impl Origin {
 }
 
 impl Compiled {
+    /// Returns it with values of all its params (SI), with which the mechanism is checked; `None` if that has errors.
+    pub(crate) fn bound(&self, checked: &Checked, values: &[f64]) -> Option<Compiled> {
+        let origin = checked.origin(checked.model.as_ref()?, self.origin.redundant);
+        let determined = Arc::new(self.determined.with_values(values));
+        Some(Compiled { origin, determined, program: Arc::clone(&self.program), continuation: None, is_bound: true })
+    }
+
+    /// Returns the mechanism compiled from its model, if values are bound to its equations: their estimates may follow from other values.
+    pub(crate) fn unbound(&self, cancel: &Cancel) -> Option<Compiled> {
+        let system = self.is_bound.then(|| self.origin.lowered(Inputs::Inlined))?;
+        let compiled = self.origin.clone().compile(system, cancel).0?;
+        Some(compiled.with_continuation(self.continuation.clone()))
+    }
+
     /// Returns it with a continuation from nominal values, if there is one.
     pub(crate) fn with_continuation(self, continuation: Option<Arc<Continuation>>) -> Compiled {
         Compiled { continuation, ..self }

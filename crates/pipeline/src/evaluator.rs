@@ -2,13 +2,12 @@
 //! depends on its query alone, not on queries before it.
 
 use crate::batch::{BatchEvaluator, Query, QueryResult};
-use crate::continuation::{Continuation, Outcome};
+use crate::continuation::{Continuation, Outcome, PathStop};
 use crate::option_reader::unusable;
 use crate::param_table::{Binder, Bindings};
-use crate::{Checked, Compiled, Redundant, RequestedTimes, RunOptions, Variants};
-use mechc_engine::analysis::{Answers, ResultQuery, Times};
+use crate::{Checked, Compiled, Configuration, Redundant, RequestedTimes, RunOptions, Variants};
+use mechc_engine::analysis::{Answers, ResultQuery, Started, Times};
 use mechc_engine::sweep::{LANES, Levels, Points, Varying};
-use mechc_lang::check::CheckOptions;
 use mechc_lang::settable_inputs::SettableInputs;
 use mechc_text::cancel::Cancel;
 use mechc_text::diag::{Code, Diagnostic, Diagnostics, Error, readable};
@@ -23,6 +22,8 @@ pub struct EvaluatorOptions {
     pub has_accelerations: bool,
     /// Names of the params that queries set.
     pub params: Vec<String>,
+    /// The configuration in which inputs have the values of the text; `None` for the start of the mechanism.
+    pub start: Option<Configuration>,
     /// The treatment of redundant equations.
     pub redundant: Redundant,
     /// See [`RunOptions::tolerance`].
@@ -34,8 +35,8 @@ pub struct EvaluatorOptions {
 impl Default for EvaluatorOptions {
     fn default() -> EvaluatorOptions {
         let RunOptions { tolerance, pass_bifurcations, .. } = RunOptions::default();
-        let (inputs, bend, params, redundant) = Default::default();
-        EvaluatorOptions { inputs, has_accelerations: bend, params, redundant, tolerance, pass_bifurcations }
+        let (inputs, has_accelerations, params, start, redundant) = Default::default();
+        EvaluatorOptions { inputs, has_accelerations, params, start, redundant, tolerance, pass_bifurcations }
     }
 }
 
@@ -85,6 +86,21 @@ pub struct EvaluationPoint {
 #[derive(Clone)]
 pub struct MechanismEvaluator(Arc<Shared>);
 
+/// Why values of inputs are not reached.
+#[derive(Debug)]
+pub struct NotReached {
+    /// Why.
+    pub error: Error,
+    /// The fraction, from 0 to 1, at which the path to them stopped, if that is why.
+    pub fraction: Option<f64>,
+}
+
+impl From<Error> for NotReached {
+    fn from(error: Error) -> NotReached {
+        NotReached { error, fraction: None }
+    }
+}
+
 struct Shared {
     checked: Checked,
     compiled: Compiled,
@@ -112,12 +128,15 @@ impl Checked {
     /// An input or param does not exist, or the mechanism is not determined; with the texts that the diagnostics point into.
     pub fn evaluator(&self, adjusting: &EvaluatorOptions, cancel: &Cancel) -> Result<MechanismEvaluator, Error> {
         let refused = |why: Diagnostic| Error::new(why, self.sources());
-        let t = self.model().and_then(|model| model.analysis).map_or(0.0, |analysis| analysis.from);
+        let from = || self.model().and_then(|model| model.analysis).map_or(0.0, |analysis| analysis.from);
+        let t = adjusting.start.as_ref().map_or_else(from, |start| start.t);
         let set_inputs = SettableInputs { t, names: adjusting.inputs.clone(), bend: adjusting.has_accelerations };
-        let check_options = CheckOptions { open: adjusting.params.clone(), ..(*self.check_options).clone() };
-        let Some(checked) = self.checked_again(check_options, false) else {
-            return Err(Error::new(self.diagnostics().clone(), self.sources()));
+        let checked = if adjusting.params.is_empty() {
+            Some(self.not_continued())
+        } else {
+            self.with_symbolic_params(adjusting.params.clone())
         };
+        let checked = checked.ok_or_else(|| Error::new(self.diagnostics().clone(), self.sources()))?;
         let checked = checked.with_settable_inputs(set_inputs).map_err(|why| refused(*why))?;
         let (compiled, diagnostics) = checked.compile(adjusting.redundant, cancel);
         let Some((compiled, model)) = compiled.zip(checked.model()) else {
@@ -150,7 +169,8 @@ impl Checked {
         let batch = BatchEvaluator::new(continued, inputs.iter().flat_map(rates_of).collect());
         let params = self.params_to_adjust(&adjusting.params)?.map(|params| Binder::new(&checked, &params));
         let (source, redundant) = (checked.clone(), adjusting.redundant);
-        let continuation = Continuation::new(move |options| source.nominal(redundant, options));
+        let start = adjusting.start.clone();
+        let continuation = Continuation::new(move |options| source.nominal(redundant, start.as_ref(), options));
         let (adjusting, columns) = (adjusting.clone(), compiled.columns().len());
         let shared = Shared { checked, compiled, continuation, nominal, inputs, params, adjusting, columns, batch };
         Ok(MechanismEvaluator(Arc::new(shared)))
@@ -196,6 +216,19 @@ impl MechanismEvaluator {
         let Bindings { values, analysis } = self.0.bind(params)?;
         let query = self.0.query(values, times.over(analysis)?.times()?, inputs);
         self.0.follow(&query, cancel, row)
+    }
+
+    /// Evaluates the mechanism at a time (s) at which inputs are set, with its params as the text has them. Returns the row, as
+    /// [`MechanismEvaluator::follow`] does.
+    ///
+    /// # Errors
+    /// No path leads to the values, or the motion stops.
+    pub fn reach(&self, inputs: &[InputMotion], t: f64, cancel: &Cancel) -> Result<Vec<f64>, NotReached> {
+        let query = self.0.query(self.0.nominal.values.clone(), Times::listed(t, vec![t]), inputs);
+        let started = self.0.start(&query, cancel)?;
+        let mut row = Vec::new();
+        let followed = self.0.follow_from(started, &query.times, cancel, |values| row = values.to_vec());
+        followed.map(|_| row).map_err(NotReached::from)
     }
 
     /// Evaluates `count` points, which `ask` writes. `receive` receives the row of each in their order, in SI and the order of the columns, with the
@@ -285,14 +318,38 @@ impl Shared {
         self.follow(query, cancel, keep).map(|_| ())
     }
 
-    fn follow(&self, query: &Query, cancel: &Cancel, mut row: impl FnMut(&[f64])) -> Result<Answers, Error> {
-        let (options, Query { values, times }) = (self.options(cancel), query);
-        let mut started = match self.continuation.start_values(values, times, &options) {
-            Outcome::Started(started) => *started,
-            Outcome::CannotStart(stop, variant) => return Err(self.error(stop.explain(variant.system()))),
-            Outcome::Refused(diagnostics) => return Err(self.error(first_error(diagnostics))),
-            Outcome::NoPath(why) => return Err(self.error(no_path(why))),
+    fn follow(&self, query: &Query, cancel: &Cancel, row: impl FnMut(&[f64])) -> Result<Answers, Error> {
+        let started = self.start(query, cancel).map_err(|why| why.error)?;
+        self.follow_from(started, &query.times, cancel, row)
+    }
+
+    /// Continues to the values of a query.
+    fn start(&self, query: &Query, cancel: &Cancel) -> Result<Started, NotReached> {
+        let why = match self.continuation.start_values(&query.values, &query.times, &self.options(cancel)) {
+            Outcome::Started(started) => return Ok(*started),
+            Outcome::CannotStart(stop, variant) => stop.explain(variant.system()),
+            Outcome::Refused(diagnostics) => first_error(diagnostics),
+            Outcome::NoPath(Some(PathStop { diagnostic, fraction })) => {
+                // nothing else is tried
+                let why = Diagnostic { notes: Vec::new(), ..*diagnostic };
+                return Err(NotReached { error: self.error(why), fraction: Some(fraction) });
+            }
+            Outcome::NoPath(None) => {
+                let message = "it does not stand with its own values, and so no way leads to others";
+                Diagnostic::new(Code::E0612, message)
+            }
         };
+        Err(self.error(why).into())
+    }
+
+    fn follow_from(
+        &self,
+        mut started: Started,
+        times: &Times,
+        cancel: &Cancel,
+        mut row: impl FnMut(&[f64]),
+    ) -> Result<Answers, Error> {
+        let options = self.options(cancel);
         // a run reports the conditioning of its start, which restores the factors there; do the same for the same bits
         let _ = started.conditioning();
         let has_results = !self.compiled.system().results().outcomes.is_empty();
@@ -314,14 +371,6 @@ impl Shared {
     /// Binds params (SI), inputs at their nominal values.
     fn bind(&self, params: &[f64]) -> Result<Bindings, Error> {
         self.params.as_ref().map_or_else(|| Ok(self.nominal.clone()), |binder| binder.bind(params))
-    }
-}
-
-/// Reports that no path leads to the values; nothing else is tried.
-fn no_path(why: Option<Box<Diagnostic>>) -> Diagnostic {
-    match why {
-        Some(why) => Diagnostic { notes: Vec::new(), ..*why },
-        None => Diagnostic::new(Code::E0612, "it does not stand with its own values, and so no way leads to others"),
     }
 }
 

@@ -1,4 +1,4 @@
-//! Options of a run, and the configuration that it may start from.
+//! Options of a run, and the configurations that a mechanism may have.
 
 use mechc_engine::analysis::TOLERANCE;
 use mechc_expr::math::Vectors;
@@ -11,8 +11,6 @@ pub struct RunOptions {
     pub tolerance: f64,
     /// True if a motion continues beyond bifurcations, along the smooth branch, with a warning each time.
     pub pass_bifurcations: bool,
-    /// The configuration from which given inputs are reached; `None` for the start of the mechanism itself.
-    pub configuration: Option<Configuration>,
     /// The vector instructions of the solver; they change no bit.
     pub vectors: Vectors,
     /// Cancels the run.
@@ -33,7 +31,6 @@ impl Default for RunOptions {
         RunOptions {
             tolerance: TOLERANCE,
             pass_bifurcations: false,
-            configuration: None,
             vectors: Vectors::default(),
             cancel: Cancel::default(),
         }

@@ -165,6 +165,10 @@ impl Compiled {
         solving: Solving,
     ) -> (Result<Started, Box<Stop>>, StartReport) {
         let (beginning, mut report) = self.initial_guess(horizon, options);
+        // the estimates that follow a path that stops are those of the text with the values that are set
+        if let Some(fresh) = report.stopped_path.and_then(|_| self.unbound(&options.cancel)) {
+            return fresh.started(horizon, options, solving);
+        }
         let started = match beginning {
             StartStage::Started(started) => return (*started, report),
             StartStage::At(InitialGuess::Position(q), at) => self.unassembled(at, options).assemble_at(&q, solving),
@@ -222,12 +226,9 @@ impl Compiled {
     /// Returns the start, as far as continuations decide it, with their diagnostics: to params that are set, to given inputs, and of parts.
     fn initial_guess(&self, horizon: Horizon, options: &RunOptions) -> (StartStage, StartReport) {
         let has_given_inputs = self.start_solver().is_some_and(|(start_solver, _)| start_solver.has_given_inputs);
-        let stand = options.configuration.as_ref().filter(|_| has_given_inputs);
-        let (origin, mut report) = match (stand, self.continuation()) {
-            // a configuration that is handed in was reached with the params that are set
-            (Some(stand), _) => (ContinuationOrigin::Configuration(stand.t, stand.q.clone()), StartReport::default()),
-            (None, None) => (ContinuationOrigin::Nominal(self.first_time()), StartReport::default()),
-            (None, Some(continuation)) => {
+        let (origin, mut report) = match self.continuation() {
+            None => (ContinuationOrigin::Nominal(self.first_time()), StartReport::default()),
+            Some(continuation) => {
                 let continued = continuation.start_system(self.system(), horizon, options);
                 let ContinuedStart { started, diagnostics, stopped_path } = continued;
                 let report = StartReport { diagnostics, stop: None, stopped_path };

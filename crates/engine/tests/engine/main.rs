@@ -26,6 +26,7 @@ mod nearness;
 mod order;
 mod parallel_map;
 mod parameter_derivatives;
+mod parametric;
 mod part_derivatives;
 mod point_formulas;
 mod properties;

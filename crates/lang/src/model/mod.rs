@@ -171,6 +171,16 @@ pub enum GuardKind {
     Value,
 }
 impl Mechanism {
+    /// Sets the values of all params (SI), and the first time, last time and step of the analysis (s) that they lead to.
+    pub fn set_values(&mut self, values: &[f64], analysis: Option<[f64; 3]>) {
+        for (param, &value) in self.params.iter_mut().zip(values) {
+            param.value = value;
+        }
+        if let Some((own, [from, to, every])) = self.analysis.as_mut().zip(analysis) {
+            (own.from, own.to, own.every) = (from, to, every);
+        }
+    }
+
     /// Returns a mechanism without declarations.
     #[must_use]
     pub fn new(declared: Declared, docs: Vec<String>) -> Mechanism {

@@ -2,8 +2,8 @@
 
 use super::context::Nominal;
 use super::nominal::Continuation;
-use crate::{Checked, Redundant, RunOptions};
-use mechc_engine::analysis::Horizon;
+use crate::{Checked, Configuration, Redundant, RunOptions};
+use mechc_engine::analysis::{Horizon, Solving};
 use mechc_engine::sweep::CompiledSystem;
 use mechc_lang::check::{CheckOptions, InputOverrides, ParamOverride};
 use std::sync::Arc;
@@ -12,7 +12,7 @@ impl Checked {
     /// Returns the continuation from nominal values to what is set; all mechanisms whose settings are of the same params have the same one.
     pub(crate) fn continuation(&self, redundant: Redundant) -> Arc<Continuation> {
         let checked = self.clone();
-        Arc::new(Continuation::new(move |options| checked.with_nominal_values()?.nominal(redundant, options)))
+        Arc::new(Continuation::new(move |options| checked.with_nominal_values()?.nominal(redundant, None, options)))
     }
 
     /// Returns the mechanism with its nominal values, the params of all settings as symbols; settings that decide counts are kept.
@@ -49,12 +49,20 @@ impl Checked {
         self.checked_again(options, false)
     }
 
-    /// Compiles the mechanism and assembles it at its first time; `None` if that fails.
-    pub(crate) fn nominal(&self, redundant: Redundant, options: &RunOptions) -> Option<Nominal> {
+    /// Compiles the mechanism and assembles it at its first time, or near a configuration; `None` if that fails.
+    pub(crate) fn nominal(
+        &self,
+        redundant: Redundant,
+        near: Option<&Configuration>,
+        options: &RunOptions,
+    ) -> Option<Nominal> {
         let (compiled, model) = (self.compile(redundant, &options.cancel).0?, Arc::clone(self.model.as_ref()?));
-        let t = compiled.analysis().map_or(0.0, |[from, ..]| from);
+        let t = near.map_or_else(|| compiled.analysis().map_or(0.0, |[from, ..]| from), |near| near.t);
         let horizon = Horizon::of_analysis(compiled.analysis()).beginning(t);
-        let started = compiled.start(horizon, &RunOptions { configuration: None, ..options.clone() }).0.ok()?;
+        let started = match near {
+            None => compiled.start(horizon, options).0.ok()?,
+            Some(near) => compiled.unassembled(horizon, options).assemble_at(&near.q, Solving::New).ok()?,
+        };
         let (determined, program) = (Arc::clone(compiled.determined()), Arc::clone(compiled.program()));
         let sets_inputs = self.settable_inputs.as_ref().is_some_and(|inputs| !inputs.names.is_empty());
         let leave_out_redundant = redundant == Redundant::LeftOut;

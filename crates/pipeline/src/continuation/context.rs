@@ -33,7 +33,14 @@ pub(crate) enum Outcome {
     /// Results refuse the times, before any path is followed.
     Refused(Diagnostics),
     /// No path reaches the target; with the reason, if a path began.
-    NoPath(Option<Box<Diagnostic>>),
+    NoPath(Option<PathStop>),
+}
+
+/// Why a path stopped.
+pub(crate) struct PathStop {
+    pub diagnostic: Box<Diagnostic>,
+    /// The fraction of the path, from 0 to 1.
+    pub fraction: f64,
 }
 
 /// A mechanism with its nominal values, compiled and assembled at its first time.
@@ -116,14 +123,9 @@ impl ContinuationContext {
             Err(ContinuationError::OnPath(stop)) => {
                 let targets = self.targets(variant.system(), values);
                 let (ends, span) = ([self.options.t, self.end_time(times.from())], self.nominal.model.declared.span);
-                Outcome::NoPath(Some(Box::new(stopped_path(
-                    None,
-                    &targets,
-                    ends,
-                    span,
-                    stop.t,
-                    (&stop, base.path_system()),
-                ))))
+                let along = (&*stop, base.path_system());
+                let diagnostic = Box::new(stopped_path(None, &targets, ends, span, stop.t, along));
+                Outcome::NoPath(Some(PathStop { diagnostic, fraction: stop.t }))
             }
         }
     }

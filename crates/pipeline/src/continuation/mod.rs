@@ -10,6 +10,6 @@ mod nominal;
 mod shared_paths;
 mod starts;
 
-pub(crate) use context::{ContinuedStart, Outcome};
+pub(crate) use context::{ContinuedStart, Outcome, PathStop};
 pub(crate) use nominal::Continuation;
 pub(crate) use starts::{ContinuationOrigin, InitialGuess, StartSolver};
