@@ -82,9 +82,12 @@ struct Texts {
     earlier_files: Vec<PathBuf>,
     /// The last settings, with their solution.
     last: Mutex<Option<(Settings, Arc<Solution>)>>,
-    /// The names of the params of the last settings, and the mechanism with these as numbers, if they can take other values.
-    parametric: Mutex<Option<(Vec<String>, Option<Arc<ParametricMechanism>>)>>,
+    /// The mechanism with the params of the last settings as numbers.
+    parametric: Mutex<Option<CachedParametric>>,
 }
+
+/// The names of params, and the mechanism with these as numbers, if they can take other values.
+type CachedParametric = (Vec<String>, Option<Arc<ParametricMechanism>>);
 
 /// The solution of the file as it is written. It is computed once for all pages, as long as one of them waits for it.
 #[derive(Default)]

@@ -64,8 +64,7 @@ impl Checked {
             return None;
         }
         let source = nominal.clone();
-        let continuation =
-            Arc::new(Continuation::new(move |options| source.nominal(redundant, None, options)));
+        let continuation = Arc::new(Continuation::new(move |options| source.nominal(redundant, None, options)));
         let compiled = compiled?;
         Some(ParametricMechanism { nominal, model, compiled, diagnostics, continuation, table, params, settings, set })
     }

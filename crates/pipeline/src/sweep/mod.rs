@@ -577,7 +577,7 @@ impl SweepContext {
 
     fn run_options(&self) -> RunOptions {
         let SweepOptions { tolerance, pass_bifurcations, vectors, ref cancel, .. } = self.options;
-        RunOptions { tolerance, pass_bifurcations, vectors, cancel: cancel.clone(), ..RunOptions::default() }
+        RunOptions { tolerance, pass_bifurcations, vectors, cancel: cancel.clone() }
     }
 
     fn push_row(&self, row: &[f64], outputs: &OutputMapping, variant: &mut VariantOutcome) {
