@@ -164,7 +164,7 @@ fn forces_are_batched() {
     let choice = || Choice { reactions: true, results: vec!["most = max(torque)".to_owned()], ..Choice::default() };
     let ranges = ["rod=3.4..3.6", "pen_x=-1..2", "speed=1..3"];
     for load in [
-        "-3 * (distance(ground.B, coupler.pen) - 2)",
+        "-3 * (distance(ground.B, coupler.pen) - 2) on distance(ground.B, coupler.pen)",
         "if der(angle(rocker)) > 0 then -speed * angle(rocker) else 0 on rotation(pivot)",
     ] {
         let subject = subject(&loaded(load), choice());
