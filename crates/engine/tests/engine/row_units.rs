@@ -69,7 +69,7 @@ fn compared(name: &str, system: &ConstraintSystem) -> [usize; 2] {
         system.rows().iter().enumerate().filter_map(|(k, row)| Some((k, row, dimension_of(system, row.phi)?)));
     let reported = reported.map(|(k, row, dimension)| {
         let (of, found) = (system.row_name(k), dimension.unit());
-        assert!(dimension.is(row.unit.dimension), "{name}: `{of}` says {}, and is in {found}", row.unit);
+        assert!(dimension.is(row.unit), "{name}: `{of}` says {}, and is in {found}", row.unit.display_unit());
     });
     [system.rows().len(), reported.count()]
 }
@@ -100,7 +100,7 @@ fn units(declarations: &str) -> Vec<String> {
         }}"
     );
     let compiled = compiled("machine", &text);
-    compiled.inside().0.system().rows().iter().map(|row| row.unit.to_string()).collect()
+    compiled.inside().0.system().rows().iter().map(|row| row.unit.display_unit()).collect()
 }
 
 #[test]
