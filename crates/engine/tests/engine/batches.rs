@@ -164,14 +164,14 @@ fn forces_are_batched() {
     let choice = || Choice { reactions: true, results: vec!["most = max(torque)".to_owned()], ..Choice::default() };
     let ranges = ["rod=3.4..3.6", "pen_x=-1..2", "speed=1..3"];
     for load in [
-        "-3 * (distance(ground.B, coupler.pen) - 2) on distance(ground.B, coupler.pen)",
+        "-3 N/m * (distance(ground.B, coupler.pen) - 2 m) on distance(ground.B, coupler.pen)",
         "if der(angle(rocker)) > 0 then -speed * angle(rocker) else 0 on rotation(pivot)",
     ] {
         let subject = subject(&loaded(load), choice());
         let (found, in_lanes) = compare(&subject, &sampled(&ranges, 40, Method::Sobol));
         assert_eq!((count(&found, Status::Ok), in_lanes), (40, 40), "{load}: {found:?}");
     }
-    let subject = subject(&loaded("sqrt(y(coupler.pen) - 0.6) on rotation(pivot)"), choice());
+    let subject = subject(&loaded("3 N * m * sqrt((y(coupler.pen) - 0.6 m) / 1 m) on rotation(pivot)"), choice());
     let (variants, all) = (subject.variants(&sampled(&ranges, 40, Method::Sobol)), subject.all_columns());
     let (found, in_lanes) = compare_all(&subject, &variants);
     assert!(found.len() == 2 && in_lanes > 4 && in_lanes <= count(&found, Status::Ok), "{in_lanes} of {found:?}");
