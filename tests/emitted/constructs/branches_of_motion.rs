@@ -82,7 +82,7 @@ pub mod row {
     pub const HUB_1: usize = 2;
     /// joint `hub 2` (m), line 6
     pub const HUB_2: usize = 3;
-    /// constraint `follow` (rad), line 8
+    /// constraint `follow` (a pure number), line 8
     pub const FOLLOW: usize = 4;
     /// driver `motor` (rad), line 7
     pub const MOTOR: usize = 5;

@@ -3,7 +3,6 @@
 //! An enclosure holds every value of an operation while time, and optionally the coordinates, vary in their intervals. It may be wider than
 //! these values; the excess vanishes with the width of the intervals.
 
-use super::lane_intervals::LaneEnclosure;
 use super::{Column, Machine, Op, Program, Register, Registers, Stage};
 use mechc_expr::{Binary, Comparison, Unary, binary_value, compare, piece, unary_value};
 use std::f64::consts::{FRAC_PI_2, PI};
@@ -27,7 +26,7 @@ const UNDECIDED: Interval = Interval { low: 0.0, high: 1.0 };
 #[derive(Clone, Debug)]
 pub struct Enclosure {
     /// Operations that these depend on, in order.
-    operations: Vec<Op>,
+    pub(super) operations: Vec<Op>,
     /// Results of switches that must not change.
     switches: Vec<Register>,
     /// Registers that must stay above zero.
@@ -36,8 +35,8 @@ pub struct Enclosure {
     watches: Vec<Register>,
     /// First coordinate; `None` if time alone varies.
     coordinates: Option<Register>,
-    time: Register,
-    values: Vec<Interval>,
+    pub(super) time: Register,
+    pub(super) values: Vec<Interval>,
 }
 
 impl Enclosure {
@@ -158,18 +157,6 @@ impl Enclosure {
             self.values[first as usize + k] =
                 if *reach > 0.0 { wider(middle - reach, middle + reach) } else { point(*middle) };
         }
-    }
-
-    /// Returns the enclosure of the same registers for several variants.
-    #[must_use]
-    pub fn in_lanes<const W: usize>(&self, program: &Program) -> LaneEnclosure<W> {
-        let is_computed = |register: &Register| self.operations.iter().any(|op| op.writes().contains(register));
-        let read = self.operations.iter().flat_map(|&op| program.reads(op));
-        let mut operands: Vec<Register> =
-            read.filter(|register| *register != self.time && !is_computed(register)).collect();
-        operands.sort_unstable();
-        operands.dedup();
-        LaneEnclosure::new(self.operations.clone(), operands, self.time, &self.values)
     }
 
     /// Returns the enclosure `[low, high]` of a register.

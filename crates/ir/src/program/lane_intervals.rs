@@ -1,8 +1,8 @@
 //! Interval evaluation in lanes: encloses registers over a stretch of time for several variants at once. Rounding is ignored, unlike in
 //! `interval_eval`: what is compared with these enclosures is far coarser.
 
-use super::interval_eval::{Interval, binary_range, unary_range};
-use super::{Column, LaneValues, Machine, Op, Register};
+use super::interval_eval::{Enclosure, Interval, binary_range, unary_range};
+use super::{Column, LaneValues, Machine, Op, Program, Register};
 use mechc_expr::math::sin_cos_lanes;
 use mechc_expr::{Binary, Comparison, Unary};
 use std::array::from_fn;
@@ -19,8 +19,20 @@ pub struct LaneEnclosure<const W: usize> {
 }
 
 impl<const W: usize> LaneEnclosure<W> {
+    /// Creates the enclosure, for several variants, of the registers that one variant's enclosure computes.
+    #[must_use]
+    pub fn of(single: &Enclosure, program: &Program) -> Self {
+        let is_computed = |register: &Register| single.operations.iter().any(|op| op.writes().contains(register));
+        let read = single.operations.iter().flat_map(|&op| program.reads(op));
+        let mut operands: Vec<Register> =
+            read.filter(|register| *register != single.time && !is_computed(register)).collect();
+        operands.sort_unstable();
+        operands.dedup();
+        LaneEnclosure::new(single.operations.clone(), operands, single.time, &single.values)
+    }
+
     /// Creates the enclosure of the results of operations; `constants` holds the values of registers that no lane changes.
-    pub(super) fn new(operations: Vec<Op>, operands: Vec<Register>, time: Register, constants: &[Interval]) -> Self {
+    fn new(operations: Vec<Op>, operands: Vec<Register>, time: Register, constants: &[Interval]) -> Self {
         let values = constants.iter().map(|of| [LaneValues([of.low; W]), LaneValues([of.high; W])]).collect();
         LaneEnclosure { operations, operands, time, values }
     }

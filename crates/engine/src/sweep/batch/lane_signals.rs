@@ -24,7 +24,7 @@ impl LaneSignals {
         let count = bounds.all.len();
         let ends = [vec![ZERO; count], vec![ZERO; count]];
         let has_any = count > 0 || !bounds.conditions.is_empty();
-        let enclosure = bounds.enclosure.in_lanes(program);
+        let enclosure = LaneEnclosure::of(&bounds.enclosure, program);
         has_any.then(|| LaneSignals { bounds: bounds.clone(), enclosure, ends, vectors })
     }
 
