@@ -117,6 +117,7 @@ impl CachedEvaluator {
             inputs: key.inputs.clone(),
             has_accelerations: key.has_accelerations,
             params: key.params.clone(),
+            start: None,
             redundant: stages.redundant,
             tolerance: key.tolerance.map_or(usual.tolerance, f64::from_bits),
             pass_bifurcations: key.pass_bifurcations,

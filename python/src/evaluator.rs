@@ -42,7 +42,7 @@ impl Function {
         let RunOptions { tolerance, pass_bifurcations, .. } = request.options(cancel);
         let (count, inputs, redundant) = (params.len(), Vec::new(), request.redundant(stages));
         let options =
-            EvaluatorOptions { inputs, has_accelerations: false, params, redundant, tolerance, pass_bifurcations };
+            EvaluatorOptions { inputs, params, redundant, tolerance, pass_bifurcations, ..EvaluatorOptions::default() };
         let evaluator = checked.evaluator(&options, cancel)?;
         let compiled = evaluator.compiled();
         let mut sources = compiled.sources().clone();
