@@ -173,8 +173,9 @@ impl ConstraintSystem {
         let of_forces = self.forces.iter().flat_map(Forces::formulas);
         let of_rows = self.conditions.iter().map(|of| of.positive);
         let of_rows = of_rows.chain(self.watches.iter().map(|of| of.value)).chain(of_forces);
-        let of_rows =
-            of_rows.chain(self.domain_boundaries.iter().flat_map(|boundary| [boundary.gauge, boundary.slope]));
+        let of_rows = of_rows.chain(
+            self.domain_boundaries.iter().flat_map(|boundary| [boundary.gauge].into_iter().chain(boundary.slope)),
+        );
         let of_rows: Vec<ExprId> = of_rows.chain(self.measures.iter().map(|measure| measure.value)).collect();
         let variations = self.variations.as_deref();
         for symbol in self.graph.symbols_of_all(&of_rows) {
@@ -400,7 +401,7 @@ mod tests {
         });
         assert_eq!(fault, "Named(7) is of nothing");
         let fault = broken(|s| {
-            let (gauge, slope) = (coordinate(s), coordinate(s));
+            let (gauge, slope) = (coordinate(s), None);
             s.domain_boundaries.push(DomainBoundary { gauge, slope, declarations: Vec::new() });
         });
         assert!(fault.starts_with("Coordinate { index: 999"), "{fault}");

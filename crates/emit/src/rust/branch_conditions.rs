@@ -149,7 +149,12 @@ impl Writer<'_> {
 
     pub fn boundaries(&self) -> impl Iterator<Item = &BoundaryRegisters> {
         let is_input_driven = self.equations.is_input_driven;
-        self.unit.program.outputs.domain_boundaries.iter().filter(move |boundary| boundary.on_time && !is_input_driven)
+        self.unit
+            .program
+            .outputs
+            .domain_boundaries
+            .iter()
+            .filter(move |boundary| boundary.is_of_time() && !is_input_driven)
     }
 
     /// Prints the search for times at which formulas of time reach the boundary of their domain, if any may.
@@ -160,7 +165,7 @@ impl Writer<'_> {
         let outputs: Vec<Register> = self
             .boundaries()
             .map(|boundary| boundary.gauge)
-            .chain(self.boundaries().map(|boundary| boundary.slope))
+            .chain(self.boundaries().filter_map(|boundary| boundary.slope))
             .collect();
         let docs = "Number of places where a formula of time may end.";
         page.constant(docs, "const BOUNDARIES: usize", &self.boundaries().count().to_string());

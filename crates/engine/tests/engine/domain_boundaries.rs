@@ -1,4 +1,5 @@
-//! Domain boundaries: where a root, a power or an arc cosine reaches the end of its domain, both sides decide what is reported.
+//! Domain boundaries: where a root, a power or an arc cosine of time reaches the end of its domain, both sides decide what is reported; where
+//! one of the motion does, the run ends.
 
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, clippy::float_cmp)] // a test fails by panicking
 
@@ -66,11 +67,17 @@ const KINDS: &[(&str, Option<(&str, &str)>)] = &[
     ("((U - C)^2)^2.5", None),
     ("sin(U - C) / (U - C)", None),
     ("sin(atan2(U - C, -1))", None),
-    ("sqrt((U - C)^2 + 1e-4)", None),
-    ("0.1 * acos(0.999 * cos(2 * (U - C)))", None),
+];
+
+/// Formulas that keep away from the ends of the domains of their functions.
+const AWAY: &[&str] = &[
+    "sqrt((U - C)^2 + 1e-4)",
+    "0.1 * acos(0.999 * cos(2 * (U - C)))",
     // its poles lie behind the end
-    ("0.01 * tan(0.5 * (U - C))", None),
-    ("sqrt(1 + U^2)", None),
+    "0.01 * tan(0.5 * (U - C))",
+    "sqrt(1 + U^2)",
+    // the pole lies in the branch that is not taken
+    "if abs(U - C) > 1e-3 then sin(U - C) / (U - C) else 1 - (U - C)^2 / 6",
 ];
 
 fn holds(outcome: &Outcome, reported: Option<(&str, &str)>, c: f64, of: &str) {
@@ -89,20 +96,37 @@ fn holds(outcome: &Outcome, reported: Option<(&str, &str)>, c: f64, of: &str) {
 
 #[test]
 fn both_sides_of_a_rim_of_time_decide() {
-    for (kind, reported) in KINDS {
+    let away = AWAY.iter().take(4).map(|kind| (*kind, None));
+    for (kind, reported) in KINDS.iter().copied().chain(away) {
         let formula = kind.replace('U', "t").replace('C', "0.70013");
         for every in ["0.1 s", "0.7 s", "10 ms"] {
-            holds(&slide(&formula, every), *reported, 0.70013, &format!("{formula} every {every}"));
+            holds(&slide(&formula, every), reported, 0.70013, &format!("{formula} every {every}"));
         }
     }
 }
 
 #[test]
-fn both_sides_of_a_rim_of_the_motion_decide() {
-    for (kind, reported) in KINDS {
+fn a_rim_of_the_motion_ends_it() {
+    let c = 0.70013;
+    for kind in KINDS.iter().map(|(kind, _)| *kind) {
         let formula = format!("1 m * ({})", kind.replace('U', "(x(a.P) / 1 m)").replace('C', "0.70013"));
         for every in ["0.1 s", "0.7 s"] {
-            holds(&on_curve(&formula, every), *reported, 0.70013, &format!("{formula} every {every}"));
+            let (outcome, of) = (on_curve(&formula, every), format!("{formula} every {every}"));
+            let diagnostic = only(&outcome, "E0605", &of);
+            let found = time_of(diagnostic);
+            assert!((found - c).abs() < 1e-7, "{of}: {found} instead of {c}");
+            assert!(outcome.rows.iter().all(|row| row[0] < found), "{of}: a row behind the end");
+            assert!(outcome.rows.last().is_some_and(|row| row[0] > c - 0.71), "{of}: {} rows", outcome.rows.len());
+        }
+    }
+}
+
+#[test]
+fn motions_that_keep_away_from_rims_go_on() {
+    for kind in AWAY {
+        let formula = format!("1 m * ({})", kind.replace('U', "(x(a.P) / 1 m)").replace('C', "0.70013"));
+        for every in ["0.1 s", "0.7 s"] {
+            holds(&on_curve(&formula, every), None, 0.70013, &format!("{formula} every {every}"));
         }
     }
 }

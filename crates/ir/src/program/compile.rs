@@ -197,10 +197,9 @@ impl<'s> Layout<'s> {
     }
 
     fn domain_boundary(&mut self, boundary: &ir::DomainBoundary) -> BoundaryRegisters {
-        let moves = self.graph.dependence(boundary.gauge).highest_order().is_some();
         let terms = self.emit_all(Stage::DomainBoundaries, self.graph.terms(boundary.gauge));
-        let registers = self.emit_all(Stage::DomainBoundaries, [boundary.gauge, boundary.slope]);
-        BoundaryRegisters { gauge: registers[0], slope: registers[1], terms, on_time: !moves }
+        let registers = self.emit_all(Stage::DomainBoundaries, [boundary.gauge].into_iter().chain(boundary.slope));
+        BoundaryRegisters { gauge: registers[0], slope: registers.get(1).copied(), terms }
     }
 
     /// Returns the stage in which a node is computed when stage `needed_in` needs it first.

@@ -69,8 +69,9 @@ impl Enclosure {
     /// Creates the enclosure of domain boundaries: those that depend on time alone, or all others.
     #[must_use]
     pub fn of_domain_boundaries(program: &Program, registers: &Registers, on_time: bool) -> Enclosure {
-        let boundaries = program.outputs.domain_boundaries.iter().filter(|boundary| boundary.on_time == on_time);
-        let roots: Vec<Register> = boundaries.flat_map(|boundary| [boundary.gauge, boundary.slope]).collect();
+        let boundaries = program.outputs.domain_boundaries.iter().filter(|boundary| boundary.is_of_time() == on_time);
+        let roots: Vec<Register> =
+            boundaries.flat_map(|boundary| [boundary.gauge].into_iter().chain(boundary.slope)).collect();
         let stages: &[Stage] = if on_time {
             &[Stage::DomainBoundaries, Stage::Time]
         } else {

@@ -288,7 +288,7 @@ impl Outputs {
         let more_lists = sides.chain(&self.terms).chain(varied).chain(slopes);
         lists.into_iter().chain(more).chain(more_lists).flatten().for_each(|&register| show(register));
         for boundary in &self.domain_boundaries {
-            [boundary.gauge, boundary.slope].iter().chain(&boundary.terms).for_each(|&register| show(register));
+            [boundary.gauge].iter().chain(&boundary.slope).chain(&boundary.terms).for_each(|&register| show(register));
         }
     }
 }
@@ -298,12 +298,18 @@ impl Outputs {
 pub struct BoundaryRegisters {
     /// The event function.
     pub gauge: Register,
-    /// Time derivative.
-    pub slope: Register,
+    /// Its time derivative; `None` where the motion decides.
+    pub slope: Option<Register>,
     /// Terms of its sum, which scale its rounding.
     pub terms: Vec<Register>,
-    /// True if it depends on time alone.
-    pub on_time: bool,
+}
+
+impl BoundaryRegisters {
+    /// Returns whether it depends on time alone.
+    #[must_use]
+    pub fn is_of_time(&self) -> bool {
+        self.slope.is_some()
+    }
 }
 
 /// Straight-line operations that evaluate a constraint system.

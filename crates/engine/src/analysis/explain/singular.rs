@@ -1,10 +1,9 @@
 //! Finds the reason why an analysis stops: which formula, which lock-up, which bifurcation.
 
-use super::errors::{self, StartVerdict};
+use super::errors::StartVerdict;
 use super::stop::{SingularPosition, Stop, StopCause, Warning, WarningCause};
 use crate::analysis::state::{Fault, Horizon, Kinematics, Singular, State};
 use crate::limits::singular::NEAR_FOLD;
-use mechc_ir::program::BoundaryRegisters;
 use mechc_ir::{ConstraintSystem, DeclarationId, DeclarationKind, JointKind, Monitor, MonitorKind};
 
 /// A position closer to a singular one than this is called singular, or as close as steps could get.
@@ -13,12 +12,8 @@ const NEAR: f64 = 1e-2;
 const FLAT: f64 = 1e-3;
 /// A curve has a cusp if its radius of curvature is below this part of its body's size, and its tangent vanishes.
 const CUSP: f64 = 1e-2;
-/// A formula has reached the end of a function's domain, or a pole, if at most this part of its terms is left.
-const VANISHED: f64 = 1e-6;
 /// A formula that ends is the explanation if it does so within this many of the last steps.
 const STEPS_AHEAD: f64 = 1000.0;
-/// Largest deviation from a parabola, which is four times as large at twice the distance from zero, for an event function.
-const PARABOLA: f64 = 0.25;
 /// Smallest share that is reported of an equation in a dependency or a coordinate in a free motion, as a part of the largest.
 const TOLD: f64 = 0.1;
 /// Resolution of shares, in parts of the largest: rounding must not order equal shares.
@@ -62,8 +57,6 @@ pub fn find_stop_near_fold(
         singular_position(kinematics, state, &singular, fold)
     } else if let Some(fault) = fault_at(kinematics, state, target) {
         without_value(system, fault).at(target)
-    } else if let Some(at_boundary) = boundary_reached(kinematics, state) {
-        at_boundary
     } else {
         StopCause::NoStep { driver: fastest_driver(kinematics, state, just_ahead) }.at(state.t)
     };
@@ -81,7 +74,7 @@ pub fn without_value(system: &ConstraintSystem, fault: Fault) -> StopCause {
         | Fault::Uncertain
         | Fault::TooFar
         | Fault::Choice
-        | Fault::DomainBoundary
+        | Fault::DomainBoundary { .. }
         | Fault::Edge { .. } => StopCause::NoStep { driver: None },
     }
 }
@@ -201,48 +194,6 @@ pub fn find_stop_of_haste(kinematics: &mut Kinematics, state: &State, steps: u64
         Some(fault) => without_value(system, fault).at(target),
         None => StopCause::TooFast { driver: fastest_driver(kinematics, state, target), target, steps }.at(state.t),
     }
-}
-
-/// Returns the stop at the nearest domain boundary, if the state has reached it or nearly so.
-fn boundary_reached(kinematics: &mut Kinematics, state: &State) -> Option<Box<Stop>> {
-    kinematics.restore(state);
-    let span = kinematics.span();
-    let boundaries = kinematics.boundaries().to_vec();
-    let mut left = |boundary: &BoundaryRegisters| {
-        let [gauge, slope] = gauge_at(kinematics, boundary, state, 0.0);
-        f64::min(gauge.abs() / kinematics.largest_term(boundary), VANISHED / NEAR_FOLD * (gauge / slope).abs() / span)
-    };
-    // a boundary of time alone is explained by its driver, the fastest one
-    let of_motion = boundaries.iter().enumerate().filter(|(_, boundary)| !boundary.on_time);
-    let nearest = of_motion.map(|(index, boundary)| (index, left(boundary))).min_by(|a, b| a.1.total_cmp(&b.1));
-    let index = nearest.filter(|(_, left)| *left < VANISHED).map(|(index, _)| index)?;
-    let corner = corner_ahead(kinematics, &boundaries[index], state);
-    let system = kinematics.system();
-    let declarations = system.domain_boundaries()[index].declarations.clone();
-    let has_tangent = declarations.iter().any(|&declaration| errors::has_tangent(system, declaration));
-    Some(match corner.filter(|_| has_tangent) {
-        Some(left) => StopCause::PositionJump { declarations, jump: None, is_corner: true }.at(state.t + left),
-        None => StopCause::NotFinite { declarations }.at(state.t),
-    })
-}
-
-/// Returns the time (s) until an event function touches zero without a change of sign, at a corner of its formula; `None` if it crosses zero.
-fn corner_ahead(kinematics: &mut Kinematics, boundary: &BoundaryRegisters, state: &State) -> Option<f64> {
-    let [gauge, slope] = gauge_at(kinematics, boundary, state, 0.0);
-    let left = -2.0 * gauge / slope;
-    let [before, _] = gauge_at(kinematics, boundary, state, -left);
-    // twice as far from it a parabola that touches zero has four times its value; a line has three times that
-    (left > 0.0 && (before / gauge - 4.0).abs() < PARABOLA).then_some(left)
-}
-
-/// Returns an event function and its slope a time `after` (s) later, at constant velocity.
-fn gauge_at(kinematics: &mut Kinematics, boundary: &BoundaryRegisters, state: &State, after: f64) -> [f64; 2] {
-    let q: Vec<f64> = state.q.iter().zip(&state.qd).map(|(q, qd)| q + after * qd).collect();
-    kinematics.set_time(state.t + after);
-    // a fault of the position shows in the event function
-    let _ = kinematics.set_position(&q);
-    kinematics.set_velocity(&state.qd);
-    kinematics.gauge(boundary)
 }
 
 /// Returns why a formula has no value at a time (s), at the position of the state.

@@ -30,6 +30,13 @@ pub enum StopCause {
         /// Declarations that hold the formula.
         declarations: Vec<DeclarationId>,
     },
+    /// A function in a formula of these declarations comes to the end of its domain.
+    DomainEnd {
+        /// Declarations that hold the formula.
+        declarations: Vec<DeclarationId>,
+        /// The last time at which the formula is known to be finite (s).
+        last: f64,
+    },
     /// A condition of a formula does not hold: a distance, an interval, the range of a table.
     Condition {
         /// Index of the condition.
@@ -200,7 +207,13 @@ impl Stop {
     /// True if a formula has no value there.
     #[must_use]
     pub fn is_without_value(&self) -> bool {
-        matches!(self.cause, StopCause::NotFinite { .. } | StopCause::Condition { .. } | StopCause::Load { .. })
+        matches!(
+            self.cause,
+            StopCause::NotFinite { .. }
+                | StopCause::DomainEnd { .. }
+                | StopCause::Condition { .. }
+                | StopCause::Load { .. }
+        )
     }
 
     /// Describes the stop of a system in words.
@@ -218,6 +231,7 @@ impl StopCause {
     fn explain(&self, system: &ConstraintSystem, t: f64) -> Diagnostic {
         match self {
             StopCause::NotFinite { declarations } => errors::formula_not_finite(system, declarations, t),
+            StopCause::DomainEnd { declarations, last } => errors::domain_end(system, declarations, [*last, t]),
             StopCause::Condition { index } => errors::condition(system, &system.conditions()[*index], t),
             StopCause::Load { index, broken } => errors::load_not_finite(system, &system.loads()[*index], *broken, t),
             StopCause::NoContact { monitor } => errors::no_contact(system, *monitor, t),

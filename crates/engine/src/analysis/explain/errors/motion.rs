@@ -22,6 +22,18 @@ pub fn formula_not_finite(system: &ConstraintSystem, declarations: &[Declaration
         .datum("t", t)
 }
 
+/// Returns the diagnostic of a formula of some declarations in which a function comes to the end of its domain between two times (s).
+pub fn domain_end(system: &ConstraintSystem, declarations: &[DeclarationId], [last, t]: [f64; 2]) -> Diagnostic {
+    let named = named_all(system, declarations);
+    let message = format!("the motion comes to the end of the formula of {named} at {}", at(t));
+    let label = format!("finite up to {}", at(last));
+    with_places(Diagnostic::new(Code::E0605, message), system, declarations, [&label; 2])
+        .note("a radicand, a divisor or the argument of a logarithm becomes 0, or an angle comes to its branch cut")
+        .help("keep the motion away from there, or write the formula without that function")
+        .datum("t", t)
+        .datum("last", last)
+}
+
 /// Returns the diagnostic of a load without a value, of which a condition may not hold.
 pub fn load_not_finite(system: &ConstraintSystem, load: &LoadForce, broken: Option<usize>, t: f64) -> Diagnostic {
     if let Some(broken) = broken {

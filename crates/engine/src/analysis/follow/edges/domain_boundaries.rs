@@ -1,37 +1,33 @@
-//! Domain boundaries: the times where a formula comes to the end of what one of its functions takes, as `sqrt((t - 1 s)^2)` does.
+//! Domain boundaries of time: the times where a formula of time comes to the end of what one of its functions takes, as `sqrt((t - 1 s)^2)` does.
 //!
 //! No switch marks such an edge, and at its very time the formula mostly has no derivative. It is found by a quantity,
-//! the event function, that is zero there, and by its slope along the motion. A step is proven by intervals to hold none: the event function
+//! the event function, that is zero there, and by its slope. A step is proven by intervals to hold none: the event function
 //! keeps away from zero, or it is monotonic and has the same sign at both ends. Else its zero is located to
 //! neighbouring doubles, the step ends before it, and both sides are judged by states ever nearer to it
 //! (`crates/engine/src/analysis/follow/edges/one_sided_limits.rs`). If both sides agree there is no edge, and the motion goes on.
+//!
+//! Boundaries that the motion decides end it (`crates/engine/src/analysis/follow/edges/motion_boundaries.rs`).
 
-use super::event_functions::{EventFunctions, SearchPath, Zero};
+use super::event_functions::{EventFunctions, Zero};
 use super::one_sided_limits::{Gap, OneSidedLimits, Verdict};
 use super::one_sided_states::columns_that_jump;
-use crate::analysis::explain::{Stop, StopCause, errors};
-use crate::analysis::follow::step::{Step, write_prediction};
+use crate::analysis::explain::{Stop, StopCause};
+use crate::analysis::follow::step::Step;
 use crate::analysis::follow::warnings::Warnings;
-use crate::analysis::state::{Fault, Kinematics, State, shortly_after};
-use crate::limits::domain_boundaries::{FARTHEST, MOMENT, MOST_HALVINGS, ROUNDING};
-use mechc_expr::math::{Halving, bisect};
+use crate::analysis::state::{Kinematics, State, shortly_after};
+use crate::limits::domain_boundaries::{FARTHEST, MOMENT, ROUNDING};
+use mechc_expr::math::Halving;
 
 /// Smallest part that is searched, as a part of the span.
 const FINEST: f64 = 1e-8;
 /// Maximum number of parts in one step.
 const MOST_PARTS: usize = 2000;
-/// Smallest part of a step that is searched, as a part of the step.
-const FINEST_BETWEEN: f64 = 1e-4;
-/// Maximum number of parts of a step.
-const MOST_PARTS_BETWEEN: usize = 500;
-/// Bound like `MOMENT` for an event function of the motion, as a part of the span: positions are accurate to their tolerance.
-const MOMENT_OF_MOTION: f64 = 1e-9;
 /// Distance of the last step from a boundary that ends the motion, in units in the last place of the time.
 const LAST_MOMENT: f64 = 16.0;
 /// An event function is resolved if rounding is below this part of it.
 const KNOWN: f64 = 1e-6;
 
-/// Finds the domain boundaries that a motion comes to, and judges whether it goes on there.
+/// Finds the domain boundaries of time that a motion comes to, and judges whether it goes on there.
 pub(super) struct DomainBoundaries {
     event_functions: EventFunctions,
     /// Domain boundary that a step has come to, at a time (s).
@@ -68,19 +64,19 @@ impl DomainBoundaries {
         }
     }
 
-    /// Returns the time at which the next step has to end for a domain boundary of time, or for the end of the motion, if that comes before
+    /// Returns the time at which the next step has to end for a domain boundary, or for the end of the motion, if that comes before
     /// `reach` (s).
-    pub fn next(&mut self, kinematics: &mut Kinematics, step: &mut Step, reach: f64) -> Option<f64> {
+    pub fn next(&mut self, kinematics: &mut Kinematics, step: &Step, reach: f64) -> Option<f64> {
         if self.event_functions.is_empty() {
             return None;
         }
         let end = self.end.as_ref().map(|end| end.t - (shortly_after(end.t) - end.t) * (LAST_MOMENT / 4.0));
         let reach = end.map_or(reach, |end| end.min(reach));
-        self.met = self.met.take().filter(|met| !self.event_functions.boundary(met.boundary).on_time);
         let from = step.t();
-        if self.met.is_none() && self.event_functions.has_any(SearchPath::Time) && reach > from {
+        self.met = None;
+        if reach > from {
             let parts = Halving::new([from, reach], FINEST * self.span, MOST_PARTS);
-            let found = self.event_functions.first_zero(kinematics, step, SearchPath::Time, parts);
+            let found = self.event_functions.first_zero(kinematics, parts);
             self.met = found.filter(|met| shortly_after(met.t) < self.last);
         }
         let stop = self.met.map(|met| (met.t - FARTHEST * self.span).max(from));
@@ -107,68 +103,24 @@ impl DomainBoundaries {
         }
     }
 
-    /// Returns the stop of a motion that a domain boundary ends just ahead: even a step as small as `h` (s) failed.
-    pub fn end(
-        &mut self,
-        kinematics: &mut Kinematics,
-        step: &mut Step,
-        h: f64,
-        warnings: &mut Warnings,
-    ) -> Option<Box<Stop>> {
-        if self.end.is_none() {
-            // the extrapolated path, as far as a domain boundary may be that keeps steps from coming nearer
-            let h = h.max(FARTHEST * self.span);
-            if self.event_functions.has_any(SearchPath::Curve(h)) {
-                step.extrapolate_curve(h, 0..step.state().q.len());
-            }
-            if let Some(met) = self.first_on_curve(kinematics, step, h) {
-                self.judge(kinematics, step, met.boundary, step.t() + met.t * h, warnings);
-            }
-        }
+    /// Returns the stop of a motion that a domain boundary ends just ahead.
+    pub fn end(&mut self) -> Option<Box<Stop>> {
         self.end.take()
     }
 
-    /// Looks for domain boundaries within a step of length `h`, on the curve through both its ends, which must have been drawn.
-    pub fn look(&mut self, kinematics: &mut Kinematics, step: &mut Step, h: f64) -> Result<(), Fault> {
-        let Some(met) = self.first_on_curve(kinematics, step, h) else {
-            return Ok(());
-        };
-        let t = step.t() + met.t * h;
-        if shortly_after(t) >= self.last {
-            return Ok(());
-        }
-        // the curve is not exact over a domain boundary: a short step locates it better
-        if h > 4.0 * FARTHEST * self.span {
-            return Err(Fault::TooFar);
-        }
-        self.met = Some(Zero { boundary: met.boundary, t });
-        Err(Fault::DomainBoundary)
-    }
-
-    fn first_on_curve(&mut self, kinematics: &mut Kinematics, step: &mut Step, h: f64) -> Option<Zero> {
-        let way = SearchPath::Curve(h);
-        if !self.event_functions.has_any(way) {
-            return None;
-        }
-        let parts = Halving::new([0.0, 1.0], FINEST_BETWEEN, MOST_PARTS_BETWEEN);
-        self.event_functions.first_zero(kinematics, step, way, parts)
-    }
-
-    /// Looks at both sides of a domain boundary near a time (s), which the state is next to, and takes note of where the motion ends if
+    /// Looks at both sides of a domain boundary at a time (s), which the state is next to, and takes note of where the motion ends if
     /// it does not go on smoothly.
     fn judge(
         &mut self,
         kinematics: &mut Kinematics,
         step: &mut Step,
         boundary: usize,
-        near: f64,
+        t: f64,
         warnings: &mut Warnings,
     ) {
         self.keep_switches(kinematics);
-        let on_time = self.event_functions.boundary(boundary).on_time;
-        let t = if on_time { near } else { self.locate(kinematics, step, boundary, near) };
         self.event_functions.pass(boundary, t);
-        let is_reached = self.is_reached(kinematics, step, boundary, t);
+        let is_reached = self.is_reached(kinematics, boundary, t);
         let verdict = if is_reached { self.look_at_sides(kinematics, step, boundary, t) } else { Verdict::Smooth };
         self.restore_switches(kinematics);
         kinematics.restore(step.state());
@@ -187,7 +139,6 @@ impl DomainBoundaries {
             Verdict::Position { column, by } => {
                 StopCause::PositionJump { declarations, jump: Some((column, by)), is_corner: false }
             }
-            Verdict::Corner => StopCause::PositionJump { declarations, jump: None, is_corner: true },
             Verdict::Velocity { column } => {
                 StopCause::VelocityJump { declarations, column, velocities: [before.qd[column], after.qd[column]] }
             }
@@ -219,11 +170,7 @@ impl DomainBoundaries {
             self.limits.take(distance, [before, after], |k| linear.column_scale(k));
             distance *= 0.25;
         }
-        let system = kinematics.system();
-        let is_contact =
-            system.domain_boundaries()[boundary].declarations.iter().any(|&k| errors::has_tangent(system, k));
-        let passes = self.is_passed(kinematics, step.state(), boundary, t);
-        self.limits.verdict(is_contact && passes)
+        self.limits.verdict()
     }
 
     /// Returns the largest correction that the equations require of the path to which the state before leads.
@@ -241,18 +188,6 @@ impl DomainBoundaries {
         let gap = |(k, by): (usize, &f64)| Gap { size: by.abs() / linear.column_scale(k), column: k, by: *by };
         let gaps = self.delta.iter().enumerate().map(gap);
         gaps.fold(Gap { size: 0.0, column: 0, by: 0.0 }, |best, one| if one.size > best.size { one } else { best })
-    }
-
-    /// Returns whether an event function only touches zero at a time, by the way that the state leads to.
-    fn is_passed(&mut self, kinematics: &mut Kinematics, state: &State, boundary: usize, t: f64) -> bool {
-        let mut at = |t: f64| {
-            write_prediction(state, t - state.t, &mut self.place);
-            kinematics.set_time(t);
-            let is_set = kinematics.set_position(&self.place).is_ok();
-            is_set.then(|| kinematics.gauge(self.event_functions.boundary(boundary))[0])
-        };
-        let far = FARTHEST * self.span;
-        matches!((at(t - far), at(t + far)), (Some(a), Some(b)) if a != 0.0 && b != 0.0)
     }
 
     /// Solves for the state at a time next to a domain boundary, on one side of it, with the branches that formulas have there. Returns the
@@ -277,64 +212,25 @@ impl DomainBoundaries {
         }
         step.solve(kinematics).ok()?;
         let layout = self.event_functions.boundary(boundary);
-        let [gauge, _] = kinematics.gauge(layout);
+        let gauge = kinematics.gauge(layout);
         let rounding = f64::EPSILON * kinematics.largest_term(layout) / gauge.abs();
         (rounding < KNOWN).then_some(rounding)
     }
 
-    /// Returns the event function and its slope at a time next to the state, solved for.
-    fn solved_gauge(&self, kinematics: &mut Kinematics, step: &mut Step, boundary: usize, t: f64) -> Option<[f64; 2]> {
-        step.predict(kinematics, t - step.t(), t).ok()?;
-        step.correct(kinematics).ok()?;
-        let _ = step.derive_trial(kinematics);
-        let found = kinematics.gauge(self.event_functions.boundary(boundary));
-        found.iter().all(|value| !value.is_nan()).then_some(found)
-    }
-
-    /// Returns the zero of an event function of the motion near a time, by states that are solved for.
-    fn locate(&mut self, kinematics: &mut Kinematics, step: &mut Step, boundary: usize, t: f64) -> f64 {
-        let far = FARTHEST * self.span;
-        let (a, b) = ((t - far).max(self.event_functions.passed(boundary)), t + far);
-        let Some([at_a, slope_a]) = self.solved_gauge(kinematics, step, boundary, a) else { return t };
-        let Some([at_b, slope_b]) = self.solved_gauge(kinematics, step, boundary, b) else { return t };
-        let sign = if at_a < 0.0 { -1.0 } else { 1.0 };
-        let crosses = sign * at_b < 0.0;
-        let touches = sign * slope_a < 0.0 && sign * slope_b > 0.0;
-        if !crosses && !touches {
-            return t;
-        }
-        // the curve through both sides gives the argument even where rounding leaves the formula no value
-        let (from, h) = (step.t(), b - step.t());
-        step.draw_curve(h);
-        let [_, zero] = bisect([a, b], MOST_HALVINGS, |t| {
-            let solved = self.solved_gauge(kinematics, step, boundary, t);
-            let on_curve = || self.event_functions.at(kinematics, step, SearchPath::Curve(h), boundary, (t - from) / h);
-            let [gauge, slope] = solved.unwrap_or_else(on_curve);
-            if crosses { sign * gauge > 0.0 } else { sign * slope < 0.0 }
-        });
-        zero
-    }
-
     /// Returns whether an event function is zero at a time, as far as numbers can tell.
-    fn is_reached(&mut self, kinematics: &mut Kinematics, step: &mut Step, boundary: usize, t: f64) -> bool {
-        let on_time = self.event_functions.boundary(boundary).on_time;
-        let moment =
-            if on_time { MOMENT * f64::EPSILON * t.abs() + f64::MIN_POSITIVE } else { MOMENT_OF_MOTION * self.span };
+    fn is_reached(&self, kinematics: &mut Kinematics, boundary: usize, t: f64) -> bool {
+        let layout = self.event_functions.boundary(boundary);
         let mut at = |t: f64| {
-            let gauge = if on_time {
-                kinematics.set_time(t);
-                kinematics.gauge(self.event_functions.boundary(boundary))[0]
-            } else {
-                self.solved_gauge(kinematics, step, boundary, t)?[0]
-            };
-            Some((gauge, kinematics.largest_term(self.event_functions.boundary(boundary))))
+            kinematics.set_time(t);
+            (kinematics.gauge(layout), kinematics.largest_term(layout))
         };
-        let Some((here, terms)) = at(t) else {
-            return true;
-        };
+        let (here, terms) = at(t);
         let is_rounding = here.abs() <= ROUNDING * f64::EPSILON * terms && terms > here.abs();
-        let mut changes =
-            |t: f64| at(t).is_none_or(|(there, _)| here == 0.0 || !(there / here < 2.0 && there / here > 0.5));
+        let mut changes = |t: f64| {
+            let (there, _) = at(t);
+            here == 0.0 || !(there / here < 2.0 && there / here > 0.5)
+        };
+        let moment = MOMENT * f64::EPSILON * t.abs() + f64::MIN_POSITIVE;
         here.is_nan() || is_rounding || changes(t - moment) || changes(t + moment)
     }
 

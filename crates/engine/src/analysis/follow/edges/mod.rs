@@ -7,6 +7,7 @@
 mod chattering;
 mod domain_boundaries;
 mod event_functions;
+mod motion_boundaries;
 mod motion_switches;
 mod one_sided_limits;
 mod one_sided_states;
@@ -20,6 +21,8 @@ use crate::analysis::state::{Fault, Kinematics, State, shortly_after};
 use chattering::Chattering;
 use domain_boundaries::DomainBoundaries;
 use mechc_ir::program::Enclosure;
+use motion_boundaries::MotionBoundaries;
+pub use motion_boundaries::stop_at_boundary;
 use one_sided_states::OneSidedStates;
 use signals::Signals;
 
@@ -68,6 +71,7 @@ pub struct Edges {
     met: Option<Edge>,
     sides: OneSidedStates,
     domain_boundaries: DomainBoundaries,
+    motion_boundaries: MotionBoundaries,
     signals: Signals,
     /// Position near the state.
     place: Vec<f64>,
@@ -90,6 +94,7 @@ impl Edges {
             met: None,
             sides: OneSidedStates::new(kinematics, state, span),
             domain_boundaries,
+            motion_boundaries: MotionBoundaries::new(kinematics, [span, last]),
             signals,
             place: vec![0.0; n],
         }
@@ -160,7 +165,7 @@ impl Edges {
         warnings: &mut Warnings,
     ) -> Result<bool, Box<Stop>> {
         if edge.is_domain_boundary {
-            return self.cross_domain_boundary(kinematics, step, warnings).map(|()| false);
+            return self.domain_boundaries.cross(kinematics, step, warnings).map(|()| false);
         }
         if self.met.is_some_and(|met| met.t <= edge.t) {
             self.met = None;
@@ -177,25 +182,19 @@ impl Edges {
         Ok(true)
     }
 
-    /// Judges the domain boundary that the state has come to.
-    pub fn cross_domain_boundary(
-        &mut self,
-        kinematics: &mut Kinematics,
-        step: &mut Step,
-        warnings: &mut Warnings,
-    ) -> Result<(), Box<Stop>> {
-        self.domain_boundaries.cross(kinematics, step, warnings)
-    }
-
     /// Returns the stop of a motion that a domain boundary ends just ahead: even a step as small as `h` (s) failed.
     pub fn end_at_domain_boundary(
         &mut self,
         kinematics: &mut Kinematics,
         step: &mut Step,
         h: f64,
-        warnings: &mut Warnings,
+        fault: Fault,
     ) -> Option<Box<Stop>> {
-        self.domain_boundaries.end(kinematics, step, h, warnings)
+        self.domain_boundaries.end().or_else(|| match fault {
+            // a formula without a value is the reason itself
+            Fault::NotFinite { .. } | Fault::Condition { .. } => None,
+            _ => self.motion_boundaries.end(kinematics, step, h),
+        })
     }
 
     /// Refuses a step of length `h`, whose curve must have been drawn, between whose ends something happens: a signal leaves its values at
@@ -212,6 +211,6 @@ impl Edges {
         if let Some(between) = between {
             self.look_for_switches(kinematics, step, h, between)?;
         }
-        self.domain_boundaries.look(kinematics, step, h)
+        self.motion_boundaries.look(kinematics, step, h)
     }
 }

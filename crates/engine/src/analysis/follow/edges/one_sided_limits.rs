@@ -36,8 +36,6 @@ pub(super) enum Verdict {
         column: usize,
         by: f64,
     },
-    /// A contact finds no tangent on the other side.
-    Corner,
     /// A velocity or acceleration grows without bound.
     NotFinite,
 }
@@ -199,17 +197,15 @@ impl OneSidedLimits {
         self.pairs.iter().flatten()
     }
 
-    /// Returns how the two sides compare; `has_tangent` is true if a contact may have come to a corner.
-    pub fn verdict(&self, has_tangent: bool) -> Verdict {
+    /// Returns how the two sides compare.
+    pub fn verdict(&self) -> Verdict {
         if self.pairs().count() < FEWEST {
             let [before, after] = self.found;
             if before < FEWEST || after > 0 {
                 return Verdict::Smooth;
             }
             let gaps = self.gaps.iter().flatten().copied();
-            return if has_tangent {
-                Verdict::Corner
-            } else if grows(gaps.clone()) || shrinks(gaps.clone()) {
+            return if grows(gaps.clone()) || shrinks(gaps.clone()) {
                 Verdict::NotFinite
             } else if gaps.clone().count() >= FEWEST && gaps.into_iter().all(|gap| gap > POSITION_JUMP) {
                 let Gap { column, by, .. } = self.last_gap;

@@ -10,7 +10,7 @@ mod segments;
 
 use super::checkpoint::Checkpoint;
 use super::crossing::{Crossing, is_clear};
-use super::edges::{Edge, Edges};
+use super::edges::{Edge, Edges, stop_at_boundary};
 use super::near_misses::NearMisses;
 use super::row_selection::RowSelection;
 use super::rows::{ForceMonitor, Place, RowBatch, Rows};
@@ -334,7 +334,7 @@ impl Follower {
         if fault == Fault::Choice && self.choose_equations() {
             return Ok(());
         }
-        let Follower { kinematics, step, edges, warnings, .. } = self;
+        let Follower { kinematics, step, edges, .. } = self;
         match fault {
             Fault::Edge { t, switch } if edges.rests(kinematics, step, switch) => {
                 // a step of a few units in the last place may have been refused at its very beginning
@@ -342,14 +342,14 @@ impl Follower {
                 return Ok(());
             }
             Fault::Edge { t, .. } if edges.locate(kinematics, step, t) => return Ok(()),
-            Fault::DomainBoundary => return edges.cross_domain_boundary(kinematics, step, warnings),
+            Fault::DomainBoundary { index, t } => return Err(stop_at_boundary(kinematics, index, [step.t(), t])),
             _ => {}
         }
         if !step.halve(h) {
             return Ok(());
         }
         let Follower { kinematics, step, edges, crossing, warnings, .. } = self;
-        match edges.end_at_domain_boundary(kinematics, step, h, warnings) {
+        match edges.end_at_domain_boundary(kinematics, step, h, fault) {
             Some(why) => Err(why),
             None => crossing.pass_or_explain(kinematics, step, fault, [h, target], warnings),
         }

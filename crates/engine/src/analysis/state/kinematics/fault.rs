@@ -19,8 +19,8 @@ pub enum Fault {
     Uncertain,
     /// The equations that are solved come near to depending on each other where all equations together do not.
     Choice,
-    /// The step passes a domain boundary, which has been recorded.
-    DomainBoundary,
+    /// The step passes a domain boundary that the motion decides, by its number, before a time (s).
+    DomainBoundary { index: usize, t: f64 },
     /// The step passes an edge of a switch, by its number, before a time (s).
     Edge { t: f64, switch: usize },
 }

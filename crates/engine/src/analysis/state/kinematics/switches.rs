@@ -54,15 +54,21 @@ impl Kinematics {
         &self.program.outputs.domain_boundaries
     }
 
-    /// Returns workspaces for proofs about domain boundaries of time, and of the motion.
-    pub fn enclosures_of_boundaries(&self) -> [Enclosure; 2] {
-        [true, false].map(|on_time| Enclosure::of_domain_boundaries(&self.program, &self.registers, on_time))
+    /// Returns a workspace for proofs about domain boundaries of time, or of the motion.
+    pub fn enclosure_of_boundaries(&self, on_time: bool) -> Enclosure {
+        Enclosure::of_domain_boundaries(&self.program, &self.registers, on_time)
     }
 
-    /// Returns the event function of a domain boundary and its slope where time, position and velocity were set.
-    pub fn gauge(&mut self, boundary: &BoundaryRegisters) -> [f64; 2] {
+    /// Returns the event function of a domain boundary where time and position were set.
+    pub fn gauge(&mut self, boundary: &BoundaryRegisters) -> f64 {
         self.program.run(Stage::DomainBoundaries, &mut self.registers);
-        [boundary.gauge, boundary.slope].map(|register| self.registers.get(register))
+        self.registers.get(boundary.gauge)
+    }
+
+    /// Returns the event function of a domain boundary of time and its slope where time was set.
+    pub fn gauge_and_slope(&mut self, boundary: &BoundaryRegisters) -> [f64; 2] {
+        let gauge = self.gauge(boundary);
+        [gauge, boundary.slope.map_or(f64::NAN, |slope| self.registers.get(slope))]
     }
 
     /// Returns the largest term of an event function, which must just have been evaluated.
@@ -70,15 +76,9 @@ impl Kinematics {
         boundary.terms.iter().map(|&register| self.registers.get(register).abs()).fold(0.0, f64::max)
     }
 
-    /// Sets the velocity alone.
-    pub fn set_velocity(&mut self, qd: &[f64]) {
-        self.registers.set_all(self.program.inputs.coordinates[1], qd);
-    }
-
-    /// Encloses from one time (s) to another, coordinates and velocities being anywhere in their intervals (middle and reach).
-    pub fn enclose_motion(&self, enclosure: &mut Enclosure, times: [f64; 2], [q, qd]: [&[[f64; 2]]; 2]) {
+    /// Encloses from one time (s) to another, coordinates being anywhere in their intervals (middle and reach).
+    pub fn enclose_motion(&self, enclosure: &mut Enclosure, times: [f64; 2], q: &[[f64; 2]]) {
         enclosure.set_all(self.program.inputs.coordinates[0], q);
-        enclosure.set_all(self.program.inputs.coordinates[1], qd);
         enclosure.enclose(&self.program, &self.registers, times);
     }
 
