@@ -166,7 +166,30 @@ fn reversals_near_a_change_point_are_right_or_refused() {
 }
 
 #[test]
-fn reversals_in_a_change_point_are_reported_once() {
+fn reversals_beyond_a_change_point_are_reported() {
+    for over in [3e-4, 1e-4, 1e-5, 1e-6, 1e-7] {
+        for is_slider in [false, true] {
+            let start = if is_slider { 1.4 } else { 1.0 };
+            let level = if is_slider { FRAC_PI_2 } else { PI };
+            let way = level - start + over;
+            let linkage = Linkage::new(is_slider, 1.0, Law::Back { start, way });
+            // sin² is less than 1 by the part of the way that is beyond
+            let before = math::asin((over / way).sqrt()) / PI;
+            let is_near =
+                |reported: f64, at: f64| assert!((reported - at).abs() < 1e-8, "{reported} for {at}, {}", linkage.text);
+            let stop = linkage.run(&Times::listed(0.0, vec![0.5]), false).stop().cloned().expect("it stops");
+            assert_eq!(stop.code.as_str(), "E0603");
+            is_near(stop.data["t"].as_f64().expect("a time"), 0.5 - before);
+            let all = linkage.run(&Times::listed(0.0, vec![0.56]), true);
+            assert_eq!(all.passed().len(), 2, "{over:e} beyond: {}", all.text());
+            is_near(all.passed()[0], 0.5 - before);
+            is_near(all.passed()[1], 0.5 + before);
+            // what comes behind the last row is not told
+            let first = linkage.run(&Times::listed(0.0, vec![0.5 - 0.5 * before]), true);
+            assert_eq!(first.passed().len(), 1, "{over:e} beyond: {}", first.text());
+        }
+    }
+    // one that just comes to it is told once
     for is_slider in [false, true] {
         let (start, way) = if is_slider { (1.4, FRAC_PI_2 - 1.4) } else { (1.0, PI - 1.0) };
         let outcome = Linkage::new(is_slider, 1.0, Law::Back { start, way }).run(&Times::listed(0.0, vec![0.56]), true);

@@ -5,27 +5,42 @@ use mechc_ir::{ConstraintSystem, DeclarationId, IdVec};
 
 /// Warnings of a motion so far.
 pub struct Warnings {
-    /// Warnings that have not been taken.
-    pending: Vec<Warning>,
-    /// Declarations that have been reported to make an acceleration jump.
-    warned: IdVec<DeclarationId, bool>,
+    reported: Reported,
     /// Times at which accelerations have jumped (s), if they are requested.
     jumps: Option<Vec<f64>>,
+}
+
+/// Warnings so far, which may have to be taken back.
+#[derive(Clone)]
+pub struct Reported {
+    warnings: Vec<Warning>,
+    /// Declarations that have been reported to make an acceleration jump.
+    warned: IdVec<DeclarationId, bool>,
 }
 
 impl Warnings {
     pub fn new(system: &ConstraintSystem) -> Warnings {
         let warned = system.declarations().map(|_| false);
-        Warnings { pending: Vec::new(), warned, jumps: None }
+        Warnings { reported: Reported { warnings: Vec::new(), warned }, jumps: None }
     }
 
     pub fn push(&mut self, warning: Warning) {
-        self.pending.push(warning);
+        self.reported.warnings.push(warning);
     }
 
     /// Takes the warnings since the last call.
     pub fn take(&mut self) -> Vec<Warning> {
-        std::mem::take(&mut self.pending)
+        std::mem::take(&mut self.reported.warnings)
+    }
+
+    /// Returns the warnings so far.
+    pub fn reported(&self) -> Reported {
+        self.reported.clone()
+    }
+
+    /// Restores the warnings of an earlier [`Warnings::reported`].
+    pub fn restore(&mut self, reported: Reported) {
+        self.reported = reported;
     }
 
     /// Records from now on the times at which accelerations jump.
@@ -50,11 +65,11 @@ impl Warnings {
 
     /// Warns of declarations that make an acceleration jump at a time (s), once of each.
     pub fn warn_of_jump(&mut self, behind: &[DeclarationId], columns: impl FnOnce() -> Vec<String>, t: f64) {
-        if behind.iter().all(|&declaration| self.warned[declaration]) {
+        if behind.iter().all(|&declaration| self.reported.warned[declaration]) {
             return;
         }
         for &declaration in behind {
-            self.warned[declaration] = true;
+            self.reported.warned[declaration] = true;
         }
         self.push(Warning {
             t,

@@ -221,7 +221,7 @@ impl StateSampler {
     /// Returns the state at a time (s) between two states of a segment, or `None` if it cannot be solved for.
     pub fn solve(&mut self, segment: &SmoothSegment, [a, b]: [&State; 2], t: f64) -> Option<State> {
         if let Some(bridge) = segment.bridge.as_ref().filter(|bridge| t > bridge.from.t) {
-            let on_bridge = bridge.state_at(t);
+            let on_bridge = bridge.best_state_at(t);
             return self.solve_from(on_bridge.clone(), Some(SOLVABLE)).or(Some(on_bridge));
         }
         if let Some(state) = self.solve_exactly(segment, [a, b], t) {

@@ -1,33 +1,17 @@
-//! Rows on a bridge: from its curve where the equations hold on it, or else solved for from there where the solution can be trusted.
+//! Rows on a bridge: from its curve where that is exact, or else solved for from there.
 
 use super::bridge::Bridge;
-use super::{CERTAIN, Crossing};
+use super::{CERTAIN, Crossing, EXACT, SOLVABLE};
 use crate::analysis::explain::{Stop, StopCause};
 use crate::analysis::follow::step::Step;
-use crate::analysis::state::{Kinematics, State, Trust};
+use crate::analysis::state::{Kinematics, State};
 use crate::limits::error_bound::SLOW;
 
-/// Largest correction of a position on the curve that is solved for, as a part of its distance from the singular position, scaled: another
-/// branch may be that near.
-const NEAREST_BRANCH: f64 = 0.05;
 /// Largest residuals of velocities and accelerations on the curve, scaled, relative to 1 or a part of the fastest motion.
 const OPEN: [f64; 2] = [1e-8, 1e-6];
 
 impl Crossing {
-    /// Returns the bridge that a time (s) is on; where it is not passed, on its way up to the singular position.
-    fn bridge_over(&self, t: f64) -> Option<&Bridge> {
-        self.bridge.as_ref().filter(|bridge| {
-            let end = if self.passes { bridge.to.t } else { bridge.at - CERTAIN * bridge.length() };
-            t > bridge.from.t && t < end
-        })
-    }
-
-    /// Returns whether a time (s) is on a bridge.
-    pub fn is_on_bridge(&self, t: f64) -> bool {
-        self.bridge_over(t).is_some()
-    }
-
-    /// Writes the row of a time on a bridge, if it is on one.
+    /// Writes the row of a time on a bridge, if it is on one; where the bridge is not passed, on its way up to the singular position.
     pub fn write_row(
         &mut self,
         kinematics: &mut Kinematics,
@@ -35,31 +19,59 @@ impl Crossing {
         t: f64,
         row: &mut [f64],
     ) -> Option<Result<(), Box<Stop>>> {
-        let state = self.bridge_over(t)?.state_at(t);
-        if write_given_row(kinematics, &state, row) || write_solved_row(kinematics, step, &state, row) {
+        let is_on = |bridge: &&mut Bridge| {
+            let end = if self.passes { bridge.to.t } else { bridge.at - CERTAIN * bridge.length() };
+            t > bridge.from.t && t < end
+        };
+        let bridge = self.bridge.as_mut().filter(is_on)?;
+        let state = bridge.state_at(t);
+        let mut by_finer_curve = |kinematics: &mut Kinematics, step: &mut Step, row: &mut [f64]| {
+            let finer = bridge.finer_state_at(kinematics, step, t);
+            finer.is_some_and(|state| write_given_row(kinematics, &state, row))
+        };
+        if write_given_row(kinematics, &state, row)
+            || write_solved_row(kinematics, step, &state, EXACT, row)
+            || by_finer_curve(kinematics, step, row)
+            || write_solved_row(kinematics, step, &state, SOLVABLE, row)
+        {
             return Some(Ok(()));
         }
-        // steps may reach the row from before
+        // the row may be certain without the bridge
         self.passes.then(|| Err(StopCause::Uncertain { declarations: Vec::new() }.at(t)))
+    }
+
+    /// Returns the state at a time by the curve over the last singular position.
+    pub fn state_at(&self, t: f64) -> Option<State> {
+        self.bridge.as_ref().map(|bridge| bridge.state_at(t))
+    }
+
+    /// Writes the row of a time on a bridge by a curve over a shorter way, if that is exact there.
+    pub fn write_narrow_row(&mut self, kinematics: &mut Kinematics, step: &mut Step, t: f64, row: &mut [f64]) -> bool {
+        let Some(bridge) = &mut self.bridge else {
+            return false;
+        };
+        let state = bridge.narrow_state_at(kinematics, step, t);
+        state.is_some_and(|state| write_given_row(kinematics, &state, row))
     }
 }
 
-/// Writes the row that is solved for from a state on a curve, if all its numbers have the promised digits.
-fn write_solved_row(kinematics: &mut Kinematics, step: &mut Step, state: &State, row: &mut [f64]) -> bool {
+/// Writes the row of a time on a bridge whose curve is not exact enough, by solving from it, if it is at least so far from
+/// the singular position.
+fn write_solved_row(
+    kinematics: &mut Kinematics,
+    step: &mut Step,
+    state: &State,
+    nearest: f64,
+    row: &mut [f64],
+) -> bool {
     step.try_state(state);
-    let Ok(correction) = step.correct(kinematics) else {
-        return false;
-    };
-    if correction > NEAREST_BRANCH * kinematics.nearness(1.0) || step.derive_trial(kinematics).is_err() {
-        return false;
+    let is_solved = step.correct(kinematics).is_ok()
+        && kinematics.nearness(nearest) >= nearest
+        && step.derive_trial(kinematics).is_ok();
+    if is_solved {
+        kinematics.write_row(step.trial(), row);
     }
-    let solved = step.trial().clone();
-    let trust = Trust::of(kinematics, &solved);
-    let is_certain = step.confirms(kinematics, &solved, trust);
-    if is_certain {
-        kinematics.write_row(&solved, row);
-    }
-    is_certain
+    is_solved
 }
 
 /// Writes the row of a state on a curve, if the equations hold there, and those of velocity and acceleration with them.

@@ -2,7 +2,7 @@
 
 use super::bridge::Bridge;
 use super::end_of_reach::end_of_reach;
-use super::singular_times::{find_return, singular_time};
+use super::singular_times::{settle_times, singular_time};
 use super::{CLEAR, Crossing, is_clear};
 use crate::analysis::explain::singular;
 use crate::analysis::follow::step::Step;
@@ -120,8 +120,7 @@ impl Crossing {
         let is_clear = kinematics.nearness(CLEAR) >= NEARLY_CLEAR * CLEAR;
         let mut bridge = Bridge::new(clear, step.trial());
         let is_small = correction <= LARGEST_CORRECTION * way && is_clear;
-        let off = correction_of_curve(kinematics, &bridge)?;
-        if !is_small || off > LARGEST_BETWEEN * way {
+        if !is_small || !holds(kinematics, &bridge, LARGEST_BETWEEN * way) {
             return None;
         }
         bridge.at = singular_time(kinematics, step, &bridge);
@@ -129,18 +128,17 @@ impl Crossing {
             self.fold = Some(fold);
             return None;
         }
-        find_return(kinematics, &mut bridge, off);
+        settle_times(kinematics, step, &mut bridge);
         Some(bridge)
     }
 }
 
-/// Returns the largest correction of the curve over a bridge, scaled, with the factors of its end; `None` if a formula has no value on it.
-fn correction_of_curve(kinematics: &mut Kinematics, bridge: &Bridge) -> Option<f64> {
+/// Returns whether the curve over a bridge leaves corrections of at most `limit`, scaled, with the factors of its end.
+fn holds(kinematics: &mut Kinematics, bridge: &Bridge, limit: f64) -> bool {
     let mut delta = vec![0.0; bridge.to.q.len()];
-    PLACES.into_iter().try_fold(0.0, |largest: f64, place| {
+    PLACES.into_iter().all(|place| {
         let state = bridge.state_at(bridge.from.t + place * bridge.length());
         kinematics.set_time(state.t);
-        kinematics.set_position(&state.q).ok()?;
-        Some(largest.max(kinematics.correction(&mut delta)))
+        kinematics.set_position(&state.q).is_ok() && kinematics.correction(&mut delta) <= limit
     })
 }

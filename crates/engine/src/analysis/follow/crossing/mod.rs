@@ -8,6 +8,7 @@ mod bridge;
 mod bridge_rows;
 mod bridge_search;
 mod end_of_reach;
+mod refined_bridge;
 mod singular_times;
 
 use super::step::Step;
@@ -21,6 +22,10 @@ pub use bridge::Bridge;
 ///
 /// Rounding in Φ is multiplied by 1/σ in q, and by 1/σ again in each derivative: 8e-3 leaves nine digits.
 const CLEAR: f64 = 8e-3;
+/// A state closer than this to a singular position cannot be solved for: rounding by 1/σ² exceeds the promised accuracy.
+const SOLVABLE: f64 = 1e-3;
+/// Closest distance to a singular position at which solving leaves more than eight digits of accelerations.
+const EXACT: f64 = 4e-3;
 /// Accuracy of the time of a singular position, as a part of the bridge.
 const CERTAIN: f64 = 1e-6;
 
@@ -37,6 +42,10 @@ pub struct Crossing {
     clear: State,
     /// Bridge over the last singular position.
     bridge: Option<Bridge>,
+    /// Bridge that was only sought to compare a row with.
+    spare: Option<Bridge>,
+    /// Time (s) up to which no singular position lies ahead: the motion is clear again then.
+    clear_ahead: f64,
     /// Time at which the mechanism comes to the end of its reach, where that nearly suffices (s).
     fold: Option<f64>,
     /// The time that the steps are measured against, and the last time (s).
@@ -44,9 +53,24 @@ pub struct Crossing {
     last: f64,
 }
 
+/// Bridge that is set aside.
+pub struct SuspendedBridge {
+    bridge: Option<Bridge>,
+    passes: bool,
+}
+
 impl Crossing {
     pub fn new(state: &State, span: f64, last: f64) -> Crossing {
-        Crossing { passes: false, clear: state.clone(), bridge: None, fold: None, span, last }
+        Crossing {
+            passes: false,
+            clear: state.clone(),
+            bridge: None,
+            spare: None,
+            clear_ahead: f64::NEG_INFINITY,
+            fold: None,
+            span,
+            last,
+        }
     }
 
     /// Makes the motion go on beyond bifurcations from now on.
@@ -81,9 +105,55 @@ impl Crossing {
         self.clear.copy_from(clear);
     }
 
-    /// Returns the bridge that ends at a time (s).
-    pub fn bridge_to(&self, t: f64) -> Option<&Bridge> {
-        self.bridge.as_ref().filter(|bridge| bridge.to.t.total_cmp(&t).is_eq())
+    /// Returns whether the motion is clear again at some time after `t` (s), as far as it was looked ahead.
+    pub fn is_clear_ahead(&self, t: f64) -> bool {
+        t < self.clear_ahead
+    }
+
+    /// Records that the motion is clear again at a time (s).
+    pub fn take_clear_ahead(&mut self, t: f64) {
+        self.clear_ahead = t;
+    }
+
+    /// Returns whether a bridge ends at a time (s).
+    pub fn has_bridge_to(&self, t: f64) -> bool {
+        self.bridge.as_ref().is_some_and(|bridge| bridge.to.t.total_cmp(&t).is_eq())
+    }
+
+    /// Returns the bridge that ends at a time (s), with the most exact curve over it.
+    pub fn bridge_to(&mut self, kinematics: &mut Kinematics, step: &mut Step, t: f64) -> Option<&Bridge> {
+        let bridge = self.bridge.as_mut().filter(|bridge| bridge.to.t.total_cmp(&t).is_eq())?;
+        bridge.look_for_exact(kinematics, step);
+        Some(bridge)
+    }
+
+    /// Returns whether a singular position has been passed by a time (s).
+    pub fn has_passed(&self, t: f64) -> bool {
+        self.bridge.as_ref().is_some_and(|bridge| bridge.at <= t)
+    }
+
+    /// Sets the bridge aside while another one is sought for a single row.
+    pub fn suspend(&mut self) -> SuspendedBridge {
+        let bridge = std::mem::replace(&mut self.bridge, self.spare.take());
+        SuspendedBridge { bridge, passes: self.passes }
+    }
+
+    /// Restores the suspended bridge, and keeps the one that was found for the next row.
+    pub fn resume(&mut self, suspended: SuspendedBridge) {
+        self.spare = std::mem::replace(&mut self.bridge, suspended.bridge);
+        (self.passes, self.fold) = (suspended.passes, None);
+    }
+
+    /// Sets the bridge aside and passes no bifurcations, until [`Crossing::remember`].
+    pub fn forget(&mut self) -> SuspendedBridge {
+        let suspended = SuspendedBridge { bridge: self.bridge.take(), passes: self.passes };
+        self.passes = false;
+        suspended
+    }
+
+    /// Restores the bridge that [`Crossing::forget`] set aside.
+    pub fn remember(&mut self, suspended: SuspendedBridge) {
+        (self.bridge, self.passes) = (suspended.bridge, suspended.passes);
     }
 
     /// Handles the fault of a last step of length `h` (s) on the way to `target` (s): goes on beyond a bifurcation if that is wanted.

@@ -1,6 +1,6 @@
 //! Times at which a motion on a bridge comes to the singular position.
 
-use super::CLEAR;
+use super::CERTAIN;
 use super::bridge::Bridge;
 use crate::analysis::follow::step::Step;
 use crate::analysis::state::{Determinant, Kinematics};
@@ -9,10 +9,10 @@ use std::convert::Infallible;
 
 /// Number of samples of a bridge to find a singular position that is reached twice.
 const PLACES_BETWEEN: usize = 24;
-/// A determinant changes its sign, rather than touches zero, if it goes beyond zero by this part of its values at the ends.
-const BEYOND_ZERO: f64 = 1e-6;
-/// Error of the curve at a singular position in units of the corrections that show beside it.
-const AMPLIFIED: f64 = 100.0;
+/// A determinant changes its sign, rather than touches zero, if it is below this part of its values at the ends.
+const BEYOND_ZERO: f64 = -1e-6;
+/// A more accurate curve decides where the determinant is below this part.
+const NEARLY_ZERO: f64 = 1e-2;
 /// Number of samples of an even contact to find its minimum.
 const LOOKS: usize = 80;
 /// Number of Newton steps to the minimum.
@@ -83,29 +83,46 @@ fn least_time(kinematics: &mut Kinematics, step: &mut Step, bridge: &Bridge, t: 
     at
 }
 
-/// Sets the two times at which a motion that turns back just beyond the singular position comes to it: a determinant has one sign at both ends
-/// of the bridge and the other one between, by more than the error of the curve, which requires corrections of up to `off`, scaled.
-pub(super) fn find_return(kinematics: &mut Kinematics, bridge: &mut Bridge, off: f64) {
-    let beyond_zero = f64::max(BEYOND_ZERO, AMPLIFIED * off / CLEAR);
-    let [units, ends] = [&bridge.from, &bridge.to].map(|end| {
+/// Refines the singular time of a bridge by a finer curve. A determinant that has one sign at both ends and the other one between shows
+/// that the singular position is reached twice.
+pub(super) fn settle_times(kinematics: &mut Kinematics, step: &mut Step, bridge: &mut Bridge) {
+    let units = [&bridge.from, &bridge.to].map(|end| {
         kinematics.restore(end);
         (0..kinematics.linear().blocks()).map(|k| kinematics.linear().determinant(k)).collect::<Vec<Determinant>>()
     });
     let (from, to) = (bridge.from.t, bridge.to.t);
-    for (block, (unit, end)) in units.into_iter().zip(ends).enumerate() {
-        let mut relative = |t: f64| {
-            kinematics.restore(&bridge.state_at(t));
-            kinematics.linear().determinant(block).relative_to(unit) / unit.relative_to(unit)
+    let changes = |k: &usize| units[0][*k].is_positive() != units[1][*k].is_positive();
+    if let Some(block) = (0..units[0].len()).find(changes) {
+        bridge.look_for_exact(kinematics, step);
+        let at = boundary(from, to, |t| relative_determinant(kinematics, bridge, block, units[0][block], t) < 0.0);
+        if (at - bridge.at).abs() > CERTAIN * (to - from) {
+            bridge.at = at;
+        }
+        return;
+    }
+    let places = (1..PLACES_BETWEEN).map(|k| from + (to - from) * k as f64 / PLACES_BETWEEN as f64);
+    let places: Vec<f64> = std::iter::once(bridge.at).chain(places).collect();
+    for (block, unit) in units[0].iter().copied().enumerate() {
+        let deepest = |kinematics: &mut Kinematics, bridge: &Bridge| {
+            let parts = places.iter().map(|&t| (relative_determinant(kinematics, bridge, block, unit, t), t));
+            parts.min_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or((1.0, bridge.at))
         };
-        let places = (1..PLACES_BETWEEN).map(|k| from + (to - from) * k as f64 / PLACES_BETWEEN as f64);
-        let deepest =
-            std::iter::once(bridge.at).chain(places).map(|t| (relative(t), t)).min_by(|a, b| a.0.total_cmp(&b.0));
-        let returns = unit.is_positive() == end.is_positive();
-        if let Some((_, between)) = deepest.filter(|(least, _)| returns && *least < -beyond_zero) {
-            let at = boundary(from, between, |t| relative(t) < 0.0);
-            let again = boundary(between, to, |t| relative(t) >= 0.0);
-            (bridge.at, bridge.again) = (at, Some(again));
+        if deepest(kinematics, bridge).0 > NEARLY_ZERO {
+            continue;
+        }
+        bridge.look_for_exact(kinematics, step);
+        let (least, between) = deepest(kinematics, bridge);
+        if least < BEYOND_ZERO {
+            let at = boundary(from, between, |t| relative_determinant(kinematics, bridge, block, unit, t) < 0.0);
+            let second = boundary(between, to, |t| relative_determinant(kinematics, bridge, block, unit, t) >= 0.0);
+            (bridge.at, bridge.again) = (at, Some(second));
             return;
         }
     }
+}
+
+/// Returns a block's determinant at a time, relative to that at the start of the bridge, `unit`.
+fn relative_determinant(kinematics: &mut Kinematics, bridge: &Bridge, block: usize, unit: Determinant, t: f64) -> f64 {
+    kinematics.restore(&bridge.best_state_at(t));
+    kinematics.linear().determinant(block).relative_to(unit) / unit.relative_to(unit)
 }

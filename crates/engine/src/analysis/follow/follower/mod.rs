@@ -5,6 +5,7 @@
 //! several at once. Near a singular position, and where such a row does not hold, steps go to each time on its own.
 
 mod dense_steps;
+mod ill_conditioned_rows;
 mod lookahead;
 mod segments;
 
@@ -164,7 +165,10 @@ impl Follower {
             }
             self.cross_edge()?;
             if let Some(row) = self.row_on_bridge(t) {
-                return row.map(|()| Place::Single);
+                if row.is_err() && self.plain_row(t) {
+                    return Ok(Place::Single);
+                }
+                return self.or_solve_directly(t, row).map(|()| Place::Single);
             }
             if t <= self.step.t() {
                 self.row_at_rest()?;
@@ -172,7 +176,11 @@ impl Follower {
                 return Ok(Place::Single);
             }
             if !self.may_step_densely() {
-                return self.go_to(t).map(|()| Place::Single);
+                // near a bifurcation that is passed every digit counts
+                if self.go_to(t)? && !self.rows.is_near() {
+                    self.refine(t);
+                }
+                return Ok(Place::Single);
             }
             self.count_step(t)?;
             self.step_densely()?;
@@ -246,24 +254,25 @@ impl Follower {
         Ok(())
     }
 
-    /// Steps to an output time on its own, and finds its row.
-    fn go_to(&mut self, t: f64) -> Result<(), Box<Stop>> {
+    /// Steps to an output time on its own; returns whether its row was solved for there, and not taken from the bridge over a singular position.
+    fn go_to(&mut self, t: f64) -> Result<bool, Box<Stop>> {
         while self.step.t() < t {
             self.count_step(t)?;
             if let Err(why) = self.step_towards(t) {
                 // no step may lead so near to a bifurcation, but the bridge over it may
-                return self.row_on_bridge(t).unwrap_or(Err(why));
+                return self.row_on_bridge(t).unwrap_or(Err(why)).map(|()| false);
             }
         }
         if let Some(row) = self.row_on_bridge(t) {
-            return row;
+            return self.or_solve_directly(t, row).map(|()| false);
         }
-        // near a bifurcation that is passed every digit counts
-        if self.rows.trust().is_certain() && !self.rows.is_near() {
-            self.refine(t);
-            return Ok(());
+        if self.rows.trust() == Trust::Doubtful && !self.crossing.passes() {
+            return self.row_in_doubt(t).map(|()| false);
         }
-        self.look_ahead(t)
+        if !self.rows.trust().is_certain() || self.rows.is_near() {
+            return self.look_ahead(t);
+        }
+        Ok(true)
     }
 
     /// Steps as far as the error and the next edge allow, and crosses that edge.
@@ -316,7 +325,7 @@ impl Follower {
 
     fn accept(&mut self, h: f64, accepted: &Accepted) {
         let Follower { kinematics, step, edges, crossing, forces, misses, .. } = self;
-        if crossing.bridge_to(step.t()).is_some() {
+        if crossing.has_bridge_to(step.t()) {
             misses.forget();
         }
         if let Some(forces) = forces {
@@ -375,18 +384,24 @@ impl Follower {
     /// Writes the row of the state that has been reached already: the start.
     fn row_at_rest(&mut self) -> Result<(), Box<Stop>> {
         self.kinematics.restore(self.step.state());
-        if let Err(fault) = self.step.derive_state(&mut self.kinematics) {
-            return Err(self.explain_state(fault));
-        }
-        let trust = Trust::of(&mut self.kinematics, self.step.state());
-        if !trust.is_certain() {
+        let mut trust = self.trust_at_rest();
+        if trust == Ok(Trust::Doubtful) {
             let state = self.step.state().clone();
-            if !self.step.confirms(&mut self.kinematics, &state, trust) {
-                return Err(self.explain_state(Fault::Uncertain));
-            }
+            trust = if self.is_reproducible(&state) { self.trust_at_rest() } else { Err(Fault::Uncertain) };
+        }
+        if let Err(fault) = trust {
+            return Err(self.explain_state(fault));
         }
         self.kinematics.write_row(self.step.state(), self.rows.single_mut());
         Ok(())
+    }
+
+    fn trust_at_rest(&mut self) -> Result<Trust, Fault> {
+        self.step.derive_state(&mut self.kinematics)?;
+        match Trust::of(&mut self.kinematics, self.step.state()) {
+            Trust::Uncertain => Err(Fault::Uncertain),
+            trust => Ok(trust),
+        }
     }
 
     /// Writes the row of a time on the way over a singular position, if it is on one.

@@ -79,7 +79,8 @@ impl Follower {
 
     fn stretch(&mut self, from: State, begins_at_edge: bool) -> SmoothSegment {
         let to = self.step.state().clone();
-        let bridge = self.crossing.bridge_to(to.t).cloned();
+        let Follower { crossing, kinematics, step, .. } = self;
+        let bridge = crossing.bridge_to(kinematics, step, to.t).cloned();
         let middle = if bridge.is_some() { None } else { self.middle_of_batch() };
         let ends_at_edge = self.edge.is_some() || to.t >= self.last;
         let chosen = self.choice.as_ref().and_then(RowSelection::current).cloned();

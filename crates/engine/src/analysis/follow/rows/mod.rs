@@ -5,6 +5,7 @@ mod missing_values;
 mod row_batch;
 mod single_row;
 
+use super::checkpoint::Checkpoint;
 use super::edges::Edge;
 use super::warnings::Warnings;
 use crate::analysis::state::{Kinematics, State, Times, Trust, shortly_after};
@@ -51,6 +52,8 @@ pub struct Rows {
     trust: Trust,
     /// True if it is near a position that may be a bifurcation to pass.
     is_near: bool,
+    /// The last row on a bridge which was found without it.
+    plain: Option<Checkpoint>,
     missing: MissingValues,
 }
 
@@ -69,6 +72,7 @@ impl Rows {
             row: vec![0.0; kinematics.row_length()],
             trust: Trust::Certain,
             is_near: false,
+            plain: None,
             missing: MissingValues::new(kinematics.system()),
         }
     }
@@ -86,6 +90,11 @@ impl Rows {
     /// Returns the next output time (s), even if that is behind the last one.
     pub fn upcoming(&self) -> f64 {
         self.times.at(self.next)
+    }
+
+    /// Returns the first output time behind a time, or the next one, if that is earlier (s).
+    pub fn upcoming_after(&self, t: f64) -> f64 {
+        self.times.at(self.times.first_after(t, 0).min(self.next))
     }
 
     /// Records that the motion could not go on.
@@ -216,6 +225,16 @@ impl Rows {
     /// Returns whether that row is near a position that may be a bifurcation to pass.
     pub fn is_near(&self) -> bool {
         self.is_near
+    }
+
+    /// Keeps where a row on a bridge was found without it.
+    pub fn keep_plain(&mut self, here: Option<Checkpoint>) {
+        self.plain = here;
+    }
+
+    /// Takes the checkpoint of the last such row, if it is before a time (s).
+    pub fn take_plain(&mut self, t: f64) -> Option<Checkpoint> {
+        self.plain.take().filter(|plain| plain.state().t < t)
     }
 
     /// Marks the cells of a row at a time (s) that are not finite as missing. They are cells of measures, since coordinates are finite.

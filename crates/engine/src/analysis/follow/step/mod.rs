@@ -5,7 +5,6 @@
 //! is halved. So the branch followed does not depend on the output times.
 
 mod branch;
-mod confirmation;
 mod newton;
 mod step_length;
 mod touch;
@@ -238,6 +237,16 @@ impl Step {
     pub fn next_probe(&mut self) -> f64 {
         self.probe = (self.probe + GOLDEN).fract();
         0.3 + 0.4 * self.probe
+    }
+
+    /// Returns the number from 0 to 1 that the last probe was made of.
+    pub fn probe(&self) -> f64 {
+        self.probe
+    }
+
+    /// Continues the sequence of probes from a value that [`Step::probe`] returned.
+    pub fn set_probe(&mut self, probe: f64) {
+        self.probe = probe;
     }
 
     /// Sets the curve to the quintics with value, slope and curvature of both ends.
