@@ -152,8 +152,10 @@ fn mathematics() -> Vec<PathBuf> {
 }
 
 /// Numbers of mathematics, which limit nothing: places and weights of rules, counts that follow from something else, and what stands for none.
-const NO_LIMITS: [(&str, &[&str]); 13] = [
+const NO_LIMITS: [(&str, &[&str]); 15] = [
+    ("crates/engine/src/analysis/follow/crossing/refined_bridge.rs", &["CONDITIONS"]),
     ("crates/engine/src/analysis/follow/crossing/singular_times.rs", &["SLOPE", "CURVATURE"]),
+    ("crates/engine/src/analysis/follow/follower/ill_conditioned_rows.rs", &["NOTHING"]),
     ("crates/engine/src/analysis/results/curve.rs", &["VARIED_ORDERS"]),
     ("crates/engine/src/analysis/results/quadrature.rs", &["WITHIN", "ENDS", "MIDDLE"]),
     ("crates/engine/src/analysis/state/determinant.rs", &["UNIT", "UNITS"]),
@@ -173,6 +175,9 @@ fn numbers_that_limit_nothing() -> Vec<(&'static str, &'static str)> {
     NO_LIMITS.iter().flat_map(|(file, names)| names.iter().map(|name| (*file, *name))).collect()
 }
 
+/// Within functions, these are places at which a polynomial is taken.
+const NO_LIMITS_WITHIN: [&str; 1] = ["NODES"];
+
 /// What limits the mathematics stands at the margin, where the page of limits finds it, and not within a function.
 #[test]
 fn limits_of_the_mathematics_stand_in_their_place() {
@@ -187,7 +192,8 @@ fn limits_of_the_mathematics_stand_in_their_place() {
             if !["f64", "[f64;", "[[f64;"].iter().any(|number| kind.starts_with(number)) {
                 continue;
             }
-            assert!(!is_limit(name), "{}: `{name}` belongs to the top of the file", file.display());
+            let is_known = NO_LIMITS_WITHIN.contains(&name);
+            assert!(!is_limit(name) || is_known, "{}: `{name}` belongs to the top of the file", file.display());
         }
     }
     assert!(looked_at > 80, "only {looked_at} files were looked at");
