@@ -1,6 +1,5 @@
 //! The third stage: a mechanism that is proved determined, with the operations that evaluate it. Follows no motion.
 
-use crate::Checked;
 use crate::continuation::Continuation;
 use crate::continuation::StartSolver;
 use crate::lowering::lower_model;
@@ -95,11 +94,10 @@ impl Origin {
 }
 
 impl Compiled {
-    /// Returns it with values of all its params (SI), with which the mechanism is checked; `None` if that has errors.
-    pub(crate) fn bound(&self, checked: &Checked, values: &[f64]) -> Option<Compiled> {
-        let origin = checked.origin(checked.model.as_ref()?, self.origin.redundant);
+    /// Returns it with values of all its params (SI); `origin` has the model with these values.
+    pub(crate) fn bound(&self, origin: Origin, values: &[f64]) -> Compiled {
         let determined = Arc::new(self.determined.with_values(values));
-        Some(Compiled { origin, determined, program: Arc::clone(&self.program), continuation: None, is_bound: true })
+        Compiled { origin, determined, program: Arc::clone(&self.program), continuation: None, is_bound: true }
     }
 
     /// Returns the mechanism compiled from its model, if values are bound to its equations: their estimates may follow from other values.

@@ -21,6 +21,7 @@ pub struct ParametricMechanism {
     nominal: Checked,
     model: Arc<Mechanism>,
     compiled: Compiled,
+    redundant: Redundant,
     diagnostics: Diagnostics,
     continuation: Arc<Continuation>,
     table: ParamTable,
@@ -66,7 +67,18 @@ impl Checked {
         let source = nominal.clone();
         let continuation = Arc::new(Continuation::new(move |options| source.nominal(redundant, None, options)));
         let compiled = compiled?;
-        Some(ParametricMechanism { nominal, model, compiled, diagnostics, continuation, table, params, settings, set })
+        Some(ParametricMechanism {
+            nominal,
+            model,
+            compiled,
+            redundant,
+            diagnostics,
+            continuation,
+            table,
+            params,
+            settings,
+            set,
+        })
     }
 }
 
@@ -84,9 +96,10 @@ impl ParametricMechanism {
         let bindings = self.table.bind(&values)?;
         let mut model = (*self.model).clone();
         model.set_values(&bindings.values, bindings.analysis);
-        let checked = self.nominal.bound(Arc::new(model), settings, sources);
-        let compiled =
-            self.compiled.bound(&checked, &bindings.values)?.with_continuation(Some(self.continuation.clone()));
+        let model = Arc::new(model);
+        let checked = self.nominal.bound(Arc::clone(&model), settings, sources);
+        let compiled = self.compiled.bound(checked.origin(&model, self.redundant), &bindings.values);
+        let compiled = compiled.with_continuation(Some(Arc::clone(&self.continuation)));
         let mut diagnostics = self.nominal.diagnostics().clone();
         diagnostics.extend(self.diagnostics.clone());
         Some((checked, compiled, diagnostics))
