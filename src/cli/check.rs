@@ -18,7 +18,7 @@ pub(super) fn check(arguments: &CheckArguments, reporter: &mut Reporter) -> Resu
         let refused = compiled.refused_results([from, to]);
         reporter.require((!refused.has_errors()).then_some(()), refused)?;
     }
-    let from = compiled.analysis().map_or(0.0, |[from, ..]| from);
+    let from = compiled.first_time();
     let (run, diagnostics) = compiled.run(&Times::listed(from, vec![from]), &RunOptions::default());
     let run = reporter.require(run, diagnostics)?;
     let report = report(&compiled, run.assembly());

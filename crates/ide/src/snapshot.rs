@@ -343,8 +343,7 @@ fn prove_standalone(checked: &Checked, cancel: &Cancel) -> Proof {
     let refused = compiled.analysis().map(|[from, to, _]| compiled.refused_results([from, to]));
     proof.diagnostics.extend(refused.unwrap_or_default());
     let options = RunOptions { cancel: cancel.clone(), ..RunOptions::default() };
-    let from = compiled.analysis().map_or(0.0, |[from, ..]| from);
-    let (assembly, diagnostics) = compiled.assemble_at(from, &options);
+    let (assembly, diagnostics) = compiled.assemble_at(compiled.first_time(), &options);
     proof.diagnostics.extend(diagnostics);
     proof.assembly = assembly;
     proof.sources = compiled.sources().clone();

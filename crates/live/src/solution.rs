@@ -27,7 +27,7 @@ pub(super) struct Solution {
     diagnostics: Diagnostics,
     /// The motion, once it was requested.
     motion: Mutex<Option<Arc<Motion>>>,
-    /// What moves the inputs that were last moved by hand.
+    /// Moves the inputs that were last moved by hand.
     mover: Mutex<Option<Arc<InputMover>>>,
 }
 

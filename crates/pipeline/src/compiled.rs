@@ -55,7 +55,7 @@ pub struct Compiled {
     is_bound: bool,
 }
 
-/// What a mechanism is compiled from, except for its equations.
+/// The source of a compiled mechanism, except for its equations.
 #[derive(Clone)]
 pub(crate) struct Origin {
     pub sources: Sources,
@@ -94,10 +94,15 @@ impl Origin {
 }
 
 impl Compiled {
+    /// Returns its source.
+    pub(crate) fn origin(&self) -> &Origin {
+        &self.origin
+    }
+
     /// Returns it with values of all its params (SI); `origin` has the model with these values.
     pub(crate) fn bound(&self, origin: Origin, values: &[f64]) -> Compiled {
         let determined = Arc::new(self.determined.with_values(values));
-        Compiled { origin, determined, program: Arc::clone(&self.program), continuation: None, is_bound: true }
+        Compiled { origin, determined, is_bound: true, ..self.clone() }
     }
 
     /// Returns the mechanism compiled from its model, if values are bound to its equations: their estimates may follow from other values.

@@ -8,6 +8,7 @@ use crate::param_table::{Binder, Bindings};
 use crate::{Checked, Compiled, Configuration, Redundant, RequestedTimes, RunOptions, Variants};
 use mechc_engine::analysis::{Answers, ResultQuery, Started, Times};
 use mechc_engine::sweep::{LANES, Levels, Points, Varying};
+use mechc_lang::model::Mechanism;
 use mechc_lang::settable_inputs::SettableInputs;
 use mechc_text::cancel::Cancel;
 use mechc_text::diag::{Code, Diagnostic, Diagnostics, Error, readable};
@@ -128,7 +129,7 @@ impl Checked {
     /// An input or param does not exist, or the mechanism is not determined; with the texts that the diagnostics point into.
     pub fn evaluator(&self, adjusting: &EvaluatorOptions, cancel: &Cancel) -> Result<MechanismEvaluator, Error> {
         let refused = |why: Diagnostic| Error::new(why, self.sources());
-        let from = || self.model().and_then(|model| model.analysis).map_or(0.0, |analysis| analysis.from);
+        let from = || self.model().map_or(0.0, Mechanism::first_time);
         let t = adjusting.start.as_ref().map_or_else(from, |start| start.t);
         let set_inputs = SettableInputs { t, names: adjusting.inputs.clone(), bend: adjusting.has_accelerations };
         let checked = if adjusting.params.is_empty() {

@@ -89,8 +89,7 @@ impl Checked {
     /// Returns the inputs of the compiled mechanism.
     #[must_use]
     pub fn settable_inputs(&self, compiled: &Compiled) -> Vec<SettableParam> {
-        let first = compiled.analysis().map_or(0.0, |[from, ..]| from);
-        let jogs = self.input_controls(compiled, &[first]).into_iter();
+        let jogs = self.input_controls(compiled, &[compiled.first_time()]).into_iter();
         let inputs = jogs.zip(compiled.system().inputs());
         inputs
             .map(|(jog, input)| SettableParam {

@@ -5,7 +5,6 @@ use crate::continuation::Continuation;
 use crate::param_table::ParamTable;
 use crate::{Checked, Compiled, Redundant, SettableParam};
 use mechc_lang::check::{CheckOptions, ParamOverride};
-use mechc_lang::model::Mechanism;
 use mechc_syntax::{self as syntax, ast};
 use mechc_text::cancel::Cancel;
 use mechc_text::diag::Diagnostics;
@@ -19,11 +18,10 @@ const SET: &str = "--set";
 pub struct ParametricMechanism {
     /// The mechanism with the values of its text, these params as symbols.
     nominal: Checked,
-    model: Arc<Mechanism>,
+    /// Continued from its own values to those that are bound.
     compiled: Compiled,
-    redundant: Redundant,
+    /// The diagnostics of the check and of the proof.
     diagnostics: Diagnostics,
-    continuation: Arc<Continuation>,
     table: ParamTable,
     /// The params that are asked for. In the table they follow those that options set.
     params: Vec<SettableParam>,
@@ -41,9 +39,8 @@ impl Checked {
             return None;
         }
         let mut open: Vec<String> = Vec::new();
-        let settings = self.check_options.settings.iter().map(|setting| &setting.path);
-        for path in settings.filter(|path| !params.contains(path)) {
-            if !open.contains(path) {
+        for ParamOverride { path, .. } in &self.check_options.settings {
+            if !params.contains(path) && !open.contains(path) {
                 open.push(path.clone());
             }
         }
@@ -51,8 +48,12 @@ impl Checked {
         open.extend_from_slice(params);
         let options = CheckOptions { settings: Vec::new(), open: open.clone(), ..(*self.check_options).clone() };
         let nominal = self.checked_again(options, false)?;
-        let model = Arc::clone(nominal.model.as_ref()?);
-        let (compiled, diagnostics) = nominal.compile(redundant, cancel);
+        let (compiled, more) = nominal.compile(redundant, cancel);
+        let mut diagnostics = nominal.diagnostics().clone();
+        diagnostics.extend(more);
+        let source = nominal.clone();
+        let continuation = Arc::new(Continuation::new(move |options| source.nominal(redundant, None, options)));
+        let compiled = compiled?.with_continuation(Some(continuation));
         let param = |path: &String| {
             let (value, dimension) = nominal.param_in_part(path)?;
             Some(SettableParam { name: path.clone(), unit: String::new(), value, dimension })
@@ -60,25 +61,11 @@ impl Checked {
         let mut all = open.iter().map(param).collect::<Option<Vec<SettableParam>>>()?;
         let values: Vec<f64> = all.iter().map(|param| param.value).collect();
         let (params, settings) = (all.split_off(set.len()), self.check_options.settings.clone());
-        let table = ParamTable::new(&model, &open, &values);
+        let table = ParamTable::new(nominal.model()?, &open, &values);
         if table.targets().any(<[usize]>::is_empty) {
             return None;
         }
-        let source = nominal.clone();
-        let continuation = Arc::new(Continuation::new(move |options| source.nominal(redundant, None, options)));
-        let compiled = compiled?;
-        Some(ParametricMechanism {
-            nominal,
-            model,
-            compiled,
-            redundant,
-            diagnostics,
-            continuation,
-            table,
-            params,
-            settings,
-            set,
-        })
+        Some(ParametricMechanism { nominal, compiled, diagnostics, table, params, settings, set })
     }
 }
 
@@ -94,15 +81,13 @@ impl ParametricMechanism {
             settings.push(setting(&param.name, formula, &mut sources)?);
         }
         let bindings = self.table.bind(&values)?;
-        let mut model = (*self.model).clone();
+        let origin = self.compiled.origin();
+        let mut model = (*origin.model).clone();
         model.set_values(&bindings.values, bindings.analysis);
         let model = Arc::new(model);
         let checked = self.nominal.bound(Arc::clone(&model), settings, sources);
-        let compiled = self.compiled.bound(checked.origin(&model, self.redundant), &bindings.values);
-        let compiled = compiled.with_continuation(Some(Arc::clone(&self.continuation)));
-        let mut diagnostics = self.nominal.diagnostics().clone();
-        diagnostics.extend(self.diagnostics.clone());
-        Some((checked, compiled, diagnostics))
+        let compiled = self.compiled.bound(checked.origin(&model, origin.redundant), &bindings.values);
+        Some((checked, compiled, self.diagnostics.clone()))
     }
 }
 

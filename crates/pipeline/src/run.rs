@@ -212,7 +212,8 @@ impl Compiled {
     }
 
     /// Returns the first time of the text's analysis (s), or 0. The estimates select the branch at that time.
-    fn first_time(&self) -> f64 {
+    #[must_use]
+    pub fn first_time(&self) -> f64 {
         self.analysis().map_or(0.0, |[from, ..]| from)
     }
 

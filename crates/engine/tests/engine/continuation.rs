@@ -175,6 +175,22 @@ fn dead_points_on_the_path_fall_back_to_estimates() {
 }
 
 #[test]
+fn derivatives_by_params_of_inputs_change_no_path() {
+    // `twice` follows from another param, so that it is differentiated by a shift
+    let text = rocking("param once = 15 deg  param twice = 2 * once  input turn = twice + 1 rad/s * t", "turn");
+    let choice = Choice { inputs: vec!["turn=330 deg".to_owned()], by: vec!["twice".to_owned()], ..Choice::default() };
+    let checked = Parsed::new("four_bar.mech", &text).check(&choice, &Memory::default());
+    let (differentiated, messages) = checked.compile(Redundant::Refused, &Cancel::default());
+    let differentiated = differentiated.unwrap_or_else(|| panic!("{messages:?}"));
+    let stopped = |compiled: &Compiled| {
+        let (rows, messages) = run(compiled, &Times::listed(0.0, vec![0.0]));
+        assert_eq!((rows.len(), codes(&messages)), (1, vec!["E0612"]));
+        messages.iter().next().and_then(|message| message.data["part"].as_f64()).expect("a number")
+    };
+    assert_eq!(stopped(&differentiated), stopped(&compiled(&text, &["turn=330 deg"], None)));
+}
+
+#[test]
 fn a_kink_on_the_way_is_passed_and_a_jump_is_not() {
     let text = |declarations: &str, driver: &str| four_bar(&CRANK_ROCKER[1], declarations, driver);
     let kinked = text(TURN, "30 deg + abs(turn - 90 deg) * 2 - 120 deg");

@@ -44,7 +44,7 @@ const FAR_FRAME: f64 = 10.0;
 /// Order of time derivatives in a reduced formula from which its reduction needs third derivatives.
 const HOLDS_JERK: u8 = 2;
 
-/// What a constraint system holds of a model.
+/// The parts of a model that its constraint system holds, and their form.
 #[derive(Clone, Debug, Default)]
 pub struct LowerOptions {
     /// The expressions that stand for inputs and time.

@@ -305,11 +305,18 @@ impl Mechanism {
         part.is_some_and(|part| self[part].is_mirrored)
     }
 
+    /// Returns the first time of the analysis (s), or 0.
+    #[must_use]
+    pub fn first_time(&self) -> f64 {
+        self.analysis.map_or(0.0, |analysis| analysis.from)
+    }
+
     /// Returns the value of a formula of parameters and time at a time (s).
     #[must_use]
     pub fn value_at(&self, formula: ExprId, t: f64) -> f64 {
         self.graph.value(formula, |symbol| match symbol {
             Symbol::Param(k) => self.params[k as usize].value,
+            Symbol::Shift(_) => 0.0,
             Symbol::Time => t,
             _ => f64::NAN,
         })

@@ -57,7 +57,7 @@ impl Checked {
         options: &RunOptions,
     ) -> Option<Nominal> {
         let (compiled, model) = (self.compile(redundant, &options.cancel).0?, Arc::clone(self.model.as_ref()?));
-        let t = near.map_or_else(|| compiled.analysis().map_or(0.0, |[from, ..]| from), |near| near.t);
+        let t = near.map_or_else(|| compiled.first_time(), |near| near.t);
         let horizon = Horizon::of_analysis(compiled.analysis()).beginning(t);
         let started = match near {
             None => compiled.start(horizon, options).0.ok()?,

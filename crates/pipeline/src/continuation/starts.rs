@@ -99,7 +99,7 @@ impl StartSolver {
 /// A mechanism at the first time of its own analysis, with its nominal inputs.
 struct Standalone {
     model: Mechanism,
-    /// What is set in it.
+    /// The settings of its params.
     settings: Vec<ParamOverride>,
     /// The first time (s).
     t: f64,
@@ -390,7 +390,7 @@ impl StartSearch<'_> {
     /// Assembles a mechanism at the first time of its own analysis, with its nominal inputs.
     fn assembled(&mut self, mut model: Mechanism, settings: Vec<ParamOverride>) -> Standalone {
         model.by.clear();
-        let t = model.analysis.map_or(0.0, |analysis| analysis.from);
+        let t = model.first_time();
         let inputs = nominal_inputs(&model, t);
         let system = lower_model(&model, &LowerOptions::default());
         let (q, remarks) = (estimates(&system), Diagnostics::default());
