@@ -162,8 +162,7 @@ fn value_of_param(subject: &Subject<'_>) -> Option<String> {
         Amount::Number { si, dimension, unit } => {
             let mut forms = vec![with_unit(*si, &dimension.display_unit())];
             forms.extend(unit.as_ref().and_then(|unit| in_unit(*si, unit)));
-            let what = if dimension.is_angle() { "an angle".to_owned() } else { dimension.in_words() };
-            format!("= {}, {what}", forms.join(" = "))
+            format!("= {}, {}", forms.join(" = "), dimension.in_words())
         }
     })
 }
@@ -244,7 +243,7 @@ mod tests {
         assert_eq!(words("m/s^2").as_deref(), Some("an acceleration (m/s^2)"));
         assert_eq!(words("1/s").as_deref(), Some("a rate (1/s)"));
         assert_eq!(words("1/(m*s)").as_deref(), Some("a quantity in 1/(m*s)"));
-        assert_eq!(words("deg").as_deref(), Some("a pure number"));
+        assert_eq!(words("deg").as_deref(), Some("an angle"));
         assert_eq!(words("nothing"), None);
     }
 }

@@ -291,7 +291,7 @@ mod tests {
         measure speedy = der(angle(rocker)) in deg/s
         ```
 
-        At t = 0 s: 26.9732 deg/s, a rate (1/s)
+        At t = 0 s: 26.9732 deg/s, an angular velocity (rad/s)
         ");
         insta::assert_snapshot!(with("trace pa$0th = coupler.C in mm"), @r"
         main.mech:27
@@ -315,7 +315,7 @@ mod tests {
         input turn = 30 deg + 1 rad/s * t
         ```
 
-        At t = 0 s: 0.523599, a pure number
+        At t = 0 s: 0.523599 rad, an angle
         ");
         insta::assert_snapshot!(with("fn swi$0ng(u) = crank_length * sin(u)^2"), @r"
         main.mech:27

@@ -267,7 +267,7 @@ fn invalid_variations_are_refused() {
             VaryOptions { seed: Some(1), ..vary(&["speed=1rpm..2rpm:3"]) },
             "`--seed` says how a sample is taken, and there is none",
         ),
-        (vary(&["speed=1rpm,2mm"]), "the parameter `speed` must be a rate (1/s), found a length"),
+        (vary(&["speed=1rpm,2mm"]), "the parameter `speed` must be an angular velocity (rad/s), found a length"),
         (vary(&["speed=1rpm,2rpm", "speed=3rpm,4rpm"]), "`speed` is to vary twice"),
         (vary(&["share=0..1:3"]), "`share` is set, and is to vary"),
         (vary(&["pace=1..2:3"]), "mechanism `four_bar` has no parameter `pace`"),

@@ -778,7 +778,7 @@ fn invalid_tolerances_are_refused() {
         (vec!["length=1mm"], "mechanism `m` has no parameter `length`"),
         (vec!["turn=1"], "mechanism `m` has no parameter `turn`"),
         (vec!["reach=1"], "the parameter `reach` must be a length, found a pure number"),
-        (vec!["reach=1mm..1rad"], "the parameter `reach` must be a length, found a pure number"),
+        (vec!["reach=1mm..1rad"], "the parameter `reach` must be a length, found an angle"),
         (vec!["reach=-1mm"], "the tolerance of `reach` is negative: `-1mm`"),
         (vec!["reach=±-1mm"], "the tolerance of `reach` is negative: `-1mm`"),
         (vec!["reach=1mm..-1mm"], "the tolerance of `reach` goes from `1mm` down to `-1mm`"),

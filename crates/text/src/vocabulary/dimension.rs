@@ -35,7 +35,7 @@ impl Dimension {
     /// Acceleration.
     pub const ACCELERATION: Dimension = Dimension::new(1.0, -2.0, 0.0);
     /// Angular acceleration.
-    pub const ANGULAR_ACCELERATION: Dimension = Dimension::new(0.0, -2.0, 0.0);
+    pub const ANGULAR_ACCELERATION: Dimension = Dimension { angle: 1.0, ..Dimension::new(0.0, -2.0, 0.0) };
     /// Mass.
     pub const MASS: Dimension = Dimension::new(0.0, 0.0, 1.0);
     /// Moment of inertia.
@@ -122,10 +122,12 @@ impl Dimension {
     pub fn in_words(self) -> String {
         const WORDS: &[(Dimension, &str)] = &[
             (Dimension::PURE, "a pure number"),
+            (Dimension::ANGLE, "an angle"),
             (Dimension::LENGTH, "a length"),
             (Dimension::TIME, "a time"),
             (Dimension::RATE, "a rate (1/s)"),
-            (Dimension::ANGULAR_ACCELERATION, "an angular acceleration (1/s^2)"),
+            (Dimension::ANGULAR_VELOCITY, "an angular velocity (rad/s)"),
+            (Dimension::ANGULAR_ACCELERATION, "an angular acceleration (rad/s^2)"),
             (Dimension::SPEED, "a speed (m/s)"),
             (Dimension::ACCELERATION, "an acceleration (m/s^2)"),
             (Dimension::AREA, "an area (m^2)"),
@@ -136,10 +138,12 @@ impl Dimension {
             (Dimension::POWER, "a power (W)"),
             (Dimension::PRESSURE, "a pressure (Pa)"),
         ];
-        WORDS
-            .iter()
-            .find(|(dimension, _)| self.is(*dimension))
-            .map_or_else(|| format!("a quantity in {}", self.unit()), |(_, words)| (*words).to_owned())
+        let word = |same_mark: bool| {
+            let fits = |other: Dimension| self.is(other) && (!same_mark || self.is_angular() == other.is_angular());
+            WORDS.iter().find(|(dimension, _)| fits(*dimension)).map(|(_, word)| (*word).to_owned())
+        };
+        // an angle times a time is called a time
+        word(true).or_else(|| word(false)).unwrap_or_else(|| format!("a quantity in {}", self.unit()))
     }
 
     /// Returns the unit as a product of SI units: `m^2/s`, or `1` for a pure number. Dimensions with mass and time use the newton, so that

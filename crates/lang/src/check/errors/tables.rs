@@ -22,7 +22,7 @@ pub fn not_a_unit_to_print_in(name: &Name) -> Diagnostic {
 
 /// A unit after `in` of another dimension than the formula, with the locations and dimensions of both.
 pub fn not_printed_in(unit: &str, [at, formula]: [Span; 2], [unit_dimension, found]: [Dimension; 2]) -> Diagnostic {
-    let expected = if unit_dimension.is(Dimension::PURE) { "an angle".to_owned() } else { unit_dimension.in_words() };
+    let expected = unit_dimension.in_words();
     Diagnostic::new(Code::E0402, format!("what is printed in `{unit}` must be {expected}, found {}", found.in_words()))
         .at(at, expected)
         .also(formula, found.in_words())
