@@ -1,8 +1,8 @@
 //! Conversion of the parser's pairs to the tree of declarations.
 
 use super::ast::{
-    Binding, ColumnName, ColumnWord, DrawnPose, Expr, ExprKind, Factor, Feature, FeatureKind, File, IndexRange, Item,
-    ItemKind, Mechanism, MechanismName, Name, Part, TableRows, UnitFactor, UsedFile, WrittenUnit,
+    Binding, ColumnName, ColumnWord, DrawnPose, Expr, ExprKind, Factor, Feature, FeatureKind, IndexRange, Item,
+    ItemKind, MechanismName, Name, Part, TableRows, UnitFactor, UsedFile, WrittenUnit,
 };
 use super::grammar::{Grammar, Rule};
 use super::{depth, errors, formula};
@@ -20,7 +20,7 @@ const LONGEST_NAME: usize = 200;
 pub(super) type Built<T> = Result<T, Box<Diagnostic>>;
 
 /// Builds the nodes of a piece of text.
-pub(super) struct Reader<'a> {
+pub(super) struct Builder<'a> {
     source: &'a Source,
     file: FileId,
     /// Offset of the piece in the text, in bytes.
@@ -58,14 +58,14 @@ impl Piece<'_> {
     pub fn read<T>(
         &self,
         rule: Rule,
-        make: impl FnOnce(&Reader<'_>, Pair<'_, Rule>) -> Built<T>,
+        make: impl FnOnce(&Builder<'_>, Pair<'_, Rule>) -> Built<T>,
     ) -> Result<T, PieceError> {
         let text = &self.source.text[self.range.clone()];
-        let reader = Reader { source: self.source, file: self.file, base: self.range.start };
+        let builder = Builder { source: self.source, file: self.file, base: self.range.start };
         depth::measure(text, self.file, self.range.start).map_err(PieceError::Else)?;
         let pairs = Grammar::parse(rule, text).map_err(|error| PieceError::ByGrammar(Box::new(error)))?;
-        let pair = pairs.into_iter().next().ok_or_else(|| PieceError::Else(reader.truncated()))?;
-        make(&reader, pair).map_err(PieceError::Else)
+        let pair = pairs.into_iter().next().ok_or_else(|| PieceError::Else(builder.truncated()))?;
+        make(&builder, pair).map_err(PieceError::Else)
     }
 
     /// Returns the diagnostic for a piece; `with_fix_it` requests a search for suggestions.
@@ -92,7 +92,7 @@ pub fn is_name(text: &str) -> bool {
     pair.is_some_and(|pair| pair.as_str().len() == text.len()) && text.chars().count() <= LONGEST_NAME
 }
 
-impl Reader<'_> {
+impl Builder<'_> {
     /// Returns the span of a pair, without trailing white space and comments.
     pub(super) fn span(&self, pair: &Pair<'_, Rule>) -> Span {
         let whole = pair.as_span();
@@ -129,19 +129,6 @@ impl Reader<'_> {
         pair.into_inner().next().ok_or_else(|| self.truncated())
     }
 
-    /// Builds a whole file.
-    pub(super) fn file(&self, pair: Pair<'_, Rule>) -> Built<File> {
-        let (mut uses, mut mechanisms) = (Vec::new(), Vec::new());
-        for pair in pair.into_inner() {
-            match pair.as_rule() {
-                Rule::use_file => uses.push(self.use_file(pair)?),
-                Rule::mechanism => mechanisms.push(self.mechanism(pair)?),
-                _ => {}
-            }
-        }
-        Ok(File { uses, mechanisms })
-    }
-
     /// Builds `use "FILE.mech" as PREFIX`.
     pub(super) fn use_file(&self, pair: Pair<'_, Rule>) -> Built<UsedFile> {
         let span = self.span(&pair);
@@ -159,56 +146,6 @@ impl Reader<'_> {
     /// Returns the text between the quotes of a string, with the span of the string.
     fn unquoted_name(&self, string: &Pair<'_, Rule>) -> Name {
         Name { text: unquoted(string.as_str()).to_owned(), span: self.span(string) }
-    }
-
-    fn mechanism(&self, pair: Pair<'_, Rule>) -> Built<Mechanism> {
-        let span = self.span(&pair);
-        let mut inner = pair.into_inner();
-        let Head { name, .. } = self.head(inner.next().ok_or_else(|| self.truncated())?)?;
-        let mut items = Vec::new();
-        self.items(inner, &mut items)?;
-        Ok(Mechanism { docs: self.docs_above(span.start), name, span, items })
-    }
-
-    /// Builds declarations of a mechanism up to the end of the pairs.
-    pub(super) fn items<'i>(&self, pairs: impl Iterator<Item = Pair<'i, Rule>>, items: &mut Vec<Item>) -> Built<()> {
-        for pair in pairs {
-            match pair.as_rule() {
-                Rule::close | Rule::EOI => {}
-                Rule::ground | Rule::body => items.push(self.block(pair)?),
-                _ => items.push(self.plain_item(pair)?),
-            }
-        }
-        Ok(())
-    }
-
-    /// Builds the ground or a body.
-    fn block(&self, pair: Pair<'_, Rule>) -> Built<Item> {
-        let span = self.span(&pair);
-        let mut inner = pair.into_inner();
-        let mut block = self.empty_block(inner.next().ok_or_else(|| self.truncated())?, span)?;
-        if let Some(features) = block.kind.features_mut() {
-            *features = self.features(inner)?;
-        }
-        Ok(block)
-    }
-
-    /// Builds the ground or a body without features, from its head.
-    pub(super) fn empty_block(&self, head: Pair<'_, Rule>, span: Span) -> Built<Item> {
-        let features = Vec::new();
-        let (kind, ranges) = if head.as_rule() == Rule::ground_head {
-            (ItemKind::Ground { features }, Vec::new())
-        } else {
-            let Head { name, ranges, pose } = self.head(head)?;
-            (ItemKind::Body { name, pose, features }, ranges)
-        };
-        Ok(Item { docs: self.docs_above(span.start), span, ranges, kind })
-    }
-
-    /// Builds features up to the end of the pairs.
-    pub(super) fn features<'i>(&self, pairs: impl Iterator<Item = Pair<'i, Rule>>) -> Built<Vec<Feature>> {
-        let features = pairs.filter(|pair| !matches!(pair.as_rule(), Rule::close | Rule::EOI));
-        collect_exact(features.map(|pair| self.feature(pair)))
     }
 
     /// Builds a declaration without a block.

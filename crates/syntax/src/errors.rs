@@ -3,7 +3,7 @@
 use super::fixits::{Fault, FixIt};
 use super::foreign_syntax::{Correction, Foreign};
 use super::grammar::Rule;
-use super::tokens::tokens;
+use super::lexer::{Lexer, TokenKind, is_word_char, tokens, tokens_in};
 use mechc_text::diag::{Applicability, Code, Diagnostic, Edit, Fix};
 use mechc_text::source::{FileId, Source, Span};
 use pest::error::{Error, ErrorVariant};
@@ -270,7 +270,7 @@ fn takes_coordinates(before: &str) -> bool {
 /// Returns the matching closing bracket on the same line, if all brackets in between are closed.
 fn partner(text: &str, at: usize) -> Option<usize> {
     let (mut open, line) = (Vec::new(), text[at..].lines().next()?);
-    for token in tokens(line) {
+    for token in tokens_in(text, at..at + line.len()) {
         match token.text {
             "(" | "[" | "{" => open.push(token.text),
             ")" | "]" | "}" => {
@@ -282,7 +282,7 @@ fn partner(text: &str, at: usize) -> Option<usize> {
             _ => {}
         }
         if open.is_empty() {
-            return Some(at + token.start);
+            return Some(token.start);
         }
     }
     None
@@ -315,28 +315,17 @@ fn expects(error: &Error<Rule>, rule: Rule) -> bool {
     matches!(&error.variant, ErrorVariant::ParsingError { positives, .. } if positives.contains(&rule))
 }
 
-/// Returns the word or character at an offset.
+/// Returns the word or character at an offset: `5mm` is one word.
 fn found_at(text: &str, offset: usize) -> Range<usize> {
     // the parser may stand before white space or a comment
-    let mut start = offset.min(text.len());
-    loop {
-        let rest = &text[start..];
-        let trimmed = rest.trim_start();
-        start += rest.len() - trimmed.len();
-        if !trimmed.starts_with("//") {
-            break;
-        }
-        start += trimmed.find('\n').unwrap_or(trimmed.len());
-    }
-    let rest = &text[start..];
-    let is_word = |c: char| c.is_alphanumeric() || c == '_';
-    let length = match rest.chars().next() {
-        None => 0,
-        Some(c) if is_word(c) => rest.find(|c| !is_word(c)).unwrap_or(rest.len()),
-        Some(_) if ["==", "<=", ">=", "!="].iter().any(|op| rest.starts_with(op)) => 2,
-        Some(c) => c.len_utf8(),
+    let Some(token) = Lexer::new(text, offset).find(|token| !token.is_comment()) else { return text.len()..text.len() };
+    let rest = &text[token.start..];
+    let length = match token.kind {
+        TokenKind::Word | TokenKind::Number => rest.find(|c| !is_word_char(c)).unwrap_or(rest.len()).max(1),
+        TokenKind::String => 1,
+        TokenKind::Sign | TokenKind::Comment => token.text.len(),
     };
-    start..start + length
+    token.start..token.start + length
 }
 
 /// Describes the rules that the parser expected.

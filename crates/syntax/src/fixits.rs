@@ -9,7 +9,8 @@ mod uses;
 mod windows;
 
 use super::grammar::Rule;
-use super::tokens::{Token, begins_declaration, next_token, tokens};
+use super::keywords::begins_declaration;
+use super::lexer::{Lexer, TokenKind, is_word_char, tokens};
 use mechc_text::diag::{Applicability, Edit, Fix, nearest};
 use mechc_text::source::{FileId, Span};
 use mechc_text::vocabulary::{
@@ -70,7 +71,7 @@ impl Fault<'_> {
     /// Returns the word that ends before the fault.
     fn word_before(&self) -> &str {
         let before = self.before();
-        let start = before.rfind(|c: char| !(c.is_alphanumeric() || c == '_' || c == '.'));
+        let start = before.rfind(|c: char| !(is_word_char(c) || c == '.'));
         // a character may be longer than a byte
         let start = start.map_or(0, |at| at + before[at..].chars().next().map_or(0, char::len_utf8));
         &before[start..]
@@ -78,7 +79,7 @@ impl Fault<'_> {
 
     /// Returns whether a declaration begins at the fault.
     fn begins_declaration(&self) -> bool {
-        begins_declaration(self.text, Token { start: self.at, text: self.found })
+        begins_declaration(self.text, self.here())
     }
 
     fn is_on_new_line(&self) -> bool {
@@ -204,17 +205,16 @@ impl Fault<'_> {
     /// Returns the number before the word that ends before the fault, and where that word begins.
     fn number_before_the_word(&self) -> Option<(&str, usize)> {
         let start = self.before().len() - self.word_before().len();
-        let number = tokens(&self.text[..start]).last()?.text;
-        number.starts_with(|c: char| c.is_ascii_digit()).then_some((number, start))
+        let number = tokens(&self.text[..start]).pop().filter(|token| token.kind == TokenKind::Number)?;
+        Some((number.text, start))
     }
 
     /// Suggests parentheses for `sin x`.
     fn argument(&self) -> FixIt {
         let behind = self.behind();
-        let mut rest = behind;
-        let is_unit = next_token(&mut rest).is_some_and(|token| Unit::named(token).is_some());
+        let unit = Lexer::new(behind, 0).next().filter(|token| Unit::named(token.text).is_some());
         let is_number = self.found.starts_with(|c: char| c.is_ascii_digit());
-        let end = if is_number && is_unit { self.text.len() - rest.len() } else { self.here().end };
+        let end = self.here().end + unit.filter(|_| is_number).map_or(0, |unit| unit.end());
         let argument = &self.text[self.at..end];
         let words = format!("what a function is of stands in parentheses: `{}({argument})`", self.word_before());
         // the argument goes on: a call, a member, the rest of a number

@@ -9,7 +9,8 @@ mod parts;
 mod separators;
 
 use super::grammar::Rule;
-use super::tokens::{Token, begins_declaration, tokens};
+use super::keywords::begins_declaration;
+use super::lexer::{Token, TokenKind, is_word_char, tokens, tokens_in};
 use heads::is_dash;
 use mechc_text::diag::{Applicability, Edit, Fix};
 use mechc_text::source::{FileId, Span};
@@ -57,7 +58,7 @@ impl<'a> Foreign<'a> {
                 let is_named = || word(k + 2) == ":" && is_name(word(k + 1));
                 // the next word is the fault itself
                 let is_last = k + 1 == all.len() && ["=", ":"].contains(&found) || k + 2 == all.len() && found == ":";
-                word(k + 1).starts_with(|c: char| ['(', '-'].contains(&c) || c.is_ascii_digit())
+                word(k + 1).starts_with(|c: char| ['(', '-', '.'].contains(&c) || c.is_ascii_digit())
                     || is_named()
                     || is_last
             }
@@ -68,13 +69,13 @@ impl<'a> Foreign<'a> {
                         || k + 2 == all.len() && is_name(word(k + 1)))
             }
         };
-        let is_keyword = |k: usize| begins_declaration(text, all[k]) || is_opener(k);
+        let is_keyword = |k: usize| begins_declaration(text, all[k].range()) || is_opener(k);
         let start = (0..all.len()).rev().find(|&k| is_keyword(k)).unwrap_or(0);
         let bodies = all.windows(2).filter(|pair| pair[0].text == "body").map(|pair| pair[1].text).collect();
-        let line = text[at..].split('\n').next().unwrap_or_default();
-        let is_here = |token: &Token<'_>| token.start == at || token.text != "}" && !begins_declaration(text, *token);
-        let in_text = |token: Token<'a>| Token { start: at + token.start, ..token };
-        let rest = tokens(line).into_iter().map(in_text).take_while(is_here).collect();
+        let end = text[at..].find('\n').map_or(text.len(), |end| at + end);
+        let is_here =
+            |token: &Token<'_>| token.start == at || token.text != "}" && !begins_declaration(text, token.range());
+        let rest = tokens_in(text, at..end).into_iter().take_while(is_here).collect();
         Foreign { text, file, at, found, expected, before: all[start.min(all.len())..].to_vec(), rest, bodies }
     }
 
@@ -129,6 +130,11 @@ impl<'a> Foreign<'a> {
         count(["(", "["]) == count([")", "]"])
     }
 
+    /// Returns the range of the word or character at the fault.
+    fn here(&self) -> Range<usize> {
+        self.at..self.at + self.found.len()
+    }
+
     fn is_word(&self) -> bool {
         is_name(self.found)
     }
@@ -151,7 +157,7 @@ impl<'a> Foreign<'a> {
     fn unit_in_brackets(&self, last: &Token<'_>) -> Option<Correction> {
         let (unit, _) = self.text[self.at..].strip_prefix('[')?.split_once(']')?;
         let is_unit = unit.split(['/', '*', '^']).next().is_some_and(|unit| Unit::named(unit.trim()).is_some());
-        let is_number = last.text.starts_with(|c: char| c.is_ascii_digit());
+        let is_number = last.kind == TokenKind::Number;
         (is_unit && is_number).then(|| {
             let unit_only = self.edit(self.at..self.at + unit.len() + 2, unit.trim());
             let message = format!("a unit follows its number without brackets: `{} {}`", last.text, unit.trim());
@@ -201,7 +207,7 @@ impl<'a> Foreign<'a> {
 
     /// Corrects `angle(rod) as deg`, `displacement(guide) mm`.
     fn trailing_unit(&self, keyword: &str, last: &Token<'_>) -> Option<Correction> {
-        let is_number = last.text.starts_with(|c: char| c.is_ascii_digit());
+        let is_number = last.kind == TokenKind::Number;
         // `2 pi t` is a product with the time
         if !self.expects(Rule::infix) || is_number && self.found != "in" || self.found == "t" {
             return None;
@@ -244,7 +250,7 @@ impl<'a> Foreign<'a> {
     /// Corrects `3 N m`.
     fn adjacent_units(&self, last: &Token<'_>) -> Option<Correction> {
         let [.., number, _] = self.before.as_slice() else { return None };
-        let is_number = number.text.starts_with(|c: char| c.is_ascii_digit());
+        let is_number = number.kind == TokenKind::Number;
         // an angle is no factor of a unit
         Unit::named(self.found).filter(|unit| is_number && !unit.dimension.is(Dimension::PURE))?;
         let power = match self.rest.get(1..).unwrap_or_default() {
@@ -273,8 +279,7 @@ impl<'a> Foreign<'a> {
         let [first, last] = [self.rest.get(1), self.rest.last()];
         let value = first.zip(last).map(|(first, last)| &self.text[first.start..last.end()]).unwrap_or_default();
         Some(if keyword == "driver" && is_rate(self.rest.get(1..).unwrap_or_default()) {
-            let edits =
-                vec![self.edit(self.at..self.at + self.found.len(), "="), self.edit(self.end()..self.end(), " * t")];
+            let edits = vec![self.edit(self.here(), "="), self.edit(self.end()..self.end(), " * t")];
             Foreign::change(format!("a driver is an equation: `{left} = {value} * t`"), edits)
         } else {
             Correction::Words(format!("a {keyword} is an equation: `{left} = …`"))
@@ -284,12 +289,11 @@ impl<'a> Foreign<'a> {
 
 /// Returns the hyphenated name that begins at a byte.
 pub(super) fn hyphenated_at(text: &str, start: usize) -> Option<&str> {
-    let is_part = |c: char| c.is_alphanumeric() || c == '_';
     let rest = &text[start..];
-    let mut end = rest.find(|c| !is_part(c)).unwrap_or(rest.len());
+    let mut end = rest.find(|c| !is_word_char(c)).unwrap_or(rest.len());
     let first = end;
-    while let Some(next) = rest[end..].strip_prefix(is_dash).filter(|next| next.starts_with(is_part)) {
-        end = rest.len() - next.len() + next.find(|c| !is_part(c)).unwrap_or(next.len());
+    while let Some(next) = rest[end..].strip_prefix(is_dash).filter(|next| next.starts_with(is_word_char)) {
+        end = rest.len() - next.len() + next.find(|c| !is_word_char(c)).unwrap_or(next.len());
     }
     (is_name(rest) && end > first).then(|| &rest[..end])
 }

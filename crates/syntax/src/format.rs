@@ -1,11 +1,11 @@
 //! Formatting of texts in one style, which `examples/` show.
 //!
-//! Formatting changes only the text between lexemes, and the comma behind the last item of a list. The formatter returns small edits; a
+//! Formatting changes only the text between tokens, and the comma behind the last item of a list. The formatter returns small edits; a
 //! text is formatted by all of them, a part of it by those of the part. Where a text does not follow the grammar, complete declarations are
 //! formatted and the rest stays unchanged.
 //!
 //! ```text
-//! text ──lexemes──▶ rows ──words, columns──▶ groups ──layout──▶ gaps ──▶ edits tree ────────────▶
+//! text ──tokens──▶ rows ──words, columns──▶ groups ──layout──▶ gaps ──▶ edits tree ────────────▶
 //! ```
 //!
 //! A tree without text is printed without regard to lines, and then formatted like any text ([`format()`]).
@@ -17,7 +17,6 @@ mod expression;
 mod gaps;
 mod groups;
 mod layout;
-mod lexemes;
 mod rows;
 mod tree_printer;
 mod words;

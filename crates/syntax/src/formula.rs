@@ -4,60 +4,60 @@
 //! nesting, so that no tree is deeper than [`DEEPEST`].
 
 use super::ast::{ComparisonSign, Expr, ExprKind, Factor, PathSegment, Sign, Window};
-use super::build::{Built, Reader};
+use super::build::{Builder, Built};
 use super::grammar::Rule;
-use super::tokens::tokens;
+use super::lexer::tokens;
 use super::{DEEPEST, errors};
 use mechc_text::source::Span;
 use pest::iterators::Pair;
 use std::iter::Peekable;
 
 /// Builds a formula of the rule `expr`.
-pub(super) fn build(reader: &Reader<'_>, pair: Pair<'_, Rule>, depth: usize) -> Built<Expr> {
-    within(depth, reader.span(&pair))?;
-    let span = reader.span(&pair);
+pub(super) fn build(builder: &Builder<'_>, pair: Pair<'_, Rule>, depth: usize) -> Built<Expr> {
+    within(depth, builder.span(&pair))?;
+    let span = builder.span(&pair);
     let mut inner = pair.into_inner().peekable();
     match inner.next_if(|first| first.as_rule() == Rule::conditional) {
-        Some(first) => conditional(reader, first, depth),
-        None => Row { reader, tokens: inner, end: span }.either(depth),
+        Some(first) => conditional(builder, first, depth),
+        None => Row { builder, tokens: inner, end: span }.either(depth),
     }
 }
 
 /// Builds an operand: a literal, a call, a name, or parentheses.
-pub(super) fn build_operand(reader: &Reader<'_>, pair: Pair<'_, Rule>, depth: usize) -> Built<Expr> {
-    let span = reader.span(&pair);
+pub(super) fn build_operand(builder: &Builder<'_>, pair: Pair<'_, Rule>, depth: usize) -> Built<Expr> {
+    let span = builder.span(&pair);
     within(depth, span)?;
     let kind = match pair.as_rule() {
-        Rule::literal => literal(reader, pair)?,
-        Rule::word => ExprKind::Name(reader.name(&pair)?),
-        Rule::member => path(reader, pair, depth)?,
+        Rule::literal => literal(builder, pair)?,
+        Rule::word => ExprKind::Name(builder.name(&pair)?),
+        Rule::member => path(builder, pair, depth)?,
         Rule::call => {
             let mut parts = pair.into_inner();
-            let name = reader.name(&parts.next().ok_or_else(|| reader.truncated())?)?;
+            let name = builder.name(&parts.next().ok_or_else(|| builder.truncated())?)?;
             let window = parts.clone().find(|part| part.as_rule() == Rule::window);
-            let arguments = reader.list(parts, depth + 1)?;
-            let window = window.map(|window| build_window(reader, window, depth + 1).map(Box::new)).transpose()?;
+            let arguments = builder.list(parts, depth + 1)?;
+            let window = window.map(|window| build_window(builder, window, depth + 1).map(Box::new)).transpose()?;
             ExprKind::Call { name, arguments, window }
         }
         Rule::paren => {
-            let mut parts = reader.list(pair.into_inner(), depth + 1)?;
+            let mut parts = builder.list(pair.into_inner(), depth + 1)?;
             match parts.pop() {
                 Some(only) if parts.is_empty() => ExprKind::Paren(Box::new(only)),
                 Some(last) => {
                     parts.push(last);
                     ExprKind::Tuple(parts)
                 }
-                None => return Err(reader.truncated()),
+                None => return Err(builder.truncated()),
             }
         }
-        _ => return Err(reader.truncated()),
+        _ => return Err(builder.truncated()),
     };
     Ok(Expr { kind, span })
 }
 
 /// Builds a window: `from A to B`, or one of both.
-fn build_window(reader: &Reader<'_>, pair: Pair<'_, Rule>, depth: usize) -> Built<Window> {
-    let span = reader.span(&pair);
+fn build_window(builder: &Builder<'_>, pair: Pair<'_, Rule>, depth: usize) -> Built<Window> {
+    let span = builder.span(&pair);
     let mut window = Window { from: None, to: None, span };
     let mut is_first = true;
     for part in pair.into_inner() {
@@ -65,7 +65,7 @@ fn build_window(reader: &Reader<'_>, pair: Pair<'_, Rule>, depth: usize) -> Buil
             Rule::to => is_first = false,
             Rule::expr => {
                 let bound = if is_first { &mut window.from } else { &mut window.to };
-                *bound = Some(build(reader, part, depth)?);
+                *bound = Some(build(builder, part, depth)?);
             }
             _ => {}
         }
@@ -74,14 +74,14 @@ fn build_window(reader: &Reader<'_>, pair: Pair<'_, Rule>, depth: usize) -> Buil
 }
 
 /// Builds a path, such as `a.b`, with optional indices in brackets.
-fn path(reader: &Reader<'_>, pair: Pair<'_, Rule>, depth: usize) -> Built<ExprKind> {
+fn path(builder: &Builder<'_>, pair: Pair<'_, Rule>, depth: usize) -> Built<ExprKind> {
     let mut segments: Vec<PathSegment> = Vec::new();
     for part in pair.into_inner() {
         match segments.last_mut() {
             Some(last) if part.as_rule() == Rule::indices => {
-                last.indices = reader.list(part.into_inner(), depth + 1)?;
+                last.indices = builder.list(part.into_inner(), depth + 1)?;
             }
-            _ => segments.push(PathSegment { name: reader.name(&part)?, indices: Vec::new() }),
+            _ => segments.push(PathSegment { name: builder.name(&part)?, indices: Vec::new() }),
         }
     }
     let is_plain = segments.len() == 2 && segments.iter().all(|segment| segment.indices.is_empty());
@@ -92,7 +92,7 @@ fn path(reader: &Reader<'_>, pair: Pair<'_, Rule>, depth: usize) -> Built<ExprKi
             segments.push(last);
             ExprKind::Path(segments)
         }
-        (_, None, _) => return Err(reader.truncated()),
+        (_, None, _) => return Err(builder.truncated()),
     })
 }
 
@@ -100,41 +100,41 @@ fn within(depth: usize, span: Span) -> Built<()> {
     if depth > DEEPEST { Err(Box::new(errors::too_deep(span, DEEPEST))) } else { Ok(()) }
 }
 
-fn literal(reader: &Reader<'_>, pair: Pair<'_, Rule>) -> Built<ExprKind> {
+fn literal(builder: &Builder<'_>, pair: Pair<'_, Rule>) -> Built<ExprKind> {
     let mut parts = pair.into_inner();
-    let number = parts.next().ok_or_else(|| reader.truncated())?;
-    let value = number.as_str().parse().map_err(|_| reader.truncated())?;
+    let number = parts.next().ok_or_else(|| builder.truncated())?;
+    let value = number.as_str().parse().map_err(|_| builder.truncated())?;
     let Some(unit) = parts.next() else {
         return Ok(ExprKind::Literal { value, unit: None });
     };
-    let name = reader.name(&unit)?;
+    let name = builder.name(&unit)?;
     let power = match parts.next() {
         None => 1,
-        Some(power) => unit_power(reader, &power)?,
+        Some(power) => unit_power(builder, &power)?,
     };
     Ok(ExprKind::Literal { value, unit: Some((name, power)) })
 }
 
 /// Builds the power of a unit, from its `^` on.
-pub(super) fn unit_power(reader: &Reader<'_>, pair: &Pair<'_, Rule>) -> Built<i32> {
+pub(super) fn unit_power(builder: &Builder<'_>, pair: &Pair<'_, Rule>) -> Built<i32> {
     // comments may stand between
     let digits: String =
         tokens(pair.as_str()).into_iter().map(|token| token.text).filter(|&text| text != "^").collect();
     let whole: Option<i32> = digits.parse().ok().filter(|p: &i32| (-100..=100).contains(p));
     whole.ok_or_else(|| {
         let (message, label) = ("the power of a unit is between -100 and 100", "too large");
-        Box::new(errors::misplaced(reader.span(pair), message, label))
+        Box::new(errors::misplaced(builder.span(pair), message, label))
     })
 }
 
-fn conditional(reader: &Reader<'_>, pair: Pair<'_, Rule>, depth: usize) -> Built<Expr> {
-    let span = reader.span(&pair);
+fn conditional(builder: &Builder<'_>, pair: Pair<'_, Rule>, depth: usize) -> Built<Expr> {
+    let span = builder.span(&pair);
     let mut parts = pair
         .into_inner()
         .filter(|part| part.as_rule() == Rule::expr)
-        .map(|part| build(reader, part, depth + 1))
+        .map(|part| build(builder, part, depth + 1))
         .collect::<Built<Vec<_>>>()?;
-    let otherwise = parts.pop().ok_or_else(|| reader.truncated())?;
+    let otherwise = parts.pop().ok_or_else(|| builder.truncated())?;
     let mut parts = parts.into_iter();
     let mut arms = Vec::new();
     while let (Some(condition), Some(value)) = (parts.next(), parts.next()) {
@@ -145,7 +145,7 @@ fn conditional(reader: &Reader<'_>, pair: Pair<'_, Rule>, depth: usize) -> Built
 
 /// Operands and operators in a row, read from the left, with one method per precedence level.
 struct Row<'a, 'i, I: Iterator<Item = Pair<'i, Rule>>> {
-    reader: &'a Reader<'a>,
+    builder: &'a Builder<'a>,
     tokens: Peekable<I>,
     end: Span,
 }
@@ -179,7 +179,7 @@ impl<'i, I: Iterator<Item = Pair<'i, Rule>>> Row<'_, 'i, I> {
     fn negation(&mut self, depth: usize) -> Built<Expr> {
         match self.prefix("not") {
             Some(not) => {
-                let span = self.reader.span(&not);
+                let span = self.builder.span(&not);
                 within(depth + 1, span)?;
                 let inner = self.negation(depth + 1)?;
                 let span = span.to(inner.span);
@@ -206,9 +206,9 @@ impl<'i, I: Iterator<Item = Pair<'i, Rule>>> Row<'_, 'i, I> {
         let right = self.sum(depth)?;
         if let Some(second) = self.infix(OPERATORS) {
             return Err(Box::new(errors::chained_comparison(
-                self.reader.span(&second),
+                self.builder.span(&second),
                 right.span,
-                self.reader.text(right.span),
+                self.builder.text(right.span),
             )));
         }
         let span = left.span.to(right.span);
@@ -246,7 +246,7 @@ impl<'i, I: Iterator<Item = Pair<'i, Rule>>> Row<'_, 'i, I> {
     fn signed(&mut self, depth: usize) -> Built<Expr> {
         match self.prefix("-") {
             Some(minus) => {
-                let span = self.reader.span(&minus);
+                let span = self.builder.span(&minus);
                 within(depth + 1, span)?;
                 let inner = self.signed(depth + 1)?;
                 let span = span.to(inner.span);
@@ -261,11 +261,11 @@ impl<'i, I: Iterator<Item = Pair<'i, Rule>>> Row<'_, 'i, I> {
         let Some(operator) = self.infix(&["^"]) else {
             return Ok(base);
         };
-        within(depth + 1, self.reader.span(&operator))?;
+        within(depth + 1, self.builder.span(&operator))?;
         if let ExprKind::Literal { unit: Some((_, 1)), .. } = base.kind {
-            let literal = &self.reader.text(base.span);
+            let literal = &self.builder.text(base.span);
             if !literal.contains('^') {
-                return Err(Box::new(errors::unit_power(self.reader.span(&operator), base.span, literal)));
+                return Err(Box::new(errors::unit_power(self.builder.span(&operator), base.span, literal)));
             }
         }
         let exponent = self.signed(depth + 1)?;
@@ -285,14 +285,14 @@ impl<'i, I: Iterator<Item = Pair<'i, Rule>>> Row<'_, 'i, I> {
         match self.tokens.next() {
             // `2 * not a`: a condition where a number must stand
             Some(pair) if pair.as_rule() == Rule::prefix => {
-                let span = self.reader.span(&pair);
+                let span = self.builder.span(&pair);
                 Err(Box::new(errors::misplaced(
                     span,
                     "`not` cannot stand inside an operator without parentheses",
                     "a condition begins here",
                 )))
             }
-            Some(pair) => build_operand(self.reader, pair, depth),
+            Some(pair) => build_operand(self.builder, pair, depth),
             None => Err(Box::new(errors::misplaced(self.end, "a formula is not complete", "an operand is missing"))),
         }
     }

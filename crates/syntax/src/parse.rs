@@ -1,16 +1,13 @@
-//! Parsing of a text to its tree. A text that follows the grammar is parsed at once; any other one declaration by declaration
-//! ([`by_declarations`]). Both ways give the same tree for a text without faults.
-
-#![allow(clippy::redundant_closure_for_method_calls)] // a method of one reader is not general enough for all
+//! Parsing of a text to its tree, and of the parts of texts that options consist of.
 
 use super::ast::{Expr, File, Item};
 use super::build::Piece;
 use super::depth::STACK;
 use super::errors;
 use super::grammar::Rule;
-use super::parallel::parse_parallel;
-use super::recovery::by_declarations;
-use super::reuse::PreviousTree;
+use super::lexer::{Lexer, Token};
+use super::reader;
+use super::sync_points::SyncPoints;
 use super::trivia::{self, Trivia};
 use mechc_text::diag::Diagnostics;
 use mechc_text::source::{FileId, Sources};
@@ -30,33 +27,17 @@ pub struct ParsedText {
 #[must_use]
 pub fn parse(sources: &Sources, file: FileId) -> ParsedText {
     let source = sources.get(file);
-    let whole = Piece { source, file, range: 0..source.text.len() };
+    let mut tokens: Vec<Token<'_>> = Lexer::new(&source.text, 0).collect();
+    let trivia = trivia::of(&source.text, file, &tokens);
+    tokens.retain(|token| !token.is_comment());
+    let sync = SyncPoints::new(&source.text, tokens);
     // once for the whole text: a stack of its own takes longer than most declarations
-    let (tree, faults) = stacker::maybe_grow(STACK, STACK, || {
-        let at_once = || whole.read(Rule::file, |reader, pair| reader.file(pair)).ok();
-        let read = parse_parallel(source, file).or_else(at_once);
-        read.map_or_else(|| by_declarations(source, file, None), |tree| (tree, Diagnostics::default()))
-    });
-    with_all(sources, file, tree, faults)
-}
-
-/// Parses an edited file with the help of its previous tree; the result is that of [`parse`].
-#[must_use]
-pub fn reparse(old: &ParsedText, old_text: &str, sources: &Sources, file: FileId) -> ParsedText {
-    let source = sources.get(file);
-    let (tree, faults) = stacker::maybe_grow(STACK, STACK, || {
-        by_declarations(source, file, Some(PreviousTree::new(&old.tree, [old_text, &source.text], file)))
-    });
-    with_all(sources, file, tree, faults)
-}
-
-/// Adds trivia to a tree, and checks that a file has a mechanism.
-fn with_all(sources: &Sources, file: FileId, tree: File, mut faults: Diagnostics) -> ParsedText {
+    let (tree, mut faults) = stacker::maybe_grow(STACK, STACK, || reader::read(source, file, &sync));
     if tree.mechanisms.is_empty() && faults.is_empty() {
         faults.push(errors::no_mechanism(sources.end_of(file)));
     }
     faults.sort_by_span();
-    ParsedText { tree, trivia: trivia::of(&sources.get(file).text, file), faults }
+    ParsedText { tree, trivia, faults }
 }
 
 /// Parses a formula alone, as in an option of the command line.
@@ -66,7 +47,7 @@ fn with_all(sources: &Sources, file: FileId, tree: File, mut faults: Diagnostics
 pub fn parse_expression(sources: &Sources, file: FileId) -> Result<Expr, Diagnostics> {
     let source = sources.get(file);
     let piece = Piece { source, file, range: 0..source.text.len() };
-    stacker::maybe_grow(STACK, STACK, || piece.read(Rule::expression_only, |reader, pair| reader.whole_formula(pair)))
+    stacker::maybe_grow(STACK, STACK, || piece.read(Rule::expression_only, |builder, pair| builder.whole_formula(pair)))
         .map_err(|refused| (*piece.fault(refused, true)).into())
 }
 
@@ -78,7 +59,7 @@ pub fn parse_declaration(sources: &Sources, file: FileId) -> Result<Item, Diagno
     let source = sources.get(file);
     let piece = Piece { source, file, range: 0..source.text.len() };
     stacker::maybe_grow(STACK, STACK, || {
-        piece.read(Rule::only_item, |reader, pair| reader.plain_item(reader.only(pair)?))
+        piece.read(Rule::only_item, |builder, pair| builder.plain_item(builder.only(pair)?))
     })
     .map_err(|refused| (*piece.fault(refused, true)).into())
 }
@@ -88,7 +69,7 @@ mod tests {
     use super::parse;
     use crate::ast::{FeatureKind, ItemKind};
     use crate::grammar::{Grammar, Rule};
-    use crate::tokens::tokens;
+    use crate::lexer::tokens;
     use mechc_text::diag::Code;
     use mechc_text::source::Sources;
     use pest::Parser;
@@ -118,29 +99,16 @@ mod tests {
     }
 
     const TEXT: &str = include_str!("../../../examples/table_driven.mech");
-    const USES: &str = "/// Both.\nuse \"a.mech\" // of one\nuse\n\"../b.mech\" as\nuse use \"c.mech\" as mechanisms /// m\nmechanism m { body use { point as = (0, 0) } }\nmechanism n {}";
     const MORE: &str = include_str!("../../../examples/cam_with_dwells.mech");
+    const USES: &str = "/// Both.\nuse \"a.mech\" // of one\nuse\n\"../b.mech\" as\nuse use \"c.mech\" as mechanisms /// m\nmechanism m { body use { point as = (0, 0) } }\nmechanism n {}";
 
     #[test]
-    fn a_text_without_faults_has_one_tree_both_ways() {
-        for text in [TEXT, MORE, USES, include_str!("../../../tests/stages/everything/input.mech")] {
-            let mut sources = Sources::default();
-            let file = sources.add("text.mech", text);
-            let (tree, faults) = super::by_declarations(sources.get(file), file, None);
-            assert!(faults.is_empty(), "{faults:?}");
-            assert_eq!(parse(&sources, file).tree, tree);
-        }
-    }
-
-    #[test]
-    fn recovery_matches_the_grammar_on_valid_texts() {
+    fn texts_follow_the_grammar_if_they_have_no_faults() {
         let (mut state, mut refused) = (1, 0);
         for k in 0..900 {
             let text = damaged([TEXT, MORE, USES][k % 3], &mut state);
             let is_in_the_grammar = Grammar::parse(Rule::file, &text).is_ok();
-            let mut sources = Sources::default();
-            let file = sources.add("text.mech", text.as_str());
-            let (_, faults) = super::by_declarations(sources.get(file), file, None);
+            let faults = parsed(&text).faults;
             // a text that follows the grammar may still be no formula
             let is_let_pass = faults
                 .iter()
@@ -149,6 +117,9 @@ mod tests {
             refused += usize::from(!is_in_the_grammar);
         }
         assert!(refused > 400, "only {refused} texts were broken");
+        for text in [TEXT, MORE, USES, include_str!("../../../tests/stages/everything/input.mech")] {
+            assert!(Grammar::parse(Rule::file, text).is_ok() && parsed(text).faults.is_empty(), "{text}");
+        }
     }
 
     #[test]
@@ -184,6 +155,21 @@ mod tests {
     }
 
     #[test]
+    fn connecting_words_may_be_names() {
+        let text = "mechanism m {\n param at = 2 kg\n param to = 1 m/s^2\n body b at (0, 0, 0) { mass 3 kg mass at at (0, 0) mass\n to }\n gravity to * (0, 1)\n}";
+        let parsed = parsed(text);
+        assert!(parsed.faults.is_empty() && parsed.tree.mechanisms[0].items.len() == 4, "{:?}", parsed.faults);
+    }
+
+    #[test]
+    fn long_heads_are_heads() {
+        let ranges = (0..40).map(|k| format!("k{k} in 0..1")).collect::<Vec<_>>().join(", ");
+        assert!(parsed(&format!("mechanism m {{ body b[{ranges}] {{ point P }} }}")).faults.is_empty());
+        let text = format!("mechanism m {{ body b[{ranges}] {{ point P = }} body c at ( {{ point P }} joint }}");
+        assert_eq!(parsed(&text).faults.len(), 3);
+    }
+
+    #[test]
     fn many_faults_take_linear_time() {
         let text = format!("mechanism m {{\n{}}}", "param r = 3 +\n".repeat(5_000));
         assert_eq!(parsed(&text).faults.len(), 5_000);
@@ -191,7 +177,64 @@ mod tests {
         assert_eq!(parsed(&text).faults.len(), 5_000);
         let text = "joint ".repeat(100_000);
         assert!(!parsed(&text).faults.is_empty());
+        let text = "a ".repeat(100_000);
+        assert!(!parsed(&text).faults.is_empty());
+        let text = "mechanism a ".repeat(20_000);
+        assert!(!parsed(&text).faults.is_empty());
         let text = "{ ".repeat(100_000);
         assert!(!parsed(&text).faults.is_empty());
+    }
+
+    #[test]
+    fn deep_texts_are_refused_and_the_deepest_are_parsed() {
+        let faults = |formula: &str| parsed(&format!("mechanism m {{ param p = {formula}\n}}")).faults;
+        for open in ["(", "a[", "if ", "if a then ", "if a then b else (", "-(", "f(", "not (", "-", "2^"] {
+            let codes: Vec<Code> = faults(&open.repeat(100_000)).iter().map(|fault| fault.code).collect();
+            let is_refused = codes == [Code::E0103];
+            assert!(is_refused || codes == [Code::E0101] && ["-", "2^"].contains(&open), "{open}: {codes:?}");
+        }
+        let nested =
+            |open: &str, close: &str, levels: usize| format!("{}a{}", open.repeat(levels), close.repeat(levels));
+        for (open, close, levels) in [("(", ")", 199), ("if a then b else (", ")", 99), ("if a then ", " else b", 199)]
+        {
+            assert!(faults(&nested(open, close, levels)).is_empty(), "{open}");
+            let too_deep = faults(&nested(open, close, levels + 3));
+            assert_eq!(too_deep.iter().map(|fault| fault.code).collect::<Vec<_>>(), [Code::E0103], "{open}");
+        }
+    }
+
+    /// Returns a text that is parsed in shares, with an insertion in the middle.
+    fn long(middle: &str) -> String {
+        let one = |k: usize| {
+            let middle = if k == 2_000 { middle } else { "" };
+            format!(
+                "    /// Number {k}.\n    body b{k} at ({k}, 0, 0) {{ point P = (0, 0) }} // joint\n    joint j{k}: revolute(ground.O, b{k}.P)\n{middle}"
+            )
+        };
+        format!("mechanism long {{\n    ground {{ point O = (0, 0) }}\n{}}}\n", (0..4_000).map(one).collect::<String>())
+    }
+
+    #[test]
+    fn long_texts_are_parsed_like_short_ones() {
+        let whole = parsed(&long(""));
+        assert!(whole.faults.is_empty() && whole.tree.mechanisms[0].items.len() == 8_001);
+        let last = |text: &str| {
+            let parsed = parsed(text);
+            let mechanism = parsed.tree.mechanisms.last().expect("a mechanism").clone();
+            (
+                parsed.faults.iter().map(|fault| fault.code).collect::<Vec<_>>(),
+                mechanism.name.text,
+                mechanism.items.len(),
+            )
+        };
+        let all = |count, codes: &[Code]| (codes.to_vec(), "long".to_owned(), count);
+        assert_eq!(last(&long("    param p = 1\n")), all(8_002, &[]));
+        assert_eq!(last(&long("    param p = \n")), all(8_002, &[Code::E0101]));
+        assert_eq!(last(&long("    joint j: revolute(ground.O\n")), all(8_002, &[Code::E0101]));
+        // the declarations behind a superfluous brace are reported once
+        assert_eq!(last(&long("    }\n")), all(8_001, &[Code::E0101]));
+        assert_eq!(last(&long("}\nmechanism n {\n")), (Vec::new(), "n".to_owned(), 3_998));
+        let docs = |text: &str, k: usize| parsed(text).tree.mechanisms[0].items[k].docs.clone();
+        assert_eq!(docs(&long(""), 7_999), ["Number 3999."]);
     }
 }

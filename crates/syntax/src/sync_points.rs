@@ -1,7 +1,7 @@
 //! Synchronization points: where declarations begin, judging by words and braces alone. Parsing resumes there after a fault.
 
 use super::foreign_syntax::hyphenated_at;
-use super::tokens::{Token, tokens};
+use super::lexer::{Token, TokenKind, is_word_char};
 use mechc_text::diag::nearest;
 use mechc_text::vocabulary::{JointWord, Keyword, Position, Role, Synonym, declares_name, is_ground};
 use rustc_hash::FxHashSet;
@@ -19,17 +19,14 @@ pub(super) struct SyncPoints<'a> {
     hyphenated: FxHashSet<&'a str>,
 }
 
-/// Maximum number of tokens in the head of a block: `body NAME at (x, y, phi) {` with formulas.
-const LONGEST_HEAD: usize = 100;
-
 impl<'a> SyncPoints<'a> {
-    pub fn new(text: &'a str) -> SyncPoints<'a> {
-        let tokens = tokens(text);
+    /// Finds the declarations among the tokens of a text, comments left out.
+    pub fn new(text: &'a str, tokens: Vec<Token<'a>>) -> SyncPoints<'a> {
         let role = |token: &Token<'_>| Keyword::named(token.text).map(|keyword| keyword.role);
         let mut roles: Vec<Option<Role>> = tokens.iter().map(role).collect();
         for k in 0..tokens.len() {
             // elsewhere it is a name
-            if roles[k].is_some_and(Role::is_opener) && !opens(text, &tokens, &roles, k) {
+            if roles[k].is_some_and(Role::is_opener) && !opens(&tokens, &roles, k) {
                 roles[k] = None;
             }
         }
@@ -140,10 +137,28 @@ impl<'a> SyncPoints<'a> {
 
     /// Returns the brace that opens the block of a declaration whose head has a fault, if it has one.
     pub fn block_behind(&self, k: usize) -> Option<usize> {
-        let end = self.tokens.len().min(k + LONGEST_HEAD);
-        (k + 1..end)
+        (k + 1..self.tokens.len())
             .take_while(|&next| self.word(next) != "}" && !self.begins_declaration(next))
             .find(|&next| self.word(next) == "{")
+    }
+
+    /// Returns where the declarations of the mechanism whose block begins at a token may be parted, every `size` tokens or more.
+    pub fn cuts(&self, first: usize, size: usize) -> Vec<usize> {
+        let (mut cuts, mut next, mut depth) = (vec![first], first + size, 0_usize);
+        for (k, token) in self.tokens.iter().enumerate().skip(first) {
+            match token.text {
+                "{" => depth += 1,
+                "}" if depth == 0 => break,
+                "}" => depth -= 1,
+                "mechanism" => break,
+                _ if depth == 0 && k >= next && self.begins_large_declaration(k) => {
+                    cuts.push(k);
+                    next = k + size;
+                }
+                _ => {}
+            }
+        }
+        cuts
     }
 
     /// Returns how many more braces are opened than closed from a token on; negative if more are closed.
@@ -154,11 +169,11 @@ impl<'a> SyncPoints<'a> {
 
     /// Returns the names that the declaration at a token would define: the word behind its keyword, or the first of two words.
     pub fn names_of(&self, k: usize, end: usize) -> impl Iterator<Item = Token<'a>> {
-        let is_name = |token: &&Token<'a>| token.text.starts_with(|c: char| c.is_alphabetic() || c == '_');
+        let is_name = |token: &&Token<'a>| token.kind == TokenKind::Word;
         // a word that is no keyword may be a name without one, `r = 3`, or a misspelt keyword before one
         let whole = |token: Token<'a>| Token { text: self.hyphenated_name(&token).unwrap_or(token.text), ..token };
         let head = (k..end.min(k + 2).min(self.tokens.len())).filter(|&k| !self.is_declaration(k));
-        head.map(|k| self.tokens[k]).filter(move |token| is_name(&token)).map(whole)
+        head.map(|k| &self.tokens[k]).filter(is_name).copied().map(whole)
     }
 
     /// Returns whether a token stands where the declaration before it has its name.
@@ -197,9 +212,7 @@ impl<'a> SyncPoints<'a> {
     }
 
     fn is_first_on_its_line(&self, k: usize) -> bool {
-        let start = self.start(k);
-        let before = k.checked_sub(1).map_or(0, |before| self.end(before));
-        k == 0 || self.text[before..start].contains('\n')
+        k == 0 || begins_line(&self.tokens, k)
     }
 
     /// Returns whether a declaration begins at a token: by its keyword, or by a word in its place.
@@ -218,8 +231,8 @@ impl<'a> SyncPoints<'a> {
         let is_word = |k: usize| self.word(k).starts_with(char::is_alphabetic) && !is_joining(k);
         // `30 mm` and `a.b` go on with a word
         let before = if k > 0 { self.word(k - 1) } else { "" };
-        let may_be_a_unit = before.starts_with(|c: char| c.is_ascii_digit()) && !self.is_first_on_its_line(k);
-        if !is_word(k) || before == "." || may_be_a_unit {
+        let is_behind_number = k > 0 && self.tokens[k - 1].kind == TokenKind::Number;
+        if !is_word(k) || before.starts_with('.') || is_behind_number && !self.is_first_on_its_line(k) {
             return false;
         }
         let is_equation = self.word(k + 2) == "=";
@@ -268,12 +281,13 @@ impl<'a> SyncPoints<'a> {
     /// Returns the hyphenated name that begins with a token.
     fn hyphenated_name(&self, token: &Token<'a>) -> Option<&'a str> {
         let is_declared = |name: &&str| self.hyphenated.contains(name);
-        if self.hyphenated.is_empty() { None } else { hyphenated_at(self.text, token.start).filter(is_declared) }
+        hyphenated_at(self.text, token.start).filter(is_declared)
     }
 
     /// Returns whether a range of tokens contains a hyphenated name.
     pub fn uses_hyphenated(&self, from: usize, to: usize) -> bool {
-        self.tokens.get(from..to).unwrap_or_default().iter().any(|token| self.hyphenated_name(token).is_some())
+        let tokens = self.tokens.get(from..to).unwrap_or_default();
+        !self.hyphenated.is_empty() && tokens.iter().any(|token| self.hyphenated_name(token).is_some())
     }
 
     /// Returns whether a word occurs anywhere in the text.
@@ -287,38 +301,37 @@ fn begins(role: Role) -> bool {
 }
 
 /// Returns whether a word that may begin a declaration does so at a token: a name stands behind it with its definition, or the line begins here.
-fn opens(text: &str, tokens: &[Token<'_>], roles: &[Option<Role>], k: usize) -> bool {
+fn opens(tokens: &[Token<'_>], roles: &[Option<Role>], k: usize) -> bool {
     if !declares_name(tokens[k].text) {
-        return opens_with_a_formula(text, tokens, roles, k);
+        return opens_with_a_formula(tokens, roles, k);
     }
     let word = |k: usize| tokens.get(k).map_or("", |token| token.text);
-    let is_word = word(k + 1).starts_with(|c: char| c.is_alphabetic() || c == '_');
+    let is_word = tokens.get(k + 1).is_some_and(|next| next.kind == TokenKind::Word);
     let is_defined = ["=", "[", ":"].contains(&word(k + 2));
-    is_word && (is_defined || begins_line(text, tokens, k) && roles.get(k + 1).is_some_and(Option::is_none))
+    is_word && (is_defined || begins_line(tokens, k) && roles.get(k + 1).is_some_and(Option::is_none))
 }
 
-fn begins_line(text: &str, tokens: &[Token<'_>], k: usize) -> bool {
-    let behind = k.checked_sub(1).map_or(0, |before| tokens[before].end());
-    text[behind..tokens[k].start].contains('\n')
+fn begins_line(tokens: &[Token<'_>], k: usize) -> bool {
+    tokens.get(k).is_some_and(|token| token.lines_before > 0)
 }
 
 /// Returns whether a word before a formula, such as `mass`, begins a declaration at a token: no name stands between the end of one formula
 /// and the beginning of another.
-fn opens_with_a_formula(text: &str, tokens: &[Token<'_>], roles: &[Option<Role>], k: usize) -> bool {
+fn opens_with_a_formula(tokens: &[Token<'_>], roles: &[Option<Role>], k: usize) -> bool {
     let word = |k: usize| tokens.get(k).map_or("", |token| token.text);
-    let begins_with = |text: &str, is: fn(char) -> bool| text.starts_with(is);
-    let is_of_word = |c: char| c.is_alphanumeric() || c == '_';
     let is_behind_an_end = k.checked_sub(1).is_some_and(|before| match roles[before] {
-        None => begins_with(word(before), is_of_word) || matches!(word(before), ")" | "]" | "{" | "}"),
+        None => word(before).starts_with(is_word_char) || matches!(word(before), ")" | "]" | "{" | "}"),
         // a name at the end of a line, as far as anyone can tell
-        Some(Role::Separator | Role::Place) => word(before) == "mirrored" || begins_line(text, tokens, k),
+        Some(Role::Separator | Role::Place) => word(before) == "mirrored" || begins_line(tokens, k),
         Some(role) => role == Role::Side,
     });
     let next = word(k + 1);
     let is_before_a_beginning = match roles.get(k + 1).copied().flatten() {
         Some(role) if role.is_opener() => !matches!(word(k + 2), "=" | ":" | "["),
+        // a name, since a formula is missing before it
+        Some(Role::Separator | Role::Place | Role::Side) => true,
         Some(_) => matches!(next, "if" | "not" | "ground"),
-        None => begins_with(next, |c| c.is_alphanumeric() || matches!(c, '_' | '(' | '-' | '.')),
+        None => next.starts_with(|c| is_word_char(c) || matches!(c, '(' | '-' | '.')),
     };
     is_behind_an_end && is_before_a_beginning
 }

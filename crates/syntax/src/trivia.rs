@@ -1,5 +1,6 @@
 //! Trivia: comments and blank lines.
 
+use super::lexer::Token;
 use mechc_text::source::{FileId, Span};
 
 /// The parts of a text that are not in its tree.
@@ -22,54 +23,36 @@ pub struct Comment {
     pub is_trailing: bool,
 }
 
-/// Collects the trivia of a text.
-pub(super) fn of(text: &str, file: FileId) -> Trivia {
+/// Collects the trivia of a text from its tokens.
+pub(super) fn of(text: &str, file: FileId, tokens: &[Token<'_>]) -> Trivia {
     let span = |start: usize, end: usize| Span { file, start: start as u32, end: end as u32 };
-    let mut trivia = Trivia::default();
-    let mut start = 0;
-    let mut blank_from = None;
-    for line in text.split_inclusive('\n') {
-        if line.trim().is_empty() {
-            blank_from.get_or_insert(start);
-        } else {
-            if let Some(from) = blank_from.take() {
-                trivia.blank_lines.push(span(from, start));
-            }
-            if let Some(at) = comment_in(line) {
-                let comment = line[at..].trim_end();
-                trivia.comments.push(Comment {
-                    span: span(start + at, start + at + comment.len()),
-                    is_doc: comment.starts_with("///"),
-                    is_trailing: !line[..at].trim().is_empty(),
-                });
+    let (mut trivia, mut end) = (Trivia::default(), 0);
+    for token in tokens {
+        if token.lines_before > 0 {
+            let gap = &text[end..token.start];
+            // the line of the token before does not count
+            let first = if end == 0 { 0 } else { gap.find('\n').map_or(0, |at| at + 1) };
+            let last = gap.rfind('\n').map_or(0, |at| at + 1);
+            if first < last {
+                trivia.blank_lines.push(span(end + first, end + last));
             }
         }
-        start += line.len();
+        if token.is_comment() {
+            trivia.comments.push(Comment {
+                span: span(token.start, token.end()),
+                is_doc: token.text.starts_with("///"),
+                is_trailing: token.lines_before == 0 && end > 0,
+            });
+        }
+        end = token.end();
     }
     trivia
-}
-
-/// Returns where the comment of a line begins: at two slashes outside of strings. A string must end on its line.
-fn comment_in(line: &str) -> Option<usize> {
-    let mut from = 0;
-    loop {
-        let slashes = from + line[from..].find("//")?;
-        match line[from..slashes].find('"') {
-            None => return Some(slashes),
-            Some(quote) => {
-                let inside = from + quote + 1;
-                match line[inside..].find('"') {
-                    Some(end) => from = inside + end + 1,
-                    None => return Some(slashes),
-                }
-            }
-        }
-    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::of;
+    use crate::lexer::{Lexer, Token};
     use mechc_text::source::Sources;
 
     #[test]
@@ -77,7 +60,8 @@ mod tests {
         let text = "// a\n\n  \n/// b\nparam p = 1 // c  \ntable t = spline \"x//y\" // d\n\n";
         let mut sources = Sources::default();
         let file = sources.add("text", text);
-        let trivia = of(text, file);
+        let tokens: Vec<Token<'_>> = Lexer::new(text, 0).collect();
+        let trivia = of(text, file, &tokens);
         let comments: Vec<(&str, bool, bool)> =
             trivia.comments.iter().map(|c| (sources.text(c.span), c.is_doc, c.is_trailing)).collect();
         assert_eq!(

@@ -277,7 +277,7 @@ fn declaration(text: &str, tokens: &[Token<'_>]) -> (usize, Block) {
 
 fn begins(text: &str, tokens: &[Token<'_>], at: usize) -> bool {
     let token = tokens[at];
-    if begins_declaration(text, token) {
+    if begins_declaration(text, token.range()) {
         return true;
     }
     let is_opener = Keyword::named(token.text).is_some_and(|keyword| keyword.role.is_opener());

@@ -1,7 +1,8 @@
 //! Unclosed brackets, and where their closing brackets belong.
 
 use super::Fault;
-use crate::tokens::{Token, begins_declaration, tokens};
+use crate::keywords::begins_declaration;
+use crate::lexer::{Lexer, Token, tokens};
 use mechc_text::diag::{Applicability, Edit, Fix};
 
 impl<'a> Fault<'a> {
@@ -14,7 +15,7 @@ impl<'a> Fault<'a> {
                 "(" | "[" | "{" => opened.push((token.start, token.text)),
                 ")" | "]" | "}" => drop(opened.pop()),
                 // no parenthesis reaches into the next declaration, and `ground.O` is a point
-                _ if begins_declaration(self.text, token) => {
+                _ if begins_declaration(self.text, token.range()) => {
                     opened.retain(|(_, token)| *token == "{");
                 }
                 _ => {}
@@ -30,15 +31,13 @@ impl<'a> Fault<'a> {
 
     /// Returns whether more parentheses and square brackets are closed than opened from here to the next declaration or brace.
     fn is_closed_behind(&self) -> bool {
-        let rest = &self.text[self.at..];
         let mut depth = 0;
-        for (k, token) in tokens(rest).into_iter().enumerate() {
-            let place = Token { start: self.at + token.start, ..token };
+        for (k, token) in Lexer::new(self.text, self.at).filter(|token| !token.is_comment()).enumerate() {
             match token.text {
                 "(" | "[" => depth += 1,
                 ")" | "]" => depth -= 1,
                 "{" | "}" => return false,
-                _ if k > 0 && begins_declaration(self.text, place) => return false,
+                _ if k > 0 && begins_declaration(self.text, token.range()) => return false,
                 _ => {}
             }
             if depth < 0 {

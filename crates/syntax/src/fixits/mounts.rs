@@ -1,7 +1,8 @@
 //! Placement of a part with its words in another order, or repeated.
 
 use super::{Fault, FixIt};
-use crate::tokens::{begins_declaration, tokens};
+use crate::keywords::begins_declaration;
+use crate::lexer::tokens;
 
 /// Words behind the bindings of a part, in their order.
 const WORDS: [&str; 3] = ["on", "at", "mirrored"];
@@ -16,7 +17,8 @@ impl Fault<'_> {
         let is_part = |k: usize| {
             before[k].text == "part" && before.get(k + 2).is_some_and(|token| [":", "["].contains(&token.text))
         };
-        let declaration = (0..before.len()).rfind(|&k| is_part(k) || begins_declaration(self.text, before[k]))?;
+        let declaration =
+            (0..before.len()).rfind(|&k| is_part(k) || begins_declaration(self.text, before[k].range()))?;
         let inside = &before[declaration..];
         let count = |bracket: &str| inside.iter().filter(|token| token.text == bracket).count();
         let is_behind_bindings = count("(") > 0 && count("(") == count(")");

@@ -2,7 +2,8 @@
 
 use super::{Fault, FixIt};
 use crate::grammar::Rule;
-use crate::tokens::{Token, begins_declaration, tokens};
+use crate::keywords::begins_declaration;
+use crate::lexer::{Lexer, Token, tokens_in};
 use mechc_text::diag::{Applicability, Edit, Fix};
 
 const ROWS: &str = "rows are separated by commas: `(1, 2), (3, 4)`";
@@ -34,8 +35,8 @@ impl Fault<'_> {
     fn terminator(&self) -> FixIt {
         let behind = self.behind().trim_start_matches([' ', '\t']);
         let gap = self.here().end..self.text.len() - behind.len();
-        let word = tokens(behind.lines().next().unwrap_or_default()).first().copied();
-        let goes_on = word.is_some_and(|word| begins_declaration(self.text, Token { start: gap.end, ..word }));
+        let word = Lexer::new(self.text, gap.end).next().filter(|word| word.lines_before == 0);
+        let goes_on = word.is_some_and(|word| begins_declaration(self.text, word.range()));
         if !goes_on {
             return self.left_out(TERMINATOR);
         }
@@ -49,8 +50,7 @@ impl Fault<'_> {
 
     /// Corrects `weld(a.P; b.Q` at the end of a line.
     fn unclosed_parenthesis(&self) -> FixIt {
-        let line = self.behind().lines().next().unwrap_or_default();
-        let rest = tokens(line);
+        let rest = self.rest_of_line();
         let is_complete = self.opened().iter().filter(|(_, token)| *token != "{").count() == 1
             && self.expects(Rule::comma)
             && rest.iter().all(|token| !["(", "[", "{", "}", ";"].contains(&token.text));
@@ -59,7 +59,7 @@ impl Fault<'_> {
                 self.replaced(self.here(), ")", "close it with `)`, and leave the `;` out", Applicability::Probably)
             }
             Some(last) if is_complete => {
-                let end = self.here().end + last.end();
+                let end = last.end();
                 let edits = [(self.here(), ","), (end..end, ")")]
                     .map(|(range, text)| Edit { span: self.span(range), text: text.to_owned() });
                 let message = format!("{PARTS}; close it with `)`");
@@ -71,9 +71,8 @@ impl Fault<'_> {
 
     /// Returns whether the line closes more parentheses behind the fault than it opens.
     fn is_closed_on_the_line(&self) -> bool {
-        let line = self.behind().lines().next().unwrap_or_default();
         let mut depth = 0;
-        tokens(line).iter().any(|token| {
+        self.rest_of_line().iter().any(|token| {
             depth += i32::from(token.text == "(") - i32::from(token.text == ")");
             depth < 0
         })
@@ -84,8 +83,13 @@ impl Fault<'_> {
         let opened = self.opened();
         let start = opened.iter().find(|(_, token)| *token != "{").map_or(self.at, |(start, _)| *start);
         let end = self.here().end + self.behind().lines().next().unwrap_or_default().len();
-        let tokens = tokens(&self.text[start..end]);
-        tokens.into_iter().map(|token| Token { start: start + token.start, ..token }).collect()
+        tokens_in(self.text, start..end)
+    }
+
+    /// Returns the tokens behind the fault on its line.
+    fn rest_of_line(&self) -> Vec<Token<'_>> {
+        let end = self.here().end;
+        tokens_in(self.text, end..end + self.behind().lines().next().unwrap_or_default().len())
     }
 
     /// Returns the commas right between digits in brackets with a `;`; `None` for a comma that separates.

@@ -1,7 +1,7 @@
 //! A missing or wrong `:` or `=` behind a name.
 
 use super::Fault;
-use crate::tokens::tokens;
+use crate::lexer::tokens;
 use mechc_text::diag::{Applicability, Fix};
 use mechc_text::vocabulary::{JointWord, Position, QuantityWord, Synonym, is_called};
 

@@ -2,7 +2,7 @@
 
 use super::{Fault, FixIt};
 use crate::grammar::Rule;
-use crate::tokens::tokens;
+use crate::lexer::tokens;
 use mechc_text::diag::Applicability;
 
 /// Words of other programs for `use`.

@@ -2,7 +2,7 @@
 
 use super::{Fault, FixIt};
 use crate::grammar::Rule;
-use crate::tokens::{Token, tokens};
+use crate::lexer::{Token, tokens, tokens_in};
 use mechc_text::diag::{Applicability, Fix};
 use mechc_text::vocabulary::ReductionWord;
 
@@ -45,7 +45,7 @@ impl<'a> Fault<'a> {
         let called = tokens(&self.text[..open]).pop()?;
         ReductionWord::named(called.text)?;
         let (mut depth, mut last) = (0_usize, Vec::new());
-        for token in tokens(&self.text[open + 1..self.at]) {
+        for token in tokens_in(self.text, open + 1..self.at) {
             match token.text {
                 "(" | "[" => depth += 1,
                 ")" | "]" => depth = depth.saturating_sub(1),
@@ -55,7 +55,7 @@ impl<'a> Fault<'a> {
                 }
                 _ => {}
             }
-            last.push(Token { start: open + 1 + token.start, ..token });
+            last.push(token);
         }
         Some(last)
     }

@@ -2,7 +2,7 @@
 
 use super::{Correction, Foreign, is_name};
 use crate::grammar::Rule;
-use crate::tokens::Token;
+use crate::lexer::Token;
 use mechc_text::vocabulary::{QuantityWord, Unit};
 
 impl Foreign<'_> {

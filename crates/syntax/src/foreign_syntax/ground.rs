@@ -1,14 +1,15 @@
 //! `ground` in place of one of its features.
 
 use super::{Correction, Foreign, is_name};
-use crate::tokens::{Token, begins_declaration, tokens};
+use crate::keywords::begins_declaration;
+use crate::lexer::{Token, tokens};
 use mechc_text::vocabulary::is_feature;
 
 impl Foreign<'_> {
     /// Corrects `x(ground)`, `ground O`, `ground->O`.
     pub(super) fn ground_feature(&self) -> Option<Correction> {
-        let ground = Token { start: self.at, text: self.found };
-        if self.found != "ground" || begins_declaration(self.text, ground) {
+        let ground = self.here();
+        if self.found != "ground" || begins_declaration(self.text, ground.clone()) {
             return None;
         }
         let words: Vec<&str> = self.rest.iter().map(|token| token.text).take(4).collect();
@@ -18,7 +19,7 @@ impl Foreign<'_> {
             _ => None,
         };
         if let Some((feature, k)) = feature.filter(|(feature, _)| is_name(feature)) {
-            let dot = self.edit(ground.end()..self.rest[k].start, ".");
+            let dot = self.edit(ground.end..self.rest[k].start, ".");
             return Some(Foreign::change(
                 format!("what belongs to the ground is written `ground.{feature}`"),
                 vec![dot],
@@ -28,7 +29,7 @@ impl Foreign<'_> {
         Some(match features[..] {
             [] => Correction::Words("name one of its features: `ground.…`".to_owned()),
             [only] => {
-                let edit = self.edit(self.at..ground.end(), &format!("ground.{only}"));
+                let edit = self.edit(self.at..ground.end, &format!("ground.{only}"));
                 Foreign::change(format!("name one of its features: `ground.{only}`"), vec![edit])
             }
             _ => {

@@ -3,7 +3,7 @@
 use super::heads::LONGEST_SHOWN;
 use super::{Correction, Foreign, is_name};
 use crate::grammar::Rule;
-use crate::tokens::tokens;
+use crate::lexer::tokens;
 use mechc_text::vocabulary::{Keyword, Unit};
 
 impl Foreign<'_> {

@@ -2,7 +2,7 @@
 
 use super::{Correction, Foreign, hyphenated_at, is_name};
 use crate::grammar::Rule;
-use crate::tokens::{Token, tokens};
+use crate::lexer::{Token, is_word_char, tokens};
 use mechc_text::diag::{Applicability, Fix};
 use mechc_text::vocabulary::{JointWord, Keyword, Position, Role, Synonym, is_called, is_declaration};
 
@@ -89,7 +89,7 @@ impl Foreign<'_> {
         let words: Vec<&str> =
             string.text.trim_matches('"').split([' ', '-', '_']).filter(|word| !word.is_empty()).collect();
         let name = words.join("_");
-        let is_one = is_name(&name) && name.chars().all(|c| c.is_alphanumeric() || c == '_');
+        let is_one = is_name(&name) && name.chars().all(is_word_char);
         if self.before.len() != 1 || !self.expects(Rule::name) || !is_one {
             return None;
         }
@@ -110,8 +110,7 @@ impl Foreign<'_> {
             _ => &["="],
         };
         let end = self.rest.iter().position(|token| separators.contains(&token.text))?;
-        let is_part =
-            |token: &Token<'_>| token.text == "." || token.text.chars().all(|c| c.is_alphanumeric() || c == '_');
+        let is_part = |token: &Token<'_>| token.text.chars().all(|c| is_word_char(c) || c == '.');
         let parts = &self.rest[..end];
         let is_name_alone = !parts.is_empty() && parts.iter().all(is_part);
         let is_word = |token: &Token<'_>| {
@@ -126,7 +125,8 @@ impl Foreign<'_> {
             let message = format!("a name is one word: `{}`", name.text);
             return Some(Foreign::change(message, vec![self.edit(name.end()..last, "")]));
         }
-        let words = std::iter::once(name.text).chain(parts.iter().map(|token| token.text)).filter(|word| *word != ".");
+        let words = std::iter::once(name.text).chain(parts.iter().flat_map(|token| token.text.split('.')));
+        let words = words.filter(|word| !word.is_empty());
         let written = words.collect::<Vec<_>>().join("_");
         if !crate::is_name(&written) {
             return None;

@@ -2,7 +2,8 @@
 
 use super::{Correction, Foreign, is_name};
 use crate::grammar::Rule;
-use crate::tokens::{Token, begins_declaration};
+use crate::keywords::begins_declaration;
+use crate::lexer::Token;
 use mechc_text::diag::{Applicability, Fix};
 use mechc_text::vocabulary::{JointWord, Keyword, QuantityWord, Role};
 
@@ -60,7 +61,7 @@ impl Foreign<'_> {
             "load" if self.expects(Rule::kw_on) => "`on`",
             _ => return None,
         };
-        let begins = begins_declaration(self.text, Token { start: self.at, text: self.found });
+        let begins = begins_declaration(self.text, self.here());
         let is_opener = || Keyword::named(self.found).is_some_and(|keyword| keyword.role == Role::Opener);
         let begins = begins || self.text[last.end()..self.at].contains('\n') && is_opener();
         let is_at_end = begins || self.found == "}" || self.found.is_empty();
@@ -120,8 +121,7 @@ impl Foreign<'_> {
         let is_one = ["diameter", "dia", "d", "Ø"].contains(&self.found) && self.expects(Rule::radius);
         let [_, first, ..] = self.rest.as_slice() else { return None };
         let value = is_one.then(|| &self.text[first.start..self.end()])?;
-        let edits =
-            vec![self.edit(self.at..self.at + self.found.len(), "radius"), self.edit(self.end()..self.end(), " / 2")];
+        let edits = vec![self.edit(self.here(), "radius"), self.edit(self.end()..self.end(), " / 2")];
         Some(Foreign::change(format!("a circle has a radius: `radius {value} / 2`"), edits))
     }
 

@@ -2,7 +2,8 @@
 
 use super::{Correction, Foreign, is_name};
 use crate::grammar::Rule;
-use crate::tokens::{Token, begins_declaration, tokens};
+use crate::keywords::begins_declaration;
+use crate::lexer::{Lexer, Token, tokens};
 use mechc_text::diag::{Applicability, Fix};
 use mechc_text::vocabulary::{Unit, is_declaration};
 
@@ -17,7 +18,7 @@ impl Foreign<'_> {
         }
         let next: Vec<&str> = self.rest.iter().skip(1).map(|token| token.text).collect();
         let left_out = |message: &str, applies| {
-            let edits = vec![self.edit(self.at..self.at + self.found.len(), "")];
+            let edits = vec![self.edit(self.here(), "")];
             Some(Correction::Change(Fix { message: message.to_owned(), edits, applies }))
         };
         match (self.found, &next[..]) {
@@ -39,10 +40,8 @@ impl Foreign<'_> {
     /// Returns the confidence in removing text before the next declaration or the end of the block.
     fn applies_before_the_next(&self) -> Applicability {
         let behind = self.at + self.found.len();
-        let next = tokens(&self.text[behind..]).first().copied();
-        let is_last = next.is_none_or(|next| {
-            next.text == "}" || begins_declaration(self.text, Token { start: behind + next.start, ..next })
-        });
+        let next = Lexer::new(self.text, behind).find(|token| !token.is_comment());
+        let is_last = next.is_none_or(|next| next.text == "}" || begins_declaration(self.text, next.range()));
         if is_last { Applicability::Always } else { Applicability::Probably }
     }
 

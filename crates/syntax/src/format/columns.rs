@@ -2,9 +2,9 @@
 
 use super::groups::BEFORE_COMMENT;
 use super::layout::WIDTH;
-use super::lexemes::Lexeme;
 use super::rows::{Group, Kind, Row};
 use super::words::Word;
+use crate::lexer::Token;
 use std::ops::Range;
 
 /// Cells wider than this stick out of their column instead of pushing the others away.
@@ -35,21 +35,21 @@ pub(super) fn runs(rows: &[Row], are_alike: impl Fn(Kind, Kind) -> bool) -> Vec<
     runs
 }
 
-/// The cells of a declaration: the lexeme (from its first) at which each begins, and its width. The last one goes on to its end.
+/// The cells of a declaration: the token (from its first) at which each begins, and its width. The last one goes on to its end.
 pub(super) struct Cells(Vec<(usize, usize)>);
 
 impl Cells {
     /// Returns the cells of a row; none if a comment inside hides its columns.
-    pub fn of(words: &[Word], lexemes: &[Lexeme<'_>]) -> Cells {
+    pub fn of(words: &[Word], tokens: &[Token<'_>]) -> Cells {
         let starts = std::iter::once(0).chain((0..words.len()).filter(|&k| words[k].begins_cell));
         let starts: Vec<usize> = starts.collect();
         let columns = starts.last().copied().unwrap_or(0);
-        if lexemes[..columns].iter().any(Lexeme::is_comment) {
+        if tokens[..columns].iter().any(Token::is_comment) {
             return Cells(Vec::new());
         }
         let ends = starts.iter().skip(1).copied().chain([words.len()]);
         let cell =
-            |(&start, end): (&usize, usize)| (start, super::words::width(&words[start..end], &lexemes[start..end]));
+            |(&start, end): (&usize, usize)| (start, super::words::width(&words[start..end], &tokens[start..end]));
         Cells(starts.iter().zip(ends).map(cell).collect())
     }
 
@@ -71,7 +71,7 @@ fn have_room(rows: &[Row], cells: &[Option<Cells>]) -> bool {
     of_bodies().all(|cells| cells.len() == count) && indent + width(&columns) <= WIDTH
 }
 
-/// Adds the spaces that bring the cells of a run into columns, to those before each lexeme of the text.
+/// Adds the spaces that bring the cells of a run into columns, to those before each token of the text.
 pub(super) fn align(rows: &[Row], cells: &[Option<Cells>], spaces: &mut [usize]) {
     if rows.iter().any(|row| row.kind == Kind::Declaration(Group::Blocks)) && !have_room(rows, cells) {
         return;
@@ -84,7 +84,7 @@ pub(super) fn align(rows: &[Row], cells: &[Option<Cells>], spaces: &mut [usize])
         for (row, cells) in rows.iter().zip(cells) {
             let Some(cells) = cells else { continue };
             if let (Some(width), Some(&(next, _))) = (of_column(cells), cells.0.get(column + 1)) {
-                spaces[row.lexemes.start + next] += widest.saturating_sub(width);
+                spaces[row.tokens.start + next] += widest.saturating_sub(width);
             }
         }
     }

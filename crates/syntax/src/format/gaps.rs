@@ -1,18 +1,18 @@
-//! Gaps between the lexemes of a formatted text, and the edits that create them.
+//! Gaps between the tokens of a formatted text, and the edits that create them.
 
 use super::columns::{self, Cells};
 use super::groups::{Grouped, grouped};
 use super::layout::lay_out;
-use super::lexemes::{Lexeme, lexemes};
 use super::rows::{Kind, Row, rows};
 use super::words::{Word, declared, words};
+use crate::lexer::{Lexer, Token};
 use crate::parse::ParsedText;
 use mechc_text::diag::Edit;
 use mechc_text::source::{FileId, Span};
 use rustc_hash::FxHashSet;
 use std::ops::Range;
 
-/// The text before a lexeme.
+/// The text before a token.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 enum Gap {
     /// The present text.
@@ -30,17 +30,17 @@ enum Gap {
 enum Comma {
     Unchanged,
     Dropped,
-    /// Behind the lexeme.
+    /// Behind the token.
     Added,
 }
 
-/// A text with what is to stand between its lexemes.
+/// A text with what is to stand between its tokens.
 pub(super) struct Formatted<'a> {
-    lexemes: Vec<Lexeme<'a>>,
+    tokens: Vec<Token<'a>>,
     rows: Vec<Row>,
-    /// One for each lexeme.
+    /// One for each token.
     gaps: Vec<Gap>,
-    /// One for each lexeme.
+    /// One for each token.
     commas: Vec<Comma>,
     /// Number of examined items.
     pub steps: usize,
@@ -54,15 +54,15 @@ struct Line {
 
 impl<'a> Formatted<'a> {
     pub fn of(parsed: &ParsedText, text: &'a str) -> Formatted<'a> {
-        let lexemes = lexemes(text);
-        let names = declared(&lexemes);
+        let tokens: Vec<Token<'a>> = Lexer::new(text, 0).collect();
+        let names = declared(&tokens);
         let mut faults: Vec<usize> =
             parsed.faults.iter().flat_map(|fault| &fault.labels).map(|label| label.span.start as usize).collect();
         faults.sort_unstable();
-        let rows = rows(&parsed.tree, &lexemes, &names, &faults);
-        let count = lexemes.len();
+        let rows = rows(&parsed.tree, &tokens, &names, &faults);
+        let count = tokens.len();
         let (gaps, commas) = (vec![Gap::Kept; count], vec![Comma::Unchanged; count]);
-        let mut formatted = Formatted { lexemes, rows, gaps, commas, steps: count };
+        let mut formatted = Formatted { tokens, rows, gaps, commas, steps: count };
         formatted.lay_out(&names);
         formatted
     }
@@ -70,10 +70,10 @@ impl<'a> Formatted<'a> {
     fn lay_out(&mut self, names: &FxHashSet<&str>) {
         let rows = std::mem::take(&mut self.rows);
         let lines: Vec<Line> = rows.iter().map(|row| self.line(row, names)).collect();
-        let mut spaces: Vec<usize> = vec![0; self.lexemes.len()];
+        let mut spaces: Vec<usize> = vec![0; self.tokens.len()];
         for (row, line) in rows.iter().zip(&lines) {
             for (k, word) in line.words.iter().enumerate() {
-                spaces[row.lexemes.start + k] = word.spaces;
+                spaces[row.tokens.start + k] = word.spaces;
             }
         }
         let mut cells: Vec<Option<Cells>> = Vec::new();
@@ -105,12 +105,10 @@ impl<'a> Formatted<'a> {
     fn line(&self, row: &Row, names: &FxHashSet<&str>) -> Line {
         match row.kind {
             Kind::Comment | Kind::Kept => Line { words: Vec::new(), cells: None },
-            Kind::Head | Kind::End => {
-                Line { words: words(&self.lexemes, names, row.lexemes.clone(), None), cells: None }
-            }
+            Kind::Head | Kind::End => Line { words: words(&self.tokens, names, row.tokens.clone(), None), cells: None },
             Kind::Declaration(_) => {
-                let words = words(&self.lexemes, names, row.lexemes.clone(), row.printed);
-                let cells = Cells::of(&words, &self.lexemes[row.lexemes.clone()]);
+                let words = words(&self.tokens, names, row.tokens.clone(), row.printed);
+                let cells = Cells::of(&words, &self.tokens[row.tokens.clone()]);
                 Line { words, cells: Some(cells) }
             }
         }
@@ -121,14 +119,14 @@ impl<'a> Formatted<'a> {
         if row.kind == Kind::Kept {
             return None;
         }
-        let start = row.lexemes.start;
+        let start = row.tokens.start;
         let ends = if start == 0 { 0 } else { 1 + usize::from(row.is_apart) };
         self.gaps[start] = Gap::Lines { ends, indent: row.indent };
-        let lexemes = &self.lexemes[row.lexemes.clone()];
+        let tokens = &self.tokens[row.tokens.clone()];
         if words.is_empty() {
             return None;
         }
-        let grouped = grouped(words, lexemes, &spaces[row.lexemes.clone()]);
+        let grouped = grouped(words, tokens, &spaces[row.tokens.clone()]);
         let laid = lay_out(&grouped.nodes, row.indent);
         self.steps += laid.steps + grouped.nodes.len();
         for (k, node) in grouped.nodes.iter().enumerate() {
@@ -137,7 +135,7 @@ impl<'a> Formatted<'a> {
                 (super::layout::Node::Space(spaces) | super::layout::Node::Gap(spaces), None) => Gap::Spaces(*spaces),
                 _ => continue,
             };
-            self.gaps[start + grouped.lexemes[k]] = gap;
+            self.gaps[start + grouped.tokens[k]] = gap;
         }
         self.set_last_commas(start, words, &grouped, &laid.is_broken);
         (!laid.has_lines).then_some(laid.column)
@@ -193,10 +191,10 @@ impl<'a> Formatted<'a> {
         // the end of what stands before, and what is put behind it
         let (mut end, mut comma) = (0, "");
         for row in &self.rows {
-            let last = row.behind.unwrap_or(row.lexemes.end - 1);
-            let is_selected = selects(self.lexemes[row.lexemes.start].start..self.lexemes[last].end());
-            for k in row.lexemes.clone().chain(row.behind) {
-                let lexeme = self.lexemes[k];
+            let last = row.behind.unwrap_or(row.tokens.end - 1);
+            let is_selected = selects(self.tokens[row.tokens.start].start..self.tokens[last].end());
+            for k in row.tokens.clone().chain(row.behind) {
+                let token = self.tokens[k];
                 if self.commas[k] == Comma::Dropped && is_selected {
                     continue;
                 }
@@ -205,9 +203,9 @@ impl<'a> Formatted<'a> {
                 comma = if self.commas[k] == Comma::Added && is_selected { "," } else { "" };
                 let is_kept = self.write_gap(k, line_end, &mut new);
                 if is_selected && !is_kept {
-                    minimal(text, end..lexeme.start, &new, &mut change);
+                    minimal(text, end..token.start, &new, &mut change);
                 }
-                end = lexeme.end();
+                end = token.end();
             }
         }
         let is_kept = self.rows.last().is_none_or(|row| row.kind == Kind::Kept);
@@ -216,7 +214,7 @@ impl<'a> Formatted<'a> {
         }
     }
 
-    /// Writes the gap before a lexeme, or returns true if it is kept as it is.
+    /// Writes the gap before a token, or returns true if it is kept as it is.
     fn write_gap(&self, k: usize, line_end: &str, out: &mut String) -> bool {
         match self.gaps[k] {
             Gap::Kept => return true,

@@ -1,14 +1,14 @@
 //! Groups of a declaration's words that may be broken into lines: those that bind more loosely are broken first.
 
 use super::layout::{Node, Style};
-use super::lexemes::Lexeme;
 use super::words::{Bracket, Class, Level, Word};
+use crate::lexer::Token;
 
-/// A declaration as nodes, each with the number of the lexeme that it stands for or before.
+/// A declaration as nodes, each with the number of the token that it stands for or before.
 pub(super) struct Grouped {
     pub nodes: Vec<Node>,
-    /// Lexeme of each node.
-    pub lexemes: Vec<usize>,
+    /// Token of each node.
+    pub tokens: Vec<usize>,
     /// Lists that may have a line for each item.
     pub lists: Vec<List>,
 }
@@ -17,7 +17,7 @@ pub(super) struct Grouped {
 pub(super) struct List {
     /// The node that opens it.
     pub node: usize,
-    /// Last lexeme that is neither a comment nor the comma behind the last item.
+    /// Last token that is neither a comment nor the comma behind the last item.
     pub last: usize,
     /// The comma behind the last item, if there is one.
     pub comma: Option<usize>,
@@ -44,14 +44,14 @@ enum Frame {
     },
 }
 
-/// The groups that begin and end at each lexeme of a declaration.
+/// The groups that begin and end at each token of a declaration.
 #[derive(Default)]
 struct Groups {
-    /// Groups that begin with each lexeme, inner ones first.
+    /// Groups that begin with each token, inner ones first.
     begin: Vec<Vec<Style>>,
-    /// Number of groups that end with each lexeme.
+    /// Number of groups that end with each token.
     end: Vec<usize>,
-    /// True for lexemes before which a line may end.
+    /// True for tokens before which a line may end.
     is_gap: Vec<bool>,
     /// True for brackets whose list may have a line for each item.
     is_list: Vec<bool>,
@@ -59,7 +59,7 @@ struct Groups {
 
 struct Grouping<'a> {
     words: &'a [Word],
-    /// End of the text before each lexeme, and of the whole, without comments and without a comma that is left out.
+    /// End of the text before each token, and of the whole, without comments and without a comma that is left out.
     ends: Vec<usize>,
     groups: Groups,
     frames: Vec<Frame>,
@@ -246,24 +246,24 @@ impl Grouping<'_> {
 /// The text before the last column of a declaration breaks only if it is wider than this.
 const WIDEST_HEAD: usize = 60;
 
-/// Returns the first lexeme before which a line may end.
-fn breakable(words: &[Word], lexemes: &[Lexeme<'_>], keyword: &str) -> usize {
+/// Returns the first token before which a line may end.
+fn breakable(words: &[Word], tokens: &[Token<'_>], keyword: &str) -> usize {
     if matches!(keyword, "body" | "ground" | "mechanism") {
         return words.len();
     }
     let head = words.iter().rposition(|word| word.begins_cell).unwrap_or(0);
-    if super::words::width(&words[..head], &lexemes[..head]) > WIDEST_HEAD { 0 } else { head }
+    if super::words::width(&words[..head], &tokens[..head]) > WIDEST_HEAD { 0 } else { head }
 }
 
-/// Returns the nodes of a declaration; `spaces` are those before each of its lexemes, the first one's not counted.
-pub(super) fn grouped(words: &[Word], lexemes: &[Lexeme<'_>], spaces: &[usize]) -> Grouped {
+/// Returns the nodes of a declaration; `spaces` are those before each of its tokens, the first one's not counted.
+pub(super) fn grouped(words: &[Word], tokens: &[Token<'_>], spaces: &[usize]) -> Grouped {
     let mut groups = groups(words);
-    let breakable = breakable(words, lexemes, lexemes.first().map_or("", |lexeme| lexeme.text));
+    let breakable = breakable(words, tokens, tokens.first().map_or("", |token| token.text));
     groups.is_gap[..breakable].fill(false);
-    let mut made = Grouped { nodes: Vec::with_capacity(4 * words.len()), lexemes: Vec::new(), lists: Vec::new() };
+    let mut made = Grouped { nodes: Vec::with_capacity(4 * words.len()), tokens: Vec::new(), lists: Vec::new() };
     for (k, word) in words.iter().enumerate() {
         if k > 0 {
-            made.gap(k, (words, lexemes, spaces), &groups);
+            made.gap(k, (words, tokens, spaces), &groups);
         }
         if groups.is_list[k] && word.class == Class::Close {
             made.end_list(k, words);
@@ -273,7 +273,7 @@ pub(super) fn grouped(words: &[Word], lexemes: &[Lexeme<'_>], spaces: &[usize]) 
         }
         if !word.is_last_comma {
             // a comment breaks no formula
-            let wide = if word.class == Class::Comment { 0 } else { super::width(lexemes[k].text) };
+            let wide = if word.class == Class::Comment { 0 } else { super::width(tokens[k].text) };
             made.push(Node::Text(wide), k);
         }
         for _ in 0..groups.end[k] {
@@ -288,9 +288,9 @@ pub(super) fn grouped(words: &[Word], lexemes: &[Lexeme<'_>], spaces: &[usize]) 
 }
 
 impl Grouped {
-    fn push(&mut self, node: Node, lexeme: usize) {
+    fn push(&mut self, node: Node, token: usize) {
         self.nodes.push(node);
-        self.lexemes.push(lexeme);
+        self.tokens.push(token);
     }
 
     /// Ends the list before its bracket. It is the last one that was opened: none holds another.
@@ -306,16 +306,16 @@ impl Grouped {
         self.push(Node::Close, k);
     }
 
-    /// Adds the gap before a lexeme.
-    fn gap(&mut self, k: usize, (words, lexemes, spaces): (&[Word], &[Lexeme<'_>], &[usize]), groups: &Groups) {
+    /// Adds the gap before a token.
+    fn gap(&mut self, k: usize, (words, tokens, spaces): (&[Word], &[Token<'_>], &[usize]), groups: &Groups) {
         let is_at_list = groups.is_list[k - 1] && words[k - 1].class != Class::Close
             || groups.is_list[k] && words[k].class == Class::Close;
         // a comma that is left out does not end the line of a comment before it
         let before = if words[k - 1].is_last_comma { k.checked_sub(2) } else { k.checked_sub(1) };
         let is_behind_comment = before.is_some_and(|before| words[before].class == Class::Comment);
-        let node = if is_behind_comment || lexemes[k].is_comment() && lexemes[k].lines_before > 0 {
+        let node = if is_behind_comment || tokens[k].is_comment() && tokens[k].lines_before > 0 {
             Node::Line
-        } else if lexemes[k].is_comment() {
+        } else if tokens[k].is_comment() {
             Node::Space(BEFORE_COMMENT)
         } else if words[k].is_last_comma {
             Node::Space(0)

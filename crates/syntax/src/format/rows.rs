@@ -1,11 +1,11 @@
 //! Rows of a tree: the pieces that begin a line of their own, in order, with all comments.
 //!
-//! Each lexeme of the text is in one row, or behind one. Text that the tree lacks or marks as broken stays as it was written.
+//! Each token of the text is in one row, or behind one. Text that the tree lacks or marks as broken stays as it was written.
 
 use super::layout::{INDENT, WIDTH};
-use super::lexemes::Lexeme;
 use super::words;
 use crate::ast::{Feature, FeatureKind, File, Item, ItemKind, Mechanism, UsedFile};
+use crate::lexer::Token;
 use mechc_text::source::Span;
 use rustc_hash::FxHashSet;
 use std::ops::Range;
@@ -13,7 +13,7 @@ use std::ops::Range;
 /// A line of its own, or several if it is broken.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub(super) struct Row {
-    pub lexemes: Range<usize>,
+    pub tokens: Range<usize>,
     /// The comment behind it, on its line.
     pub behind: Option<usize>,
     /// Indentation in columns.
@@ -85,8 +85,8 @@ impl Group {
 }
 
 /// Returns the rows of a text. `faults` are the bytes of its syntax errors, in order.
-pub(super) fn rows(file: &File, lexemes: &[Lexeme<'_>], names: &FxHashSet<&str>, faults: &[usize]) -> Vec<Row> {
-    let mut rows = Rows { lexemes, names, faults, at: 0, made: Vec::new() };
+pub(super) fn rows(file: &File, tokens: &[Token<'_>], names: &FxHashSet<&str>, faults: &[usize]) -> Vec<Row> {
+    let mut rows = Rows { tokens, names, faults, at: 0, made: Vec::new() };
     let mut mechanisms = file.mechanisms.iter().peekable();
     for used in &file.uses {
         while let Some(before) = mechanisms.next_if(|before| before.span.start < used.span.start) {
@@ -100,22 +100,22 @@ pub(super) fn rows(file: &File, lexemes: &[Lexeme<'_>], names: &FxHashSet<&str>,
 }
 
 struct Rows<'a> {
-    lexemes: &'a [Lexeme<'a>],
+    tokens: &'a [Token<'a>],
     names: &'a FxHashSet<&'a str>,
     faults: &'a [usize],
-    /// The lexeme that comes next.
+    /// The token that comes next.
     at: usize,
     made: Vec<Row>,
 }
 
 impl Rows<'_> {
     fn starts_before(&self, byte: usize) -> bool {
-        self.lexemes.get(self.at).is_some_and(|lexeme| lexeme.start < byte)
+        self.tokens.get(self.at).is_some_and(|token| token.start < byte)
     }
 
-    /// Returns the first lexeme at or behind a byte, from the next one on.
+    /// Returns the first token at or behind a byte, from the next one on.
     fn index_at(&self, byte: usize) -> usize {
-        self.at + self.lexemes[self.at..].partition_point(|lexeme| lexeme.start < byte)
+        self.at + self.tokens[self.at..].partition_point(|token| token.start < byte)
     }
 
     fn has_fault(&self, range: Range<usize>) -> bool {
@@ -126,16 +126,16 @@ impl Rows<'_> {
     /// Adds the rows before a byte: comments, and unchanged text.
     fn up_to(&mut self, byte: usize, indent: usize) {
         while self.starts_before(byte) {
-            if self.lexemes[self.at].is_comment() { self.comment(indent) } else { self.keep(self.at + 1) }
+            if self.tokens[self.at].is_comment() { self.comment(indent) } else { self.keep(self.at + 1) }
         }
     }
 
     fn comment(&mut self, indent: usize) {
         let k = self.at;
         match self.made.last_mut() {
-            Some(row) if self.lexemes[k].lines_before == 0 => {
+            Some(row) if self.tokens[k].lines_before == 0 => {
                 if row.kind == Kind::Kept {
-                    row.lexemes.end = k + 1;
+                    row.tokens.end = k + 1;
                 } else {
                     row.behind = Some(k);
                 }
@@ -145,20 +145,20 @@ impl Rows<'_> {
         }
     }
 
-    /// Leaves all before a lexeme as it is.
+    /// Leaves all before a token as it is.
     fn keep(&mut self, end: usize) {
         match self.made.last_mut() {
             Some(row) if row.kind == Kind::Kept => {
-                row.lexemes.end = end;
+                row.tokens.end = end;
                 self.at = end;
             }
             _ => self.push_row(end, 0, Kind::Kept),
         }
     }
 
-    /// Adds the lexemes before one as a row. One that goes on in the line of what is kept is kept, too.
+    /// Adds the tokens before one as a row. One that goes on in the line of what is kept is kept, too.
     fn push(&mut self, end: usize, indent: usize, kind: Kind) {
-        let goes_on = self.lexemes[self.at].lines_before == 0;
+        let goes_on = self.tokens[self.at].lines_before == 0;
         if goes_on && self.made.last().is_some_and(|row| row.kind == Kind::Kept) {
             self.keep(end);
         } else {
@@ -168,8 +168,8 @@ impl Rows<'_> {
 
     fn push_row(&mut self, end: usize, indent: usize, kind: Kind) {
         let is_first = self.made.last().is_none_or(|row| row.kind == Kind::Head) || kind == Kind::End;
-        let is_apart = self.lexemes[self.at].lines_before > 1 && !is_first;
-        self.made.push(Row { lexemes: self.at..end, behind: None, indent, kind, is_apart, printed: None });
+        let is_apart = self.tokens[self.at].lines_before > 1 && !is_first;
+        self.made.push(Row { tokens: self.at..end, behind: None, indent, kind, is_apart, printed: None });
         self.at = end;
     }
 
@@ -190,9 +190,9 @@ impl Rows<'_> {
         }
     }
 
-    /// Returns whether the next lexeme stands behind a byte, so that a declaration that begins there is in a row already.
+    /// Returns whether the next token stands behind a byte, so that a declaration that begins there is in a row already.
     fn starts_behind(&self, byte: usize) -> bool {
-        self.lexemes.get(self.at).is_none_or(|lexeme| lexeme.start > byte)
+        self.tokens.get(self.at).is_none_or(|token| token.start > byte)
     }
 
     fn used(&mut self, used: &UsedFile) {
@@ -247,34 +247,34 @@ impl Rows<'_> {
     fn on_one_line(&mut self, item: &Item) -> bool {
         let (start, end) = (item.span.start as usize, item.span.end as usize);
         let behind = self.index_at(end);
-        let lexemes = &self.lexemes[self.at..behind];
-        let (Some(last), false) = (lexemes.last(), lexemes.iter().any(Lexeme::is_comment)) else { return false };
+        let tokens = &self.tokens[self.at..behind];
+        let (Some(last), false) = (tokens.last(), tokens.iter().any(Token::is_comment)) else { return false };
         if last.text != "}" || self.has_fault(start..end) {
             return false;
         }
-        let is_empty = lexemes.len() > 1 && lexemes[lexemes.len() - 2].text == "{";
+        let is_empty = tokens.len() > 1 && tokens[tokens.len() - 2].text == "{";
         let fits = || {
-            let words = words::words(self.lexemes, self.names, self.at..behind, None);
-            INDENT + words::width(&words, lexemes) <= WIDTH
+            let words = words::words(self.tokens, self.names, self.at..behind, None);
+            INDENT + words::width(&words, tokens) <= WIDTH
         };
-        let is_one = is_empty || lexemes[1..].iter().all(|lexeme| lexeme.lines_before == 0) && fits();
+        let is_one = is_empty || tokens[1..].iter().all(|token| token.lines_before == 0) && fits();
         if is_one {
             self.push(behind, INDENT, Kind::Declaration(Group::Blocks));
         }
         is_one
     }
 
-    /// Adds the head of a block, if it has one without faults, and gives the lexeme of the brace that closes it.
+    /// Adds the head of a block, if it has one without faults, and gives the token of the brace that closes it.
     fn begin_block(&mut self, span: Span, inside: Option<u32>, indent: usize) -> Option<usize> {
         let start = span.start as usize;
         let behind = self.index_at(span.end as usize);
         let before = self.index_at(inside.unwrap_or(span.end) as usize);
-        let brace = (self.at..before).find(|&k| self.lexemes[k].text == "{");
-        let close = behind.checked_sub(1).filter(|&k| k >= self.at && self.lexemes[k].text == "}");
+        let brace = (self.at..before).find(|&k| self.tokens[k].text == "{");
+        let close = behind.checked_sub(1).filter(|&k| k >= self.at && self.tokens[k].text == "}");
         if let Some(brace) = brace {
             let is_empty = close == Some(brace + 1);
             let end = if is_empty { brace + 2 } else { brace + 1 };
-            if self.has_fault(start..self.lexemes[brace].end()) {
+            if self.has_fault(start..self.tokens[brace].end()) {
                 self.keep(end);
             } else {
                 self.push(end, indent, if is_empty { Kind::Declaration(Group::Blocks) } else { Kind::Head });
@@ -284,7 +284,7 @@ impl Rows<'_> {
     }
 
     fn end_block(&mut self, span: Span, close: Option<usize>, indent: usize) {
-        let end = close.map_or(span.end as usize, |k| self.lexemes[k].start);
+        let end = close.map_or(span.end as usize, |k| self.tokens[k].start);
         self.up_to(end, indent + INDENT);
         if close == Some(self.at) {
             self.push(self.at + 1, indent, Kind::End);

@@ -1,7 +1,7 @@
-//! Classification of the lexemes of a declaration, which determines the spaces between them.
+//! Classification of the tokens of a declaration, which determines the spaces between them.
 
-use super::lexemes::{Lexeme, Shape};
-use crate::tokens::may_begin_a_bound;
+use crate::keywords::may_begin_a_bound;
+use crate::lexer::{Token, TokenKind};
 use mechc_text::vocabulary::{Constant, Keyword, Position, Role, Synonym, Unit, declares_name};
 use rustc_hash::FxHashSet;
 use std::ops::Range;
@@ -16,7 +16,7 @@ pub(super) enum Level {
     Product,
 }
 
-/// Kinds of lexemes in a declaration.
+/// Kinds of tokens in a declaration.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Class {
     /// Begins a declaration, or joins its parts.
@@ -69,7 +69,7 @@ impl Bracket {
     }
 }
 
-/// A lexeme in its declaration.
+/// A token in its declaration.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) struct Word {
     pub class: Class,
@@ -85,12 +85,12 @@ pub(super) struct Word {
 const BETWEEN_FEATURES: usize = 2;
 
 /// Returns the words that a text declares as names anywhere: in a formula they do not denote units.
-pub(super) fn declared<'a>(lexemes: &[Lexeme<'a>]) -> FxHashSet<&'a str> {
+pub(super) fn declared<'a>(tokens: &[Token<'a>]) -> FxHashSet<&'a str> {
     let is_keyword =
-        |lexeme: &Lexeme<'_>| declares_name(lexeme.text) && Keyword::named(lexeme.text).is_some_and(|k| begins(k.role));
-    let behind_keywords = lexemes.windows(2).filter(|pair| is_keyword(&pair[0])).map(|pair| pair[1].text);
-    let is_argument = |run: &&[Lexeme<'_>]| ["fn", "curve"].contains(&run[0].text) && run[2].text == "(";
-    let arguments = lexemes.windows(4).filter(is_argument).map(|run| run[3].text);
+        |token: &Token<'_>| declares_name(token.text) && Keyword::named(token.text).is_some_and(|k| begins(k.role));
+    let behind_keywords = tokens.windows(2).filter(|pair| is_keyword(&pair[0])).map(|pair| pair[1].text);
+    let is_argument = |run: &&[Token<'_>]| ["fn", "curve"].contains(&run[0].text) && run[2].text == "(";
+    let arguments = tokens.windows(4).filter(is_argument).map(|run| run[3].text);
     behind_keywords.chain(arguments).collect()
 }
 
@@ -100,13 +100,13 @@ fn begins(role: Role) -> bool {
 
 /// Returns the words of a declaration, or of a block on one line. `printed` is the byte at which the unit behind `in` begins.
 pub(super) fn words(
-    lexemes: &[Lexeme<'_>],
+    tokens: &[Token<'_>],
     names: &FxHashSet<&str>,
     range: Range<usize>,
     printed: Option<usize>,
 ) -> Vec<Word> {
     let mut reading = Classifier {
-        lexemes,
+        tokens,
         names,
         range: range.clone(),
         printed,
@@ -122,16 +122,16 @@ pub(super) fn words(
 }
 
 /// Returns the columns of a declaration on one line.
-pub(super) fn width(words: &[Word], lexemes: &[Lexeme<'_>]) -> usize {
-    let shown = words.iter().zip(lexemes).enumerate().filter(|(_, (word, _))| !word.is_last_comma);
-    shown.map(|(k, (word, lexeme))| usize::from(k > 0) * word.spaces + super::width(lexeme.text)).sum()
+pub(super) fn width(words: &[Word], tokens: &[Token<'_>]) -> usize {
+    let shown = words.iter().zip(tokens).enumerate().filter(|(_, (word, _))| !word.is_last_comma);
+    shown.map(|(k, (word, token))| usize::from(k > 0) * word.spaces + super::width(token.text)).sum()
 }
 
 /// Position at which the next cell of aligned columns begins.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Cells {
     None,
-    /// The next lexeme begins it.
+    /// The next token begins it.
     Next,
     /// `=` begins it.
     Equals,
@@ -149,7 +149,7 @@ enum Cells {
     Brace,
 }
 
-/// State of a number with its unit before the lexeme, to which another unit may be joined: `30 deg/s * t`, but not `a / 30 deg/s`,
+/// State of a number with its unit before the token, to which another unit may be joined: `30 deg/s * t`, but not `a / 30 deg/s`,
 /// which would look like a / (30 deg/s).
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Quantity {
@@ -160,14 +160,14 @@ enum Quantity {
 }
 
 struct Classifier<'a> {
-    lexemes: &'a [Lexeme<'a>],
+    tokens: &'a [Token<'a>],
     names: &'a FxHashSet<&'a str>,
     range: Range<usize>,
     printed: Option<usize>,
     /// Keyword of the declaration.
     keyword: &'a str,
     brackets: Vec<Bracket>,
-    /// The class of the previous lexeme that is no comment.
+    /// The class of the previous token that is no comment.
     before: Option<Class>,
     cells: Cells,
     quantity: Quantity,
@@ -194,13 +194,13 @@ impl<'a> Classifier<'a> {
         Word { class, spaces, begins_cell, is_last_comma }
     }
 
-    /// Returns the lexeme behind one, comments aside.
-    fn behind(&self, k: usize) -> Option<&Lexeme<'a>> {
-        self.lexemes[k + 1..self.range.end].iter().find(|lexeme| !lexeme.is_comment())
+    /// Returns the token behind one, comments aside.
+    fn behind(&self, k: usize) -> Option<&Token<'a>> {
+        self.tokens[k + 1..self.range.end].iter().find(|token| !token.is_comment())
     }
 
     fn text_behind(&self, k: usize) -> &'a str {
-        self.behind(k).map_or("", |lexeme| lexeme.text)
+        self.behind(k).map_or("", |token| token.text)
     }
 
     fn ends_operand(&self) -> bool {
@@ -212,17 +212,17 @@ impl<'a> Classifier<'a> {
     }
 
     fn class(&mut self, k: usize) -> Class {
-        match self.lexemes[k].shape {
-            Shape::Comment => Class::Comment,
-            Shape::Number => Class::Number,
-            Shape::Quoted => Class::Quoted,
-            Shape::Word => self.class_of_word(k),
-            Shape::Sign => self.class_of_sign(k),
+        match self.tokens[k].kind {
+            TokenKind::Comment => Class::Comment,
+            TokenKind::Number => Class::Number,
+            TokenKind::String => Class::Quoted,
+            TokenKind::Word => self.class_of_word(k),
+            TokenKind::Sign => self.class_of_sign(k),
         }
     }
 
     fn class_of_word(&mut self, k: usize) -> Class {
-        let text = self.lexemes[k].text;
+        let text = self.tokens[k].text;
         let keyword = Keyword::named(text);
         if self.before.is_none() || self.is_feature(k) {
             self.begin(text);
@@ -254,7 +254,7 @@ impl<'a> Classifier<'a> {
     /// Returns whether `from` or `to` begins the window of a reduction.
     fn begins_window(&self, k: usize) -> bool {
         let is_argument = self.before == Some(Class::Comma) && self.brackets.last() == Some(&Bracket::Arguments);
-        let is_apart = |behind: &Lexeme<'_>| behind.start > self.lexemes[k].end();
+        let is_apart = |behind: &Token<'_>| behind.start > self.tokens[k].end();
         is_argument && self.behind(k).is_some_and(|behind| may_begin_a_bound(behind.text, is_apart(behind)))
     }
 
@@ -271,17 +271,17 @@ impl<'a> Classifier<'a> {
     }
 
     fn is_unit(&self, k: usize, keyword: Option<&Keyword>) -> bool {
-        let is_printed = || self.behind(k).is_some_and(|lexeme| Some(lexeme.start) == self.printed);
+        let is_printed = || self.behind(k).is_some_and(|token| Some(token.start) == self.printed);
         let may_be =
             |keyword: &Keyword| !keyword.is_reserved() && keyword.role != Role::Separator && !keyword.role.is_opener();
         // an exponent has no unit
         let is_number = self.before == Some(Class::Number) && self.quantity != Quantity::Yes;
-        is_number && keyword.is_none_or(may_be) && !(self.lexemes[k].text == "in" && is_printed())
+        is_number && keyword.is_none_or(may_be) && !(self.tokens[k].text == "in" && is_printed())
     }
 
     fn class_of_sign(&mut self, k: usize) -> Class {
-        match self.lexemes[k].text {
-            "(" | "[" => Class::Open(self.bracket(self.lexemes[k].text)),
+        match self.tokens[k].text {
+            "(" | "[" => Class::Open(self.bracket(self.tokens[k].text)),
             ")" | "]" => Class::Close,
             "{" => Class::OpenBrace,
             "}" => Class::CloseBrace,
@@ -308,15 +308,15 @@ impl<'a> Classifier<'a> {
         }
     }
 
-    /// Returns whether a unit stands behind a lexeme, with its power or alone.
+    /// Returns whether a unit stands behind a token, with its power or alone.
     fn is_a_unit_behind(&self, k: usize) -> bool {
-        let mut behind = self.lexemes[k + 1..self.range.end].iter().filter(|lexeme| !lexeme.is_comment());
+        let mut behind = self.tokens[k + 1..self.range.end].iter().filter(|token| !token.is_comment());
         // `min` is no unit, but its author means one; `t` is the time
         let is_synonym = |text: &str| Synonym::of(Position::Unit, text).is_some() && Constant::named(text).is_none();
         let names_one = |text: &str| Unit::named(text).is_some() || is_synonym(text);
-        let is_unit = |lexeme: &Lexeme<'_>| names_one(lexeme.text) && !self.names.contains(lexeme.text);
+        let is_unit = |token: &Token<'_>| names_one(token.text) && !self.names.contains(token.text);
         behind.next().is_some_and(is_unit)
-            && match behind.next().map(|lexeme| lexeme.text) {
+            && match behind.next().map(|token| token.text) {
                 Some("(" | "." | "[") => false,
                 Some("^") => is_exponent(behind),
                 _ => true,
@@ -327,9 +327,9 @@ impl<'a> Classifier<'a> {
         match class {
             Class::Unit if self.quantity == Quantity::Under => Quantity::No,
             Class::Unit => Quantity::Yes,
-            Class::Operator(Level::Product) if self.lexemes[k].text == "/" => Quantity::Under,
-            Class::Tight if self.lexemes[k].text == "^" => {
-                let is_power = is_exponent(self.lexemes[k + 1..self.range.end].iter());
+            Class::Operator(Level::Product) if self.tokens[k].text == "/" => Quantity::Under,
+            Class::Tight if self.tokens[k].text == "^" => {
+                let is_power = is_exponent(self.tokens[k + 1..self.range.end].iter());
                 if is_power { self.quantity } else { Quantity::No }
             }
             // a factor, a power, what stands under a unit
@@ -359,7 +359,7 @@ impl<'a> Classifier<'a> {
     }
 
     fn is_feature(&self, k: usize) -> bool {
-        match Keyword::named(self.lexemes[k].text).map(|keyword| keyword.role) {
+        match Keyword::named(self.tokens[k].text).map(|keyword| keyword.role) {
             Some(Role::Feature) => true,
             // elsewhere it is a name
             Some(Role::FeatureOpener) => self.before == Some(Class::OpenBrace) || self.ends_operand(),
@@ -404,11 +404,11 @@ fn cells_of(keyword: &str) -> Cells {
     }
 }
 
-/// Returns whether the lexemes behind a `^` are a whole number, which may be negative.
-fn is_exponent<'a>(mut behind: impl Iterator<Item = &'a Lexeme<'a>>) -> bool {
+/// Returns whether the tokens behind a `^` are a whole number, which may be negative.
+fn is_exponent<'a>(mut behind: impl Iterator<Item = &'a Token<'a>>) -> bool {
     let mut next = behind.next();
-    if next.is_some_and(|lexeme| lexeme.text == "-") {
+    if next.is_some_and(|token| token.text == "-") {
         next = behind.next();
     }
-    next.is_some_and(|lexeme| lexeme.shape == Shape::Number && lexeme.text.bytes().all(|byte| byte.is_ascii_digit()))
+    next.is_some_and(|token| token.kind == TokenKind::Number && token.text.bytes().all(|byte| byte.is_ascii_digit()))
 }

@@ -1,15 +1,17 @@
-//! Parsing of a text with faults, declaration by declaration: a fault invalidates only its own declaration.
+//! The reader: parses a text declaration by declaration, so that a fault invalidates only its own declaration.
 //!
-//! The grammar defines declarations; their boundaries come from words and braces ([`SyncPoints`]).
+//! The grammar defines declarations; their boundaries come from words and braces ([`SyncPoints`]). The declarations of a large mechanism
+//! are parsed on several threads.
 
-#![allow(clippy::redundant_closure_for_method_calls)] // a method of one reader is not general enough for all
+#![allow(clippy::redundant_closure_for_method_calls)] // a method of one builder is not general enough for all
 
 use super::ast::{Feature, FeatureKind, File, Item, ItemKind, Mechanism, Name, UsedFile};
-use super::build::{Built, Head, Piece, Reader, docs_above, normalized};
+use super::build::{Builder, Built, Head, Piece, docs_above, normalized};
+use super::depth::STACK;
 use super::errors;
 use super::grammar::Rule;
-use super::reuse::PreviousTree;
 use super::sync_points::SyncPoints;
+use mechc_parallel::{default_jobs, scoped_chunks};
 use mechc_text::diag::{Diagnostic, Diagnostics};
 use mechc_text::source::{FileId, Source, Span};
 use mechc_text::vocabulary::{SubstituteKind, substitute_name};
@@ -20,35 +22,25 @@ use std::ops::Range;
 
 /// Maximum number of faults of a text for which suggestions are searched.
 const MOST_SUGGESTIONS: usize = 100;
+/// Smallest number of tokens that a thread parses at once.
+const SHARE: usize = 5_000;
+/// Smallest number of such shares that are parsed in parallel.
+const FEWEST_SHARES: usize = 8;
+/// Maximum number of threads; more are limited by memory.
+const MOST_JOBS: usize = 4;
 
-/// Parses a text with faults; `previous` supplies unchanged declarations.
-pub(super) fn by_declarations(
-    source: &Source,
-    file: FileId,
-    previous: Option<PreviousTree<'_>>,
-) -> (File, Diagnostics) {
-    let mut reading = Recovery {
-        source,
-        file,
-        sync: SyncPoints::new(&source.text),
-        previous,
-        at: 0,
-        faults: Diagnostics::default(),
-        bad_names: FxHashSet::default(),
-        has_reported_end: false,
-        last_reported: None,
-    };
-    let tree = reading.file();
-    (tree, reading.faults)
+/// Parses a text, with or without faults.
+pub(super) fn read(source: &Source, file: FileId, sync: &SyncPoints<'_>) -> (File, Diagnostics) {
+    let mut reader = Reader::new(source, file, sync, 0);
+    let tree = reader.file();
+    (tree, reader.faults)
 }
 
-/// State of the parser between declarations.
-struct Recovery<'a> {
+/// State of the reader between declarations.
+struct Reader<'a> {
     source: &'a Source,
     file: FileId,
-    sync: SyncPoints<'a>,
-    /// Tree before an edit, for unchanged declarations.
-    previous: Option<PreviousTree<'a>>,
+    sync: &'a SyncPoints<'a>,
     /// Index of the next token.
     at: usize,
     faults: Diagnostics,
@@ -60,7 +52,19 @@ struct Recovery<'a> {
     last_reported: Option<usize>,
 }
 
-impl Recovery<'_> {
+/// Declarations without faults that were parsed ahead.
+struct Share {
+    /// Tokens of its declarations.
+    range: Range<usize>,
+    items: Vec<Item>,
+}
+
+impl<'a> Reader<'a> {
+    fn new(source: &'a Source, file: FileId, sync: &'a SyncPoints<'a>, at: usize) -> Reader<'a> {
+        let (faults, bad_names) = (Diagnostics::default(), FxHashSet::default());
+        Reader { source, file, sync, at, faults, bad_names, has_reported_end: false, last_reported: None }
+    }
+
     fn file(&mut self) -> File {
         let (mut uses, mut mechanisms): (Vec<UsedFile>, Vec<Mechanism>) = (Vec::new(), Vec::new());
         let mut has_reported_outside = false;
@@ -73,9 +77,8 @@ impl Recovery<'_> {
                 uses.push(used);
                 continue;
             }
-            if self.sync.word(self.at) == "mechanism"
-                || self.sync.block_behind(self.at).is_some_and(|k| k == self.at + 2)
-            {
+            let is_block = self.sync.word(self.at + 2) == "{" && self.sync.block_behind(self.at) == Some(self.at + 2);
+            if self.sync.word(self.at) == "mechanism" || is_block {
                 mechanisms.extend(self.mechanism());
                 continue;
             }
@@ -100,7 +103,7 @@ impl Recovery<'_> {
     fn used_file(&mut self) -> UsedFile {
         let first = self.at;
         let (start, next) = (self.sync.start(first), self.sync.end_of_use(first));
-        let make = |reader: &Reader<'_>, pair: Pair<'_, Rule>| reader.use_file(reader.only(pair)?);
+        let make = |builder: &Builder<'_>, pair: Pair<'_, Rule>| builder.use_file(builder.only(pair)?);
         let read = self.piece(start..self.sync.start(next)).read(Rule::only_use, make).or_else(|_| {
             let last = if self.sync.string_behind(next).is_some() { next + 1 } else { next };
             let piece = self.piece(start..self.sync.end(last));
@@ -130,7 +133,7 @@ impl Recovery<'_> {
     fn mechanism(&mut self) -> Option<Mechanism> {
         let (first, start) = (self.at, self.sync.start(self.at));
         let brace = self.sync.block_behind(first);
-        let head = self.head(Rule::mechanism_head, brace, |reader, pair| reader.head(pair));
+        let head = self.head(Rule::mechanism_head, brace, |builder, pair| builder.head(pair));
         let mut has_brace = true;
         let name = match head {
             Ok(head) => head.name,
@@ -153,6 +156,7 @@ impl Recovery<'_> {
             }
         };
         let mut items = Vec::new();
+        self.items_in_parallel(&mut items);
         let end = self.items(&mut items, has_brace);
         let span = self.span(start..start).to(end);
         Some(Mechanism { docs: docs_above(&self.source.text, start), name, span, items })
@@ -160,32 +164,72 @@ impl Recovery<'_> {
 
     /// Parses declarations up to the brace that closes the mechanism; returns the span of that brace.
     fn items(&mut self, items: &mut Vec<Item>, must_close: bool) -> Span {
-        loop {
-            match self.sync.word(self.at) {
-                "}" => {
-                    self.at += 1;
-                    return self.span(self.sync.start(self.at - 1)..self.sync.end(self.at - 1));
-                }
-                "ground" if self.sync.begins_declaration(self.at) => self.block(items, Rule::ground_head),
-                "body" => self.block(items, Rule::body_head),
-                _ if self.sync.is_ground_by_another_name(self.at) => self.block(items, Rule::ground_head),
-                "" | "mechanism" if self.ends_the_mechanism() => {
-                    if must_close {
-                        self.report_end(Rule::item_or_close);
-                    }
-                    let end = self.sync.end_before(self.at);
-                    return self.span(end..end);
-                }
-                _ => {
-                    let item = self.plain_item();
-                    items.push(item);
-                }
+        while !self.ends_the_mechanism() {
+            self.item(items);
+        }
+        if self.sync.word(self.at) == "}" {
+            self.at += 1;
+            return self.span(self.sync.range(self.at - 1));
+        }
+        if must_close {
+            self.report_end(Rule::item_or_close);
+        }
+        let end = self.sync.end_before(self.at);
+        self.span(end..end)
+    }
+
+    /// Parses declarations of a large mechanism on several threads, up to the first one with a fault. They are those that [`Self::items`]
+    /// parses: without faults, the reader has no state but its place.
+    fn items_in_parallel(&mut self, items: &mut Vec<Item>) {
+        let cuts = self.sync.cuts(self.at, SHARE);
+        if cuts.len() < FEWEST_SHARES {
+            return;
+        }
+        let read = |shares: Range<usize>| {
+            let share = |k: usize| self.share(cuts[k], cuts.get(k + 1).copied().unwrap_or(usize::MAX));
+            // each thread has a stack of its own
+            stacker::maybe_grow(STACK, STACK, || shares.map_while(share).collect::<Vec<_>>())
+        };
+        for share in scoped_chunks(default_jobs().min(MOST_JOBS), cuts.len(), read).into_iter().flatten() {
+            if share.range.start != self.at {
+                break;
+            }
+            items.extend(share.items);
+            self.at = share.range.end;
+        }
+    }
+
+    /// Parses the declarations of the mechanism between two tokens; `None` if one has a fault.
+    fn share(&self, first: usize, end: usize) -> Option<Share> {
+        let mut reader = Reader::new(self.source, self.file, self.sync, first);
+        let mut items = Vec::new();
+        while reader.at < end && !reader.ends_the_mechanism() {
+            reader.item(&mut items);
+        }
+        reader.faults.is_empty().then_some(Share { range: first..reader.at, items })
+    }
+
+    /// Parses a declaration of the mechanism.
+    fn item(&mut self, items: &mut Vec<Item>) {
+        match self.sync.word(self.at) {
+            "ground" if self.sync.begins_declaration(self.at) => self.block(items, Rule::ground_head),
+            "body" => self.block(items, Rule::body_head),
+            _ if self.sync.is_ground_by_another_name(self.at) => self.block(items, Rule::ground_head),
+            _ => {
+                let item = self.plain_item();
+                items.push(item);
             }
         }
     }
 
+    /// Returns whether no declaration of the mechanism follows.
     fn ends_the_mechanism(&self) -> bool {
-        self.sync.is_behind_the_last(self.at) || self.sync.begins_declaration(self.at)
+        match self.sync.word(self.at) {
+            "}" => true,
+            "" => self.sync.is_behind_the_last(self.at),
+            "mechanism" => self.sync.begins_declaration(self.at),
+            _ => false,
+        }
     }
 
     /// Parses a body or the ground. Declarations of the mechanism inside its block are added behind it.
@@ -195,10 +239,8 @@ impl Recovery<'_> {
         let brace = self.sync.block_behind(first);
         let head = if rule == Rule::ground_head {
             self.head(rule, brace, |_, _| Ok(None))
-        } else if let Some(reused) = self.reused_head(brace) {
-            Ok(Some(reused))
         } else {
-            self.head(rule, brace, |reader, pair| reader.head(pair).map(Some))
+            self.head(rule, brace, |builder, pair| builder.head(pair).map(Some))
         };
         if let Err(fault) = &head {
             let is_brace_missing = fault_at(fault) == self.sync.start(self.sync.sync_token(first));
@@ -237,8 +279,8 @@ impl Recovery<'_> {
                 None => (ItemKind::Broken { names: Vec::new() }, Vec::new()),
             },
         };
-        if let ItemKind::Body { features: parsed, .. } | ItemKind::Ground { features: parsed } = &mut kind {
-            *parsed = features;
+        if let Some(of_block) = kind.features_mut() {
+            *of_block = features;
         }
         items.push(Item { docs: docs_above(&self.source.text, start), span, ranges, kind });
         items.append(&mut misplaced);
@@ -291,11 +333,9 @@ impl Recovery<'_> {
             let fault = self.fault_of(Rule::item_or_close);
             let is_feature = self.sync.is_feature(first);
             Err(if is_feature { errors::feature_in_mechanism(fault, self.sync.word(first)) } else { fault })
-        } else if let Some(reused) = self.reused_item() {
-            Ok(reused)
         } else {
-            self.declaration([Rule::only_item, Rule::item_and_next], |reader, pair| {
-                reader.plain_item(reader.only(pair)?)
+            self.declaration([Rule::only_item, Rule::item_and_next], |builder, pair| {
+                builder.plain_item(builder.only(pair)?)
             })
         };
         match read {
@@ -315,11 +355,9 @@ impl Recovery<'_> {
         let first = self.at;
         let read = if !self.sync.is_feature(first) {
             Err(self.fault_of(Rule::feature_or_close))
-        } else if let Some(reused) = self.reused_feature() {
-            Ok(reused)
         } else {
-            self.declaration([Rule::only_feature, Rule::feature_and_next], |reader, pair| {
-                reader.feature(reader.only(pair)?)
+            self.declaration([Rule::only_feature, Rule::feature_and_next], |builder, pair| {
+                builder.feature(builder.only(pair)?)
             })
         };
         match read {
@@ -343,41 +381,17 @@ impl Recovery<'_> {
         }
     }
 
-    /// Returns the unchanged declaration without a block that begins here.
-    fn reused_item(&self) -> Option<Item> {
-        let (stretch, next) = self.plain();
-        let mut item = self.previous.as_ref()?.item(&stretch)?;
-        item.docs = docs_above(&self.source.text, stretch.start);
-        (self.sync.index_at(item.span.end as usize) == next).then_some(item)
-    }
-
-    /// Returns the unchanged feature that begins here.
-    fn reused_feature(&self) -> Option<Feature> {
-        let (stretch, next) = self.plain();
-        let mut feature = self.previous.as_ref()?.feature(&stretch)?;
-        feature.docs = docs_above(&self.source.text, stretch.start);
-        (self.sync.index_at(feature.span.end as usize) == next).then_some(feature)
-    }
-
     /// Returns the range from here to the next declaration, and the token there.
     fn plain(&self) -> (Range<usize>, usize) {
         let next = self.sync.end_of_plain(self.at);
         (self.sync.start(self.at)..self.sync.start(next), next)
     }
 
-    /// Returns the unchanged head of the body that begins here, up to its brace.
-    fn reused_head(&mut self, brace: Option<usize>) -> Option<Head> {
-        let brace = brace?;
-        let head = self.previous.as_ref()?.head(&(self.sync.start(self.at)..self.sync.end(brace)))?;
-        self.at = brace + 1;
-        Some(head)
-    }
-
     /// Parses the declaration that begins here, up to the next one. A fault is described with the token behind the declaration in view.
     fn declaration<T>(
         &self,
         [alone, with_next]: [Rule; 2],
-        make: impl Fn(&Reader<'_>, Pair<'_, Rule>) -> Built<T>,
+        make: impl Fn(&Builder<'_>, Pair<'_, Rule>) -> Built<T>,
     ) -> Built<T> {
         let (Range { start, end }, next) = self.plain();
         let read = self.piece(start..end).read(alone, &make).or_else(|_| {
@@ -419,24 +433,20 @@ impl Recovery<'_> {
         &mut self,
         rule: Rule,
         brace: Option<usize>,
-        make: impl FnOnce(&Reader<'_>, Pair<'_, Rule>) -> Built<T>,
+        make: impl FnOnce(&Builder<'_>, Pair<'_, Rule>) -> Built<T>,
     ) -> Built<T> {
-        let piece = self.head_piece(brace);
-        let head = piece.read(rule, make).map_err(|refused| piece.fault(refused, self.may_suggest()))?;
-        self.at = brace.map_or(self.at, |brace| brace + 1);
-        Ok(head)
-    }
-
-    /// Returns the piece from here to behind a brace; without a brace, to behind the word in its place.
-    fn head_piece(&self, brace: Option<usize>) -> Piece<'_> {
+        // without a brace, to behind the word in its place
         let last = brace.unwrap_or_else(|| self.sync.sync_token(self.at));
-        self.piece(self.sync.start(self.at)..self.sync.end(last))
+        let piece = self.piece(self.sync.start(self.at)..self.sync.end(last));
+        let head = piece.read(rule, make).map_err(|refused| piece.fault(refused, self.may_suggest()))?;
+        self.at = last + 1;
+        Ok(head)
     }
 
     /// Returns the diagnostic for the word here, where a rule was expected.
     fn fault_of(&self, rule: Rule) -> Box<Diagnostic> {
         let piece = self.piece(self.sync.start(self.at)..self.sync.end(self.at));
-        let refused = piece.read(rule, |reader, _| Err::<Infallible, _>(reader.truncated()));
+        let refused = piece.read(rule, |builder, _| Err::<Infallible, _>(builder.truncated()));
         match refused {
             Err(refused) => piece.fault(refused, self.may_suggest()),
         }
