@@ -150,7 +150,7 @@ impl<'a> Foreign<'a> {
 
     /// Returns the end of the words after the fault.
     fn end(&self) -> usize {
-        self.rest.last().map_or(self.at, |token| token.end())
+        self.rest.last().map_or(self.at, Token::end)
     }
 
     /// Corrects `50 [mm]`.

@@ -1,5 +1,7 @@
 //! Parsing of a text to its tree, and of the parts of texts that options consist of.
 
+#![allow(clippy::redundant_closure_for_method_calls)] // a method of one builder is not general enough for all
+
 use super::ast::{Expr, File, Item};
 use super::build::Piece;
 use super::depth::STACK;

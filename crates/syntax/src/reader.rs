@@ -329,14 +329,14 @@ impl<'a> Reader<'a> {
     /// Parses a declaration without a block, or a fault in its place.
     fn plain_item(&mut self) -> Item {
         let first = self.at;
-        let read = if !self.sync.begins_large_declaration(first) {
-            let fault = self.fault_of(Rule::item_or_close);
-            let is_feature = self.sync.is_feature(first);
-            Err(if is_feature { errors::feature_in_mechanism(fault, self.sync.word(first)) } else { fault })
-        } else {
+        let read = if self.sync.begins_large_declaration(first) {
             self.declaration([Rule::only_item, Rule::item_and_next], |builder, pair| {
                 builder.plain_item(builder.only(pair)?)
             })
+        } else {
+            let fault = self.fault_of(Rule::item_or_close);
+            let is_feature = self.sync.is_feature(first);
+            Err(if is_feature { errors::feature_in_mechanism(fault, self.sync.word(first)) } else { fault })
         };
         match read {
             Ok(item) => {
@@ -353,12 +353,12 @@ impl<'a> Reader<'a> {
 
     fn feature(&mut self) -> Feature {
         let first = self.at;
-        let read = if !self.sync.is_feature(first) {
-            Err(self.fault_of(Rule::feature_or_close))
-        } else {
+        let read = if self.sync.is_feature(first) {
             self.declaration([Rule::only_feature, Rule::feature_and_next], |builder, pair| {
                 builder.feature(builder.only(pair)?)
             })
+        } else {
+            Err(self.fault_of(Rule::feature_or_close))
         };
         match read {
             Ok(feature) => {

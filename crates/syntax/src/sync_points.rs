@@ -72,12 +72,12 @@ impl<'a> SyncPoints<'a> {
 
     /// Returns where the text before a token ends, without white space and comments.
     pub fn end_before(&self, k: usize) -> usize {
-        k.checked_sub(1).and_then(|k| self.tokens.get(k)).map_or(0, |token| token.end())
+        k.checked_sub(1).and_then(|k| self.tokens.get(k)).map_or(0, Token::end)
     }
 
     /// Returns the end of a token.
     pub fn end(&self, k: usize) -> usize {
-        self.tokens.get(k).map_or(self.text.len(), |token| token.end())
+        self.tokens.get(k).map_or(self.text.len(), Token::end)
     }
 
     /// Returns the byte range of a token.

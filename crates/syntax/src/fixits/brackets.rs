@@ -85,7 +85,7 @@ impl<'a> Fault<'a> {
         let open = opened.iter().rev().take_while(|(_, token)| *token != "{");
         let closers: String = open.clone().map(|(_, token)| if *token == "(" { ')' } else { ']' }).collect();
         let before = tokens(&self.text[..self.at]);
-        let end = before.last().map(|token| token.end())?;
+        let end = before.last().map(Token::end)?;
         // behind an operator something else is missing
         if before.last().is_some_and(|token| is_operator(token.text)) {
             return None;
@@ -120,7 +120,7 @@ impl<'a> Fault<'a> {
     /// Returns a brace that closes the innermost block before the declaration here.
     pub(super) fn brace_before(&self) -> Option<Edit> {
         let (open, _) = self.opened().into_iter().rfind(|(_, token)| *token == "{")?;
-        let end = tokens(&self.text[..self.at]).last().map(|token| token.end())?;
+        let end = tokens(&self.text[..self.at]).last().map(Token::end)?;
         let Some(line) = self.text[end..self.at].find('\n') else {
             return Some(Edit { span: self.span(self.at..self.at), text: "} ".to_owned() });
         };
