@@ -1,12 +1,8 @@
-//! The lexical context of a byte, from the characters around it. It needs no tree, so it works in an unfinished text.
+//! The lexical context of a byte, from the tokens around it. It needs no tree, so it works in an unfinished text.
 
+use mechc_syntax::{Lexer, TokenKind, is_word_char, tokens};
 use mechc_text::vocabulary::Keyword;
 use std::ops::Range;
-
-/// Returns whether a character may be part of a name.
-pub(super) fn is_word_char(c: char) -> bool {
-    c.is_alphanumeric() || c == '_'
-}
 
 /// Returns whether a name contains letters in their order, regardless of case.
 pub(super) fn matches_letters(name: &str, letters: &str) -> bool {
@@ -55,17 +51,14 @@ pub(super) enum LexicalContext {
 
 /// Returns the context of a byte from the part of its line before it.
 pub(super) fn lexical_context(text: &str, offset: usize) -> LexicalContext {
-    let line = text[..offset].rfind('\n').map_or(0, |end| end + 1);
-    let mut string = None;
-    for (at, c) in text[line..offset].char_indices() {
-        match (c, string) {
-            ('"', None) => string = Some(line + at),
-            ('"', Some(_)) => string = None,
-            ('/', None) if text[line + at..offset].starts_with("//") => return LexicalContext::Comment,
-            _ => {}
-        }
+    let before = &text[..offset];
+    let line = before.rfind('\n').map_or(0, |end| end + 1);
+    let is_open = |string: &str| string.len() < 2 || !string.ends_with('"');
+    match Lexer::new(before, line).last() {
+        Some(token) if token.is_comment() => LexicalContext::Comment,
+        Some(token) if token.kind == TokenKind::String && is_open(token.text) => LexicalContext::String(token.start),
+        _ => LexicalContext::Code,
     }
-    string.map_or(LexicalContext::Code, LexicalContext::String)
 }
 
 /// Returns whether a byte is in a comment.
@@ -90,44 +83,22 @@ pub(super) struct OpenCall {
 pub(super) fn call_at(text: &str, offset: usize) -> Option<OpenCall> {
     let start = declaration_before(text, offset);
     let text = text.get(start..offset)?;
-    let mut open: Vec<Option<OpenCall>> = Vec::new();
-    let (mut at, mut inside_from) = (0, Vec::new());
-    while let Some(c) = text[at..].chars().next() {
-        let next = at + c.len_utf8();
-        match c {
-            '/' if text[next..].starts_with('/') => {
-                at = text[at..].find('\n').map_or(text.len(), |end| at + end);
-                continue;
-            }
-            '"' => {
-                let end = text[next..].find(['"', '\n']).map_or(text.len(), |end| next + end + 1);
-                at = end;
-                continue;
-            }
-            '(' | '[' => {
-                open.push(if c == '(' { callee(&text[..at]) } else { None });
-                inside_from.push(next);
-            }
-            ')' | ']' => {
-                open.pop();
-                inside_from.pop();
-            }
-            '{' | '}' => {
-                open.clear();
-                inside_from.clear();
-            }
-            ',' => {
-                if let Some(Some(call)) = open.last_mut() {
+    let mut open: Vec<(Option<OpenCall>, usize)> = Vec::new();
+    for token in tokens(text) {
+        match token.text {
+            "(" => open.push((callee(&text[..token.start]), token.end())),
+            "[" => open.push((None, token.end())),
+            ")" | "]" => drop(open.pop()),
+            "{" | "}" => open.clear(),
+            "," => {
+                if let Some((Some(call), _)) = open.last_mut() {
                     call.argument += 1;
                 }
             }
             _ => {}
         }
-        at = next;
     }
-    // a comment or string that extends to the cursor is not an argument
-    let mut all = open.into_iter().zip(inside_from).rev();
-    all.find_map(|(call, from)| Some(OpenCall { inside: text[from..].to_owned(), ..call? }))
+    open.into_iter().rev().find_map(|(call, from)| Some(OpenCall { inside: text[from..].to_owned(), ..call? }))
 }
 
 /// Returns the start of the declaration around a byte: a line that begins with a declaration's keyword, or the start of the text.

@@ -1,11 +1,10 @@
 //! The structure of a text: folding ranges and selection ranges.
 
-use super::lexical::is_word_char;
 use super::location::FilePosition;
 use super::snapshot::Snapshot;
 use mechc_pipeline::Parsed;
 use mechc_syntax::ast::{Expr, Feature, Item, ItemKind, Mechanism, TableRows};
-use mechc_syntax::tokens;
+use mechc_syntax::{TokenKind, tokens};
 use mechc_text::source::Span;
 use std::ops::Range;
 use std::path::Path;
@@ -101,7 +100,7 @@ pub fn selection_ranges(snapshot: &Snapshot, position: &FilePosition) -> Option<
             ranges.push(range);
         }
     };
-    for token in tokens(text).into_iter().filter(|token| token.text.starts_with(is_word_char)) {
+    for token in tokens(text).into_iter().filter(|token| matches!(token.kind, TokenKind::Word | TokenKind::Number)) {
         add(token.start as u32..token.end() as u32);
     }
     for fold in between_brackets(text) {

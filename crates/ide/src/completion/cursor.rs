@@ -1,7 +1,7 @@
 //! The syntactic context of the cursor, from the tokens before it: the text is unfinished and need not follow the grammar.
 
-use crate::lexical::{LexicalContext, is_word_char, lexical_context};
-use mechc_syntax::{Token, begins_declaration, tokens};
+use crate::lexical::{LexicalContext, lexical_context};
+use mechc_syntax::{Token, TokenKind, begins_declaration, is_word_char, tokens};
 use mechc_text::vocabulary::{Dimension, Keyword, Unit, is_feature};
 use std::ops::Range;
 
@@ -106,16 +106,15 @@ impl<'t> Cursor<'t> {
 
     /// Returns whether an operand ends before the cursor, so that only an operator or keyword may follow.
     pub fn is_behind_operand(&self) -> bool {
-        self.last().is_some_and(|last| {
-            let is_word = last.starts_with(|c: char| c.is_alphanumeric() || "_\"".contains(c));
-            let joins = Keyword::named(last).is_some_and(|keyword| keyword.is_joining() || keyword.is_reserved());
-            matches!(last, ")" | "]") || is_word && !joins
+        self.declaration().last().is_some_and(|last| {
+            let joins = Keyword::named(last.text).is_some_and(|keyword| keyword.is_joining() || keyword.is_reserved());
+            matches!(last.text, ")" | "]") || last.kind != TokenKind::Sign && !joins
         })
     }
 
     /// Returns whether the last token is a number.
     pub fn is_behind_number(&self) -> bool {
-        self.last().is_some_and(|last| last.starts_with(|c: char| c.is_ascii_digit()))
+        self.declaration().last().is_some_and(|last| last.kind == TokenKind::Number)
     }
 
     /// Returns whether the word is the first of its line or block.
@@ -187,7 +186,7 @@ impl<'t> Cursor<'t> {
             }
         }
         let is_printed = tokens[at].text == "in" && matches!(self.head(), "measure" | "trace" | "result");
-        let is_of_number = tokens[at].text.starts_with(|c: char| c.is_ascii_digit()) && self.last() == Some("/");
+        let is_of_number = tokens[at].kind == TokenKind::Number && self.last() == Some("/");
         let begins =
             !dimensions.is_empty() && (is_printed || is_of_number && !has_space) || is_printed && at + 1 < tokens.len();
         begins.then_some(PartialUnit { dimensions })
