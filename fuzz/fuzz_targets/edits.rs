@@ -3,8 +3,9 @@
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
-use mechc::{Cancel, Memory};
+use mechc::{Cancel, Memory, Sources};
 use mechc_ide::{self as ide, DiagnosticStage, FilePosition, Snapshot};
+use mechc_syntax as syntax;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -60,12 +61,17 @@ fuzz_target!(|bytes: &[u8]| {
     let path: Arc<Path> = Path::new("text.mech").into();
     let mut snapshot = opened(&path, original);
     let mut text = original.to_owned();
+    let mut old = parsed(&text);
     for edit in edits.chunks_exact(5).take(40) {
         let new = edited(&text, edit);
         if new.len() > LONGEST {
             return;
         }
-        text = new;
+        let mut sources = Sources::default();
+        let file = sources.add("text.mech", new.as_str());
+        let reread = syntax::reparse(&old, &text, &sources, file);
+        assert!(reread == parsed(&new), "from\n{text}\nto\n{new}");
+        (old, text) = (reread, new);
         snapshot = snapshot.with_text(&path, Some(text.as_str().into()));
         // now and then nobody asks before the next edit
         if edit[4] % 3 == 0 {
@@ -87,6 +93,12 @@ fuzz_target!(|bytes: &[u8]| {
 
 fn opened(path: &Arc<Path>, text: &str) -> Snapshot {
     Snapshot::new(Arc::new(Memory::default())).with_text(path, Some(text.into()))
+}
+
+fn parsed(text: &str) -> syntax::ParsedText {
+    let mut sources = Sources::default();
+    let file = sources.add("text.mech", text);
+    syntax::parse(&sources, file)
 }
 
 /// A stretch goes, and something comes: of a list, or from elsewhere in the text.

@@ -7,7 +7,7 @@ use mechc_pipeline::{Assembly, Checked, Compiled, Parsed, Redundant, RunOptions}
 use mechc_text::cancel::Cancel;
 use mechc_text::diag::Diagnostics;
 use mechc_text::source::Sources;
-use mechc_text::world::World;
+use mechc_text::world::{LARGEST, World};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -24,6 +24,8 @@ pub struct Snapshot {
 /// The stages of a file, as far as they are computed.
 #[derive(Default)]
 struct Stages {
+    /// The tree of the text before the last edit, most of which can be reused.
+    before: Option<Arc<Parsed>>,
     parsed: Memo<Parsed>,
     checked: Memo<CheckedFile>,
     proofs: Memo<Vec<Proof>>,
@@ -117,10 +119,10 @@ impl Snapshot {
     #[must_use]
     pub fn with_text(&self, path: &Arc<Path>, text: Option<Arc<str>>) -> Snapshot {
         let mut buffers = (*self.buffers).clone();
-        let stages = text.as_ref().map(|_| self.stages(path).without_text());
+        let before = text.as_ref().map(|_| self.stages(path).to_be_edited());
         buffers.set(path, text);
         let mut next = Snapshot { buffers: Arc::new(buffers), ..self.invalidated(path) };
-        next.files.insert(Arc::clone(path), Arc::new(stages.unwrap_or_default()));
+        next.files.insert(Arc::clone(path), Arc::new(before.unwrap_or_default()));
         next
     }
 
@@ -258,7 +260,12 @@ impl Snapshot {
     fn parsed_of(&self, stages: &Stages, path: &Path) -> Option<Arc<Parsed>> {
         stages.parsed.get_or_compute(|| {
             self.unless_cancelled(())?;
-            self.unless_cancelled(Parsed::read(path, &*self.buffers).ok()?)
+            let before = stages.before.as_ref().zip(self.buffers.open(path));
+            let parsed = match before.filter(|(_, text)| text.len() <= LARGEST) {
+                Some((before, text)) => before.edited(text),
+                None => Parsed::read(path, &*self.buffers).ok()?,
+            };
+            self.unless_cancelled(parsed)
         })
     }
 
@@ -298,6 +305,11 @@ impl Snapshot {
 }
 
 impl Stages {
+    /// Returns the stages for an edited text: the old tree, for reuse, and earlier motions.
+    fn to_be_edited(&self) -> Stages {
+        Stages { before: self.parsed.get().or_else(|| self.before.clone()), ..self.without_text() }
+    }
+
     /// Returns the stages that depend on the file's text alone.
     fn only_parsed(&self) -> Stages {
         Stages { parsed: self.parsed.get().into(), ..self.without_text() }

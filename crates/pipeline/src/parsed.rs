@@ -47,17 +47,19 @@ impl Parsed {
     /// Reads one of several texts; paths in it are relative to `path`.
     #[must_use]
     pub fn from_source(sources: Sources, file: FileId, path: &Path) -> Parsed {
-        let read = Arc::new(unless_too_large(&sources, file));
+        let read = Arc::new(unless_too_large(&sources, file, || syntax::parse(&sources, file)));
         Parsed { sources, file, path: path.into(), read }
     }
 
-    /// Reads an edited text of the same file.
+    /// Reads an edited text of the same file, and only what the edit touches. The outcome equals that of [`Parsed::new`].
     #[must_use]
     pub fn edited(&self, text: &str) -> Parsed {
         let current = self.sources.get(self.file);
         let mut sources = Sources::default();
         let file = sources.add(&current.name, text);
-        Parsed::from_source(sources, file, &self.path)
+        let reparse = || syntax::reparse(&self.read, &current.text, &sources, file);
+        let read = Arc::new(unless_too_large(&sources, file, reparse));
+        Parsed { sources, file, path: Arc::clone(&self.path), read }
     }
 
     /// Returns the texts that its diagnostics point into.
@@ -157,12 +159,10 @@ impl Parsed {
 }
 
 /// Reads a text unless it is too large for spans.
-fn unless_too_large(sources: &Sources, file: FileId) -> ParsedText {
+fn unless_too_large(sources: &Sources, file: FileId, read: impl FnOnce() -> ParsedText) -> ParsedText {
     let Source { name, text, .. } = sources.get(file);
     if text.len() <= world::LARGEST {
-        return syntax::parse(sources, file);
+        return read();
     }
-    let fault = world::cannot_read(name, &world::too_large());
-    let tree = ast::File { uses: Vec::new(), mechanisms: Vec::new() };
-    ParsedText { tree, trivia: Trivia::default(), faults: fault.into() }
+    ParsedText::unread(world::cannot_read(name, &world::too_large()).into())
 }

@@ -5,6 +5,7 @@ use super::ast::{
     ItemKind, MechanismName, Name, Part, TableRows, UnitFactor, UsedFile, WrittenUnit,
 };
 use super::grammar::{Grammar, Rule};
+use super::lexer::Token;
 use super::{depth, errors, formula};
 use mechc_text::diag::Diagnostic;
 use mechc_text::source::{FileId, Source, Span};
@@ -21,10 +22,7 @@ pub(super) type Built<T> = Result<T, Box<Diagnostic>>;
 
 /// Builds the nodes of a piece of text.
 pub(super) struct Builder<'a> {
-    source: &'a Source,
-    file: FileId,
-    /// Offset of the piece in the text, in bytes.
-    base: usize,
+    piece: &'a Piece<'a>,
 }
 
 /// Head of a mechanism or body, up to its brace.
@@ -36,11 +34,11 @@ pub(super) struct Head {
     pub pose: Option<DrawnPose>,
 }
 
-/// A piece of a text.
-#[derive(Clone)]
+/// A piece of a text, from the beginning of its first token to the end of its last one.
 pub(super) struct Piece<'a> {
-    pub source: &'a Source,
-    pub file: FileId,
+    source: &'a Source,
+    file: FileId,
+    tokens: &'a [Token<'a>],
     /// Range in bytes.
     pub range: Range<usize>,
 }
@@ -53,7 +51,13 @@ pub(super) enum PieceError {
     Else(Box<Diagnostic>),
 }
 
-impl Piece<'_> {
+impl<'a> Piece<'a> {
+    /// Creates the piece of some adjacent tokens; without tokens it is the end of the text.
+    pub fn new(source: &'a Source, file: FileId, tokens: &'a [Token<'a>]) -> Piece<'a> {
+        let start = tokens.first().map_or(source.text.len(), |first| first.start);
+        Piece { source, file, tokens, range: start..tokens.last().map_or(start, Token::end) }
+    }
+
     /// Parses a piece by a rule that matches from its start, and builds a node.
     pub fn read<T>(
         &self,
@@ -61,8 +65,8 @@ impl Piece<'_> {
         make: impl FnOnce(&Builder<'_>, Pair<'_, Rule>) -> Built<T>,
     ) -> Result<T, PieceError> {
         let text = &self.source.text[self.range.clone()];
-        let builder = Builder { source: self.source, file: self.file, base: self.range.start };
-        depth::measure(text, self.file, self.range.start).map_err(PieceError::Else)?;
+        let builder = Builder { piece: self };
+        depth::measure(self.tokens, self.file).map_err(PieceError::Else)?;
         let pairs = Grammar::parse(rule, text).map_err(|error| PieceError::ByGrammar(Box::new(error)))?;
         let pair = pairs.into_iter().next().ok_or_else(|| PieceError::Else(builder.truncated()))?;
         make(&builder, pair).map_err(PieceError::Else)
@@ -95,18 +99,19 @@ pub fn is_name(text: &str) -> bool {
 impl Builder<'_> {
     /// Returns the span of a pair, without trailing white space and comments.
     pub(super) fn span(&self, pair: &Pair<'_, Rule>) -> Span {
-        let whole = pair.as_span();
-        let ends_with_white_space = whole.as_str().ends_with(char::is_whitespace);
-        // a comment that was taken in reaches to the end of its line, and with it what ends the line, or to the end of the text
-        let is_last = whole.end() == whole.get_input().len();
-        let end = if ends_with_white_space || is_last { end_of_last_token(pair) } else { whole.end() };
-        let place = |at: usize| (self.base + at) as u32;
-        Span { file: self.file, start: place(whole.start()), end: place(end) }
+        let Piece { file, tokens, ref range, .. } = *self.piece;
+        let (start, mut end) = (range.start + pair.as_span().start(), range.start + pair.as_span().end());
+        // a comment that was taken in was so with the end of its line
+        if pair.as_str().ends_with(char::is_whitespace) {
+            let behind = tokens.partition_point(|token| token.start < end);
+            end = tokens[..behind].last().map_or(end, Token::end);
+        }
+        Span { file, start: start as u32, end: end as u32 }
     }
 
     /// Returns the text of a span.
     pub(super) fn text(&self, span: Span) -> &str {
-        &self.source.text[span.start as usize..span.end as usize]
+        &self.piece.source.text[span.start as usize..span.end as usize]
     }
 
     pub(super) fn name(&self, pair: &Pair<'_, Rule>) -> Built<Name> {
@@ -119,8 +124,8 @@ impl Builder<'_> {
 
     /// Returns the diagnostic for a pair that the grammar does not produce.
     pub(super) fn truncated(&self) -> Box<Diagnostic> {
-        let end = self.source.text.len() as u32;
-        let span = Span { file: self.file, start: end, end };
+        let end = self.piece.source.text.len() as u32;
+        let span = Span { file: self.piece.file, start: end, end };
         Box::new(errors::misplaced(span, "a declaration is not complete", "more was expected before this"))
     }
 
@@ -453,7 +458,7 @@ impl Builder<'_> {
     }
 
     fn docs_above(&self, start: u32) -> Vec<String> {
-        docs_above(&self.source.text, start as usize)
+        docs_above(&self.piece.source.text, start as usize)
     }
 }
 
@@ -485,61 +490,6 @@ pub(super) fn docs_above(text: &str, start: usize) -> Vec<String> {
 /// Returns the text between the quotes of a string.
 fn unquoted(string: &str) -> &str {
     string.trim_matches('"')
-}
-
-/// Returns the end of the last word or bracket of a pair.
-fn end_of_last_token(pair: &Pair<'_, Rule>) -> usize {
-    let mut last = pair.clone();
-    while !ends_with_a_token(last.as_rule()) {
-        match last.clone().into_inner().next_back() {
-            Some(inner) => last = inner,
-            None => break,
-        }
-    }
-    last.as_span().end()
-}
-
-/// Returns whether a rule ends with a word or a bracket rather than with trailing white space.
-fn ends_with_a_token(rule: Rule) -> bool {
-    !matches!(
-        rule,
-        Rule::expr
-            | Rule::conditional
-            | Rule::literal
-            | Rule::window
-            | Rule::unit_power
-            | Rule::range
-            | Rule::member
-            | Rule::param
-            | Rule::function
-            | Rule::input
-            | Rule::table
-            | Rule::table_file
-            | Rule::point
-            | Rule::axis
-            | Rule::circle
-            | Rule::curve
-            | Rule::mass
-            | Rule::mechanism_name
-            | Rule::binding
-            | Rule::carrier
-            | Rule::part
-            | Rule::joint
-            | Rule::driver
-            | Rule::constraint
-            | Rule::gravity
-            | Rule::load
-            | Rule::measure
-            | Rule::trace
-            | Rule::result
-            | Rule::printed
-            | Rule::unit_product
-            | Rule::unit_factor
-            | Rule::columns
-            | Rule::column
-            | Rule::analysis
-            | Rule::use_file
-    )
 }
 
 /// Returns the children of a pair except keywords and punctuation.

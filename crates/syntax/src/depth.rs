@@ -5,7 +5,7 @@
 //! as it counts prefix operators and chains of `^`, for which the parser needs no stack.
 
 use super::errors;
-use super::lexer::Lexer;
+use super::lexer::Token;
 use mechc_text::diag::Diagnostic;
 use mechc_text::source::{FileId, Span};
 
@@ -15,22 +15,21 @@ pub const DEEPEST: usize = 200;
 /// Stack that a text of this depth may need, in bytes.
 pub(super) const STACK: usize = 16 << 20;
 
-/// Rejects a piece of text, which begins at byte `base`, if it nests deeper than [`DEEPEST`].
-pub fn measure(text: &str, file: FileId, base: usize) -> Result<(), Box<Diagnostic>> {
-    // each level takes a character at least
-    if text.len() <= DEEPEST {
+/// Rejects a piece of text, by its tokens, if it nests deeper than [`DEEPEST`].
+pub fn measure(tokens: &[Token<'_>], file: FileId) -> Result<(), Box<Diagnostic>> {
+    // each level takes a token at least
+    if tokens.len() <= DEEPEST {
         return Ok(());
     }
     let mut depth = 0_usize;
-    for token in Lexer::new(text, 0) {
+    for token in tokens {
         match token.text {
             "(" | "[" | "if" => depth += 1,
             ")" | "]" | "else" => depth = depth.saturating_sub(1),
             _ => {}
         }
         if depth > DEEPEST {
-            let at = (base + token.start) as u32;
-            let span = Span { file, start: at, end: at + token.text.len() as u32 };
+            let span = Span { file, start: token.start as u32, end: token.end() as u32 };
             return Err(Box::new(errors::too_deep(span, DEEPEST)));
         }
     }

@@ -20,6 +20,8 @@ mod keywords;
 mod lexer;
 mod parse;
 mod reader;
+mod reuse;
+mod shift_spans;
 mod sync_points;
 mod trivia;
 
@@ -28,5 +30,5 @@ pub use depth::DEEPEST;
 pub use format::{format, formatted};
 pub use keywords::{begins_declaration, keywords_in};
 pub use lexer::{Lexer, Token, TokenKind, is_word_char, tokens};
-pub use parse::{ParsedText, parse, parse_declaration, parse_expression};
+pub use parse::{ParsedText, parse, parse_declaration, parse_expression, reparse};
 pub use trivia::{Comment, Trivia};

@@ -7,12 +7,14 @@ use super::build::Piece;
 use super::depth::STACK;
 use super::errors;
 use super::grammar::Rule;
-use super::lexer::{Lexer, Token};
+use super::lexer::{Lexer, Token, tokens};
 use super::reader;
+use super::reuse::PreviousTree;
 use super::sync_points::SyncPoints;
 use super::trivia::{self, Trivia};
 use mechc_text::diag::Diagnostics;
 use mechc_text::source::{FileId, Sources};
+use rustc_hash::FxHashSet;
 
 /// The result of parsing a text, with or without faults.
 #[derive(Clone, PartialEq, Debug)]
@@ -23,23 +25,44 @@ pub struct ParsedText {
     pub trivia: Trivia,
     /// Syntax errors, in order of position.
     pub faults: Diagnostics,
+    /// Where declarations of mechanisms begin that have one, reported or not.
+    pub(super) faulty: FxHashSet<u32>,
+}
+
+impl ParsedText {
+    /// Creates a text that cannot be read.
+    #[must_use]
+    pub fn unread(faults: Diagnostics) -> ParsedText {
+        let tree = File { uses: Vec::new(), mechanisms: Vec::new() };
+        ParsedText { tree, trivia: Trivia::default(), faults, faulty: FxHashSet::default() }
+    }
 }
 
 /// Parses a file.
 #[must_use]
 pub fn parse(sources: &Sources, file: FileId) -> ParsedText {
+    read(sources, file, None)
+}
+
+/// Parses an edited file with the help of its previous tree; the result is that of [`parse`].
+#[must_use]
+pub fn reparse(old: &ParsedText, old_text: &str, sources: &Sources, file: FileId) -> ParsedText {
+    read(sources, file, Some(&PreviousTree::new(old, [old_text, &sources.get(file).text], file)))
+}
+
+fn read(sources: &Sources, file: FileId, previous: Option<&PreviousTree<'_>>) -> ParsedText {
     let source = sources.get(file);
     let mut tokens: Vec<Token<'_>> = Lexer::new(&source.text, 0).collect();
     let trivia = trivia::of(&source.text, file, &tokens);
     tokens.retain(|token| !token.is_comment());
     let sync = SyncPoints::new(&source.text, tokens);
     // once for the whole text: a stack of its own takes longer than most declarations
-    let (tree, mut faults) = stacker::maybe_grow(STACK, STACK, || reader::read(source, file, &sync));
+    let (tree, mut faults, faulty) = stacker::maybe_grow(STACK, STACK, || reader::read(source, file, &sync, previous));
     if tree.mechanisms.is_empty() && faults.is_empty() {
         faults.push(errors::no_mechanism(sources.end_of(file)));
     }
     faults.sort_by_span();
-    ParsedText { tree, trivia, faults }
+    ParsedText { tree, trivia, faults, faulty }
 }
 
 /// Parses a formula alone, as in an option of the command line.
@@ -48,7 +71,8 @@ pub fn parse(sources: &Sources, file: FileId) -> ParsedText {
 /// Syntax errors.
 pub fn parse_expression(sources: &Sources, file: FileId) -> Result<Expr, Diagnostics> {
     let source = sources.get(file);
-    let piece = Piece { source, file, range: 0..source.text.len() };
+    let tokens = tokens(&source.text);
+    let piece = Piece::new(source, file, &tokens);
     stacker::maybe_grow(STACK, STACK, || piece.read(Rule::expression_only, |builder, pair| builder.whole_formula(pair)))
         .map_err(|refused| (*piece.fault(refused, true)).into())
 }
@@ -59,7 +83,8 @@ pub fn parse_expression(sources: &Sources, file: FileId) -> Result<Expr, Diagnos
 /// Syntax errors.
 pub fn parse_declaration(sources: &Sources, file: FileId) -> Result<Item, Diagnostics> {
     let source = sources.get(file);
-    let piece = Piece { source, file, range: 0..source.text.len() };
+    let tokens = tokens(&source.text);
+    let piece = Piece::new(source, file, &tokens);
     stacker::maybe_grow(STACK, STACK, || {
         piece.read(Rule::only_item, |builder, pair| builder.plain_item(builder.only(pair)?))
     })

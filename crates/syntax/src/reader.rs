@@ -10,6 +10,7 @@ use super::build::{Builder, Built, Head, Piece, docs_above, normalized};
 use super::depth::STACK;
 use super::errors;
 use super::grammar::Rule;
+use super::reuse::PreviousTree;
 use super::sync_points::SyncPoints;
 use mechc_parallel::{default_jobs, scoped_chunks};
 use mechc_text::diag::{Diagnostic, Diagnostics};
@@ -29,11 +30,17 @@ const FEWEST_SHARES: usize = 8;
 /// Maximum number of threads; more are limited by memory.
 const MOST_JOBS: usize = 4;
 
-/// Parses a text, with or without faults.
-pub(super) fn read(source: &Source, file: FileId, sync: &SyncPoints<'_>) -> (File, Diagnostics) {
-    let mut reader = Reader::new(source, file, sync, 0);
+/// Parses a text, with or without faults, with the help of its tree before an edit. Returns the tree, the faults, and where declarations
+/// begin that have some.
+pub(super) fn read(
+    source: &Source,
+    file: FileId,
+    sync: &SyncPoints<'_>,
+    previous: Option<&PreviousTree<'_>>,
+) -> (File, Diagnostics, FxHashSet<u32>) {
+    let mut reader = Reader { previous, ..Reader::new(source, file, sync, 0) };
     let tree = reader.file();
-    (tree, reader.faults)
+    (tree, reader.faults, reader.faulty)
 }
 
 /// State of the reader between declarations.
@@ -41,6 +48,7 @@ struct Reader<'a> {
     source: &'a Source,
     file: FileId,
     sync: &'a SyncPoints<'a>,
+    previous: Option<&'a PreviousTree<'a>>,
     /// Index of the next token.
     at: usize,
     faults: Diagnostics,
@@ -50,6 +58,10 @@ struct Reader<'a> {
     has_reported_end: bool,
     /// Position of the last reported fault, in bytes.
     last_reported: Option<usize>,
+    /// True if the declaration that is being parsed has a fault, reported or not.
+    is_faulty: bool,
+    /// Where declarations of mechanisms begin that have a fault.
+    faulty: FxHashSet<u32>,
 }
 
 /// Declarations without faults that were parsed ahead.
@@ -61,8 +73,19 @@ struct Share {
 
 impl<'a> Reader<'a> {
     fn new(source: &'a Source, file: FileId, sync: &'a SyncPoints<'a>, at: usize) -> Reader<'a> {
-        let (faults, bad_names) = (Diagnostics::default(), FxHashSet::default());
-        Reader { source, file, sync, at, faults, bad_names, has_reported_end: false, last_reported: None }
+        Reader {
+            source,
+            file,
+            sync,
+            previous: None,
+            at,
+            faults: Diagnostics::default(),
+            bad_names: FxHashSet::default(),
+            has_reported_end: false,
+            last_reported: None,
+            is_faulty: false,
+            faulty: FxHashSet::default(),
+        }
     }
 
     fn file(&mut self) -> File {
@@ -104,9 +127,9 @@ impl<'a> Reader<'a> {
         let first = self.at;
         let (start, next) = (self.sync.start(first), self.sync.end_of_use(first));
         let make = |builder: &Builder<'_>, pair: Pair<'_, Rule>| builder.use_file(builder.only(pair)?);
-        let read = self.piece(start..self.sync.start(next)).read(Rule::only_use, make).or_else(|_| {
+        let read = self.piece(first..next).read(Rule::only_use, make).or_else(|_| {
             let last = if self.sync.string_behind(next).is_some() { next + 1 } else { next };
-            let piece = self.piece(start..self.sync.end(last));
+            let piece = self.piece(first..last + 1);
             piece.read(Rule::use_and_next, make).map_err(|refused| piece.fault(refused, self.may_suggest()))
         });
         let fault = match read {
@@ -156,7 +179,9 @@ impl<'a> Reader<'a> {
             }
         };
         let mut items = Vec::new();
-        self.items_in_parallel(&mut items);
+        if self.previous.is_none() {
+            self.items_in_parallel(&mut items);
+        }
         let end = self.items(&mut items, has_brace);
         let span = self.span(start..start).to(end);
         Some(Mechanism { docs: docs_above(&self.source.text, start), name, span, items })
@@ -209,8 +234,15 @@ impl<'a> Reader<'a> {
         reader.faults.is_empty().then_some(Share { range: first..reader.at, items })
     }
 
-    /// Parses a declaration of the mechanism.
+    /// Parses a declaration of the mechanism, or takes that of the previous tree.
     fn item(&mut self, items: &mut Vec<Item>) {
+        let start = self.sync.start(self.at) as u32;
+        if let Some((item, next)) = self.previous.and_then(|previous| previous.item(self.sync, self.at)) {
+            items.push(item);
+            self.at = next;
+            return;
+        }
+        self.is_faulty = false;
         match self.sync.word(self.at) {
             "ground" if self.sync.begins_declaration(self.at) => self.block(items, Rule::ground_head),
             "body" => self.block(items, Rule::body_head),
@@ -219,6 +251,9 @@ impl<'a> Reader<'a> {
                 let item = self.plain_item();
                 items.push(item);
             }
+        }
+        if self.is_faulty {
+            self.faulty.insert(start);
         }
     }
 
@@ -308,6 +343,7 @@ impl<'a> Reader<'a> {
                         return features;
                     }
                     let word = self.sync.word(self.at);
+                    self.faulty.insert(self.sync.start(self.at) as u32);
                     self.report(Box::new(errors::misplaced_in_body(*fault, word)));
                     match word {
                         "ground" => self.block(misplaced, Rule::ground_head),
@@ -342,7 +378,7 @@ impl<'a> Reader<'a> {
             Ok(item) => {
                 self.at = self.sync.index_at(item.span.end as usize);
                 // a hyphenated name, which has been reported, is no difference
-                if self.sync.uses_hyphenated(first, self.at) { self.broken(first) } else { item }
+                if self.uses_hyphenated(first) { self.broken(first) } else { item }
             }
             Err(fault) => {
                 self.skip(fault);
@@ -363,7 +399,7 @@ impl<'a> Reader<'a> {
         match read {
             Ok(feature) => {
                 self.at = self.sync.index_at(feature.span.end as usize);
-                let is_spoilt = self.sync.uses_hyphenated(first, self.at);
+                let is_spoilt = self.uses_hyphenated(first);
                 if is_spoilt { Feature { kind: FeatureKind::Broken, ..feature } } else { feature }
             }
             Err(fault) => {
@@ -381,10 +417,11 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// Returns the range from here to the next declaration, and the token there.
-    fn plain(&self) -> (Range<usize>, usize) {
-        let next = self.sync.end_of_plain(self.at);
-        (self.sync.start(self.at)..self.sync.start(next), next)
+    /// Returns whether a token from `first` up to here belongs to a hyphenated name.
+    fn uses_hyphenated(&mut self, first: usize) -> bool {
+        let is_one = self.sync.uses_hyphenated(first, self.at);
+        self.is_faulty |= is_one;
+        is_one
     }
 
     /// Parses the declaration that begins here, up to the next one. A fault is described with the token behind the declaration in view.
@@ -393,18 +430,18 @@ impl<'a> Reader<'a> {
         [alone, with_next]: [Rule; 2],
         make: impl Fn(&Builder<'_>, Pair<'_, Rule>) -> Built<T>,
     ) -> Built<T> {
-        let (Range { start, end }, next) = self.plain();
-        let read = self.piece(start..end).read(alone, &make).or_else(|_| {
-            let piece = self.piece(start..self.sync.end(next));
+        let next = self.sync.end_of_plain(self.at);
+        let read = self.piece(self.at..next).read(alone, &make).or_else(|_| {
+            let piece = self.piece(self.at..next + 1);
             piece.read(with_next, &make).map_err(|refused| piece.fault(refused, self.may_suggest()))
         });
         // a misspelt keyword is the fault of the declaration behind it
         read.or_else(|fault| {
-            let next = self.sync.start(self.sync.sync_token(self.at));
-            if fault_at(&fault) != next {
+            let next = self.sync.sync_token(self.at);
+            if fault_at(&fault) != self.sync.start(next) {
                 return Err(fault);
             }
-            let piece = self.piece(start..next);
+            let piece = self.piece(self.at..next);
             piece.read(alone, &make).map_err(|refused| {
                 let local = piece.fault(refused, false);
                 if fault_at(&local) < piece.range.end && local.code != fault.code { local } else { fault }
@@ -412,8 +449,9 @@ impl<'a> Reader<'a> {
         })
     }
 
-    fn piece(&self, range: Range<usize>) -> Piece<'_> {
-        Piece { source: self.source, file: self.file, range }
+    /// Returns the piece of a range of tokens.
+    fn piece(&self, tokens: Range<usize>) -> Piece<'_> {
+        Piece::new(self.source, self.file, self.sync.tokens(tokens))
     }
 
     fn may_suggest(&self) -> bool {
@@ -437,7 +475,7 @@ impl<'a> Reader<'a> {
     ) -> Built<T> {
         // without a brace, to behind the word in its place
         let last = brace.unwrap_or_else(|| self.sync.sync_token(self.at));
-        let piece = self.piece(self.sync.start(self.at)..self.sync.end(last));
+        let piece = self.piece(self.at..last + 1);
         let head = piece.read(rule, make).map_err(|refused| piece.fault(refused, self.may_suggest()))?;
         self.at = last + 1;
         Ok(head)
@@ -445,7 +483,7 @@ impl<'a> Reader<'a> {
 
     /// Returns the diagnostic for the word here, where a rule was expected.
     fn fault_of(&self, rule: Rule) -> Box<Diagnostic> {
-        let piece = self.piece(self.sync.start(self.at)..self.sync.end(self.at));
+        let piece = self.piece(self.at..self.at + 1);
         let refused = piece.read(rule, |builder, _| Err::<Infallible, _>(builder.truncated()));
         match refused {
             Err(refused) => piece.fault(refused, self.may_suggest()),
@@ -460,6 +498,7 @@ impl<'a> Reader<'a> {
     }
 
     fn report(&mut self, mut fault: Box<Diagnostic>) {
+        self.is_faulty = true;
         let at = fault_at(&fault);
         if let Some(("ground", "body")) = self.sync.word_as_name(at) {
             let body = self.sync.start(self.sync.index_at(at) - 1);

@@ -80,6 +80,19 @@ impl<'a> SyncPoints<'a> {
         self.tokens.get(k).map_or(self.text.len(), Token::end)
     }
 
+    /// Returns the tokens of a range of indices, as far as there are any.
+    pub fn tokens(&self, range: Range<usize>) -> &[Token<'a>] {
+        let end = range.end.min(self.tokens.len());
+        &self.tokens[range.start.min(end)..end]
+    }
+
+    /// Returns the bytes of the lines that hold a range of tokens, with the line ends around them.
+    pub fn lines_of(&self, tokens: Range<usize>) -> Range<usize> {
+        let end = self.end(tokens.end.saturating_sub(1));
+        let start = self.text[..self.start(tokens.start)].rfind('\n').unwrap_or(0);
+        start..self.text[end..].find('\n').map_or(self.text.len(), |at| end + at)
+    }
+
     /// Returns the byte range of a token.
     pub fn range(&self, k: usize) -> Range<usize> {
         self.start(k)..self.end(k)
@@ -231,7 +244,8 @@ impl<'a> SyncPoints<'a> {
         let is_word = |k: usize| self.word(k).starts_with(char::is_alphabetic) && !is_joining(k);
         // `30 mm` and `a.b` go on with a word
         let before = if k > 0 { self.word(k - 1) } else { "" };
-        let is_behind_number = k > 0 && self.tokens[k - 1].kind == TokenKind::Number;
+        let is_behind_number =
+            self.tokens(k.saturating_sub(1)..k).iter().any(|before| before.kind == TokenKind::Number);
         if !is_word(k) || before.starts_with('.') || is_behind_number && !self.is_first_on_its_line(k) {
             return false;
         }
