@@ -183,7 +183,7 @@ mod tests {
 
     #[test]
     fn connecting_words_may_be_names() {
-        let text = "mechanism m {\n param at = 2 kg\n param to = 1 m/s^2\n body b at (0, 0, 0) { mass 3 kg mass at at (0, 0) mass\n to }\n gravity to * (0, 1)\n}";
+        let text = "mechanism m {\n param at = 2 kg\n param to = 1 m/s^2\n body b at (0, 0, 0) { mass 3 kg mass at at (0, 0) mass 2 * at mass (3) mass if 1 < 2 then to else to mass at mass\n to }\n gravity to * (0, 1)\n}";
         let parsed = parsed(text);
         assert!(parsed.faults.is_empty() && parsed.tree.mechanisms[0].items.len() == 4, "{:?}", parsed.faults);
     }

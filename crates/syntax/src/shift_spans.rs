@@ -28,24 +28,6 @@ impl Spans for Span {
     }
 }
 
-impl<T: Spans> Spans for Vec<T> {
-    fn shift(&mut self, to: Shift) {
-        self.iter_mut().for_each(|part| part.shift(to));
-    }
-}
-
-impl<T: Spans, const N: usize> Spans for [T; N] {
-    fn shift(&mut self, to: Shift) {
-        self.iter_mut().for_each(|part| part.shift(to));
-    }
-}
-
-impl<T: Spans> Spans for Option<T> {
-    fn shift(&mut self, to: Shift) {
-        self.iter_mut().for_each(|part| part.shift(to));
-    }
-}
-
 impl<T: Spans> Spans for Box<T> {
     fn shift(&mut self, to: Shift) {
         (**self).shift(to);
@@ -57,6 +39,19 @@ impl<A: Spans, B: Spans> Spans for (A, B) {
         self.0.shift(to);
         self.1.shift(to);
     }
+}
+
+/// Implements [`Spans`] for collections of parts.
+macro_rules! collections {
+    ($([$($size:tt)*] $node:ty),*) => { $(
+        impl<T: Spans, $($size)*> Spans for $node {
+            fn shift(&mut self, to: Shift) {
+                for part in self {
+                    part.shift(to);
+                }
+            }
+        }
+    )* };
 }
 
 /// Implements [`Spans`] for types without spans.
@@ -92,6 +87,7 @@ macro_rules! enumerations {
     )* };
 }
 
+collections!([] Vec<T>, [] Option<T>, [const N: usize] [T; N]);
 without_spans!(bool, f64, i32, String, ColumnWord, ComparisonSign, Factor, Sign);
 
 structures! {

@@ -333,10 +333,18 @@ fn begins_line(tokens: &[Token<'_>], k: usize) -> bool {
 /// and the beginning of another.
 fn opens_with_a_formula(tokens: &[Token<'_>], roles: &[Option<Role>], k: usize) -> bool {
     let word = |k: usize| tokens.get(k).map_or("", |token| token.text);
+    // what stands behind an operator or a word before a formula is an operand, whatever it is elsewhere
+    let is_operand = |k: usize| {
+        let before = k.checked_sub(1);
+        let is_joining = |before: usize| roles[before].is_some_and(|role| role == Role::Formula || role.is_opener());
+        before.is_some_and(|before| is_operator(word(before)) || is_joining(before))
+    };
     let is_behind_an_end = k.checked_sub(1).is_some_and(|before| match roles[before] {
         None => word(before).starts_with(is_word_char) || matches!(word(before), ")" | "]" | "{" | "}"),
         // a name at the end of a line, as far as anyone can tell
-        Some(Role::Separator | Role::Place) => word(before) == "mirrored" || begins_line(tokens, k),
+        Some(Role::Separator | Role::Place) => {
+            word(before) == "mirrored" || begins_line(tokens, k) || is_operand(before)
+        }
         Some(role) => role == Role::Side,
     });
     let next = word(k + 1);
@@ -348,4 +356,9 @@ fn opens_with_a_formula(tokens: &[Token<'_>], roles: &[Option<Role>], k: usize) 
         None => next.starts_with(|c| is_word_char(c) || matches!(c, '(' | '-' | '.')),
     };
     is_behind_an_end && is_before_a_beginning
+}
+
+/// Returns whether a token is an operator between operands, or an equals sign.
+pub(super) fn is_operator(word: &str) -> bool {
+    matches!(word, "=" | "+" | "-" | "*" | "/" | "^" | "<" | ">" | "<=" | ">=" | "==" | "!=")
 }

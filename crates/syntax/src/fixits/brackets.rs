@@ -3,6 +3,7 @@
 use super::Fault;
 use crate::keywords::begins_declaration;
 use crate::lexer::{Lexer, Token, tokens};
+use crate::sync_points::is_operator;
 use mechc_text::diag::{Applicability, Edit, Fix};
 
 impl<'a> Fault<'a> {
@@ -149,8 +150,4 @@ fn is_plain_list(tokens: &[&str]) -> bool {
         let is_sign = *token == "-" && (k == 0 || tokens[k - 1] == ",");
         is_sign || !is_operator(token) && *token != "("
     })
-}
-
-fn is_operator(token: &str) -> bool {
-    ["+", "-", "*", "/", "^", "<", ">", "<=", ">=", "==", "!=", "="].contains(&token)
 }
