@@ -6,7 +6,9 @@ use super::grammar::Rule;
 use super::lexer::{Lexer, TokenKind, is_word_char, tokens, tokens_in};
 use mechc_text::diag::{Applicability, Code, Diagnostic, Edit, Fix};
 use mechc_text::source::{FileId, Source, Span};
+use mechc_text::vocabulary::{Keyword, Role};
 use pest::error::{Error, ErrorVariant};
+use std::borrow::Cow;
 use std::ops::Range;
 
 /// Reports nesting beyond the limit.
@@ -330,7 +332,7 @@ fn found_at(text: &str, offset: usize) -> Range<usize> {
 
 /// Describes the rules that the parser expected.
 fn expectation(rules: &[Rule], found: &str, end: &str) -> String {
-    let mut words: Vec<&str> = Vec::new();
+    let mut words: Vec<Cow<'_, str>> = Vec::new();
     let goes_on = rules.iter().any(|rule| matches!(rule, Rule::infix | Rule::unit_power));
     // a point may end behind its name, but if text follows there, the `=` is missing
     let only_equals = rules.contains(&Rule::equals) && !goes_on;
@@ -350,61 +352,26 @@ fn expectation(rules: &[Rule], found: &str, end: &str) -> String {
         return "a kind of joint with its arguments".to_owned();
     }
     // a formula may begin with both
-    if words.contains(&"a formula") {
-        words.retain(|word| !["`(`", "a name"].contains(word));
+    if words.iter().any(|word| word == "a formula") {
+        words.retain(|word| !["`(`", "a name"].contains(&&**word));
     }
     let last = words.pop().unwrap_or_default();
-    if words.is_empty() { last.to_owned() } else { format!("{} or {last}", words.join(", ")) }
+    if words.is_empty() { last.into_owned() } else { format!("{} or {last}", words.join(", ")) }
+}
+
+/// Returns the keyword that a rule consists of or begins with: `kw_param`, `param`, `ground_head`, `to`.
+pub(super) fn keyword_of(rule: Rule) -> Option<&'static Keyword> {
+    let rule = format!("{rule:?}");
+    let word = rule.trim_start_matches("kw_").trim_end_matches("_head");
+    Keyword::named(if word == "function" { "fn" } else { word })
 }
 
 /// Describes a rule; empty if the description of another rule covers it.
-fn human(rule: Rule, after_operand: bool, end: &str) -> &str {
-    match rule {
+fn human(rule: Rule, after_operand: bool, end: &str) -> Cow<'_, str> {
+    let words = match rule {
         Rule::file | Rule::mechanism | Rule::mechanism_head | Rule::kw_mechanism => "`mechanism`",
         Rule::EOI if after_operand => "",
         Rule::EOI => end,
-        Rule::param
-        | Rule::function
-        | Rule::table
-        | Rule::ground
-        | Rule::ground_head
-        | Rule::body
-        | Rule::body_head
-        | Rule::joint
-        | Rule::driver
-        | Rule::constraint
-        | Rule::gravity
-        | Rule::load
-        | Rule::measure
-        | Rule::trace
-        | Rule::part
-        | Rule::result
-        | Rule::analysis
-        | Rule::kw_param
-        | Rule::kw_fn
-        | Rule::kw_table
-        | Rule::kw_ground
-        | Rule::kw_body
-        | Rule::kw_joint
-        | Rule::kw_driver
-        | Rule::kw_constraint
-        | Rule::kw_gravity
-        | Rule::kw_load
-        | Rule::kw_measure
-        | Rule::kw_trace
-        | Rule::kw_part
-        | Rule::kw_result
-        | Rule::kw_analysis => "a declaration",
-        Rule::point
-        | Rule::axis
-        | Rule::circle
-        | Rule::curve
-        | Rule::mass
-        | Rule::kw_point
-        | Rule::kw_axis
-        | Rule::kw_circle
-        | Rule::kw_curve
-        | Rule::kw_mass => "a point, axis, circle, curve or mass",
         Rule::name | Rule::use_prefix | Rule::word | Rule::ground_word => "a name",
         Rule::expression_only
         | Rule::expr
@@ -424,27 +391,24 @@ fn human(rule: Rule, after_operand: bool, end: &str) -> &str {
         Rule::right | Rule::call_end => "`)`",
         Rule::open => "`{`",
         Rule::close => "`}`",
-        Rule::at => "`at`",
-        Rule::toward => "`toward`",
-        Rule::along => "`along`",
-        Rule::to => "`to`",
-        Rule::radius => "`radius`",
-        Rule::inertia => "`inertia`",
-        Rule::from => "`from`",
-        Rule::every => "`every`",
-        Rule::kw_on => "`on`",
-        Rule::mirrored => "`mirrored`",
         Rule::mechanism_name => "the name of a mechanism",
         Rule::binding => "a binding `NAME = …`",
         Rule::carrier => "a body",
-        Rule::kw_then => "`then`",
-        Rule::kw_else => "`else`",
         Rule::periodic | Rule::spline => "`spline`",
         Rule::table_rows => "`[`",
         Rule::table_file | Rule::string => "a file name in quotes",
         Rule::exponent => "a whole number",
         Rule::unit_name | Rule::unit_factor | Rule::unit_product | Rule::reciprocal => "a unit",
         Rule::column | Rule::column_number => "a number or name of a column",
-        _ => "",
-    }
+        Rule::kw_use | Rule::kw_as | Rule::kw_in | Rule::kw_columns => "",
+        _ => {
+            return match keyword_of(rule).map(|keyword| (keyword.role, keyword.word.name)) {
+                Some((Role::Declaration | Role::Opener, _)) => "a declaration".into(),
+                Some((Role::Feature | Role::FeatureOpener, _)) => "a point, axis, circle, curve or mass".into(),
+                Some((_, word)) => format!("`{word}`").into(),
+                None => "".into(),
+            };
+        }
+    };
+    words.into()
 }

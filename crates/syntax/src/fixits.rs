@@ -8,6 +8,7 @@ mod separators;
 mod uses;
 mod windows;
 
+use super::errors::keyword_of;
 use super::grammar::Rule;
 use super::keywords::begins_declaration;
 use super::lexer::{Lexer, TokenKind, is_word_char, tokens};
@@ -227,22 +228,18 @@ impl Fault<'_> {
 
     /// Returns whether one of these keywords is expected.
     fn begins(&self, keywords: &[&str]) -> bool {
-        let is_one = |rule: &Rule| {
-            keywords.iter().any(|word| is_rule_of(*rule, word) || *word == "fn" && *rule == Rule::function)
-        };
-        self.expected.iter().any(is_one)
+        let mut expected = self.expected.iter().filter_map(|rule| keyword_of(*rule));
+        expected.any(|keyword| keywords.contains(&keyword.word.name))
     }
 
     /// Returns the words that could continue the declaration.
     fn connecting_words(&self) -> Vec<&'static str> {
-        let expected = |word: &&Keyword| self.expected.iter().any(|rule| is_rule_of(*rule, word.word.name));
+        let expected = |word: &&Keyword| {
+            let mut expected = self.expected.iter().filter_map(|rule| keyword_of(*rule));
+            expected.any(|keyword| keyword.word.name == word.word.name)
+        };
         // behind any formula of a measure an `in` may stand, but seldom is what is missing
         let joining = KEYWORDS.iter().filter(|word| word.is_joining() && word.word.name != "in");
         joining.filter(expected).map(|word| word.word.name).collect()
     }
-}
-
-/// Returns whether a rule of the grammar is that of a word: `to`, or `kw_then`.
-fn is_rule_of(rule: Rule, word: &str) -> bool {
-    format!("{rule:?}").trim_start_matches("kw_") == word
 }

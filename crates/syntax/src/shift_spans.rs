@@ -28,6 +28,14 @@ impl Spans for Span {
     }
 }
 
+impl<T: Spans> Spans for [T] {
+    fn shift(&mut self, to: Shift) {
+        for part in self {
+            part.shift(to);
+        }
+    }
+}
+
 impl<T: Spans> Spans for Box<T> {
     fn shift(&mut self, to: Shift) {
         (**self).shift(to);
@@ -41,14 +49,12 @@ impl<A: Spans, B: Spans> Spans for (A, B) {
     }
 }
 
-/// Implements [`Spans`] for collections of parts.
+/// Implements [`Spans`] for collections.
 macro_rules! collections {
     ($([$($size:tt)*] $node:ty),*) => { $(
         impl<T: Spans, $($size)*> Spans for $node {
             fn shift(&mut self, to: Shift) {
-                for part in self {
-                    part.shift(to);
-                }
+                self.as_mut_slice().shift(to);
             }
         }
     )* };

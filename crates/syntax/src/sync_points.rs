@@ -310,7 +310,8 @@ impl<'a> SyncPoints<'a> {
     }
 }
 
-fn begins(role: Role) -> bool {
+/// Returns whether a word of a role begins a declaration where one can begin.
+pub(super) fn begins(role: Role) -> bool {
     matches!(role, Role::Declaration | Role::Feature) || role.is_opener()
 }
 

@@ -2,6 +2,7 @@
 
 use crate::keywords::may_begin_a_bound;
 use crate::lexer::{Token, TokenKind};
+use crate::sync_points::begins;
 use mechc_text::vocabulary::{Constant, Keyword, Position, Role, Synonym, Unit, declares_name};
 use rustc_hash::FxHashSet;
 use std::ops::Range;
@@ -92,10 +93,6 @@ pub(super) fn declared<'a>(tokens: &[Token<'a>]) -> FxHashSet<&'a str> {
     let is_argument = |run: &&[Token<'_>]| ["fn", "curve"].contains(&run[0].text) && run[2].text == "(";
     let arguments = tokens.windows(4).filter(is_argument).map(|run| run[3].text);
     behind_keywords.chain(arguments).collect()
-}
-
-fn begins(role: Role) -> bool {
-    matches!(role, Role::Declaration | Role::Feature) || role.is_opener()
 }
 
 /// Returns the words of a declaration, or of a block on one line. `printed` is the byte at which the unit behind `in` begins.
