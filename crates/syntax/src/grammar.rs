@@ -1,4 +1,4 @@
-//! The parser that is generated from `grammar/mech.pest`. The rest of this crate builds on it and on [`super::tokens`].
+//! The parser that is generated from `grammar/mech.pest`. The rest of this crate builds on it and on [`super::lexer`].
 
 pub(super) use generated::{Grammar, Rule};
 

@@ -22,6 +22,17 @@ fn keywords(wanted: impl Fn(&Keyword) -> bool) -> BTreeSet<String> {
 }
 
 #[test]
+fn the_page_on_the_language_lists_the_words_of_both_roles() {
+    let page = text_of("docs/language.md").split_whitespace().collect::<Vec<_>>().join(" ");
+    let listed = |before: &str| -> BTreeSet<String> {
+        let list = page.split(before).nth(1).and_then(|list| list.split('`').nth(1)).unwrap_or_default();
+        list.split(' ').map(str::to_owned).collect()
+    };
+    assert_eq!(listed("where one can begin, and are names elsewhere:"), keywords(|keyword| keyword.role.is_opener()));
+    assert_eq!(listed("Behind a number these are not its unit:"), keywords(|keyword| keyword.role == Role::Separator));
+}
+
+#[test]
 fn the_grammar_has_the_keywords_of_the_table() {
     assert_eq!(words_of_rule("reserved"), keywords(Keyword::is_reserved));
     assert_eq!(words_of_rule("separator"), keywords(|keyword| keyword.role == Role::Separator));
