@@ -69,7 +69,7 @@ module.exports = grammar({
 
     _item: $ => choice(
       $.param, $.function, $.table, $.input, $.part, $.ground, $.body, $.joint, $.driver, $.constraint, $.gravity, $.load,
-      $.measure, $.trace, $.result, $.analysis,
+      $.measure, $.trace, $.result, $.require, $.analysis,
     ),
     _feature: $ => choice($.point, $.axis, $.circle, $.curve, $.mass),
 
@@ -145,6 +145,10 @@ module.exports = grammar({
     measure: $ => seq('measure', $._repeated_name, begun(seq(is($), optional($.printed)))),
     trace: $ => seq('trace', $._repeated_name, begun(seq(is($), optional($.printed)))),
     result: $ => seq('result', $._repeated_name, begun(seq(is($), optional($.printed)))),
+    require: $ => seq(
+      'require', optional(seq(field('name', $.identifier), ':')),
+      begun(field('condition', $.expression), seq('within', field('tolerance', $.expression))),
+    ),
     printed: $ => seq('in', $.unit_product),
     analysis: $ => seq(
       'analysis',

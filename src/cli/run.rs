@@ -28,6 +28,7 @@ pub(super) fn run(arguments: &RunArguments, reporter: &mut Reporter) -> Result<(
         lead: arguments.lead,
         reactions: arguments.reactions,
         results: arguments.result.clone(),
+        requirements: true,
         ..input::choice(&arguments.input)
     };
     let compiled = input::compiled_as(&parsed, &choice, arguments.following.allow_redundant, reporter, &mut timings)?;
@@ -51,11 +52,20 @@ pub(super) fn run(arguments: &RunArguments, reporter: &mut Reporter) -> Result<(
     let names = compiled.results();
     let outcome = Table { output, format, columns, timings, results, names: &names }.write(run)?;
     reporter.print(&outcome.remarks);
+    if let Some(note) = compiled.unjudged_requirements().filter(|_| !arguments.at.is_empty()) {
+        reporter.print(&note.into());
+    }
     if !reporter.is_machine_readable() {
         Reporter::print_text(&results::format_lines(&names, &outcome.answers));
     }
     Reporter::print_text(&outcome.timings);
-    outcome.result
+    outcome.result?;
+    if outcome.answers.failures.is_empty() {
+        return Ok(());
+    }
+    let mut failures = Diagnostics::default();
+    failures.extend(outcome.answers.failures);
+    Err(failures.into())
 }
 
 /// The outcome of writing the rows.

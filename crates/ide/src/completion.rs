@@ -191,7 +191,8 @@ impl CompletionContext<'_> {
     fn joining_in_window(&self) -> Vec<CompletionItem> {
         let cursor = &self.cursor;
         let takes_window = |call: &Call<'_>| ReductionWord::named(call.name).is_some_and(|word| !word.takes_time());
-        let Some(call) = cursor.call().filter(takes_window).filter(|_| cursor.head() == "result") else {
+        let Some(call) = cursor.call().filter(takes_window).filter(|_| matches!(cursor.head(), "result" | "require"))
+        else {
             return Vec::new();
         };
         let words: &[&str] = match cursor.window(call) {
@@ -353,9 +354,10 @@ fn is_drawn(head: &str) -> bool {
 
 /// Returns the words that a formula of a declaration may call.
 fn callable_words(head: &str) -> impl Iterator<Item = &'static Word> {
-    let has_quantities = matches!(head, "measure" | "trace" | "result" | "driver" | "constraint" | "load" | "part");
-    let has_forces = matches!(head, "measure" | "result");
-    let has_reductions = head == "result";
+    let has_quantities =
+        matches!(head, "measure" | "trace" | "result" | "require" | "driver" | "constraint" | "load" | "part");
+    let has_forces = matches!(head, "measure" | "result" | "require");
+    let has_reductions = matches!(head, "result" | "require");
     let is_drawn = is_drawn(head);
     let quantities = QUANTITIES.iter().filter(move |quantity| has_quantities && (has_forces || !quantity.is_force));
     let quantities = quantities.map(|quantity| &quantity.word);

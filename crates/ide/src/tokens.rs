@@ -94,7 +94,12 @@ fn of_name(kind: NameKind) -> Option<TokenKind> {
         NameKind::Joint | NameKind::Constraint | NameKind::Driver | NameKind::Load => TokenKind::Equation,
         NameKind::Function | NameKind::Table => TokenKind::Function,
         NameKind::Argument => TokenKind::Argument,
-        NameKind::Param | NameKind::Input | NameKind::Measure | NameKind::Trace | NameKind::Result => TokenKind::Value,
+        NameKind::Param
+        | NameKind::Input
+        | NameKind::Measure
+        | NameKind::Trace
+        | NameKind::Result
+        | NameKind::Requirement => TokenKind::Value,
         NameKind::Broken => return None,
     })
 }

@@ -58,7 +58,7 @@ pub use mechc_text::vocabulary::JointKind;
 pub use monitors::{
     Check, Condition, ConditionKind, Fit, Monitor, MonitorKind, OpenContact, PartStart, PartWithDerivatives,
 };
-pub use results::{Outcome, Reduction, ReductionKind, Results};
+pub use results::{Bound, Outcome, Reduction, ReductionKind, Requirement, RequirementTimes, Results};
 pub use right_sides::{RightSide, With};
 pub use rows::Row;
 pub use sparse::SparseRows;

@@ -11,6 +11,8 @@ pub struct Results {
     pub reductions: Vec<Reduction>,
     /// The results.
     pub outcomes: Vec<Outcome>,
+    /// The requirements that are judged.
+    pub requirements: Vec<Requirement>,
     /// Variations in the formulas, those of the rows first; `None` if there are none.
     pub variations: Option<Box<Variations>>,
     /// Numbers of variations, each with the condition that the left-out equations keep holding along it.
@@ -30,6 +32,45 @@ pub struct Outcome {
     pub units: Units,
     /// True if a condition over unknown values counts as false; otherwise the result is unknown.
     pub unknown_is_false: bool,
+}
+
+/// A requirement: bounds of a number of the whole analysis, or of a quantity at all times of it.
+#[derive(Clone, Debug)]
+pub struct Requirement {
+    /// Name, or else what it compares.
+    pub name: String,
+    /// Span of the declaration.
+    pub span: Span,
+    /// The bounded formula, as written.
+    pub formula: String,
+    /// The bounds.
+    pub bounds: Vec<Bound>,
+    /// Units in which values are reported.
+    pub units: Units,
+}
+
+/// A bound of a requirement; all formulas are over parameters and reductions.
+#[derive(Clone, Debug)]
+pub struct Bound {
+    /// True for an upper bound.
+    pub is_upper: bool,
+    /// How far it is exceeded (SI): at most 0 if it holds.
+    pub excess: ExprId,
+    /// The bounded value, where it exceeds the bound most.
+    pub value: ExprId,
+    /// The bound there.
+    pub bound: ExprId,
+    /// The times at which a quantity exceeds it; `None` for one number of the whole analysis.
+    pub times: Option<RequirementTimes>,
+}
+
+/// The times (s) at which a quantity exceeds a bound, as formulas of reductions.
+#[derive(Clone, Copy, Debug)]
+pub struct RequirementTimes {
+    /// The first such time.
+    pub first: ExprId,
+    /// The first time at which it exceeds the bound most.
+    pub worst: ExprId,
 }
 
 /// A formula reduced to one number over the analysis, or over a window of it.

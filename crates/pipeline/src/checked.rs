@@ -56,6 +56,8 @@ pub struct Choice {
     /// True if results are differentiated by these too, as results after all others. The two flags tell whether the first and the last time of
     /// the analysis are those of the text, which may depend on params.
     pub slopes: Option<[bool; 2]>,
+    /// True if the requirements of the text are judged with its results; see [`crate::Run::results`].
+    pub requirements: bool,
     /// True if the reactions of all joints and the efforts of all drivers are tabulated.
     pub reactions: bool,
     /// True if pictures show forces, if there are any.
@@ -187,8 +189,16 @@ impl Checked {
             (Ok(settings), Ok(given)) => {
                 let library = library.clone();
                 let Choice { reactions, pictures_forces, slopes, .. } = *choice;
-                let check_options =
-                    CheckOptions { settings, library, files, given, by, slopes, ..CheckOptions::default() };
+                let check_options = CheckOptions {
+                    settings,
+                    library,
+                    files,
+                    given,
+                    by,
+                    slopes,
+                    judges_requirements: choice.requirements,
+                    ..CheckOptions::default()
+                };
                 let parsed = parsed.with_sources(sources);
                 let forces = TabulatedForces { reactions, for_pictures: pictures_forces };
                 let checked = Checked::with_check_options(parsed, index, check_options, is_continued, diagnostics);

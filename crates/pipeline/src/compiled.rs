@@ -13,7 +13,7 @@ use mechc_ir::{ConstraintSystem, DeclarationKind, Mechanics};
 use mechc_lang::lower::{Inputs, LowerOptions, TabulatedForces};
 use mechc_lang::model::Mechanism;
 use mechc_text::cancel::Cancel;
-use mechc_text::diag::Diagnostics;
+use mechc_text::diag::{Code, Diagnostic, Diagnostics};
 use mechc_text::source::Sources;
 use std::sync::{Arc, OnceLock};
 
@@ -199,6 +199,18 @@ impl Compiled {
     #[must_use]
     pub fn results(&self) -> Vec<(String, ColumnUnit)> {
         layout::results(self.system())
+    }
+
+    /// Returns a note if there are requirements, for a run at single times, which judges none.
+    #[must_use]
+    pub fn unjudged_requirements(&self) -> Option<Diagnostic> {
+        let requirements = &self.system().results().requirements;
+        let count = match requirements.len() {
+            1 => "the requirement is not judged".to_owned(),
+            count => format!("{count} requirements are not judged"),
+        };
+        let note = Diagnostic::new(Code::N0606, format!("{count}: only some times are computed"));
+        requirements.first().map(|first| note.at(first.span, "over the whole analysis"))
     }
 
     /// For each body, returns the columns of x, y and phi, of their first, and of their second time derivatives.

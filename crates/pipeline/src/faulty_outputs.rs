@@ -61,16 +61,18 @@ impl Checked {
 
     fn is_output(&self, item: &Item) -> bool {
         match &item.kind {
-            ItemKind::Measure { .. } | ItemKind::Trace { .. } | ItemKind::Result { .. } | ItemKind::Analysis { .. } => {
-                true
-            }
+            ItemKind::Measure { .. }
+            | ItemKind::Trace { .. }
+            | ItemKind::Result { .. }
+            | ItemKind::Requirement(_)
+            | ItemKind::Analysis { .. } => true,
             // a broken declaration is classified by its first word
             ItemKind::Broken { .. } => {
                 let text = self.sources().text(item.span);
                 let is =
                     |word: &&str| text.strip_prefix(*word).is_some_and(|rest| rest.starts_with(char::is_whitespace));
                 // a brace may belong to another declaration
-                ["measure", "trace", "result", "analysis"].iter().any(is) && !text.contains(['{', '}'])
+                ["measure", "trace", "result", "require", "analysis"].iter().any(is) && !text.contains(['{', '}'])
             }
             _ => false,
         }

@@ -299,7 +299,8 @@ impl Run {
         started.use_vectors(options.vectors);
         let assembly = assembly(compiled, &mut started, times.from());
         let results = compiled.system().results().outcomes.len();
-        let interval = times.interval().filter(|_| results > 0);
+        let has_queries = results > 0 || !compiled.system().results().requirements.is_empty();
+        let interval = times.interval().filter(|_| has_queries);
         let result_query = interval.map(|interval| started.asked(interval, options.pass_bifurcations, &options.cancel));
         let mut motion = started.into_motion(times);
         if options.pass_bifurcations {
@@ -377,7 +378,7 @@ impl Run {
         }
     }
 
-    /// Returns the results, in the order of [`Compiled::results`]. `None` if only some times were requested or the work is cancelled; results have
+    /// Returns the results, in the order of [`Compiled::results`], and the requirements that do not hold. `None` if only some times were requested or the work is cancelled; results have
     /// no values if the motion has stopped. The first call follows the motion once more, later ones return `None`.
     pub fn results(&mut self) -> Option<Answers> {
         let result_query = self.result_query.take()?;
@@ -385,11 +386,13 @@ impl Run {
             let count = self.results;
             return Some(Answers { values: vec![None; count], digits: vec![0; count], ..Answers::default() });
         }
-        let Answers { values, digits, notes, has_all_rows } = result_query.answer()?;
-        let mut diagnostics = Diagnostics::default();
-        diagnostics.extend(notes);
-        let notes = self.backtrace.annotate_all(diagnostics).into_iter().collect();
-        Some(Answers { values, digits, notes, has_all_rows })
+        let mut answers = result_query.answer()?;
+        for list in [&mut answers.notes, &mut answers.failures] {
+            let mut diagnostics = Diagnostics::default();
+            diagnostics.extend(std::mem::take(list));
+            *list = self.backtrace.annotate_all(diagnostics).into_iter().collect();
+        }
+        Some(answers)
     }
 
     /// Records from now on the times at which accelerations jump.

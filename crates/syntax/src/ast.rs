@@ -87,6 +87,7 @@ impl Item {
             ItemKind::Equation { left, right, .. } | ItemKind::Load { force: left, on: right, .. } => {
                 all.extend([left, right]);
             }
+            ItemKind::Requirement(requirement) => all.extend(requirement.formulas()),
             ItemKind::Analysis { from, to, every } => all.extend([from, to, every]),
         }
         all
@@ -220,6 +221,8 @@ pub enum ItemKind {
         /// The unit behind `in`.
         unit: Option<WrittenUnit>,
     },
+    /// `require NAME: A <= EXPR <= B`, `require EXPR == EXPR within EXPR`
+    Requirement(Box<Requirement>),
     /// A declaration with a syntax error.
     Broken {
         /// Names that it may define.
@@ -244,6 +247,37 @@ impl ItemKind {
             _ => None,
         }
     }
+}
+
+/// A requirement: a comparison, or a formula between two bounds.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Requirement {
+    /// Name, if given.
+    pub name: Option<Name>,
+    /// Left of the first comparison.
+    pub first: Expr,
+    /// The comparisons: one, or two.
+    pub rest: Vec<Comparison>,
+    /// The tolerance behind `within`, if given.
+    pub within: Option<Expr>,
+}
+
+impl Requirement {
+    /// Returns its formulas.
+    pub fn formulas(&self) -> impl Iterator<Item = &Expr> {
+        std::iter::once(&self.first).chain(self.rest.iter().map(|comparison| &comparison.right)).chain(&self.within)
+    }
+}
+
+/// A comparison with the formula on its right.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Comparison {
+    /// Operator.
+    pub sign: ComparisonSign,
+    /// Span of the operator.
+    pub span: Span,
+    /// Formula.
+    pub right: Expr,
 }
 
 /// An instance of another mechanism.

@@ -1,8 +1,8 @@
 //! Conversion of the parser's pairs to the tree of declarations.
 
 use super::ast::{
-    Binding, ColumnName, ColumnWord, DrawnPose, Expr, ExprKind, Factor, Feature, FeatureKind, IndexRange, Item,
-    ItemKind, MechanismName, Name, Part, TableRows, UnitFactor, UsedFile, WrittenUnit,
+    Binding, ColumnName, ColumnWord, Comparison, DrawnPose, Expr, ExprKind, Factor, Feature, FeatureKind, IndexRange,
+    Item, ItemKind, MechanismName, Name, Part, Requirement, TableRows, UnitFactor, UsedFile, WrittenUnit,
 };
 use super::grammar::{Grammar, Rule};
 use super::lexer::Token;
@@ -198,6 +198,7 @@ impl Builder<'_> {
                 value: self.next_expr(&mut inner)?,
                 unit: self.printed(inner.next())?,
             },
+            Rule::require => ItemKind::Requirement(Box::new(self.requirement(inner)?)),
             Rule::analysis => ItemKind::Analysis {
                 from: self.next_expr(&mut inner)?,
                 to: self.next_expr(&mut inner)?,
@@ -206,6 +207,30 @@ impl Builder<'_> {
             _ => return Err(self.truncated()),
         };
         Ok(Item { docs, span, ranges, kind })
+    }
+
+    fn requirement<'i>(&self, inner: impl Iterator<Item = Pair<'i, Rule>>) -> Built<Requirement> {
+        let (mut name, mut sign, mut sides, mut signs) = (None, None, Vec::new(), Vec::new());
+        for pair in inner {
+            match pair.as_rule() {
+                Rule::name => name = Some(self.name(&pair)?),
+                Rule::comparison => sign = Some((formula::comparison_sign(&pair), self.span(&pair))),
+                _ => {
+                    signs.push(sign.take());
+                    sides.push(formula::build(self, pair, 0)?);
+                }
+            }
+        }
+        let mut sides = sides.into_iter().zip(signs);
+        let (first, _) = sides.next().ok_or_else(|| self.truncated())?;
+        let (mut rest, mut within) = (Vec::new(), None);
+        for (side, sign) in sides {
+            match sign {
+                Some((sign, span)) => rest.push(Comparison { sign, span, right: side }),
+                None => within = Some(side),
+            }
+        }
+        Ok(Requirement { name, first, rest, within })
     }
 
     fn part<'i>(&self, inner: &mut impl Iterator<Item = Pair<'i, Rule>>) -> Built<Part> {
@@ -500,6 +525,8 @@ fn significant(pair: Pair<'_, Rule>) -> impl Iterator<Item = Pair<'_, Rule>> {
             Rule::name
                 | Rule::word
                 | Rule::expr
+                | Rule::side
+                | Rule::comparison
                 | Rule::paren
                 | Rule::call
                 | Rule::periodic

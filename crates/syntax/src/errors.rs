@@ -375,6 +375,7 @@ fn human(rule: Rule, after_operand: bool, end: &str) -> Cow<'_, str> {
         Rule::name | Rule::use_prefix | Rule::word | Rule::ground_word => "a name",
         Rule::expression_only
         | Rule::expr
+        | Rule::side
         | Rule::conditional
         | Rule::literal
         | Rule::number
@@ -383,7 +384,8 @@ fn human(rule: Rule, after_operand: bool, end: &str) -> Cow<'_, str> {
         | Rule::prefix
         | Rule::kw_if
         | Rule::kw_not => "a formula",
-        Rule::infix => "an operator",
+        Rule::infix | Rule::arithmetic => "an operator",
+        Rule::comparison => "a comparison",
         Rule::paren | Rule::left => "`(`",
         Rule::equals => "`=`",
         Rule::colon => "`:`",

@@ -96,6 +96,18 @@ fn path(builder: &Builder<'_>, pair: Pair<'_, Rule>, depth: usize) -> Built<Expr
     })
 }
 
+/// Returns the comparison that an operator means.
+pub(super) fn comparison_sign(operator: &Pair<'_, Rule>) -> ComparisonSign {
+    match operator.as_str() {
+        "<" => ComparisonSign::Less,
+        "<=" => ComparisonSign::LessEqual,
+        ">" => ComparisonSign::Greater,
+        ">=" => ComparisonSign::GreaterEqual,
+        "==" => ComparisonSign::Equal,
+        _ => ComparisonSign::NotEqual,
+    }
+}
+
 fn within(depth: usize, span: Span) -> Built<()> {
     if depth > DEEPEST { Err(Box::new(errors::too_deep(span, DEEPEST))) } else { Ok(()) }
 }
@@ -152,7 +164,8 @@ struct Row<'a, 'i, I: Iterator<Item = Pair<'i, Rule>>> {
 
 impl<'i, I: Iterator<Item = Pair<'i, Rule>>> Row<'_, 'i, I> {
     fn infix(&mut self, operators: &[&str]) -> Option<Pair<'i, Rule>> {
-        self.tokens.next_if(|pair| pair.as_rule() == Rule::infix && operators.contains(&pair.as_str()))
+        let is_infix = |rule| matches!(rule, Rule::infix | Rule::arithmetic);
+        self.tokens.next_if(|pair| is_infix(pair.as_rule()) && operators.contains(&pair.as_str()))
     }
 
     /// Consumes a prefix operator if it comes next.
@@ -195,14 +208,7 @@ impl<'i, I: Iterator<Item = Pair<'i, Rule>>> Row<'_, 'i, I> {
         let Some(operator) = self.infix(OPERATORS) else {
             return Ok(left);
         };
-        let comparison = match operator.as_str() {
-            "<" => ComparisonSign::Less,
-            "<=" => ComparisonSign::LessEqual,
-            ">" => ComparisonSign::Greater,
-            ">=" => ComparisonSign::GreaterEqual,
-            "==" => ComparisonSign::Equal,
-            _ => ComparisonSign::NotEqual,
-        };
+        let comparison = comparison_sign(&operator);
         let right = self.sum(depth)?;
         if let Some(second) = self.infix(OPERATORS) {
             return Err(Box::new(errors::chained_comparison(

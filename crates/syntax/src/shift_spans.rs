@@ -1,9 +1,9 @@
 //! Shifts the spans of a tree to where its text stands after an edit before it.
 
 use super::ast::{
-    Binding, ColumnName, ColumnWord, ComparisonSign, DrawnPose, Expr, ExprKind, Factor, Feature, FeatureKind,
-    IndexRange, Item, ItemKind, MechanismName, Name, Part, PathSegment, Sign, TableRows, UnitFactor, Window,
-    WrittenUnit,
+    Binding, ColumnName, ColumnWord, Comparison, ComparisonSign, DrawnPose, Expr, ExprKind, Factor, Feature,
+    FeatureKind, IndexRange, Item, ItemKind, MechanismName, Name, Part, PathSegment, Requirement, Sign, TableRows,
+    UnitFactor, Window, WrittenUnit,
 };
 use mechc_text::source::{FileId, Span};
 
@@ -97,6 +97,7 @@ collections!([] Vec<T>, [] Option<T>, [const N: usize] [T; N]);
 without_spans!(bool, f64, i32, String, ColumnWord, ComparisonSign, Factor, Sign);
 
 structures! {
+    Comparison { sign, span, right }
     Binding { name, coordinate, value, span }
     ColumnName { kind, span }
     DrawnPose { at, toward }
@@ -107,6 +108,7 @@ structures! {
     MechanismName { prefix, name }
     Name { text, span }
     Part { name, mechanism, bindings, on, at, mirrored, call_span }
+    Requirement { name, first, rest, within }
     PathSegment { name, indices }
     UnitFactor { name, power, factor, span }
     Window { from, to, span }
@@ -129,6 +131,7 @@ enumerations! {
         Measure { name, value, unit },
         Trace { name, point, unit },
         Result { name, value, unit },
+        Requirement(requirement),
         Broken { names },
         Analysis { from, to, every },
     }

@@ -214,7 +214,7 @@ impl<'a> SyncPoints<'a> {
             "fn" | "curve" => second == "(",
             "joint" | "driver" | "constraint" | "part" | "load" => second == ":",
             // `role` recognizes these by adjacent tokens
-            "gravity" | "mass" => true,
+            "gravity" | "mass" | "require" => true,
             "mechanism" => second == "{",
             "body" => second == "{" || second == "at",
             _ => second == "=" && next != ")",

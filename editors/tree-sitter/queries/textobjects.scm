@@ -5,7 +5,7 @@
 (ground body: (features) @class.inner) @class.outer
 
 [
-  (param) (input) (part) (joint) (driver) (constraint) (gravity) (load) (measure) (trace) (result) (analysis) (table)
+  (param) (input) (part) (joint) (driver) (constraint) (gravity) (load) (measure) (trace) (result) (require) (analysis) (table)
   (point) (axis) (circle) (curve)
 ] @function.outer
 (function value: (_) @function.inner) @function.outer

@@ -203,14 +203,16 @@ impl Scope<'_> {
     /// Returns items for the numbers that the declaration around the cursor may use.
     fn numbers<'i>(&self, items: impl Iterator<Item = &'i Declaration>, cursor: &Cursor<'_>) -> Vec<CompletionItem> {
         let head = cursor.head();
-        let has_time =
-            matches!(head, "input" | "driver" | "load" | "measure" | "trace" | "result" | "constraint" | "part" | "fn");
-        let has_measures = matches!(head, "measure" | "trace" | "result");
+        let has_time = matches!(
+            head,
+            "input" | "driver" | "load" | "measure" | "trace" | "result" | "require" | "constraint" | "part" | "fn"
+        );
+        let has_measures = matches!(head, "measure" | "trace" | "result" | "require");
         let rank = |item: &Declaration| match NameKind::of(item) {
             NameKind::Param => Some(1),
             NameKind::Input => has_time.then_some(1),
             NameKind::Measure => has_measures.then_some(2),
-            NameKind::Result => (head == "result").then_some(2),
+            NameKind::Result => matches!(head, "result" | "require").then_some(2),
             NameKind::Function | NameKind::Table => Some(3),
             _ => None,
         };

@@ -148,7 +148,9 @@ pub(super) fn symbol_kind(kind: NameKind) -> lsp::SymbolKind {
         NameKind::Prefix => lsp::SymbolKind::Namespace,
         NameKind::Param => lsp::SymbolKind::Constant,
         NameKind::Function => lsp::SymbolKind::Function,
-        NameKind::Argument | NameKind::Measure | NameKind::Trace | NameKind::Result => lsp::SymbolKind::Variable,
+        NameKind::Argument | NameKind::Measure | NameKind::Trace | NameKind::Result | NameKind::Requirement => {
+            lsp::SymbolKind::Variable
+        }
         NameKind::Table => lsp::SymbolKind::Array,
         NameKind::Input | NameKind::Driver | NameKind::Load => lsp::SymbolKind::Event,
         NameKind::Ground | NameKind::Body => lsp::SymbolKind::Class,

@@ -19,6 +19,7 @@ pub(super) enum Entity {
     /// The ground of a part, in that part.
     Ground,
     Result(usize),
+    Requirement,
     /// A declaration that does not follow the grammar, which has been reported.
     Broken,
 }
@@ -40,6 +41,7 @@ impl Entity {
             Entity::Part(_) => "a part",
             Entity::Ground => "the ground of a part",
             Entity::Result(_) => "a result",
+            Entity::Requirement => "a requirement",
             Entity::Broken => "a declaration that cannot be read",
         }
     }
@@ -52,6 +54,7 @@ impl Entity {
             | Entity::Measure(_)
             | Entity::Trace
             | Entity::Result(_)
+            | Entity::Requirement
             | Entity::Broken => SubstituteKind::Value,
             Entity::Function(_) | Entity::Table(_) => SubstituteKind::Function,
             Entity::Body(_) | Entity::Part(_) | Entity::Ground => SubstituteKind::Body,

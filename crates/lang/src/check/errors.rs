@@ -22,7 +22,8 @@ pub use parts::*;
 pub use points::*;
 pub use repetition::*;
 pub use results::{
-    REDUCES, derivative_of_result, outside_reduction, reduction_in, result_in, signed_bound, variation_of_result,
+    REDUCES, derivative_of_result, equal_without_tolerance, negative_tolerance, no_bound, outside_reduction,
+    reduction_in, requirement_of_both, result_in, signed_bound, tolerance_of_no_equality, variation_of_result,
     window_ends_early, window_of_no_reduction,
 };
 pub use tables::*;

@@ -79,6 +79,7 @@ pub fn name_of(item: &Item) -> Option<&Name> {
         | ItemKind::Measure { name, .. }
         | ItemKind::Trace { name, .. }
         | ItemKind::Result { name, .. } => Some(name),
+        ItemKind::Requirement(requirement) => requirement.name.as_ref(),
         ItemKind::Part(part) => Some(&part.name),
         ItemKind::Ground { .. } | ItemKind::Gravity { .. } | ItemKind::Broken { .. } | ItemKind::Analysis { .. } => {
             None

@@ -45,6 +45,7 @@ mod poses;
 mod profiles;
 mod quantities;
 mod repetition;
+mod requirements;
 mod results;
 mod samples;
 mod suggest;
@@ -269,6 +270,7 @@ impl<'a> Checker<'a> {
         self.loads();
         self.analysis();
         self.results();
+        self.requirements();
         self.reject_derivatives_of_forces();
         self.warn_of_plain_lengths();
         if self.model.bodies.is_empty() && !self.holds_broken() {

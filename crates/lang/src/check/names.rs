@@ -113,6 +113,10 @@ impl Checker<'_> {
                 ItemKind::Trace { name, .. } => (name, Entity::Trace),
                 ItemKind::Part(part) => (&part.name, Entity::Part(next(&mut count.parts))),
                 ItemKind::Result { name, .. } => (name, Entity::Result(next(&mut count.results))),
+                ItemKind::Requirement(requirement) => match &requirement.name {
+                    Some(name) => (name, Entity::Requirement),
+                    None => continue,
+                },
                 ItemKind::Broken { names, .. } => {
                     self.collect_broken(names);
                     continue;

@@ -24,6 +24,8 @@ pub struct CheckOptions {
     /// Present if results are differentiated by these names too: for the start and the end of the analysis, true if it is that of the text,
     /// which may depend on parameters.
     pub slopes: Option<[bool; 2]>,
+    /// True if requirements are to be judged. Otherwise they are checked, and the model holds none.
+    pub judges_requirements: bool,
 }
 
 /// The override of a parameter: `--set crank_length=60mm`.

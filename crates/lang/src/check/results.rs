@@ -4,9 +4,10 @@ use super::elements::measure_context;
 use super::entity::Entity;
 use super::formula::{Context, Dim, Value};
 use super::{Checker, errors};
-use crate::model::{Dimension, GuardKind, Named, Outcome, Reduction, ReductionKind, Units};
+use crate::model::{Condition, Dimension, GuardKind, Named, Outcome, Reduction, ReductionKind, Units};
 use mechc_expr::{ExprId, Symbol};
 use mechc_syntax::ast::{Expr, ItemKind, Name, Window, WrittenUnit};
+use mechc_text::source::Span;
 use mechc_text::vocabulary::ReductionWord;
 
 /// The state of a result.
@@ -146,14 +147,26 @@ impl Checker<'_> {
             ReductionKind::Integral => of.dim.map(|dimension| dimension.times(Dimension::TIME)),
             _ => of.dim.of_term(),
         };
-        let is_same = |other: &Reduction| other.kind == kind && other.of == of.id && other.window == window;
+        Some(Value { id: self.reduction_symbol(kind, of.id, window, e.span, &conditions), dim })
+    }
+
+    /// Returns the symbol of a reduction, which is added unless it exists.
+    pub(super) fn reduction_symbol(
+        &mut self,
+        kind: ReductionKind,
+        of: ExprId,
+        window: [Option<ExprId>; 2],
+        span: Span,
+        conditions: &[Condition],
+    ) -> ExprId {
+        let is_same = |other: &Reduction| other.kind == kind && other.of == of && other.window == window;
         let existing = self.model.reductions.iter().position(is_same);
         let k = existing.unwrap_or_else(|| {
-            let order = self.derivative_order(of.id);
-            self.model.reductions.push(Reduction { kind, span: e.span, of: of.id, window, order, conditions });
+            let (order, conditions) = (self.derivative_order(of), conditions.to_vec());
+            self.model.reductions.push(Reduction { kind, span, of, window, order, conditions });
             self.model.reductions.len() - 1
         });
-        Some(Value { id: self.name_symbol(Named::Reduction(k as u32), 0), dim })
+        self.name_symbol(Named::Reduction(k as u32), 0)
     }
 
     /// Returns whether a formula is one number for the whole analysis: it holds reductions, and nothing else that varies.

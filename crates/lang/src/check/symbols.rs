@@ -72,6 +72,8 @@ pub enum NameKind {
     Part,
     /// `result`
     Result,
+    /// `require`
+    Requirement,
     /// A declaration that cannot be parsed.
     Broken,
 }
@@ -95,6 +97,7 @@ impl NameKind {
             ItemKind::Measure { .. } => NameKind::Measure,
             ItemKind::Trace { .. } => NameKind::Trace,
             ItemKind::Result { .. } => NameKind::Result,
+            ItemKind::Requirement(_) => NameKind::Requirement,
             ItemKind::Broken { .. } | ItemKind::Gravity { .. } | ItemKind::Analysis { .. } => NameKind::Broken,
         }
     }
@@ -272,6 +275,7 @@ impl Walk<'_> {
             ItemKind::Trace { name, .. } => (name, NameKind::Trace),
             ItemKind::Part(part) => (&part.name, NameKind::Part),
             ItemKind::Result { name, .. } => (name, NameKind::Result),
+            ItemKind::Requirement(requirement) => (requirement.name.as_ref()?, NameKind::Requirement),
             ItemKind::Ground { features } => {
                 let word = Span { end: item.span.start + "ground".len() as u32, ..item.span };
                 let name = Name { text: "ground".to_owned(), span: word };
@@ -334,6 +338,7 @@ impl Walk<'_> {
                     self.compound(unit);
                 }
             }
+            ItemKind::Requirement(requirement) => requirement.formulas().for_each(|side| self.formula(side, plain)),
             ItemKind::Function { argument, value, .. } => {
                 let declared = self.declare(argument, NameKind::Argument, item.span, id);
                 self.formula(value, Scope { argument: Some((&argument.text, declared)), ..plain });

@@ -86,7 +86,7 @@ fn lower_whole(model: &Mechanism, options: &LowerOptions) -> ConstraintSystem {
     let mut system = ConstraintSystem::of(written, with_jerk);
     // Inputs and results follow the equations, so that neither changes the ids of the equations' expressions.
     lowering.add_inputs(&mut system);
-    if !model.outcomes.is_empty() {
+    if !(model.outcomes.is_empty() && model.requirements.is_empty()) {
         lowering.add_results(&mut system);
     }
     lowering.add_features(&mut system);

@@ -32,7 +32,28 @@ impl Lowering<'_> {
         }
         let holds_variations = reductions.iter().any(|reduction| self.graph.dependence(reduction.of).is_varied());
         let variations = self.variations.take().filter(|_| holds_variations).map(Box::new);
-        Results { reductions, outcomes, variations, variation_conditions: Vec::new() }
+        let requirements = model.requirements.iter().map(|requirement| self.requirement(requirement)).collect();
+        Results { reductions, outcomes, requirements, variations, variation_conditions: Vec::new() }
+    }
+
+    fn requirement(&mut self, requirement: &crate::model::Requirement) -> ir::Requirement {
+        let bounds = requirement.bounds.iter().map(|bound| ir::Bound {
+            is_upper: bound.is_upper,
+            excess: self.formula(bound.excess),
+            value: self.formula(bound.value),
+            bound: self.formula(bound.bound),
+            times: bound.times.map(|times| ir::RequirementTimes {
+                first: self.formula(times.first),
+                worst: self.formula(times.worst),
+            }),
+        });
+        ir::Requirement {
+            name: requirement.declared.name.clone(),
+            span: requirement.declared.span,
+            formula: requirement.formula.clone(),
+            bounds: bounds.collect(),
+            units: units(&requirement.units),
+        }
     }
 
     /// Returns the derivatives of results by the variables of columns: those of the first result, then those of the second, and so on.

@@ -27,7 +27,7 @@ pub use parts::{Part, PartDerivative};
 pub use placement::Placement;
 pub use quantities::{Direction, Quantity};
 pub use quotients::quotient;
-pub use results::{Outcome, Reduction, ReductionKind};
+pub use results::{Bound, Outcome, Reduction, ReductionKind, Requirement, RequirementTimes};
 
 use mechc_expr::{ExprId, Graph, Symbol};
 use mechc_text::source::Span;
@@ -144,7 +144,9 @@ pub struct Mechanism {
     pub traces: Vec<Trace>,
     /// Results, in order of declaration.
     pub outcomes: Vec<Outcome>,
-    /// The reductions that results use, by the number of their symbol.
+    /// The requirements that are judged, in order of declaration.
+    pub requirements: Vec<Requirement>,
+    /// The reductions that results and requirements use, by the number of their symbol.
     pub reductions: Vec<Reduction>,
     /// Present if results are differentiated by the variables of `by` too: the formulas of the analysis' start and end, if they depend on
     /// these variables.
@@ -209,6 +211,7 @@ impl Mechanism {
             measures: Vec::new(),
             traces: Vec::new(),
             outcomes: Vec::new(),
+            requirements: Vec::new(),
             reductions: Vec::new(),
             slopes: None,
             named_before_results: 0,
@@ -225,6 +228,7 @@ impl Mechanism {
         self.loads.clear();
         self.gravity = None;
         self.outcomes.clear();
+        self.requirements.clear();
         self.reductions.clear();
         self.analysis = None;
         self.slopes = None;

@@ -32,6 +32,43 @@ pub struct Reduction {
     pub conditions: Vec<Condition>,
 }
 
+/// A requirement: bounds of a number of the whole analysis, or of a quantity at all times of it.
+#[derive(Clone, Debug)]
+pub struct Requirement {
+    /// The name, or else what it compares, and the location of the declaration.
+    pub declared: Declared,
+    /// The bounded formula, as written.
+    pub formula: String,
+    /// The bounds.
+    pub bounds: Vec<Bound>,
+    /// The units in which values are reported.
+    pub units: Units,
+}
+
+/// A bound of a requirement; all formulas are over parameters and reductions.
+#[derive(Clone, Debug)]
+pub struct Bound {
+    /// True for an upper bound.
+    pub is_upper: bool,
+    /// How far it is exceeded (SI): at most 0 if it holds.
+    pub excess: ExprId,
+    /// The bounded value, where it exceeds the bound most.
+    pub value: ExprId,
+    /// The bound there.
+    pub bound: ExprId,
+    /// The times at which a quantity exceeds it; `None` for one number of the whole analysis.
+    pub times: Option<RequirementTimes>,
+}
+
+/// The times (s) at which a quantity exceeds a bound, as formulas of reductions.
+#[derive(Clone, Copy, Debug)]
+pub struct RequirementTimes {
+    /// The first such time.
+    pub first: ExprId,
+    /// The first time at which it exceeds the bound most.
+    pub worst: ExprId,
+}
+
 /// The kinds of reductions.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub enum ReductionKind {

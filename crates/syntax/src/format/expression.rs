@@ -248,7 +248,7 @@ fn write_exponent(text: &mut String, e: &Expr) {
     }
 }
 
-fn comparison_sign(comparison: ComparisonSign) -> &'static str {
+pub(super) fn comparison_sign(comparison: ComparisonSign) -> &'static str {
     match comparison {
         ComparisonSign::Less => "<",
         ComparisonSign::LessEqual => "<=",

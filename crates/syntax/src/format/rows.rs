@@ -56,6 +56,7 @@ pub(super) enum Group {
     Loads,
     Measures,
     Results,
+    Requirements,
     Analysis,
     Features,
     Masses,
@@ -78,6 +79,7 @@ impl Group {
             ItemKind::Load { .. } => Group::Loads,
             ItemKind::Measure { .. } | ItemKind::Trace { .. } => Group::Measures,
             ItemKind::Result { .. } => Group::Results,
+            ItemKind::Requirement(_) => Group::Requirements,
             ItemKind::Analysis { .. } => Group::Analysis,
             ItemKind::Broken { .. } => return None,
         })

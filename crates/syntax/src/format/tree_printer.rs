@@ -1,10 +1,10 @@
 //! Prints a tree that has no text, as of an import, without layout: a line for each declaration, and a blank line where their kind changes.
 
-use super::expression::expression;
+use super::expression::{comparison_sign, expression};
 use super::rows::Group;
 use crate::ast::{
-    Binding, ColumnName, ColumnWord, DrawnPose, Expr, ExprKind, Factor, Feature, FeatureKind, File, IndexRange, Item,
-    ItemKind, Mechanism, Name, Part, TableRows, UsedFile, WrittenUnit,
+    Binding, ColumnName, ColumnWord, Comparison, DrawnPose, Expr, ExprKind, Factor, Feature, FeatureKind, File,
+    IndexRange, Item, ItemKind, Mechanism, Name, Part, Requirement, TableRows, UsedFile, WrittenUnit,
 };
 
 /// Prints a file so that it parses to the same tree, apart from locations and redundant parentheses.
@@ -76,10 +76,20 @@ fn item(item: &Item) -> String {
         ItemKind::Result { name, value, unit } => {
             format!("result {} {}{}", named(name), defined(value), in_unit(unit.as_ref()))
         }
+        ItemKind::Requirement(of) => format!("require {}", requirement(of)),
         ItemKind::Analysis { from, to, every } => {
             format!("analysis from {} to {} every {}", expression(from), expression(to), expression(every))
         }
     }
+}
+
+fn requirement(of: &Requirement) -> String {
+    let name = of.name.as_ref().map_or_else(String::new, |name| format!("{}: ", name.text));
+    let mut text = format!("{name}{}", expression(&of.first));
+    for Comparison { sign, right, .. } in &of.rest {
+        text += &format!(" {} {}", comparison_sign(*sign), expression(right));
+    }
+    text + &of.within.as_ref().map_or_else(String::new, |within| format!(" within {}", expression(within)))
 }
 
 /// Returns `MECHANISM(BINDING, …) on BODY at (x, y, phi) mirrored`.

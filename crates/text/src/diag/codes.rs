@@ -105,6 +105,7 @@ catalogue! {
         E0418 Error "a mass or moment of inertia below zero"
         E0419 Error "a load whose work is no energy"
         E0422 Error "a time of a result that is not within the analysis, or a window that ends before it begins"
+        E0423 Error "a requirement that cannot be judged"
         W0401 Warning "an angle that was probably meant in degrees"
         W0402 Warning "a length that has lost its unit"
         W0403 Warning "gravity that does not count"
@@ -134,6 +135,7 @@ catalogue! {
         E0610 Error "a position that is too near to a singular one"
         E0611 Error "a redundant equation that ceases to hold"
         E0612 Error "a way to the inputs given that ends before"
+        E0613 Error "a requirement that does not hold"
         W0601 Warning "an acceleration that jumps"
         W0602 Warning "a bifurcation that was passed"
         W0603 Warning "a measure without a value"
@@ -142,6 +144,7 @@ catalogue! {
         N0601 Note "the estimates were far from the assembled start"
         N0604 Note "a result without a value"
         N0605 Note "a result of a part of the analysis, or of few digits"
+        N0606 Note "requirements that are not judged"
     }
     "the command line and files" {
         E0701 Error "a file that cannot be read"

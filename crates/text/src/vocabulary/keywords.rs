@@ -94,7 +94,7 @@ pub fn is_feature(word: &str) -> bool {
 /// Returns whether a name follows the keyword of a declaration.
 #[must_use]
 pub fn declares_name(keyword: &str) -> bool {
-    !matches!(keyword, "ground" | "analysis" | "gravity" | "mass")
+    !matches!(keyword, "ground" | "analysis" | "gravity" | "mass" | "require")
 }
 
 const fn keyword(
@@ -390,6 +390,20 @@ pub static KEYWORDS: &[Keyword] = &[
     ),
     keyword(
         Role::Opener,
+        "require",
+        &["require A <= FORMULA <= B", "require FORMULA == F within D", "require NAME: FORMULA <= B"],
+        "a bound that must hold",
+        "Over results and reductions, which are one number, or over measures and quantities, and then at all times of the analysis; not \
+         over both. `mechc run` judges it, and says what the value is and, of quantities, at which time it first fails; the exit code is \
+         1 then. Times at which a formula has no value do not count. The word begins a declaration only where one begins, and is a \
+         name elsewhere.",
+        Example::Arm(
+            "result reach = max(x(arm.tip))\nrequire reach <= 101 mm\nrequire 99 mm <= distance(ground.O, arm.tip) <= 101 mm\n\
+             analysis from 0 s to 1 s every 10 ms",
+        ),
+    ),
+    keyword(
+        Role::Opener,
         "input",
         &["input NAME = FORMULA"],
         "a signal that comes from outside, as from an encoder",
@@ -485,6 +499,14 @@ driver motor: rotation(pivot) = turn",
         "stands before the time from one row to the next",
         "It is positive.",
         Example::Arm("analysis from 0 s to 2 s every 10 ms"),
+    ),
+    keyword(
+        Role::Separator,
+        "within",
+        &["require FORMULA == F within D"],
+        "stands before the tolerance of an equality that is required",
+        "It is not negative.",
+        Example::Arm("require distance(ground.O, arm.tip) == 100 mm within 1 um\nanalysis from 0 s to 1 s every 10 ms"),
     ),
     keyword(
         Role::Separator,

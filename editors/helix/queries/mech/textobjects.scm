@@ -5,7 +5,7 @@
 (ground body: (features) @class.inside) @class.around
 
 [
-  (param) (input) (part) (joint) (driver) (constraint) (gravity) (load) (measure) (trace) (result) (analysis) (table)
+  (param) (input) (part) (joint) (driver) (constraint) (gravity) (load) (measure) (trace) (result) (require) (analysis) (table)
   (point) (axis) (circle) (curve)
 ] @function.around
 (function value: (_) @function.inside) @function.around

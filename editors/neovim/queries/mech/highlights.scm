@@ -11,8 +11,8 @@
 
 [
   "use" "as" "mechanism" "param" "fn" "table" "input" "part" "ground" "body" "point" "axis" "circle" "curve" "joint" "driver"
-  "constraint" "mass" "gravity" "load" "measure" "trace" "result" "analysis" "periodic" "spline" "columns" "on" "at" "toward"
-  "mirrored" "along" "to" "radius" "inertia" "from" "every" "in"
+  "constraint" "mass" "gravity" "load" "measure" "trace" "result" "require" "analysis" "periodic" "spline" "columns" "on" "at" "toward"
+  "mirrored" "along" "to" "radius" "inertia" "from" "every" "in" "within"
 ] @keyword
 ["if" "then" "else"] @keyword.conditional
 ["and" "or" "not"] @keyword.operator
@@ -39,6 +39,7 @@
   (load name: (identifier) @variable)
   (trace name: (identifier) @variable)
   (result name: (identifier) @variable)
+  (require name: (identifier) @variable)
 ]
 (point name: (identifier) @property)
 (axis name: (identifier) @property)

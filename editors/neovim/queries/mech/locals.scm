@@ -31,6 +31,7 @@
   (load name: (identifier) @local.definition.var)
   (trace name: (identifier) @local.definition.var)
   (result name: (identifier) @local.definition.var)
+  (require name: (identifier) @local.definition.var)
 ]
 
 (reference) @local.reference

@@ -145,6 +145,7 @@ fn rule_of(kind: &ItemKind) -> Option<&'static str> {
         ItemKind::Measure { .. } => "measure",
         ItemKind::Trace { .. } => "trace",
         ItemKind::Result { .. } => "result",
+        ItemKind::Requirement(_) => "require",
         ItemKind::Analysis { .. } => "analysis",
         ItemKind::Broken { .. } => return None,
     })

@@ -1,8 +1,8 @@
 //! Diagnostics of results without a value, with gaps, or with few certain digits.
 
 use super::interval_search::NoValueCause;
-use crate::analysis::explain::errors::at;
-use mechc_ir::{Outcome, Reduction};
+use crate::analysis::explain::errors::{at, short};
+use mechc_ir::{Bound, Outcome, Reduction, Requirement};
 use mechc_text::diag::{Code, Diagnostic};
 
 /// Reports a result without a value: because of a reduction in its formula (`cause`), or else because the formula itself is not finite.
@@ -78,4 +78,40 @@ pub fn at_outside(reduction: &Reduction, t: f64, [from, to]: [f64; 2]) -> Diagno
     Diagnostic::new(Code::E0422, format!("{} is outside the analysis", at(t)))
         .at(reduction.span, format!("the analysis goes from {} to {}", at(from), at(to)))
         .datum("t", t)
+}
+
+/// Reports a requirement whose bound is exceeded: with the value and the bound there, and for a quantity the first time (s) and that of the
+/// largest excess.
+pub fn requirement_fails(
+    requirement: &Requirement,
+    bound: &Bound,
+    values: [f64; 2],
+    times: Option<[f64; 2]>,
+) -> Diagnostic {
+    let Requirement { name, span, formula, units, .. } = requirement;
+    let [a, b, c] = units.scale;
+    let in_unit = |si: f64| match units.printed[0].as_str() {
+        "1" => short(si),
+        unit => format!("{} {unit}", short(si / a * b / c)),
+    };
+    let [value, limit] = values.map(in_unit);
+    let side = if bound.is_upper { "more" } else { "less" };
+    let reached = format!("`{formula}` is {value}, {side} than {limit}");
+    let diagnostic = match times {
+        None => Diagnostic::new(Code::E0613, format!("the requirement `{name}` does not hold")).at(*span, reached),
+        Some([first, worst]) => {
+            Diagnostic::new(Code::E0613, format!("the requirement `{name}` does not hold, first at {}", at(first)))
+                .at(*span, format!("{reached}, at {}", at(worst)))
+                .datum("t", first)
+        }
+    };
+    diagnostic.datum("value", values[0]).datum("bound", values[1])
+}
+
+/// Reports a requirement whose value does not exist.
+pub fn requirement_without_value(requirement: &Requirement, cause: Option<NoValueCause>) -> Diagnostic {
+    let Requirement { name, span, formula, .. } = requirement;
+    let label = cause.map_or_else(|| "infinite or undefined".to_owned(), |cause| format!("see {}", at(cause.t())));
+    Diagnostic::new(Code::E0613, format!("the requirement `{name}` does not hold: `{formula}` has no value"))
+        .at(*span, label)
 }

@@ -38,7 +38,7 @@ use interval_search::NoValueCause;
 use magnitudes::Largest;
 use mechc_expr::{ExprId, Graph, Node, Symbol};
 use mechc_ir::structure::Determined;
-use mechc_ir::{ConstraintSystem, Outcome, Reduction, ReductionKind};
+use mechc_ir::{ConstraintSystem, Reduction, ReductionKind, Requirement};
 use mechc_text::cancel::Cancel;
 use mechc_text::diag::{Diagnostic, Diagnostics};
 use reductions::FormulaReductions;
@@ -93,6 +93,8 @@ pub struct Answers {
     pub digits: Vec<u32>,
     /// Notes on results without a value, with gaps or with few certain digits.
     pub notes: Vec<Diagnostic>,
+    /// Requirements that do not hold.
+    pub failures: Vec<Diagnostic>,
     /// True if the motion has a row at any time: it was followed to its end, never close to a singular position, and has no forces.
     pub has_all_rows: bool,
 }
@@ -310,7 +312,7 @@ impl Analysis {
             values: vec![None; outcomes.len()],
             digits: vec![0; outcomes.len()],
             notes: notes.into_iter().collect(),
-            has_all_rows: false,
+            ..Answers::default()
         }
     }
 
@@ -329,10 +331,9 @@ impl Analysis {
         value_of(system.graph(), formula, unknown_is_false, |k| system.params()[k as usize].value, reduction)
     }
 
-    /// Returns the estimate of an outcome, with an error bound from those of its reductions. It has no value if it divides by a value at a time that
+    /// Returns the estimate of a formula of reductions, with an error bound from theirs. It has no value if it divides by a value at a time that
     /// cannot be distinguished from zero: the error of that changes it by half or more, and out of proportion.
-    fn estimate(&self, outcome: &Outcome, needed: &[usize]) -> Estimate {
-        let (formula, is_false) = (outcome.value, outcome.unknown_is_false);
+    fn estimate(&self, formula: ExprId, is_false: bool, needed: &[usize]) -> Estimate {
         let value = self.value(formula, is_false);
         let mut error = 0.0;
         for &k in needed {
@@ -356,7 +357,7 @@ impl Analysis {
         let mut answers = Answers { has_all_rows, ..Answers::default() };
         for outcome in &system.results().outcomes {
             let needed = needed(system.graph(), outcome.value);
-            let estimate = self.estimate(outcome, &needed);
+            let estimate = self.estimate(outcome.value, outcome.unknown_is_false, &needed);
             let value = estimate.value;
             if !value.is_finite() {
                 let cause = needed.into_iter().find_map(|k| self.estimates[k].and_then(Result::err));
@@ -376,7 +377,29 @@ impl Analysis {
                 answers.notes.push(errors::result_with_few_digits(outcome, digits));
             }
         }
+        answers.failures =
+            system.results().requirements.iter().filter_map(|requirement| self.failure(requirement)).collect();
         answers
+    }
+
+    /// Returns the error for a requirement if one of its bounds is exceeded by more than the error of the values, or has no value.
+    fn failure(&self, requirement: &Requirement) -> Option<Diagnostic> {
+        let system = self.system();
+        let value = |formula: ExprId| self.value(formula, false);
+        requirement.bounds.iter().find_map(|bound| {
+            let needed = needed(system.graph(), bound.excess);
+            let excess = self.estimate(bound.excess, false, &needed);
+            if !excess.value.is_finite() {
+                let cause = needed.into_iter().find_map(|k| self.estimates[k].and_then(Result::err));
+                // moments without a value do not count, and there are no others
+                let is_without_moments = matches!(cause, Some(NoValueCause::Nowhere(_))) && bound.times.is_some();
+                return (!is_without_moments).then(|| errors::requirement_without_value(requirement, cause));
+            }
+            (excess.value > excess.error).then(|| {
+                let times = bound.times.map(|times| [value(times.first), value(times.worst)]);
+                errors::requirement_fails(requirement, bound, [value(bound.value), value(bound.bound)], times)
+            })
+        })
     }
 }
 

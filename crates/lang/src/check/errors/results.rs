@@ -1,7 +1,7 @@
 //! Diagnostics of results and reductions.
 
-use mechc_syntax::ast::Name;
-use mechc_text::diag::{Code, Diagnostic, readable};
+use mechc_syntax::ast::{ComparisonSign, Name};
+use mechc_text::diag::{Applicability, Code, Diagnostic, Fix, readable};
 use mechc_text::source::Span;
 use mechc_text::vocabulary::ReductionWord;
 
@@ -67,4 +67,48 @@ pub fn variation_of_result(span: Span) -> Diagnostic {
     Diagnostic::new(Code::E0310, "a result has no derivative by an input or parameter")
         .at(span, "holds a number of the whole analysis")
         .help("take the derivative inside the reduction, or run it with another value: `--set`")
+}
+
+/// A requirement over results as well as over what changes with time.
+pub fn requirement_of_both(moving: Span, reduced: Span) -> Diagnostic {
+    Diagnostic::new(Code::E0423, "a requirement is over results or over quantities, not over both")
+        .at(moving, "changes with time")
+        .also(reduced, "one number for the whole analysis")
+        .help("reduce what changes with time, `max(e)`, or leave reductions and results out")
+}
+
+/// An equality without a tolerance.
+pub fn equal_without_tolerance(sign: Span, wanted: Span, text: &str) -> Diagnostic {
+    Diagnostic::new(Code::E0423, "an equality needs a tolerance")
+        .at(sign, "computed numbers are hardly ever equal")
+        .help(format!("say how near it must come: `== {text} within TOLERANCE`"))
+        .also(wanted, "how near must it come?")
+}
+
+/// `within` behind another comparison than `==`.
+pub fn tolerance_of_no_equality(span: Span) -> Diagnostic {
+    Diagnostic::new(Code::E0423, "`within` belongs to an equality")
+        .at(span, "a tolerance of a bound")
+        .help("write `e == F within D`, or add the tolerance to the bound")
+}
+
+/// A tolerance below zero.
+pub fn negative_tolerance(span: Span) -> Diagnostic {
+    Diagnostic::new(Code::E0423, "a tolerance is not negative").at(span, "below zero")
+}
+
+/// Comparisons that set no bound: `<`, `!=`, or two that do not enclose a formula.
+pub fn no_bound(sign: ComparisonSign, at: Span) -> Diagnostic {
+    let diagnostic = Diagnostic::new(Code::E0423, "this comparison sets no bound");
+    let closed = match sign {
+        ComparisonSign::Less => "<=",
+        ComparisonSign::Greater => ">=",
+        _ => {
+            return diagnostic
+                .at(at, "not one of the forms of a requirement")
+                .help("write `A <= e <= B`, `e <= B`, `e >= A`, or `e == F within D`");
+        }
+    };
+    let words = format!("a bound may be reached: `{closed}`");
+    diagnostic.at(at, "excludes the bound itself").fix(Fix::replace(at, closed, words, Applicability::Always))
 }

@@ -45,6 +45,18 @@ impl Expander<'_, '_> {
             ItemKind::Result { name, value, unit } => {
                 ItemKind::Result { name: renamed(name), value: self.formula(value, numbers)?, unit: unit.clone() }
             }
+            ItemKind::Requirement(requirement) => {
+                let ast::Requirement { name, first, rest, within } = &**requirement;
+                let side = |side: &ast::Comparison| {
+                    Ok(ast::Comparison { right: self.formula(&side.right, numbers)?, ..side.clone() })
+                };
+                ItemKind::Requirement(Box::new(ast::Requirement {
+                    name: name.clone(),
+                    rest: rest.iter().map(side).collect::<Expanded<_>>()?,
+                    first: self.formula(first, numbers)?,
+                    within: within.as_ref().map(|within| self.formula(within, numbers)).transpose()?,
+                }))
+            }
             ItemKind::Ground { features } => ItemKind::Ground { features: self.features(features, numbers)? },
             ItemKind::Body { name, pose, features } => ItemKind::Body {
                 name: renamed(name),
