@@ -78,8 +78,8 @@ impl Checker<'_> {
         let dimension = sides.iter().map(|(_, value)| value.dim.settled()).reduce(Dimension::marked_by)?;
         let units = self.units_of_sides(&sides, dimension);
         let text = self.sources.text(requirement_text(requirement));
-        let name = requirement.name.as_ref().map_or(text, |name| &name.text);
-        let declared = Declared { name: format!("{}{name}", self.address.path), span };
+        let named = requirement.name.as_ref().map(|name| format!("{}{}", self.address.path, name.text));
+        let declared = Declared { name: named.unwrap_or_else(|| text.to_owned()), span };
         let bounds = bounds.into_iter().map(|(is_upper, bound)| {
             let graph = &mut self.model.graph;
             let excess = if is_upper { graph.sub(value.id, bound) } else { graph.sub(bound, value.id) };
