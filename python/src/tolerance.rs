@@ -79,7 +79,7 @@ fn compute(
     let tolerances = tolerancing.tolerances();
     let quantity = |(k, of): (usize, &OutputSensitivity)| {
         let deviation = of.deviation(tolerances, normal);
-        let tried = verified.as_ref().zip(deviation.as_ref());
+        let tried = verified.as_ref().filter(|_| of.is_verifiable).zip(deviation.as_ref());
         let is_linear = tried.map(|(verified, deviation)| verified.is_linear(k, of, deviation));
         Deviation {
             name: of.name.clone(),

@@ -43,7 +43,8 @@ impl ToleranceTable {
 
     /// Returns whether the verified range agrees with the derivatives; `None` if it was not verified.
     fn is_linear(&self, k: usize, deviation: Option<&Deviation>) -> Option<bool> {
-        Some(self.verified.as_ref()?.is_linear(k, &self.affected[k], deviation?))
+        let verified = self.verified.as_ref().filter(|_| self.affected[k].is_verifiable)?;
+        Some(verified.is_linear(k, &self.affected[k], deviation?))
     }
 
     /// Formats the readable table.
@@ -227,6 +228,12 @@ impl ToleranceTable {
             text += &format!(
                 "{count} of them did not run on this branch, and are not in the table; the first ({status}): {}\n",
                 command(set)
+            );
+        }
+        for of in self.affected.iter().filter(|of| !of.is_verifiable) {
+            text += &format!(
+                "`{}` is not verified: it is differentiated by what a param follows that has values of its own there\n",
+                of.name
             );
         }
         for (of, missing) in self.affected.iter().zip(&verified.missing) {

@@ -36,6 +36,9 @@ impl Graph {
             let node = self.node(id);
             let derivative = match node {
                 Node::Symbol(symbol) => direction(self, symbol),
+                Node::Select(..) if self.guarded_product(id).is_some() => {
+                    self.guarded_product_derivative(id, &derivatives)
+                }
                 Node::Select(condition, a, b) => {
                     let (da, db) = (derivatives.get(&a).copied(), derivatives.get(&b).copied());
                     self.select_derivative(condition, da, db)
@@ -162,6 +165,43 @@ impl Graph {
             });
         }
         sum
+    }
+
+    /// Returns `c · a`, which is 0 where `c` is 0 even if `a` has a pole there: `n · xⁿ⁻¹` for `n = 0` at `x = 0`. The test is needed only
+    /// for a factor that is not a number and stays the same along the motion.
+    fn multiply_guarded(&mut self, c: ExprId, a: ExprId) -> ExprId {
+        let product = self.mul(c, a);
+        if self.as_const(c).is_some() || !self.dependence(c).is_constant() {
+            return product;
+        }
+        let zero = self.constant(0.0);
+        let is_zero = self.compare(Comparison::Equal, c, zero);
+        self.select(is_zero, zero, product)
+    }
+
+    /// Returns the factors of a product that [`Graph::multiply_guarded`] has made.
+    fn guarded_product(&self, id: ExprId) -> Option<[ExprId; 2]> {
+        let Node::Select(condition, zero, product) = self.node(id) else { return None };
+        let Node::Compare(Comparison::Equal, c, other) = self.node(condition) else { return None };
+        let Node::Mul(a, b) = self.node(product) else { return None };
+        let is_guarded = self.is_zero(zero) && self.is_zero(other) && self.dependence(c).is_constant();
+        match c {
+            _ if !is_guarded => None,
+            c if c == a => Some([c, b]),
+            c if c == b => Some([c, a]),
+            _ => None,
+        }
+    }
+
+    /// Returns the derivative of a guarded product, whose branches are those of one product.
+    fn guarded_product_derivative(&mut self, id: ExprId, derivatives: &FxHashMap<ExprId, ExprId>) -> Option<ExprId> {
+        let [c, a] = self.guarded_product(id)?;
+        let by_factor = derivatives.get(&c).map(|&slope| self.mul(slope, a));
+        let by_other = derivatives.get(&a).map(|&slope| self.multiply_guarded(c, slope));
+        match (by_factor, by_other) {
+            (Some(one), Some(other)) => Some(self.add(one, other)),
+            (one, other) => one.or(other),
+        }
     }
 
     fn select_derivative(&mut self, condition: ExprId, a: Option<ExprId>, b: Option<ExprId>) -> Option<ExprId> {
@@ -314,7 +354,7 @@ impl Graph {
                 let one = self.constant(1.0);
                 let lower_exponent = self.sub(b, one);
                 let lower = self.pow(a, lower_exponent);
-                let slope = self.mul(b, lower);
+                let slope = self.multiply_guarded(b, lower);
                 self.mul(factor, slope)
             }
             (Binary::Mod, 0) => factor,

@@ -390,6 +390,40 @@ fn set_params_are_continued_along_the_branch() {
     }
 }
 
+/// The line of centres of gears turns on where its drawn direction passes ±180°, and beyond a turn of the params.
+#[test]
+fn lines_of_centers_are_continued_past_half_a_turn() {
+    let text = |tilt: &str| {
+        format!(
+            "mechanism gears {{
+                param tilt = {tilt}
+                ground {{ point O = (0, 0)  circle c = O radius 63 mm }}
+                body carrier at (0, 0, tilt) {{ point O = (0, 0) point pin = (40 mm, 0) }}
+                body planet at (40 mm * cos(tilt), 40 mm * sin(tilt), 0) {{ point P = (0, 0) circle c = P radius 23 mm }}
+                joint b: revolute(ground.O, carrier.O)
+                joint d: revolute(carrier.pin, planet.P)
+                joint mesh: internal_gear(planet.c, ground.c)
+                driver m2: rotation(b) = tilt + 1 rad/s * t
+                measure turn = angle(planet)
+                analysis from 0 s to 1 s every 0.5 s
+            }}"
+        )
+    };
+    for (drawn, tilt) in [("13 deg", "-1 deg"), ("13 deg", "0"), ("-5 deg", "170 deg"), ("100 deg", "-70 deg")] {
+        let led = led_over(&text(drawn), &[&format!("tilt={tilt}")]);
+        let drawn_there = compiled(&text(tilt), &[], None);
+        let times = drawn_there.times().expect("an analysis");
+        let (found, messages) = run(&led, &times);
+        assert_eq!(codes(&messages), [""; 0], "{drawn} to {tilt}");
+        let (wanted, _) = run(&drawn_there, &times);
+        let column = led.columns().iter().position(|column| column == "turn").expect("a column");
+        assert_eq!(found.len(), wanted.len());
+        for (found, wanted) in found.iter().zip(&wanted) {
+            assert!((found[column] - wanted[column]).abs() < 1e-9, "{drawn} to {tilt}");
+        }
+    }
+}
+
 #[test]
 fn inputs_are_continued_after_params() {
     for links in CRANK_ROCKER.iter().chain(&DRAG_LINK) {

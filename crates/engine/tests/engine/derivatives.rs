@@ -389,3 +389,35 @@ fn velocities_and_accelerations_match_differences() {
         }
     }
 }
+
+/// A param as exponent: a derivative that its factors make zero is zero where the power has a pole.
+#[test]
+fn powers_of_params_have_the_derivatives_of_powers_of_numbers() {
+    let text = |exponent: &str, n: u32| {
+        format!(
+            "mechanism m {{
+                param n = {n}
+                body b {{ point P = (0, 0) }}
+                driver dx: x(b.P) = (t - 0.3)^{exponent}
+                driver dy: y(b.P) = 0
+                driver da: angle(b) = t
+                measure a = der(der(x(b.P)))
+                measure c = x(b.P)^{exponent}
+                result r = max(a)
+                analysis from 0 to 0.9 every 0.3
+            }}"
+        )
+    };
+    for n in 0..=5 {
+        let [by_number, by_param] =
+            [n.to_string(), "n".to_owned()].map(|exponent| run("m", &text(&exponent, n), Span::default()));
+        assert_eq!(by_param.codes(), by_number.codes(), "n = {n}");
+        assert_eq!(by_param.columns, by_number.columns);
+        assert_eq!(by_param.rows.len(), 4, "n = {n}: {}", by_param.text());
+        for (found, wanted) in by_param.rows.iter().zip(&by_number.rows) {
+            for (k, (found, wanted)) in found.iter().zip(wanted).enumerate() {
+                assert!((found - wanted).abs() < 1e-12, "n = {n}, {}: {found}, not {wanted}", by_param.columns[k]);
+            }
+        }
+    }
+}

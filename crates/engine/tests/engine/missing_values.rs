@@ -59,6 +59,34 @@ fn missing_measures_are_reported_once() {
     }
 }
 
+/// A jerk that is not finite leaves the motion as it is; only what is measured of it has no value.
+#[test]
+fn missing_jerks_stop_no_motion() {
+    let text = |lift: &str, declarations: &str| {
+        format!(
+            "mechanism m {{
+                body b {{ point P = (0, 0) }}
+                driver dx: x(b.P) = {lift}
+                driver dy: y(b.P) = 0
+                driver da: angle(b) = t
+                {declarations}
+                analysis from 0 to 1 every 0.25
+            }}"
+        )
+    };
+    for (lift, stops) in [("t^2.5", 0), ("abs(t - 0.5)^2.5", 2)] {
+        let plain = run("m", &text(lift, ""), Span::default()).expect_success();
+        let with = "measure a = der(der(x(b.P)))  measure s = speed(b.P)  result r = max(a)";
+        let found = run("m", &text(lift, with), Span::default()).expect_success();
+        for name in ["b.x", "b.x.d", "b.x.dd"] {
+            assert_eq!(column(&plain, name), column(&found, name), "{lift} {name}");
+        }
+        assert_eq!(column(&found, "a"), column(&found, "b.x.dd"));
+        assert_eq!(missing(&found, "a.d"), [stops], "{lift}");
+        assert_eq!(found.codes().iter().filter(|&&code| code != "W0603").count(), 0, "{:?}", found.codes());
+    }
+}
+
 #[test]
 fn a_table_that_a_driver_leaves_stays_an_error() {
     let declarations = "table bend = spline [(0, 0), (0.5, 1), (0.95, 0)] function way(u) = bend(u)

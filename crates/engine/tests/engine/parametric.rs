@@ -91,6 +91,15 @@ fn what_is_no_number_of_the_param_is_checked_anew() {
 }
 
 #[test]
+fn what_replaces_a_zero_is_checked_anew() {
+    let text =
+        FOUR_BAR.replace("param stop", "param off = 0\n param stop").replace("30 deg + 1 rev/s", "off + 1 rev/s");
+    let nominal = Parsed::new("text.mech", &text).check(&Choice::default(), &Memory::default());
+    let parametric = nominal.parametric(&["off".to_owned()], Redundant::Refused, &Cancel::default());
+    assert!(parametric.expect("a number").with(&["0.1"]).is_none());
+}
+
+#[test]
 fn settings_of_options_are_kept() {
     let parsed = Parsed::new("text.mech", FOUR_BAR);
     let set = vec!["crank_length=28 mm".to_owned()];

@@ -59,6 +59,16 @@ fn errors_of_one_variant_do_not_affect_others() {
     assert!(found.iter().filter(|(status, _)| !status.is_complete()).count() >= 2, "{found:?}");
 }
 
+/// A literal zero fits any dimension, other values do not.
+#[test]
+fn what_replaces_a_zero_has_a_dimension() {
+    let text = FOUR_BAR.replace("param speed", "param off = 0\n param speed").replace("speed * t", "speed * t + off");
+    let text = text.replace("share * coupler_length", "share * coupler_length + off");
+    let subject = subject(&text, Choice::default());
+    let found = compare(&subject, &subject.variants(&vary(&["off=-1,0,1"])));
+    assert_eq!(count(&found, Status::Ok), 1, "{found:?}");
+}
+
 #[test]
 fn threads_and_shares_change_no_bit() {
     let subject = subject(FOUR_BAR, Choice::default());

@@ -807,6 +807,70 @@ fn invalid_tolerances_are_refused() {
     assert_eq!((tolerances[0].unit.0.as_str(), tolerances[1].unit.0.as_str()), ("deg", "rpm"));
 }
 
+/// A tolerance on a literal zero has the dimension that the zero stands for, and no other.
+#[test]
+fn tolerances_of_a_zero_have_its_dimension() {
+    let text = |more: &str| arm(&format!("param off = 0 driver other: x(arm.tip) = 1 m + off {more}"));
+    let text = |more: &str| {
+        text(more)
+            .replace("joint main: revolute(ground.O, arm.O)", "driver up: y(arm.tip) = 1 m")
+            .replace("rotation(main)", "angle(arm)")
+    };
+    let with = "measure far = x(arm.tip) analysis from 0 to 1 every 0.5";
+    let of_length = subject(&text(with), &[]);
+    let (tolerances, affected) = of_length.affected(&["off=1mm"]);
+    assert_eq!((tolerances[0].si.as_str(), affected[0].slopes[0]), ("m", Some(1.0)));
+    let verified = of_length.verified(&["off=1mm"]).2;
+    near(verified.found[0].expect("corners")[1], 0.001);
+    assert_eq!(of_length.tolerancing(&["off=1"]).map(|_| ()), Err("this adds a length and a pure number".to_owned()));
+    let of_both = subject(&text(with).replace("begin + rate", "off + rate"), &[]);
+    for requested in ["off=0.1", "off=1mm", "off=-1mm..0"] {
+        assert!(of_both.tolerancing(&[requested]).is_err(), "{requested}");
+    }
+}
+
+/// Params that follow others: measures differentiate along their formulas, a tolerance moves one param alone.
+#[test]
+fn tolerances_change_nothing_that_is_measured() {
+    let text = "mechanism m {
+        param a = 2
+        param two = a^2
+        param three = two + a
+        body b { point P = (0, 0) }
+        driver x: x(b.P) = a * two + three
+        driver y: y(b.P) = two * three
+        driver turn: angle(b) = t
+        measure right = x(b.P)
+        measure slope = der(x(b.P), a)
+        measure own = der(y(b.P), three)
+        result up = max(y(b.P))
+        result steep = max(slope)
+        analysis from 0 to 1 every 1
+    }";
+    let subject = subject(text, &[]);
+    let found = |requested: &[&str]| -> Vec<(f64, Vec<f64>)> {
+        let slopes = |of: OutputSensitivity| of.slopes.into_iter().map(|slope| slope.expect("a number")).collect();
+        subject.affected(requested).1.into_iter().map(|of| (of.nominal, slopes(of))).collect()
+    };
+    let check = |requested: &[&str], wanted: [&[f64]; 5]| {
+        let nominal = [14.0, 17.0, 4.0, 24.0, 17.0];
+        for (k, (value, slopes)) in found(requested).into_iter().enumerate() {
+            near(value, nominal[k]);
+            assert_eq!(slopes.len(), wanted[k].len());
+            slopes.iter().zip(wanted[k]).for_each(|(found, wanted)| near(*found, *wanted));
+        }
+    };
+    check(&["a=0.1"], [&[17.0], &[14.0], &[4.0], &[44.0], &[14.0]]);
+    check(&["two=0.1"], [&[3.0], &[1.0], &[1.0], &[10.0], &[1.0]]);
+    check(&["two=0.1", "a=0.1"], [&[3.0, 5.0], &[1.0, 10.0], &[1.0, 0.0], &[10.0, 4.0], &[1.0, 10.0]]);
+    let all = ["a=0.1", "two=0.1", "three=0.1"];
+    check(&all, [&[4.0, 2.0, 1.0], &[10.0, 1.0, 0.0], &[0.0, 1.0, 0.0], &[0.0, 6.0, 4.0], &[10.0, 1.0, 0.0]]);
+    let (_, affected, verified) = subject.verified(&all);
+    let are_verified: Vec<bool> = verified.found.iter().map(Option::is_some).collect();
+    assert_eq!(are_verified, [true, false, true, true, false]);
+    assert!(affected.iter().zip(are_verified).all(|(of, is_verified)| of.is_verifiable == is_verified));
+}
+
 /// A param that moves nothing has a derivative of nothing, whatever rounding leaves of it.
 #[test]
 fn rounding_is_no_sensitivity() {

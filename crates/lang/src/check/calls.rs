@@ -53,7 +53,7 @@ pub(super) struct Calls<'a> {
     /// The call of the outermost formula that is being expanded.
     pub caller: Option<Span>,
     /// The number of visited parts of the formula.
-    pub visited: usize,
+    visited: usize,
     /// The number of open levels of formulas.
     levels: usize,
     /// The deferred calls; the next one is last.
@@ -271,6 +271,13 @@ impl<'a> Checker<'a> {
         }
         self.calls.deferred.clear();
         value
+    }
+
+    /// Counts the parts of a formula from zero, unless another formula is open, whose count goes on.
+    pub(super) fn start_count(&mut self) {
+        if self.calls.levels == 0 {
+            self.calls.visited = 0;
+        }
     }
 
     /// Counts a part of a formula, and rejects the formula if it has too many.

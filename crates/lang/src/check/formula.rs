@@ -185,9 +185,9 @@ impl<'c> Context<'c> {
 }
 
 impl Checker<'_> {
-    /// Evaluates a whole formula, whose parts are counted from zero.
+    /// Evaluates a whole formula, whose parts are counted from zero unless it is a literal point's within another formula.
     pub(super) fn formula(&mut self, e: &Expr, context: &Context<'_>) -> Option<Value> {
-        self.calls.visited = 0;
+        self.start_count();
         self.number(e, context)
     }
 

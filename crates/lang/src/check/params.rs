@@ -55,9 +55,8 @@ impl<'a> Checker<'a> {
                     self.report(errors::wrong_dimension(&place, expected, part, text));
                     return None;
                 }
-                // A zero takes the dimension of the override. A number without a unit fits any dimension, as zero does.
-                let is_open = in_file.dim == Dim::Any && matches!(given.dim, Dim::Of(_));
-                Value { dim: if is_open { given.dim } else { in_file.dim }, ..given }
+                // A zero fits any dimension, and what replaces it has its own.
+                Value { dim: if in_file.dim == Dim::Any { given.dim } else { in_file.dim }, ..given }
             }
         };
         self.settable(self.declared(name), &name.text, docs, value)
@@ -83,7 +82,12 @@ impl<'a> Checker<'a> {
             self.model.continued.push(ContinuedParam { declared, param, line: [number; 2], dimension });
         }
         self.model.params.push(Param { declared, docs: docs.to_vec(), value: number, dimension });
-        Some(Value { id: self.model.graph.symbol(Symbol::Param(index)), dim: value.dim })
+        let id = self.model.graph.symbol(Symbol::Param(index));
+        if value.dim == Dim::Any {
+            // Another number does not fit any dimension.
+            self.decided(id, GuardKind::Value);
+        }
+        Some(Value { id, dim: value.dim })
     }
 
     /// Returns whether a parameter, or a coordinate of one that is a point, may change after the check, so that it is independent.

@@ -32,7 +32,7 @@ impl Checker<'_> {
     pub(super) fn point_formula(&mut self, e: &Expr, context: &Context<'_>) -> Option<InitialPoint> {
         let argument = context.argument.map(|(name, _)| name);
         let dimensional = context.judged || self.holds_dimension(argument, e, Expected::Point);
-        self.calls.visited = 0;
+        self.start_count();
         let at = self.point_at(e, &Context { judged: dimensional, ..*context })?;
         Some(InitialPoint { at, dimensional })
     }

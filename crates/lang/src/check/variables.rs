@@ -83,7 +83,8 @@ impl Checker<'_> {
     /// Registers an independent number, if it is a requested variable.
     pub(super) fn register_param(&mut self, declared: &Declared, symbol: Symbol, dim: Dim) {
         if self.common.variables.is_requested(&declared.name) {
-            self.add_variable(declared.clone(), symbol, dim);
+            let id = self.model.graph.symbol(symbol);
+            self.add_variable(declared.clone(), symbol, Value { id, dim });
         }
     }
 
@@ -93,16 +94,17 @@ impl Checker<'_> {
             return value;
         }
         let symbol = Symbol::Shift(self.model.variables.len() as u32);
-        self.add_variable(declared.clone(), symbol, value.dim);
         let shift = self.model.graph.symbol(symbol);
-        Value { id: self.model.graph.add(value.id, shift), ..value }
+        let value = Value { id: self.model.graph.add(value.id, shift), ..value };
+        self.add_variable(declared.clone(), symbol, value);
+        value
     }
 
-    fn add_variable(&mut self, declared: Declared, symbol: Symbol, dim: Dim) {
+    fn add_variable(&mut self, declared: Declared, symbol: Symbol, Value { id, dim }: Value) {
         let number = self.model.variables.len() as u32;
         self.common.variables.numbers.insert(declared.name.clone(), number);
         self.common.variables.dims.push(dim);
-        self.model.variables.push(Variable { declared, symbol, dimension: dim.settled() });
+        self.model.variables.push(Variable { declared, symbol, value: id, dimension: dim.settled() });
     }
 
     /// Evaluates `der(e, NAME)`.

@@ -3,7 +3,7 @@
 use super::frames::Vector;
 use super::{Entry, Lowering, entries};
 use crate::model::{AxisId, CircleId, Joint, Side};
-use mechc_expr::{Binary, ExprId, Unary};
+use mechc_expr::{Binary, Dependence, ExprId, Symbol, Unary};
 use mechc_ir::{CoordinateKind, Fit, MonitorKind};
 use mechc_text::vocabulary::Dimension;
 
@@ -17,7 +17,7 @@ impl Lowering<'_> {
         phase: Option<ExprId>,
     ) -> Vec<Entry> {
         let drawn = self.in_drawn_poses(|l| l.line_of_centers(circles));
-        let drawn_theta = self.graph.binary(Binary::Atan2, drawn[1], drawn[0]);
+        let drawn_theta = self.drawn_direction(drawn);
         let phase = match phase {
             Some(phase) => self.formula(phase),
             None => self.in_drawn_poses(|l| l.rolled(circles, internal, drawn_theta)),
@@ -44,6 +44,31 @@ impl Lowering<'_> {
         let radius = self.graph.binary(Binary::Max, radii[0], radii[1]);
         self.fits.push(Fit { distance, wanted, radius, declaration: self.declarations.next_id() });
         entries(Dimension::LENGTH, [across, mesh])
+    }
+
+    /// Returns the direction of a drawn vector, in (−π, π]. Along a continuation it goes on from there, without a jump up to half a turn away.
+    fn drawn_direction(&mut self, [dx, dy]: Vector) -> ExprId {
+        let direction = self.graph.binary(Binary::Atan2, dy, dx);
+        let model = self.model;
+        if model.continued.is_empty() || !self.graph.dependence(direction).on(Dependence::PARAMS) {
+            return direction;
+        }
+        let first_value = |k: u32| {
+            let continued = model.continued.iter().find(|continued| continued.param == Some(k));
+            continued.map_or(model.params[k as usize].value, |continued| continued.line[0])
+        };
+        let [x, y, first] = [dx, dy, direction].map(|id| {
+            let value = self.graph.value(id, |symbol| match symbol {
+                Symbol::Param(k) => first_value(k),
+                Symbol::Shift(_) => 0.0,
+                _ => f64::NAN,
+            });
+            self.graph.constant(value)
+        });
+        let across = self.left_of([x, y], [dx, dy]);
+        let along = self.dot([x, y], [dx, dy]);
+        let turn = self.graph.binary(Binary::Atan2, across, along);
+        self.graph.add(first, turn)
     }
 
     fn radius(&mut self, circle: CircleId) -> ExprId {

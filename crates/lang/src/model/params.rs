@@ -58,6 +58,8 @@ pub struct Variable {
     pub declared: Declared,
     /// The symbol by which formulas are differentiated: the parameter, or a shift that is added to its formula.
     pub symbol: Symbol,
+    /// The value (SI): the parameter, or its formula with the shift.
+    pub value: ExprId,
     /// The dimension of the value.
     pub dimension: Dimension,
 }

@@ -137,3 +137,27 @@ fn bare_numbers_with_degrees_warn() {
     assert_eq!(codes(through_a_function), ["W0401"]);
     assert_eq!(codes("result r = min(min(abs(mu), 180 - abs(mu)))"), ["W0401"]);
 }
+
+/// A mechanism whose param `off` is a literal zero, which fits lengths and angles alike.
+const ZERO: &str = "mechanism m {
+    param off = 0
+    param more = off + 3 mm
+    body b { point P = (off, 3 mm) }
+    driver x: x(b.P) = more + 2 mm/s * t
+    driver y: y(b.P) = 10 mm + off
+    driver a: angle(b) = 1 rad/s * t + off
+}";
+
+#[test]
+fn settings_of_a_zero_are_checked_as_in_the_text() {
+    let codes = |text: &str, set: &[String]| -> Vec<&str> {
+        let choice = Choice { set: set.to_vec(), ..Choice::default() };
+        let checked = Parsed::new("m.mech", text).check(&choice, &Memory::default());
+        checked.diagnostics().iter().map(|message| message.code.as_str()).collect()
+    };
+    for value in ["0", "-0", "5", "5 mm", "0 mm", "1e-300", "1 - 1"] {
+        let edited = codes(&ZERO.replace("off = 0", &format!("off = {value}")), &[]);
+        assert_eq!(codes(ZERO, &[format!("off={value}")]), edited, "{value}");
+        assert_eq!(edited.is_empty(), matches!(value, "0" | "-0"), "{value}: {edited:?}");
+    }
+}

@@ -51,9 +51,7 @@ pub(crate) fn stopped_path(
 ) -> Diagnostic {
     let why = stop.explain(system);
     let what = if stop.is_dead_point() { "a dead point" } else { why.code.title() };
-    let location =
-        targets.first().map(|input| format!(" at `{}` = {}", input.param.declared.name, input.value_at(fraction)));
-    let location = location.unwrap_or_default();
+    let location = location(targets, fraction);
     let message = match part {
         None => format!("on the way to {} there is {what}{location}", destination(targets)),
         Some(part) => format!("on the way of the part `{}` to its inputs there is {what}{location}", part.name),
@@ -103,16 +101,13 @@ pub(crate) fn passed_bifurcation(
     (warning, system): (&Warning, &ConstraintSystem),
 ) -> Diagnostic {
     let what = warning.explain(system);
-    let location =
-        targets.first().map(|input| format!(" at `{}` = {}", input.param.declared.name, input.value_at(fraction)));
+    let location = location(targets, fraction);
     let path = match part {
         None => format!("on the way to {}", destination(targets)),
         Some(part) => format!("on the way of the part `{}` to its inputs", part.name),
     };
-    let message = format!(
-        "{path} two branches of the motion meet{}; the one that continues smoothly was taken",
-        location.unwrap_or_default()
-    );
+    let message =
+        format!("{path} two branches of the motion meet{location}; the one that continues smoothly was taken");
     let mut diagnostic = Diagnostic::new(Code::W0602, message);
     for (k, input) in targets.iter().take(MAX_LISTED).enumerate() {
         let [from, to, location] = [0.0, 1.0, fraction].map(|fraction| input.value_at(fraction));
@@ -130,6 +125,13 @@ pub(crate) fn passed_bifurcation(
     }
     diagnostic = what.notes.iter().cloned().fold(diagnostic, Diagnostic::note);
     diagnostic.datum("part", fraction).datum("t", times[0] + (times[1] - times[0]) * fraction)
+}
+
+/// Describes a place on the path by the values of all that changes: any of them may be the one that matters.
+fn location(targets: &[ContinuationTarget], fraction: f64) -> String {
+    let value = |input: &ContinuationTarget| format!("`{}` = {}", input.param.declared.name, input.value_at(fraction));
+    let values: Vec<String> = targets.iter().take(MAX_LISTED).map(value).collect();
+    if values.is_empty() { String::new() } else { format!(" at {}", values.join(", ")) }
 }
 
 fn is_of_params(targets: &[ContinuationTarget]) -> bool {

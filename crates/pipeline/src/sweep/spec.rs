@@ -91,12 +91,19 @@ impl Variants {
 
     /// Returns the settings of given values as formulas.
     pub(crate) fn read_settings(&self, values: &[f64]) -> impl Iterator<Item = ParamOverride> {
-        let set = |((name, unit), &value): ((&String, &ast::Expr), &f64)| {
-            let number = ast::Expr { kind: ast::ExprKind::Literal { value, unit: None }, span: unit.span };
-            let kind = ast::ExprKind::Product(Box::new(number), vec![(ast::Factor::Times, unit.clone())]);
+        let set = |(((name, unit), is_unitless), &value): (((&String, &ast::Expr), bool), &f64)| {
+            let number = ast::ExprKind::Literal { value, unit: None };
+            let kind = if value == 0.0 && is_unitless {
+                // A product is no literal zero, which fits any dimension.
+                number
+            } else {
+                let number = ast::Expr { kind: number, span: unit.span };
+                ast::ExprKind::Product(Box::new(number), vec![(ast::Factor::Times, unit.clone())])
+            };
             ParamOverride { path: name.clone(), value: ast::Expr { kind, span: unit.span } }
         };
-        self.points.params().iter().zip(&self.ones).zip(values).map(set)
+        let is_unitless = self.units.iter().map(String::is_empty);
+        self.points.params().iter().zip(&self.ones).zip(is_unitless).zip(values).map(set)
     }
 
     /// Returns the values of a variant's params (SI).

@@ -63,6 +63,8 @@ pub struct OutputSensitivity {
     pub slopes: Vec<Option<f64>>,
     /// Number of times at which a measure has a value and no derivatives, and number of all times. The first is 0 if a jump is the reason.
     pub unknown: [u64; 2],
+    /// False if variants measure something else: it is differentiated by what a param follows, and they give that param a value of its own.
+    pub is_verifiable: bool,
 }
 
 /// Deviations of a measure or result, least and largest each (SI).

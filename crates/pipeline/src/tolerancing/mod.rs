@@ -3,9 +3,11 @@
 //! All numbers are those of sweep variants, the nominal one included.
 
 mod deviation;
+mod followers;
 
 pub use deviation::{CornerReport, Deviation, DisplayUnit, OutputSensitivity, Tolerance};
 
+use self::followers::Followers;
 use crate::checked::TOL;
 use crate::option_reader::{OptionReader, number_and_unit, si_unit, unusable};
 use crate::options::spaceless;
@@ -15,7 +17,7 @@ use mechc_expr::{Binary, Dependence, ExprId, Node, Unary};
 use mechc_ir::Measure;
 use mechc_ir::layout::ColumnUnit;
 use mechc_lang::model::Dimension;
-use mechc_text::diag::{Diagnostic, Diagnostics, Error};
+use mechc_text::diag::{Code, Diagnostic, Diagnostics, Error};
 use mechc_text::world::World;
 use std::collections::BTreeSet;
 
@@ -105,11 +107,22 @@ impl ToleranceArgument {
 
     fn tolerances(&self, reader: &OptionReader<'_>) -> Result<Vec<Tolerance>, Error> {
         let refused = |why: Diagnostic| Error::new(why, reader.checked.sources());
-        let (mut values, mut mark) = (Vec::with_capacity(2), Dimension::PURE);
+        let params = reader.checked.symbolic_params(&self.name);
+        let is_open =
+            |(_, nominal, dimension): &(String, f64, Dimension)| *nominal == 0.0 && dimension.is(Dimension::PURE);
+        let may_be_open = params.iter().any(is_open);
+        let (mut values, mut given) = (Vec::with_capacity(2), Dimension::PURE);
         for end in &self.ends {
-            let (_, number) = reader.number(&self.name, end)?;
+            let (checked, number) = reader.number(&self.name, end)?;
+            // A literal zero fits any dimension, its deviation does not.
+            let unlike =
+                checked.diagnostics().iter().filter(|diagnostic| may_be_open && diagnostic.code == Code::E0401);
+            let unlike: Diagnostics = unlike.cloned().collect();
+            if !unlike.is_empty() {
+                return Err(Error::new(unlike, checked.sources()));
+            }
             values.push(number.si);
-            mark = mark.marked_by(number.dimension);
+            given = if number.is_dimensional { number.dimension } else { given.marked_by(number.dimension) };
         }
         let range = match values[..] {
             [one] if one < 0.0 => {
@@ -124,14 +137,16 @@ impl ToleranceArgument {
             [low, high] => [low, high],
             _ => [-values[0], values[0]],
         };
-        let params = reader.checked.symbolic_params(&self.name);
         if params.is_empty() {
             let message = format!("`{}` decides what is repeated, and cannot be a little off", self.name);
             return Err(refused(unusable(message).help("give tolerances to lengths, angles and other numbers")));
         }
-        let unit_of = |dimension: Dimension| match si_unit(dimension.marked_by(mark)) {
-            unit if unit.is_empty() => "1".to_owned(),
-            unit => unit,
+        let unit_of = |dimension: Dimension| {
+            let is_open = dimension.is(Dimension::PURE) && !given.is(Dimension::PURE);
+            match si_unit(if is_open { given } else { dimension.marked_by(given) }) {
+                unit if unit.is_empty() => "1".to_owned(),
+                unit => unit,
+            }
         };
         let tolerance = |(name, nominal, dimension): (String, f64, Dimension)| {
             let si = unit_of(dimension);
@@ -186,17 +201,22 @@ impl Tolerancing<'_> {
                 .help("add one to the file, or a result with `--result 'stroke = max(x(P)) - min(x(P))'`");
             return Err(refused(&why.into()));
         }
-        let nominal = Levels::Listed(self.tolerances.iter().map(|tolerance| tolerance.nominal).collect());
-        let variants = self.variants(&checked, vec![Varying { params: self.all(), values: nominal }])?;
+        let followers = checked.model().map_or(Followers::default(), |model| Followers::new(model, &self.tolerances));
+        // Nothing is set: a param that followed no other one any more would change what is measured.
+        let points = Points::new(Vec::new(), Vec::new()).ok_or_else(|| refused(&Diagnostics::default()))?;
+        let variants = Variants::new(points, Vec::new(), checked.sources().clone(), TOL)?;
         let columns = (!outputs.measures.is_empty()).then(|| outputs.columns());
         let options = SweepOptions { columns, jobs: Some(1), ..options.clone() };
         let sweep = checked.sweep(&with_slopes, &variants, &options, |swept| swept);
         let swept: Option<Swept> = sweep?.next();
-        let Some(swept) = swept else { return Err(refused(&Diagnostics::default())) };
+        let Some(mut swept) = swept else { return Err(refused(&Diagnostics::default())) };
         if !swept.statuses[0].is_complete() {
             return Err(Error::new(nominal_failure(compiled, &options), self.checked.sources()));
         }
-        Ok(outputs.affected(&swept, &self.tolerances))
+        outputs.hold_others(&mut swept, &followers, self.tolerances.len());
+        let mut affected = outputs.affected(&swept, &self.tolerances);
+        affected.iter_mut().for_each(|output| output.is_verifiable = !followers.change(&output.name));
+        Ok(affected)
     }
 
     /// For each measure or result, returns the largest nominal value of its SI unit among all and among the params.
@@ -399,6 +419,38 @@ impl ToleratedOutputs {
         [0].into_iter().chain(self.measures.iter().flat_map(|measure| -> Vec<usize> { columns(measure) })).collect()
     }
 
+    /// Makes derivatives of those along the formulas of the text that hold all other params with tolerances.
+    fn hold_others(&self, swept: &mut Swept, followers: &Followers, count: usize) {
+        if followers.is_empty() {
+            return;
+        }
+        let mut last = 0;
+        for measure in &self.measures {
+            last += 1;
+            let mut place = |by: &Option<usize>| {
+                last += usize::from(by.is_some());
+                by.map(|_| last)
+            };
+            let places: Vec<Option<usize>> = measure.by.iter().map(&mut place).collect();
+            for row in 0..swept.columns[0].len() {
+                let slope = |place: &Option<usize>| place.map_or(f64::NAN, |place| swept.columns[place][row]);
+                let mut slopes: Vec<f64> = places.iter().map(slope).collect();
+                followers.hold_others(&mut slopes);
+                for (place, slope) in places.iter().zip(slopes) {
+                    if let Some(place) = place {
+                        swept.columns[*place][row] = slope;
+                    }
+                }
+            }
+        }
+        let first = self.results.len() + self.means.measures.len();
+        for results in swept.results[first..].chunks_exact_mut(count) {
+            let mut slopes: Vec<f64> = results.iter().map(|result| result[0]).collect();
+            followers.hold_others(&mut slopes);
+            results.iter_mut().zip(slopes).for_each(|(result, slope)| result[0] = slope);
+        }
+    }
+
     /// Collects measures and results from the nominal variant.
     fn affected(self, swept: &Swept, tolerances: &[Tolerance]) -> Vec<OutputSensitivity> {
         let (mut columns, mut all) = (swept.columns.iter(), Vec::new());
@@ -437,6 +489,7 @@ impl ToleratedOutputs {
             si,
             slopes: (0..count).map(|j| number(all_results + k * count + j)).collect(),
             unknown: [0, 1],
+            is_verifiable: true,
         }));
         all
     }
@@ -455,6 +508,7 @@ fn where_it_jumps(measure: MeasureColumns, rows: &Rows<'_>, jumps: &[bool]) -> O
         nominal: number(values).unwrap_or(f64::NAN),
         slopes: slopes.collect(),
         unknown: [0, times.len() as u64],
+        is_verifiable: true,
         name: measure.name,
         unit: measure.unit,
         si: measure.si,
@@ -481,6 +535,7 @@ fn where_it_is_worst(measure: MeasureColumns, rows: &Rows<'_>, tolerances: &[Tol
         nominal: number(values).unwrap_or(f64::NAN),
         slopes: slopes.iter().map(|slope| slope.and_then(number)).collect(),
         unknown: [unknown, rows.len() as u64],
+        is_verifiable: true,
         name: measure.name,
         unit: measure.unit,
         si: measure.si,
@@ -570,6 +625,9 @@ impl CornerSearch<'_> {
 
     fn record(&mut self, k: usize, value: f64, set: impl Fn() -> Vec<String>) {
         let off = value - self.affected[k].nominal;
+        if !self.affected[k].is_verifiable {
+            return;
+        }
         if off.is_finite() {
             let [low, high] = self.extremes[k].unwrap_or([off; 2]);
             self.extremes[k] = Some([low.min(off), high.max(off)]);

@@ -182,6 +182,8 @@ fn product(factors: &[(&str, f64)]) -> String {
     let part = |unit: &str, power: f64| match power {
         p if (p - 1.0).abs() < 1e-9 => unit.to_owned(),
         p if (p - p.round()).abs() < 1e-9 => format!("{unit}^{}", p.round()),
+        // a power that only looks whole has all its digits
+        p if (p - p.round()).abs() < 5e-4 => format!("{unit}^{p}"),
         p => format!("{unit}^{p:.3}"),
     };
     let (mut above, mut below) = (Vec::new(), Vec::new());

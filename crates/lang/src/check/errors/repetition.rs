@@ -67,10 +67,13 @@ pub fn invalid_path(span: Span, segments: &[PathSegment], is_declared: bool) -> 
     }
 }
 
-pub fn index_is_taken(name: &Name) -> Diagnostic {
+/// An index with the name of something else; `free` are words that nothing has as its name.
+pub fn index_is_taken(name: &Name, free: &[&str]) -> Diagnostic {
+    let examples: Vec<String> = free.iter().map(|word| format!("`{word}`")).collect();
+    let examples = if examples.is_empty() { String::new() } else { format!(": {}", examples.join(", ")) };
     Diagnostic::new(Code::E0207, format!("the index `{}` hides what has that name already", name.text))
         .at(name.span, "not free")
-        .help("choose a name that nothing else has: `i`, `j`, `k`")
+        .help(format!("choose a name that nothing else has{examples}"))
 }
 
 pub fn too_many_indices(span: Span, most: usize) -> Diagnostic {

@@ -95,13 +95,14 @@ impl Kinematics {
         self.solve(&doubt.right, &mut doubt.acceleration);
     }
 
+    /// Rejects a state whose velocity or acceleration is not finite. Without a jerk only measures of it have no value.
     pub(super) fn all_finite(&self, state: &State) -> Result<(), Fault> {
         let finite = |values: &[f64]| values.iter().all(|value| value.is_finite());
-        if finite(&state.qd) && finite(&state.qdd) && finite(&state.qddd) {
+        if finite(&state.qd) && finite(&state.qdd) {
             return Ok(());
         }
         let outputs = &self.program.outputs;
-        let row = [outputs.nu(), outputs.gamma(), outputs.jerk()]
+        let row = [outputs.nu(), outputs.gamma()]
             .into_iter()
             .find_map(|list| list.iter().position(|&register| !self.registers.get(register).is_finite()));
         Err(row.map_or(Fault::Singular, |row| Fault::NotFinite { row }))
