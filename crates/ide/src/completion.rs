@@ -221,8 +221,8 @@ impl CompletionContext<'_> {
         items.extend(JOINTS.iter().map(|joint| {
             let item = CompletionItem::word(&joint.word, 1);
             // the arguments are proposed one by one after the parenthesis
-            let plural = if joint.equations == 1 { "" } else { "s" };
-            let detail = format!("{} · {} equation{plural}", joint.takes, joint.equations);
+            let plural = if joint.rows.len() == 1 { "" } else { "s" };
+            let detail = format!("{} · {} equation{plural}", joint.takes, joint.rows.len());
             item.detail(detail)
         }));
         items

@@ -11,7 +11,8 @@ use super::symbols::Symbols;
 use super::teeth::{DEDENDUM, Rack, Wheel, integer_residual, offset};
 use super::{Look, PitchLine, Shape};
 use mechc_expr::math;
-use mechc_lang::model::{AxisId, CircleId, JoinedFeatures};
+use mechc_lang::model::JointFeature;
+use mechc_text::vocabulary::JointSymbol;
 use std::f64::consts::{PI, TAU};
 
 /// Number of teeth of the smallest gear of a train, at least and at most.
@@ -26,13 +27,6 @@ const TOLERANCE: f64 = 0.012;
 const SAMPLED_ROWS: usize = 60;
 /// Gears smaller than this are drawn above bodies (symbol units).
 const SMALL: f64 = 2.0;
-
-/// Feature that carries teeth.
-#[derive(Clone, Copy, PartialEq, Debug)]
-enum Carrier {
-    Circle(CircleId),
-    Axis(AxisId),
-}
 
 /// Two members that mesh.
 #[derive(Clone, Copy, Debug)]
@@ -53,7 +47,7 @@ enum MeshKind {
 /// A member with teeth.
 #[derive(Clone, Copy, Debug)]
 struct Member {
-    carrier: Carrier,
+    carrier: JointFeature,
     frame: usize,
     is_ring: bool,
     disc: Option<Disc>,
@@ -102,17 +96,13 @@ impl Trains {
         let (model, features) = (drawing.features.model, &drawing.features);
         let mut trains = Trains { all: Vec::new(), meshes: Vec::new() };
         for (joint, declared) in model.joints.iter().enumerate() {
-            let (carriers, kind) = match declared.features {
-                JoinedFeatures::Gear { circles, internal, .. } => {
-                    let kind = if internal { MeshKind::Internal } else { MeshKind::External };
-                    (circles.map(Carrier::Circle), kind)
-                }
-                JoinedFeatures::RackPinion { pinion, rack, .. } => {
-                    ([Carrier::Circle(pinion), Carrier::Axis(rack)], MeshKind::Rack)
-                }
+            let kind = match declared.spec.symbol {
+                JointSymbol::Gear => MeshKind::External,
+                JointSymbol::RingGear => MeshKind::Internal,
+                JointSymbol::Rack => MeshKind::Rack,
                 _ => continue,
             };
-            let members = carriers.map(|carrier| trains.member(features, carrier));
+            let members = declared.features.map(|carrier| trains.member(features, carrier));
             if kind == MeshKind::Internal {
                 let [first, second] = members.map(|member| trains.all[member].disc.map_or(0.0, |disc| disc.radius));
                 trains.all[members[usize::from(second > first)]].is_ring = true;
@@ -122,14 +112,12 @@ impl Trains {
         trains
     }
 
-    fn member(&mut self, features: &super::features::Features, carrier: Carrier) -> usize {
+    fn member(&mut self, features: &super::features::Features, carrier: JointFeature) -> usize {
         if let Some(other) = self.all.iter().position(|other| other.carrier == carrier) {
             return other;
         }
-        let (disc, line) = match carrier {
-            Carrier::Circle(id) => (Some(features.circle(id)), None),
-            Carrier::Axis(id) => (None, Some(features.axis(id))),
-        };
+        let disc = carrier.circle().map(|circle| features.circle(circle));
+        let line = carrier.axis().map(|axis| features.axis(axis));
         let frame = disc.map(|disc| disc.center.frame).or(line.map(|line| line.frame)).unwrap_or(0);
         self.all.push(Member { carrier, frame, is_ring: false, disc, line });
         self.all.len() - 1

@@ -1,111 +1,231 @@
-//! Joints, with the equations of each.
+//! Joints as data: what the language, explanations and pictures need to know of each kind. Its equations are in `mechc-lang`.
 
-use super::{Category, Example, Word};
+use super::{Category, Dimension, Example, Word};
 
-/// Kind of joint.
-#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
-#[allow(missing_docs)] // the entries of `JOINTS` document them
-pub enum JointKind {
-    Revolute,
-    Translational,
-    Weld,
-    RevoluteRevolute,
-    RevoluteTranslational,
-    Gear,
-    InternalGear,
-    RackPinion,
-    PointFollower,
-    Cam,
-    FlatFollower,
+const LENGTH: Dimension = Dimension::LENGTH;
+
+/// A kind of joint. Every stage reads this data; only the rows of `Φ` and new symbols are code.
+pub struct JointSpec {
+    /// Documentation.
+    pub word: Word,
+    /// Arguments in words.
+    pub takes: &'static str,
+    /// The features of the first and of the second body, which are the first two arguments.
+    pub features: [FeatureWord; 2],
+    /// The arguments that follow the features.
+    pub arguments: &'static [ArgumentSpec],
+    /// Dimensions of the rows of `Φ`, in order.
+    pub rows: &'static [Dimension],
+    /// Coordinates of the joint, with descriptions.
+    pub coordinates: &'static [(&'static str, &'static str)],
+    /// The motion that the joint leaves to its bodies and that has a quantity.
+    pub motion: Option<JointMotion>,
+    /// What the joint exerts on its bodies.
+    pub reaction: ReactionKind,
+    /// The distance that the joint needs between its features, and does not hold.
+    pub spacing: Option<Spacing>,
+    /// Symbol in pictures.
+    pub symbol: JointSymbol,
 }
 
-impl JointKind {
-    /// Returns the word of the language.
+/// A kind of feature, in the place of a joint's argument.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum FeatureWord {
+    /// A point.
+    Point,
+    /// An axis.
+    Axis,
+    /// A circle.
+    Circle,
+    /// A curve, or a circle in its place.
+    Curve,
+}
+
+impl FeatureWord {
+    /// Returns the keyword that declares such a feature.
     #[must_use]
     pub const fn word(self) -> &'static str {
         match self {
-            JointKind::Revolute => "revolute",
-            JointKind::Translational => "translational",
-            JointKind::Weld => "weld",
-            JointKind::RevoluteRevolute => "revolute_revolute",
-            JointKind::RevoluteTranslational => "revolute_translational",
-            JointKind::Gear => "gear",
-            JointKind::InternalGear => "internal_gear",
-            JointKind::RackPinion => "rack_pinion",
-            JointKind::PointFollower => "point_follower",
-            JointKind::Cam => "cam",
-            JointKind::FlatFollower => "flat_follower",
+            FeatureWord::Point => "point",
+            FeatureWord::Axis => "axis",
+            FeatureWord::Circle => "circle",
+            FeatureWord::Curve => "curve",
         }
     }
+}
 
-    /// Returns whether a quantity such as `rotation` or `displacement` is defined for the joint. All quantities of reactions are, except
-    /// `torque`.
+/// An argument of a joint that is not a feature. All but a length may be left out.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum ArgumentSpec {
+    /// An angle with its name in messages; 0 if it is left out.
+    Angle(&'static str),
+    /// A length of either sign with its name in messages; 0 if it is left out.
+    Offset(&'static str),
+    /// A positive length with its name in messages; required.
+    Length(&'static str),
+    /// The phase of a mesh, a length; that of the drawn poses if it is left out.
+    Phase,
+    /// The word `left` or `right`; the side in the drawn poses if it is left out.
+    Side,
+    /// A word that makes a difference where it is written.
+    Word(&'static str),
+}
+
+/// A motion that a joint leaves to its bodies.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum JointMotion {
+    /// A rotation about a common point.
+    Rotation,
+    /// A displacement along a common line.
+    Displacement,
+}
+
+impl JointMotion {
+    /// Returns the quantity that measures the motion.
     #[must_use]
-    pub fn has_quantity(self, quantity: &str) -> bool {
+    pub const fn quantity(self) -> &'static str {
+        match self {
+            JointMotion::Rotation => "rotation",
+            JointMotion::Displacement => "displacement",
+        }
+    }
+}
+
+/// What a joint exerts on its bodies, at its point of action.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum ReactionKind {
+    /// A force.
+    Force,
+    /// A force and a torque.
+    ForceAndTorque,
+    /// A torque, and a force that the motion does not determine.
+    Torque,
+}
+
+/// The distance that a joint needs between its features.
+#[derive(Clone, Copy, Debug)]
+pub struct Spacing {
+    /// What is apart.
+    pub of: &'static str,
+    /// What the distance must be.
+    pub wanted: &'static str,
+    /// The kind of joint that takes the sum of the radii for their difference, or the other way round.
+    pub other: Option<&'static str>,
+}
+
+/// The symbol of a joint in pictures.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[allow(missing_docs)] // named like the joints that have them
+pub enum JointSymbol {
+    Pin,
+    Slider,
+    Weld,
+    Link,
+    Slot,
+    Gear,
+    RingGear,
+    Rack,
+    Contact,
+}
+
+impl JointSpec {
+    /// Returns the joint of a name.
+    #[must_use]
+    pub fn named(name: &str) -> Option<&'static JointSpec> {
+        JOINTS.iter().find(|joint| joint.word.name == name)
+    }
+
+    /// Returns the word of the language.
+    #[must_use]
+    pub const fn name(&self) -> &'static str {
+        self.word.name
+    }
+
+    /// Returns whether a quantity such as `rotation`, `slip` or `torque` is defined for the joint.
+    #[must_use]
+    pub fn has_quantity(&self, quantity: &str) -> bool {
         match quantity {
-            "rotation" => self == JointKind::Revolute,
-            "displacement" => self == JointKind::Translational,
+            "rotation" | "displacement" => self.motion.is_some_and(|motion| motion.quantity() == quantity),
             "slip" | "pressure_angle" => self.has_contact(),
             "torque" => self.has_torque(),
+            "force_x" | "force_y" => self.has_force(),
             _ => true,
         }
     }
 
     /// Returns whether the joint is a contact of two outlines, or of a point and an outline.
     #[must_use]
-    pub const fn has_contact(self) -> bool {
-        match self {
-            JointKind::PointFollower | JointKind::Cam | JointKind::FlatFollower => true,
-            JointKind::Revolute
-            | JointKind::Translational
-            | JointKind::Weld
-            | JointKind::RevoluteRevolute
-            | JointKind::RevoluteTranslational
-            | JointKind::Gear
-            | JointKind::InternalGear
-            | JointKind::RackPinion => false,
-        }
+    pub fn has_contact(&self) -> bool {
+        self.features.contains(&FeatureWord::Curve)
+    }
+
+    /// Returns whether the joint is a contact that needs a tangent of its first curve.
+    #[must_use]
+    pub fn has_tangent(&self) -> bool {
+        self.features[0] == FeatureWord::Curve
+    }
+
+    /// Returns whether the joint is a contact with a straight face.
+    #[must_use]
+    pub fn has_face(&self) -> bool {
+        self.has_tangent() && self.features[1] == FeatureWord::Axis
+    }
+
+    /// Returns whether the joint is of two points.
+    #[must_use]
+    pub fn is_of_points(&self) -> bool {
+        self.features == [FeatureWord::Point; 2]
+    }
+
+    /// Returns whether the joint holds two points at a distance, its first value, by the row `dᵀd − L²`.
+    #[must_use]
+    pub fn holds_distance(&self) -> bool {
+        self.is_of_points() && self.rows == [Dimension::AREA]
+    }
+
+    /// Returns whether the joint holds two points together.
+    #[must_use]
+    pub fn holds_points_together(&self) -> bool {
+        self.is_of_points() && !self.holds_distance()
+    }
+
+    /// Returns whether the joint rolls, at a phase that the drawn poses decide.
+    #[must_use]
+    pub fn rolls(&self) -> bool {
+        self.features[0] == FeatureWord::Circle
     }
 
     /// Returns whether the joint's reaction can have a moment about its point of action; for the others it is zero.
     #[must_use]
-    pub const fn has_torque(self) -> bool {
-        match self {
-            JointKind::Translational
-            | JointKind::Weld
-            | JointKind::RevoluteTranslational
-            | JointKind::Gear
-            | JointKind::InternalGear
-            | JointKind::RackPinion => true,
-            JointKind::Revolute
-            | JointKind::RevoluteRevolute
-            | JointKind::PointFollower
-            | JointKind::Cam
-            | JointKind::FlatFollower => false,
-        }
+    pub fn has_torque(&self) -> bool {
+        self.reaction != ReactionKind::Force
+    }
+
+    /// Returns whether the motion determines the force of the joint's reaction.
+    #[must_use]
+    pub fn has_force(&self) -> bool {
+        self.reaction != ReactionKind::Torque
     }
 }
 
-/// A kind of joint in the language.
-#[derive(Debug)]
-pub struct JointWord {
-    /// Kind.
-    pub kind: JointKind,
-    /// Documentation.
-    pub word: Word,
-    /// Arguments in words.
-    pub takes: &'static str,
-    /// Number of equations.
-    pub equations: usize,
-    /// Coordinates of the joint, with descriptions.
-    pub coordinates: &'static [(&'static str, &'static str)],
+/// Kinds of joints are equal if their names are.
+impl PartialEq for JointSpec {
+    fn eq(&self, other: &JointSpec) -> bool {
+        self.name() == other.name()
+    }
 }
 
-impl JointWord {
-    /// Returns the joint of a name.
-    #[must_use]
-    pub fn named(name: &str) -> Option<&'static JointWord> {
-        JOINTS.iter().find(|joint| joint.word.name == name)
+impl Eq for JointSpec {}
+
+impl std::hash::Hash for JointSpec {
+    fn hash<H: std::hash::Hasher>(&self, state: &mut H) {
+        self.name().hash(state);
+    }
+}
+
+impl std::fmt::Debug for JointSpec {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(self.name())
     }
 }
 
@@ -115,11 +235,10 @@ pub const NOTATION: &str = "Here i is the body of the first argument and j that 
                             by +90°, `φ` a body's angle and `A` its rotation matrix.";
 
 /// All joints.
-pub static JOINTS: &[JointWord] = &[
-    JointWord {
-        kind: JointKind::Revolute,
+pub static JOINTS: &[JointSpec] = &[
+    JointSpec {
         word: Word {
-            name: JointKind::Revolute.word(),
+            name: "revolute",
             category: Category::Joint,
             forms: &["revolute(P, Q)"],
             letters: "",
@@ -128,13 +247,18 @@ pub static JOINTS: &[JointWord] = &[
             example: Example::Arm("driver motor: rotation(main) = 60 rpm * t"),
         },
         takes: "two points",
-        equations: 2,
+        features: [FeatureWord::Point, FeatureWord::Point],
+        arguments: &[],
+        rows: &[LENGTH, LENGTH],
         coordinates: &[],
+        motion: Some(JointMotion::Rotation),
+        reaction: ReactionKind::Force,
+        spacing: None,
+        symbol: JointSymbol::Pin,
     },
-    JointWord {
-        kind: JointKind::Translational,
+    JointSpec {
         word: Word {
-            name: JointKind::Translational.word(),
+            name: "translational",
             category: Category::Joint,
             forms: &["translational(a, b)"],
             letters: "a and b axes",
@@ -153,13 +277,18 @@ driver piston: displacement(guide) = 50 mm + 20 mm/s * t",
             ),
         },
         takes: "two axes",
-        equations: 2,
+        features: [FeatureWord::Axis, FeatureWord::Axis],
+        arguments: &[],
+        rows: &[LENGTH, Dimension::PURE],
         coordinates: &[],
+        motion: Some(JointMotion::Displacement),
+        reaction: ReactionKind::ForceAndTorque,
+        spacing: None,
+        symbol: JointSymbol::Slider,
     },
-    JointWord {
-        kind: JointKind::Weld,
+    JointSpec {
         word: Word {
-            name: JointKind::Weld.word(),
+            name: "weld",
             category: Category::Joint,
             forms: &["weld(P, Q)", "weld(P, Q, angle)"],
             letters: "",
@@ -183,13 +312,18 @@ driver motor: rotation(main) = 60 rpm * t",
             ),
         },
         takes: "two points, and an angle if it is not 0",
-        equations: 3,
+        features: [FeatureWord::Point, FeatureWord::Point],
+        arguments: &[ArgumentSpec::Angle("the angle of a weld")],
+        rows: &[LENGTH, LENGTH, Dimension::ANGLE],
         coordinates: &[],
+        motion: None,
+        reaction: ReactionKind::ForceAndTorque,
+        spacing: None,
+        symbol: JointSymbol::Weld,
     },
-    JointWord {
-        kind: JointKind::RevoluteRevolute,
+    JointSpec {
         word: Word {
-            name: JointKind::RevoluteRevolute.word(),
+            name: "revolute_revolute",
             category: Category::Joint,
             forms: &["revolute_revolute(P, Q, length)"],
             letters: "",
@@ -216,13 +350,18 @@ driver motor: rotation(main) = 90 deg + 60 rpm * t",
             ),
         },
         takes: "two points and a length",
-        equations: 1,
+        features: [FeatureWord::Point, FeatureWord::Point],
+        arguments: &[ArgumentSpec::Length("the length of the link")],
+        rows: &[Dimension::AREA],
         coordinates: &[],
+        motion: None,
+        reaction: ReactionKind::Force,
+        spacing: None,
+        symbol: JointSymbol::Link,
     },
-    JointWord {
-        kind: JointKind::RevoluteTranslational,
+    JointSpec {
         word: Word {
-            name: JointKind::RevoluteTranslational.word(),
+            name: "revolute_translational",
             category: Category::Joint,
             forms: &["revolute_translational(P, a)", "revolute_translational(P, a, offset)"],
             letters: "",
@@ -249,13 +388,18 @@ driver motor: rotation(main) = 60 rpm * t",
             ),
         },
         takes: "a point and an axis, and an offset if it is not 0",
-        equations: 1,
+        features: [FeatureWord::Point, FeatureWord::Axis],
+        arguments: &[ArgumentSpec::Offset("the offset from the axis")],
+        rows: &[LENGTH],
         coordinates: &[],
+        motion: None,
+        reaction: ReactionKind::ForceAndTorque,
+        spacing: None,
+        symbol: JointSymbol::Slot,
     },
-    JointWord {
-        kind: JointKind::Gear,
+    JointSpec {
         word: Word {
-            name: JointKind::Gear.word(),
+            name: "gear",
             category: Category::Joint,
             forms: &["gear(c, d)", "gear(c, d, phase)"],
             letters: "c and d circles",
@@ -284,13 +428,18 @@ driver motor: rotation(axle) = 60 rpm * t",
             ),
         },
         takes: "two circles, and a phase if the drawing does not give it",
-        equations: 2,
+        features: [FeatureWord::Circle, FeatureWord::Circle],
+        arguments: &[ArgumentSpec::Phase],
+        rows: &[LENGTH, LENGTH],
         coordinates: &[("theta", "the direction of the line of centres")],
+        motion: None,
+        reaction: ReactionKind::ForceAndTorque,
+        spacing: Some(Spacing { of: "centres", wanted: "the sum of the radii", other: Some("internal_gear") }),
+        symbol: JointSymbol::Gear,
     },
-    JointWord {
-        kind: JointKind::InternalGear,
+    JointSpec {
         word: Word {
-            name: JointKind::InternalGear.word(),
+            name: "internal_gear",
             category: Category::Joint,
             forms: &["internal_gear(c, d)", "internal_gear(c, d, phase)"],
             letters: "c and d circles",
@@ -319,13 +468,18 @@ driver motor: rotation(axle) = 60 rpm * t",
             ),
         },
         takes: "two circles, and a phase if the drawing does not give it",
-        equations: 2,
+        features: [FeatureWord::Circle, FeatureWord::Circle],
+        arguments: &[ArgumentSpec::Phase],
+        rows: &[LENGTH, LENGTH],
         coordinates: &[("theta", "the direction of the line of centres")],
+        motion: None,
+        reaction: ReactionKind::ForceAndTorque,
+        spacing: Some(Spacing { of: "centres", wanted: "the difference of the radii", other: Some("gear") }),
+        symbol: JointSymbol::RingGear,
     },
-    JointWord {
-        kind: JointKind::RackPinion,
+    JointSpec {
         word: Word {
-            name: JointKind::RackPinion.word(),
+            name: "rack_pinion",
             category: Category::Joint,
             forms: &["rack_pinion(c, a)", "rack_pinion(c, a, phase)", "rack_pinion(c, a, phase, left)"],
             letters: "c a circle and a an axis",
@@ -353,13 +507,18 @@ driver motor: rotation(axle) = 30 deg/s * t",
             ),
         },
         takes: "a circle and an axis, and a phase and a side if the drawing does not give them",
-        equations: 1,
+        features: [FeatureWord::Circle, FeatureWord::Axis],
+        arguments: &[ArgumentSpec::Phase, ArgumentSpec::Side],
+        rows: &[LENGTH],
         coordinates: &[],
+        motion: None,
+        reaction: ReactionKind::ForceAndTorque,
+        spacing: Some(Spacing { of: "centre and axis", wanted: "the radius", other: None }),
+        symbol: JointSymbol::Rack,
     },
-    JointWord {
-        kind: JointKind::PointFollower,
+    JointSpec {
         word: Word {
-            name: JointKind::PointFollower.word(),
+            name: "point_follower",
             category: Category::Joint,
             forms: &["point_follower(P, k)"],
             letters: "k a curve or circle",
@@ -386,13 +545,18 @@ driver motor: rotation(axle) = 60 rpm * t",
             ),
         },
         takes: "a point and a curve",
-        equations: 2,
+        features: [FeatureWord::Point, FeatureWord::Curve],
+        arguments: &[],
+        rows: &[LENGTH, LENGTH],
         coordinates: &[("u", "the argument of the curve at the point")],
+        motion: None,
+        reaction: ReactionKind::Force,
+        spacing: None,
+        symbol: JointSymbol::Contact,
     },
-    JointWord {
-        kind: JointKind::Cam,
+    JointSpec {
         word: Word {
-            name: JointKind::Cam.word(),
+            name: "cam",
             category: Category::Joint,
             forms: &["cam(k, m)"],
             letters: "k and m curves or circles",
@@ -420,16 +584,21 @@ driver motor: rotation(axle) = 60 rpm * t",
             ),
         },
         takes: "two curves",
-        equations: 3,
+        features: [FeatureWord::Curve, FeatureWord::Curve],
+        arguments: &[],
+        rows: &[LENGTH, LENGTH, Dimension::AREA],
         coordinates: &[
             ("u", "the argument of the first curve at the contact"),
             ("w", "the argument of the second curve there"),
         ],
+        motion: None,
+        reaction: ReactionKind::Force,
+        spacing: None,
+        symbol: JointSymbol::Contact,
     },
-    JointWord {
-        kind: JointKind::FlatFollower,
+    JointSpec {
         word: Word {
-            name: JointKind::FlatFollower.word(),
+            name: "flat_follower",
             category: Category::Joint,
             forms: &["flat_follower(k, a)"],
             letters: "k a curve or circle and a an axis",
@@ -456,7 +625,13 @@ driver motor: rotation(axle) = 60 rpm * t",
             ),
         },
         takes: "a curve and an axis",
-        equations: 2,
+        features: [FeatureWord::Curve, FeatureWord::Axis],
+        arguments: &[],
+        rows: &[LENGTH, LENGTH],
         coordinates: &[("u", "the argument of the curve at the contact")],
+        motion: None,
+        reaction: ReactionKind::Force,
+        spacing: None,
+        symbol: JointSymbol::Contact,
     },
 ];

@@ -5,8 +5,9 @@ use super::branches::{Doubt, FarBody, Off};
 use crate::analysis::explain::errors::{at, degrees, length};
 use crate::limits::assembly::AGREES;
 use crate::limits::printed::NOTHING;
-use mechc_ir::{ConstraintSystem, DeclarationKind, Fit, JointKind};
+use mechc_ir::{ConstraintSystem, DeclarationKind, Fit, JointSpec};
 use mechc_text::diag::{Applicability, Code, Diagnostic, Fix, readable};
+use mechc_text::vocabulary::Spacing;
 
 /// Returns a warning about the doubt that the assembled position is the intended one.
 ///
@@ -105,15 +106,13 @@ pub fn misfit(system: &ConstraintSystem, fit: &Fit, q: &[f64], t: f64) -> Option
                 .help("left and right are seen along the direction of the rack's axis"),
         );
     }
-    let (what, why, other) = match joint.kind {
-        DeclarationKind::Joint(JointKind::Gear) => ("centres", "the sum of the radii", Some("internal_gear")),
-        DeclarationKind::Joint(JointKind::InternalGear) => ("centres", "the difference of the radii", Some("gear")),
-        _ => ("centre and axis", "the radius", None),
+    let DeclarationKind::Joint(JointSpec { spacing: Some(Spacing { of, wanted, other }), .. }) = joint.kind else {
+        return None;
     };
     // the sum of the radii, of gears that take the difference, and the other way round
     let fits_another = (distance - (2.0 * radius - required)).abs() <= AGREES * radius;
     let message = format!(
-        "the {what} of `{}` are {} apart at {}, and {why} is {}",
+        "the {of} of `{}` are {} apart at {}, and {wanted} is {}",
         joint.name,
         digits_that_differ(distance, required),
         at(t),

@@ -138,7 +138,9 @@ pub fn wrong_dimension(place: &str, expected: Dimension, found: Part, text: &str
         if found.dimension.is(Dimension::PURE) && units(expected).is_some() {
             fix = with_unit(found.span, text, &usual_unit(expected));
         }
-        units(expected).map(|units| format!("units of {}: {units}", expected.in_words().trim_start_matches("an ").trim_start_matches("a ")))
+        units(expected).map(|units| {
+            format!("units of {}: {units}", expected.in_words().trim_start_matches("an ").trim_start_matches("a "))
+        })
     };
     Diagnostic::new(
         Code::E0402,

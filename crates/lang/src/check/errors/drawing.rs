@@ -8,10 +8,10 @@ use mechc_text::source::Span;
 
 /// Gears whose drawn poses give no direction between their centres.
 pub fn centers_coincide(circles: [Span; 2]) -> Diagnostic {
-    Diagnostic::new(Code::E0412, "the centres of these gears coincide as the bodies are drawn")
+    Diagnostic::new(Code::E0412, "the centres of these circles coincide as the bodies are drawn")
         .at(circles[1], "its centre is that of the other one")
         .also(circles[0], "the other one")
-        .help("give the bodies poses in `at` that show in which direction one gear lies from the other")
+        .help("give the bodies poses in `at` that show in which direction one lies from the other")
 }
 
 /// A pinion whose drawn pose gives no side of its rack.
@@ -31,6 +31,11 @@ pub fn side_without_phase(side: &str, span: Span) -> Diagnostic {
             format!("write the phase too: `rack_pinion(c, a, 0 mm, {side})`"),
             Applicability::Probably,
         ))
+}
+
+pub fn not_the_word(word: &str, span: Span) -> Diagnostic {
+    Diagnostic::new(Code::E0302, format!("expected `{word}`"))
+        .at(span, format!("only the word `{word}` may stand here"))
 }
 
 pub fn no_side(span: Span) -> Diagnostic {
