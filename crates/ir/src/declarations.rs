@@ -124,7 +124,7 @@ pub struct Coordinate {
 }
 
 /// Kinds of declarations that write rows.
-#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum DeclarationKind {
     /// A joint.
     Joint(&'static JointSpec),

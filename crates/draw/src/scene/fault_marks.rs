@@ -5,7 +5,11 @@ use super::length_marks::{self, Length};
 use super::plane::{Path, Pose, Vector, cross, distance, dot, left, length, minus, plus, times, unit as normal};
 use super::symbols::Symbols;
 use super::{Anchor, Attachment, Look, Motion, Node, Scene, Shape, builder};
-use mechc_lang::model::{EquationForm, JointFeature, Mechanism};
+use mechc_lang::model::{
+    EquationForm,
+    JointFeature::{Axis, Point},
+    Mechanism,
+};
 use std::f64::consts::PI;
 
 /// Distance of the halves of an open joint (symbol units), and of one in the pose as drawn.
@@ -166,7 +170,7 @@ impl Marks<'_> {
         let joint = &model.joints[number];
         let value = features.signed_value(joint);
         let ends = match joint.features {
-            [JointFeature::Point(p), JointFeature::Point(q)] => {
+            [Point(p), Point(q)] => {
                 let ends = [p, q].map(|point| features.point(point));
                 if joint.spec.holds_distance() {
                     self.link_gap(ends, value.abs())?
@@ -174,14 +178,12 @@ impl Marks<'_> {
                     ends.map(|end| end.position(self.poses))
                 }
             }
-            [JointFeature::Axis(a), JointFeature::Axis(b)] => {
+            [Axis(a), Axis(b)] => {
                 let [first, second] = [a, b].map(|axis| features.axis(axis));
                 let (guide, slider) = if second.frame == 0 { (second, first) } else { (first, second) };
                 self.offset_gap(Anchor { frame: slider.frame, at: slider.at }, &guide, 0.0)
             }
-            [JointFeature::Point(p), JointFeature::Axis(axis)] => {
-                self.offset_gap(features.point(p), &features.axis(axis), value)
-            }
+            [Point(p), Axis(axis)] => self.offset_gap(features.point(p), &features.axis(axis), value),
             _ => return None,
         };
         ends.iter().all(|position| super::is_finite(*position)).then_some(ends)

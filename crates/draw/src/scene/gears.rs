@@ -9,7 +9,7 @@ use super::guides::height;
 use super::plane::{Contour, Path, Segment, direction, dot, minus, plus, polar};
 use super::symbols::Symbols;
 use super::teeth::{DEDENDUM, Rack, Wheel, integer_residual, offset};
-use super::{Look, PitchLine, Shape};
+use super::{Anchor, Look, PitchLine, Shape};
 use mechc_expr::math;
 use mechc_lang::model::JointFeature;
 use mechc_text::vocabulary::JointSymbol;
@@ -324,22 +324,35 @@ fn wheel(drawing: &mut Drawing, part: &Member, disc: &Disc, teeth: Option<&Teeth
             let inner = Contour { start, segments: vec![half(-radius), half(radius)], is_closed: true };
             vec![Symbols::ring(inner, at, radius + (0.8 * unit).min(0.2 * radius), Look::Gear)]
         }
-        None => {
-            let mark = [plus(at, polar(0.55 * radius, 0.0)), plus(at, polar(0.95 * radius, 0.0))];
-            vec![shape(Look::Gear, Path::Circle { at, radius }), shape(Look::Pitch, Path::line(mark))]
-        }
+        None => disc_with_mark(disc),
     };
+    add_wheel(drawing, disc, shapes, part.is_ring);
+}
+
+/// Draws a wheel without teeth.
+pub(super) fn disc(drawing: &mut Drawing, disc: &Disc) {
+    add_wheel(drawing, disc, disc_with_mark(disc), false);
+}
+
+/// Returns a disc with a mark that makes its rotation visible.
+fn disc_with_mark(&Disc { center: Anchor { at, .. }, radius }: &Disc) -> Vec<Shape> {
+    let mark = [plus(at, polar(0.55 * radius, 0.0)), plus(at, polar(0.95 * radius, 0.0))];
+    vec![shape(Look::Gear, Path::Circle { at, radius }), shape(Look::Pitch, Path::line(mark))]
+}
+
+fn add_wheel(drawing: &mut Drawing, disc: &Disc, shapes: Vec<Shape>, is_ring: bool) {
+    let (Anchor { frame, at }, radius) = (disc.center, disc.radius);
     let path = Path::Circle { at, radius };
-    drawing.pitch_lines.push(PitchLine { declaration: part.frame, frame: part.frame, path });
-    let layer = match part.frame {
+    drawing.pitch_lines.push(PitchLine { declaration: frame, frame, path });
+    let layer = match frame {
         0 => Layer::Ground,
-        _ if radius < SMALL * unit => Layer::Slots,
+        _ if radius < SMALL * drawing.unit => Layer::Slots,
         _ => Layer::Wheels,
     };
-    drawing.add_fixed(layer, part.frame, part.frame, shapes);
-    let outline = &mut drawing.outlines[part.frame];
+    drawing.add_fixed(layer, frame, frame, shapes);
+    let outline = &mut drawing.outlines[frame];
     outline.is_shown = true;
-    if !part.is_ring {
+    if !is_ring {
         outline.discs.push((at, radius));
     }
 }

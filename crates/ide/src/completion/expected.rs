@@ -23,6 +23,8 @@ pub(super) enum Expected {
     Variable,
     /// A side of an axis.
     Side,
+    /// The word `crossed`.
+    Crossed,
 }
 
 impl Expected {
@@ -96,6 +98,7 @@ fn of_joint(letters: &str) -> Expected {
         "k" | "m" => Expected::Profile,
         "angle" => Expected::Number(Some(Dimension::PURE)),
         "left" | "right" => Expected::Side,
+        "crossed" => Expected::Crossed,
         _ if letters.starts_with(char::is_uppercase) => Expected::Point,
         _ => Expected::Number(Some(Dimension::LENGTH)),
     }

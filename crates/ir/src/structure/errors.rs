@@ -49,12 +49,12 @@ pub fn count(system: &ConstraintSystem, too_many: &Subsystem, too_few: &Subsyste
 
 /// Returns two joints of one kind that join the same points.
 fn duplicate_joint(system: &ConstraintSystem) -> Option<[DeclarationId; 2]> {
-    let mut joint_at: FxHashMap<(DeclarationKind, Vec<PointId>), DeclarationId> = FxHashMap::default();
-    let joints = system.declarations().pairs().filter(|(_, one)| matches!(one.kind, DeclarationKind::Joint(_)));
-    for (k, joint) in joints.filter(|(_, joint)| joint.points.len() == 2) {
-        let mut points = joint.points.clone();
+    let mut joint_at: FxHashMap<(&str, Vec<PointId>), DeclarationId> = FxHashMap::default();
+    for (k, declaration) in system.declarations().pairs().filter(|(_, one)| one.points.len() == 2) {
+        let DeclarationKind::Joint(joint) = declaration.kind else { continue };
+        let mut points = declaration.points.clone();
         points.sort_unstable();
-        if let Some(first) = joint_at.insert((joint.kind, points), k) {
+        if let Some(first) = joint_at.insert((joint.name(), points), k) {
             return Some([first, k]);
         }
     }

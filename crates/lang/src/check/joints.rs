@@ -1,9 +1,7 @@
 //! Joints: their arguments, and what the drawn poses must determine.
 
 use super::{Checker, errors};
-use crate::model::{
-    Argument, BodyId, Dimension, Frame, GuardKind, Joint, JointFeature, JointId, PointId, Profile, Side,
-};
+use crate::model::{Argument, BodyId, Dimension, Frame, GuardKind, Joint, JointFeature, JointId, PointId, Profile};
 use mechc_expr::ExprId;
 use mechc_syntax::ast::{Expr, ExprKind, ItemKind, Name};
 use mechc_text::source::Span;
@@ -93,13 +91,12 @@ impl Checker<'_> {
             }
             ArgumentSpec::Length(what) => Argument::Value(self.positive_length(e, what)?),
             ArgumentSpec::Phase => Argument::Value(self.phase(e)?),
-            ArgumentSpec::Side => Argument::Side(self.side(e)?),
-            ArgumentSpec::Word(word) => {
-                if !matches!(&e.kind, ExprKind::Name(name) if name.text == word) {
-                    self.report(errors::not_the_word(word, e.span));
-                    return None;
+            ArgumentSpec::Word(words, what) => {
+                let word = words.iter().find(|word| matches!(&e.kind, ExprKind::Name(name) if name.text == **word));
+                if word.is_none() {
+                    self.report(errors::no_word(words, what, e.span));
                 }
-                Argument::Word(word)
+                Argument::Word(word?)
             }
         })
     }
@@ -120,24 +117,13 @@ impl Checker<'_> {
     /// Evaluates the phase `κ`, a length.
     fn phase(&mut self, e: &Expr) -> Option<ExprId> {
         if let ExprKind::Name(name) = &e.bare().kind
-            && side_named(&name.text).is_some()
+            && ["left", "right"].contains(&name.text.as_str())
             && self.entity(name).is_none()
         {
             self.report(errors::side_without_phase(&name.text, e.span));
             return None;
         }
         self.constant_by(e, "the phase", Dimension::LENGTH, GuardKind::Finite).map(|(id, _)| id)
-    }
-
-    fn side(&mut self, e: &Expr) -> Option<Side> {
-        let side = match &e.kind {
-            ExprKind::Name(name) => side_named(&name.text),
-            _ => None,
-        };
-        if side.is_none() {
-            self.report(errors::no_side(e.span));
-        }
-        side
     }
 
     /// Returns whether the drawn poses determine the side or direction of one wheel relative to the other.
@@ -149,7 +135,7 @@ impl Checker<'_> {
         }
         let [Some(first), Some(second)] = joint.features.map(|feature| feature.point(&self.model)) else { return true };
         match joint.features[1].axis() {
-            Some(_) if joint.side().is_some() => true,
+            Some(_) if joint.has_word("left") || joint.has_word("right") => true,
             Some(rack) => {
                 let turned = self.drawn(frames[1], self.model[rack].direction, false);
                 let apart = match (self.drawn_point(first), self.drawn_point(second), turned) {
@@ -215,13 +201,5 @@ impl Checker<'_> {
         let place = if is_point { placement.placed(graph, local) } else { placement.turned(graph, local) };
         let [x, y] = place.map(|id| self.constant_value(id));
         Some([x?, y?])
-    }
-}
-
-fn side_named(word: &str) -> Option<Side> {
-    match word {
-        "left" => Some(Side::Left),
-        "right" => Some(Side::Right),
-        _ => None,
     }
 }

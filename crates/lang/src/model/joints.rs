@@ -35,19 +35,8 @@ pub enum JointFeature {
 pub enum Argument {
     /// An angle (rad) or a length (m).
     Value(ExprId),
-    /// The side of a rack on which its pinion lies.
-    Side(Side),
     /// A word that makes a difference.
     Word(&'static str),
-}
-
-/// The side of a rack on which its pinion lies.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Side {
-    /// To the left of the axis' direction.
-    Left,
-    /// To the right of the axis' direction.
-    Right,
 }
 
 impl JointFeature {
@@ -153,12 +142,6 @@ impl Joint {
     #[must_use]
     pub fn value(&self) -> Option<ExprId> {
         self.arguments.iter().find_map(|argument| if let Argument::Value(id) = argument { Some(*id) } else { None })
-    }
-
-    /// Returns the side of a rack, if it is given.
-    #[must_use]
-    pub fn side(&self) -> Option<Side> {
-        self.arguments.iter().find_map(|argument| if let Argument::Side(side) = argument { Some(*side) } else { None })
     }
 
     /// Returns whether a word is among the arguments.

@@ -19,7 +19,7 @@ mod results;
 pub use equations::{Analysis, Condition, ConditionKind, Equation, EquationForm, Measure, Trace, Units};
 pub use features::{Axis, Body, Circle, Curve, Frame, Point, Profile};
 pub use forces::{Force, Load, Mass};
-pub use joints::{Argument, Joint, JointFeature, Side};
+pub use joints::{Argument, Joint, JointFeature};
 pub use mechc_text::vocabulary::{CompoundUnit, Dimension};
 pub use named::Named;
 pub use params::{ContinuedParam, Input, Param, TimeFormula, Variable};

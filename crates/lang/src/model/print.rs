@@ -2,7 +2,7 @@
 
 use super::{
     Argument, AxisId, BodyId, Direction, EquationForm, Frame, Joint, JointFeature, Mechanism, Named, PointId, Profile,
-    Quantity, Reduction, Side,
+    Quantity, Reduction,
 };
 use mechc_expr::{ExprId, Printer, Symbol, number};
 use mechc_text::vocabulary::ArgumentSpec;
@@ -122,8 +122,6 @@ impl Text<'_> {
         };
         let argument = |argument: &Argument| match argument {
             Argument::Value(id) => text(*id),
-            Argument::Side(Side::Left) => "left".to_owned(),
-            Argument::Side(Side::Right) => "right".to_owned(),
             Argument::Word(word) => (*word).to_owned(),
         };
         let arguments: Vec<String> =

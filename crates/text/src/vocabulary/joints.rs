@@ -65,10 +65,8 @@ pub enum ArgumentSpec {
     Length(&'static str),
     /// The phase of a mesh, a length; that of the drawn poses if it is left out.
     Phase,
-    /// The word `left` or `right`; the side in the drawn poses if it is left out.
-    Side,
-    /// A word that makes a difference where it is written.
-    Word(&'static str),
+    /// One of some words, with what it says.
+    Word(&'static [&'static str], &'static str),
 }
 
 /// A motion that a joint leaves to its bodies.
@@ -125,6 +123,7 @@ pub enum JointSymbol {
     Gear,
     RingGear,
     Rack,
+    Belt,
     Contact,
 }
 
@@ -139,6 +138,19 @@ impl JointSpec {
     #[must_use]
     pub const fn name(&self) -> &'static str {
         self.word.name
+    }
+
+    /// Returns the numbers of equations and coordinates in words: `2 equations, and 1 coordinate of its own: u, its place`.
+    #[must_use]
+    pub fn counts(&self) -> String {
+        let count = |n: usize, what: &str| format!("{n} {what}{}", if n == 1 { "" } else { "s" });
+        let coordinates: Vec<String> =
+            self.coordinates.iter().map(|(name, what)| format!("`{name}`, {what}")).collect();
+        let equations = count(self.rows.len(), "equation");
+        match coordinates.len() {
+            0 => equations,
+            n => format!("{equations}, and {} of its own: {}", count(n, "coordinate"), coordinates.join("; ")),
+        }
     }
 
     /// Returns whether a quantity such as `rotation`, `slip` or `torque` is defined for the joint.
@@ -217,12 +229,6 @@ impl PartialEq for JointSpec {
 
 impl Eq for JointSpec {}
 
-impl std::hash::Hash for JointSpec {
-    fn hash<H: std::hash::Hasher>(&self, state: &mut H) {
-        self.name().hash(state);
-    }
-}
-
 impl std::fmt::Debug for JointSpec {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.write_str(self.name())
@@ -234,32 +240,50 @@ pub const NOTATION: &str = "Here i is the body of the first argument and j that 
                             from the first argument's point to the second's, `v` the unit direction of an axis, `v^⊥` that turned \
                             by +90°, `φ` a body's angle and `A` its rotation matrix.";
 
+/// A joint that exerts a force and a torque, and has no arguments but its features.
+const PLAIN: JointSpec = JointSpec {
+    word: Word {
+        name: "",
+        category: Category::Joint,
+        forms: &[],
+        letters: "",
+        meaning: "",
+        more: "",
+        example: Example::Of(""),
+    },
+    takes: "",
+    features: [FeatureWord::Point; 2],
+    arguments: &[],
+    rows: &[],
+    coordinates: &[],
+    motion: None,
+    reaction: ReactionKind::ForceAndTorque,
+    spacing: None,
+    symbol: JointSymbol::Pin,
+};
+
 /// All joints.
 pub static JOINTS: &[JointSpec] = &[
     JointSpec {
         word: Word {
             name: "revolute",
-            category: Category::Joint,
             forms: &["revolute(P, Q)"],
-            letters: "",
             meaning: "two points coincide, and the bodies turn about them",
             more: "`Φ = r_i^P − r_j^Q`",
             example: Example::Arm("driver motor: rotation(main) = 60 rpm * t"),
+            ..PLAIN.word
         },
         takes: "two points",
         features: [FeatureWord::Point, FeatureWord::Point],
-        arguments: &[],
         rows: &[LENGTH, LENGTH],
-        coordinates: &[],
         motion: Some(JointMotion::Rotation),
         reaction: ReactionKind::Force,
-        spacing: None,
         symbol: JointSymbol::Pin,
+        ..PLAIN
     },
     JointSpec {
         word: Word {
             name: "translational",
-            category: Category::Joint,
             forms: &["translational(a, b)"],
             letters: "a and b axes",
             meaning: "two axes lie on one line, and the bodies slide along it without turning",
@@ -275,23 +299,19 @@ body slide {
 joint guide: translational(ground.way, slide.way)
 driver piston: displacement(guide) = 50 mm + 20 mm/s * t",
             ),
+            ..PLAIN.word
         },
         takes: "two axes",
         features: [FeatureWord::Axis, FeatureWord::Axis],
-        arguments: &[],
         rows: &[LENGTH, Dimension::PURE],
-        coordinates: &[],
         motion: Some(JointMotion::Displacement),
-        reaction: ReactionKind::ForceAndTorque,
-        spacing: None,
         symbol: JointSymbol::Slider,
+        ..PLAIN
     },
     JointSpec {
         word: Word {
             name: "weld",
-            category: Category::Joint,
             forms: &["weld(P, Q)", "weld(P, Q, angle)"],
-            letters: "",
             meaning: "two points coincide, and the bodies do not turn against each other",
             more: "`Φ = [r_i^P − r_j^Q, φ_j − φ_i − φ_0]`, `φ_0` the angle, 0 if it is not given.",
             example: Example::Whole(
@@ -310,23 +330,19 @@ joint main: revolute(ground.O, arm.O)
 joint seat: weld(arm.tip, tool.O, 30 deg)
 driver motor: rotation(main) = 60 rpm * t",
             ),
+            ..PLAIN.word
         },
         takes: "two points, and an angle if it is not 0",
         features: [FeatureWord::Point, FeatureWord::Point],
         arguments: &[ArgumentSpec::Angle("the angle of a weld")],
         rows: &[LENGTH, LENGTH, Dimension::ANGLE],
-        coordinates: &[],
-        motion: None,
-        reaction: ReactionKind::ForceAndTorque,
-        spacing: None,
         symbol: JointSymbol::Weld,
+        ..PLAIN
     },
     JointSpec {
         word: Word {
             name: "revolute_revolute",
-            category: Category::Joint,
             forms: &["revolute_revolute(P, Q, length)"],
-            letters: "",
             meaning: "two points stay at a distance, as if a massless link with a pin at both ends joined them",
             more: "`Φ = dᵀd − L²`, L the length, which is positive.",
             example: Example::Whole(
@@ -348,23 +364,20 @@ joint pivot: revolute(ground.D, rocker.D)
 joint rod: revolute_revolute(crank.B, rocker.C, 210 mm)
 driver motor: rotation(main) = 90 deg + 60 rpm * t",
             ),
+            ..PLAIN.word
         },
         takes: "two points and a length",
         features: [FeatureWord::Point, FeatureWord::Point],
         arguments: &[ArgumentSpec::Length("the length of the link")],
         rows: &[Dimension::AREA],
-        coordinates: &[],
-        motion: None,
         reaction: ReactionKind::Force,
-        spacing: None,
         symbol: JointSymbol::Link,
+        ..PLAIN
     },
     JointSpec {
         word: Word {
             name: "revolute_translational",
-            category: Category::Joint,
             forms: &["revolute_translational(P, a)", "revolute_translational(P, a, offset)"],
-            letters: "",
             meaning: "a point stays on an axis, as a pin in a slot",
             more: "`Φ = v_j^⊥ᵀ (r_i^P − r_j^a) − c`, c the offset to the left of the axis, 0 if it is not given.",
             example: Example::Whole(
@@ -386,21 +399,18 @@ joint pivot: revolute(ground.B, arm.B)
 joint guide: revolute_translational(crank.pin, arm.slot)
 driver motor: rotation(main) = 60 rpm * t",
             ),
+            ..PLAIN.word
         },
         takes: "a point and an axis, and an offset if it is not 0",
         features: [FeatureWord::Point, FeatureWord::Axis],
         arguments: &[ArgumentSpec::Offset("the offset from the axis")],
         rows: &[LENGTH],
-        coordinates: &[],
-        motion: None,
-        reaction: ReactionKind::ForceAndTorque,
-        spacing: None,
         symbol: JointSymbol::Slot,
+        ..PLAIN
     },
     JointSpec {
         word: Word {
             name: "gear",
-            category: Category::Joint,
             forms: &["gear(c, d)", "gear(c, d, phase)"],
             letters: "c and d circles",
             meaning: "two circles roll on each other from outside",
@@ -426,21 +436,20 @@ joint shaft: revolute(ground.B, wheel.O)
 joint mesh: gear(pinion.pitch, wheel.pitch)
 driver motor: rotation(axle) = 60 rpm * t",
             ),
+            ..PLAIN.word
         },
         takes: "two circles, and a phase if the drawing does not give it",
         features: [FeatureWord::Circle, FeatureWord::Circle],
         arguments: &[ArgumentSpec::Phase],
         rows: &[LENGTH, LENGTH],
         coordinates: &[("theta", "the direction of the line of centres")],
-        motion: None,
-        reaction: ReactionKind::ForceAndTorque,
         spacing: Some(Spacing { of: "centres", wanted: "the sum of the radii", other: Some("internal_gear") }),
         symbol: JointSymbol::Gear,
+        ..PLAIN
     },
     JointSpec {
         word: Word {
             name: "internal_gear",
-            category: Category::Joint,
             forms: &["internal_gear(c, d)", "internal_gear(c, d, phase)"],
             letters: "c and d circles",
             meaning: "two circles roll on each other, one of them a ring around the other",
@@ -466,21 +475,67 @@ joint shaft: revolute(ground.B, ring.O)
 joint mesh: internal_gear(pinion.pitch, ring.pitch)
 driver motor: rotation(axle) = 60 rpm * t",
             ),
+            ..PLAIN.word
         },
         takes: "two circles, and a phase if the drawing does not give it",
         features: [FeatureWord::Circle, FeatureWord::Circle],
         arguments: &[ArgumentSpec::Phase],
         rows: &[LENGTH, LENGTH],
         coordinates: &[("theta", "the direction of the line of centres")],
-        motion: None,
-        reaction: ReactionKind::ForceAndTorque,
         spacing: Some(Spacing { of: "centres", wanted: "the difference of the radii", other: Some("gear") }),
         symbol: JointSymbol::RingGear,
+        ..PLAIN
+    },
+    JointSpec {
+        word: Word {
+            name: "belt",
+            forms: &["belt(c, d)", "belt(c, d, crossed)"],
+            letters: "c and d circles",
+            meaning: "a belt or chain runs around two circles without slip",
+            more: "`Φ = [−dx sin θ + dy cos θ, R_i(φ_i − θ) ∓ R_j(φ_j − θ) − κ]`, (dx, dy) from centre to centre, plus for a crossed belt, \
+                   whose pulleys turn against each other. `κ` is taken from the poses in `at`. A belt does not hold the centres of its \
+                   pulleys apart: the bodies' other joints do, and a warning says where their distance changes. It pulls them \
+                   together as hard as it was tightened, which no motion tells: it has a `torque`, but no `force_x` and `force_y`.",
+            example: Example::Whole(
+                "\
+ground {
+    point A = (0, 0)
+    point B = (150 mm, 0)
+    point C = (150 mm, 120 mm)
+}
+body pulley {
+    circle rim = (0, 0) radius 20 mm
+    point O    = (0, 0)
+}
+body drum at (150 mm, 0, 0) {
+    circle rim = (0, 0) radius 50 mm
+    point O    = (0, 0)
+}
+body fan at (150 mm, 120 mm, 0) {
+    circle rim = (0, 0) radius 15 mm
+    point O    = (0, 0)
+}
+joint axle: revolute(ground.A, pulley.O)
+joint shaft: revolute(ground.B, drum.O)
+joint pivot: revolute(ground.C, fan.O)
+joint drive: belt(pulley.rim, drum.rim)
+joint back: belt(drum.rim, fan.rim, crossed)
+driver motor: rotation(axle) = 60 rpm * t",
+            ),
+            ..PLAIN.word
+        },
+        takes: "two circles, and `crossed` if the belt crosses itself",
+        features: [FeatureWord::Circle, FeatureWord::Circle],
+        arguments: &[ArgumentSpec::Word(&["crossed"], "a belt that crosses itself")],
+        rows: &[LENGTH, LENGTH],
+        coordinates: &[("theta", "the direction of the line of centres")],
+        reaction: ReactionKind::Torque,
+        symbol: JointSymbol::Belt,
+        ..PLAIN
     },
     JointSpec {
         word: Word {
             name: "rack_pinion",
-            category: Category::Joint,
             forms: &["rack_pinion(c, a)", "rack_pinion(c, a, phase)", "rack_pinion(c, a, phase, left)"],
             letters: "c a circle and a an axis",
             meaning: "a circle rolls on an axis",
@@ -505,21 +560,25 @@ joint guide: translational(ground.way, rack.way)
 joint mesh: rack_pinion(pinion.pitch, rack.way)
 driver motor: rotation(axle) = 30 deg/s * t",
             ),
+            ..PLAIN.word
         },
         takes: "a circle and an axis, and a phase and a side if the drawing does not give them",
         features: [FeatureWord::Circle, FeatureWord::Axis],
-        arguments: &[ArgumentSpec::Phase, ArgumentSpec::Side],
+        arguments: &[
+            ArgumentSpec::Phase,
+            ArgumentSpec::Word(
+                &["left", "right"],
+                "the side of the axis on which the pinion lies, seen along the axis",
+            ),
+        ],
         rows: &[LENGTH],
-        coordinates: &[],
-        motion: None,
-        reaction: ReactionKind::ForceAndTorque,
         spacing: Some(Spacing { of: "centre and axis", wanted: "the radius", other: None }),
         symbol: JointSymbol::Rack,
+        ..PLAIN
     },
     JointSpec {
         word: Word {
             name: "point_follower",
-            category: Category::Joint,
             forms: &["point_follower(P, k)"],
             letters: "k a curve or circle",
             meaning: "a point stays on a curve",
@@ -543,21 +602,19 @@ joint guide: translational(ground.way, rod.way)
 joint contact: point_follower(rod.tip, disc.profile)
 driver motor: rotation(axle) = 60 rpm * t",
             ),
+            ..PLAIN.word
         },
         takes: "a point and a curve",
         features: [FeatureWord::Point, FeatureWord::Curve],
-        arguments: &[],
         rows: &[LENGTH, LENGTH],
         coordinates: &[("u", "the argument of the curve at the point")],
-        motion: None,
         reaction: ReactionKind::Force,
-        spacing: None,
         symbol: JointSymbol::Contact,
+        ..PLAIN
     },
     JointSpec {
         word: Word {
             name: "cam",
-            category: Category::Joint,
             forms: &["cam(k, m)"],
             letters: "k and m curves or circles",
             meaning: "two curves touch",
@@ -582,24 +639,22 @@ joint guide: translational(ground.way, rod.way)
 joint contact: cam(disc.profile, rod.roller)
 driver motor: rotation(axle) = 60 rpm * t",
             ),
+            ..PLAIN.word
         },
         takes: "two curves",
         features: [FeatureWord::Curve, FeatureWord::Curve],
-        arguments: &[],
         rows: &[LENGTH, LENGTH, Dimension::AREA],
         coordinates: &[
             ("u", "the argument of the first curve at the contact"),
             ("w", "the argument of the second curve there"),
         ],
-        motion: None,
         reaction: ReactionKind::Force,
-        spacing: None,
         symbol: JointSymbol::Contact,
+        ..PLAIN
     },
     JointSpec {
         word: Word {
             name: "flat_follower",
-            category: Category::Joint,
             forms: &["flat_follower(k, a)"],
             letters: "k a curve or circle and a an axis",
             meaning: "a curve touches a straight face",
@@ -623,15 +678,14 @@ joint guide: translational(ground.way, rod.way)
 joint contact: flat_follower(disc.profile, rod.face)
 driver motor: rotation(axle) = 60 rpm * t",
             ),
+            ..PLAIN.word
         },
         takes: "a curve and an axis",
         features: [FeatureWord::Curve, FeatureWord::Axis],
-        arguments: &[],
         rows: &[LENGTH, LENGTH],
         coordinates: &[("u", "the argument of the curve at the contact")],
-        motion: None,
         reaction: ReactionKind::Force,
-        spacing: None,
         symbol: JointSymbol::Contact,
+        ..PLAIN
     },
 ];

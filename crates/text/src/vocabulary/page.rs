@@ -96,7 +96,7 @@ fn noun(word: &Word) -> &'static str {
 fn details(word: &Word) -> Vec<String> {
     let mut details = Vec::new();
     if let Some(joint) = JointSpec::named(word.name).filter(|_| word.category == Category::Joint) {
-        details.push(equations(joint));
+        details.push(joint.counts() + ".");
         details.push(word.more.to_owned());
         details.push(NOTATION.to_owned());
         return details;
@@ -128,19 +128,6 @@ fn details(word: &Word) -> Vec<String> {
         details.push(MOTION_NOTES.to_owned());
     }
     details
-}
-
-/// Describes the equations of a joint: `2 equations, and 1 coordinate of its own: theta, the direction of the line of centres`.
-fn equations(joint: &JointSpec) -> String {
-    let count = |n: usize, what: &str| format!("{n} {what}{}", if n == 1 { "" } else { "s" });
-    let mut text = count(joint.rows.len(), "equation");
-    if !joint.coordinates.is_empty() {
-        let coordinates: Vec<String> =
-            joint.coordinates.iter().map(|(name, what)| format!("`{name}`, {what}")).collect();
-        text +=
-            &format!(", and {} of its own: {}", count(joint.coordinates.len(), "coordinate"), coordinates.join("; "));
-    }
-    text + "."
 }
 
 /// Returns the value of one unit in SI: `0.001 m`.

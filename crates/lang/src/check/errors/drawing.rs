@@ -1,6 +1,7 @@
 //! Diagnostics of drawn poses, times and missing units.
 
 use super::dimensions::{MOST_PLACES, format_value};
+use super::list;
 use crate::check::suggest::edits::{is_bare_number, with_factors};
 use crate::model::Dimension;
 use mechc_text::diag::{Applicability, Code, Diagnostic, Edit, Fix, readable};
@@ -33,15 +34,9 @@ pub fn side_without_phase(side: &str, span: Span) -> Diagnostic {
         ))
 }
 
-pub fn not_the_word(word: &str, span: Span) -> Diagnostic {
-    Diagnostic::new(Code::E0302, format!("expected `{word}`"))
-        .at(span, format!("only the word `{word}` may stand here"))
-}
-
-pub fn no_side(span: Span) -> Diagnostic {
-    Diagnostic::new(Code::E0302, "expected `left` or `right`")
-        .at(span, "the side of the axis on which the pinion lies")
-        .help("left and right are seen along the direction of the axis")
+/// Another formula where one of some words may stand, which say `what`.
+pub fn no_word(words: &[&str], what: &str, span: Span) -> Diagnostic {
+    Diagnostic::new(Code::E0302, format!("expected {}", list(words).replace(" and ", " or "))).at(span, what)
 }
 
 pub fn step_not_positive(span: Span, value: f64) -> Diagnostic {

@@ -1,24 +1,30 @@
-//! Gears and racks (H 3.4): circles that roll. They do not hold the distance of their centres.
+//! Gears and racks (H 3.4) and belts: circles that roll. They do not hold the distance of their centres.
 
 use crate::lower::Lowering;
 use crate::lower::frames::Vector;
-use crate::model::{Joint, JointFeature, Side};
+use crate::model::{Joint, JointFeature};
 use mechc_expr::{Binary, ExprId, Unary};
 use mechc_ir::{CoordinateKind, Fit, MonitorKind};
 
 /// Returns the rows of a gear: `[−dx sin θ + dy cos θ, R_i(φ_i − θ) + R_j(φ_j − θ) − κ]`, θ the direction of the line of centres.
 pub(super) fn gear(l: &mut Lowering<'_>, joint: &Joint) -> Vec<ExprId> {
     // Angles and phases of wheels are relative to the part that declares them.
-    l.relative_to(joint.part, |l| l.wheels(joint, false, |l, [r, s]| l.graph.add(r, s)))
+    l.relative_to(joint.part, |l| l.wheels(joint, false, |l, [r, s]| Some(l.graph.add(r, s))))
 }
 
 /// Returns the rows of an internal gear: `[−dx sin θ + dy cos θ, R_i(φ_i − θ) − R_j(φ_j − θ) − κ]`.
 pub(super) fn internal_gear(l: &mut Lowering<'_>, joint: &Joint) -> Vec<ExprId> {
     let difference = |l: &mut Lowering<'_>, [r, s]: [ExprId; 2]| {
         let difference = l.graph.sub(r, s);
-        l.graph.unary(Unary::Abs, difference)
+        Some(l.graph.unary(Unary::Abs, difference))
     };
     l.relative_to(joint.part, |l| l.wheels(joint, true, difference))
+}
+
+/// Returns the rows of a belt: `[−dx sin θ + dy cos θ, R_i(φ_i − θ) ∓ R_j(φ_j − θ) − κ]`, with plus for a crossed one. One pulley takes up
+/// what the other one lets go.
+pub(super) fn belt(l: &mut Lowering<'_>, joint: &Joint) -> Vec<ExprId> {
+    l.relative_to(joint.part, |l| l.wheels(joint, !joint.has_word("crossed"), |_, _| None))
 }
 
 /// Returns the row of a rack: `v_jᵀ(r_i^c − r_j^a) + σ R (φ_i − φ_j) − κ`.
@@ -28,12 +34,12 @@ pub(super) fn rack_pinion(l: &mut Lowering<'_>, joint: &Joint) -> Vec<ExprId> {
 
 impl Lowering<'_> {
     /// Returns the rows of two wheels, which turn in the same sense or against each other. `wanted` is the distance of their centres by
-    /// their radii.
+    /// their radii, or `None` if it must stay what it is at the start.
     pub(super) fn wheels(
         &mut self,
         joint: &Joint,
         same_sense: bool,
-        wanted: impl FnOnce(&mut Self, [ExprId; 2]) -> ExprId,
+        wanted: impl FnOnce(&mut Self, [ExprId; 2]) -> Option<ExprId>,
     ) -> Vec<ExprId> {
         let circles = joint.features;
         let drawn = self.in_drawn_poses(|l| l.line_of_centers(circles));
@@ -80,13 +86,13 @@ impl Lowering<'_> {
 
     fn rack(&mut self, joint: &Joint) -> Vec<ExprId> {
         let [pinion, rack] = joint.features;
-        let sigma = match joint.side() {
-            Some(Side::Left) => self.graph.constant(1.0),
-            Some(Side::Right) => self.graph.constant(-1.0),
-            None => {
-                let left = self.in_drawn_poses(|l| l.height(pinion, rack));
-                self.graph.unary(Unary::Sign, left)
-            }
+        let sigma = if joint.has_word("left") {
+            self.graph.constant(1.0)
+        } else if joint.has_word("right") {
+            self.graph.constant(-1.0)
+        } else {
+            let left = self.in_drawn_poses(|l| l.height(pinion, rack));
+            self.graph.unary(Unary::Sign, left)
         };
         let phase = match joint.value() {
             Some(phase) => self.formula(phase),
@@ -97,7 +103,7 @@ impl Lowering<'_> {
         // The distance is negative on the other side of the rack.
         let distance = self.graph.mul(sigma, height);
         let radius = self.radius(pinion);
-        self.fits.push(Fit { distance, wanted: radius, radius, declaration: self.declarations.next_id() });
+        self.fits.push(Fit { distance, wanted: Some(radius), radius, declaration: self.declarations.next_id() });
         vec![self.graph.sub(rolled, phase)]
     }
 

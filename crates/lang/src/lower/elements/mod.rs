@@ -24,6 +24,7 @@ const ELEMENTS: &[(&str, Rows)] = &[
     ("revolute_translational", revolute_translational),
     ("gear", gears::gear),
     ("internal_gear", gears::internal_gear),
+    ("belt", gears::belt),
     ("rack_pinion", gears::rack_pinion),
     ("point_follower", contacts::point_follower),
     ("cam", contacts::cam),
