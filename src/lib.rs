@@ -43,8 +43,8 @@ pub use mechc_pipeline::output::{TableFormat, TableWriter};
 pub use mechc_pipeline::{
     Assembly, Checked, Choice, Compiled, CornerReport, CurveTolerance, Deviation, DisplayUnit, EvaluationPoint,
     EvaluatorOptions, Formula, InputMotion, MechanismEvaluator, OutputSensitivity, Parsed, Redundant, RequestedTimes,
-    Run, RunOptions, RustOptions, SettableParam, Sweep, SweepOptions, SweptColumn, Tolerance, Tolerancing, Variants,
-    VaryOptions, Vectors, Visualization, import_model, seconds,
+    Requirements, Run, RunOptions, RustOptions, SettableParam, Sweep, SweepOptions, SweptColumn, Tolerance,
+    Tolerancing, Variants, VaryOptions, Vectors, Visualization, import_model, seconds,
 };
 pub use mechc_syntax::{Comment, Trivia};
 pub use mechc_text::cancel::Cancel;

@@ -26,10 +26,10 @@
     "mirrored" "as" "columns" "periodic")
   "Words of the language.")
 (defconst mech-mode-sides
-  '("left" "right")
+  '("left" "right" "crossed")
   "Words of the language.")
 (defconst mech-mode-joints
-  '("revolute" "translational" "weld" "revolute_revolute" "revolute_translational" "gear" "internal_gear"
+  '("revolute" "translational" "weld" "revolute_revolute" "revolute_translational" "gear" "internal_gear" "belt"
     "rack_pinion" "point_follower" "cam" "flat_follower")
   "Words of the language.")
 (defconst mech-mode-called

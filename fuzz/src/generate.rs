@@ -452,8 +452,13 @@ impl<'d, 'b> Draft<'d, 'b> {
         let apart = if inside { large - small } else { large + small };
         let center = [at[0] + apart * along[0], at[1] + apart * along[1]];
         let (c, d) = (self.circle(wheel, at, small), self.circle(other, center, large));
-        let word = if inside { "internal_gear" } else { "gear" };
-        self.joint(&format!("{word}({c}, {d})"));
+        let [word, end] = match (inside, self.pick(4)) {
+            (false, 0) => ["belt", ""],
+            (false, 1) => ["belt", ", crossed"],
+            (false, _) => ["gear", ""],
+            (true, _) => ["internal_gear", ""],
+        };
+        self.joint(&format!("{word}({c}, {d}{end})"));
     }
 
     fn rack(&mut self, base: usize, at: Point, along: Point) {

@@ -12,7 +12,7 @@ use super::timings::{Phase, Timings};
 use mechc_engine::analysis::Answers;
 use mechc_ir::layout::ColumnUnit;
 use mechc_pipeline::output::{TableFormat, TableWriter};
-use mechc_pipeline::{Choice, Run, RunOptions};
+use mechc_pipeline::{Choice, Requirements, Run, RunOptions};
 use mechc_text::diag::Diagnostics;
 use std::io::IsTerminal;
 use std::mem::ManuallyDrop;
@@ -28,7 +28,7 @@ pub(super) fn run(arguments: &RunArguments, reporter: &mut Reporter) -> Result<(
         lead: arguments.lead,
         reactions: arguments.reactions,
         results: arguments.result.clone(),
-        requirements: true,
+        requirements: Requirements::Judged,
         ..input::choice(&arguments.input)
     };
     let compiled = input::compiled_as(&parsed, &choice, arguments.following.allow_redundant, reporter, &mut timings)?;

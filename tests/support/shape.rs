@@ -139,6 +139,12 @@ fn kind_shape(kind: &ItemKind) -> String {
         ItemKind::Result { name, value, unit } => {
             format!("result {} {} {}", name.text, shape(value), unit_shape(unit.as_ref()))
         }
+        ItemKind::Requirement(of) => {
+            let name = of.name.as_ref().map(|name| name.text.as_str());
+            let rest: Vec<String> =
+                of.rest.iter().map(|side| format!("{:?} {}", side.sign, shape(&side.right))).collect();
+            format!("require {name:?} {} {rest:?} {:?}", shape(&of.first), of.within.as_ref().map(shape))
+        }
         ItemKind::Broken { .. } => "broken".to_owned(),
         ItemKind::Analysis { from, to, every } => format!("analysis {} {} {}", shape(from), shape(to), shape(every)),
     }

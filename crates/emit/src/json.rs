@@ -185,7 +185,7 @@ impl Writer<'_> {
     fn declarations(&self) -> Vec<Value> {
         let declarations = self.system.declarations().iter().map(|declaration| {
             let joint = match declaration.kind {
-                DeclarationKind::Joint(kind) => Some(kind.word()),
+                DeclarationKind::Joint(kind) => Some(kind.name()),
                 DeclarationKind::Constraint | DeclarationKind::Driver => None,
             };
             json!({

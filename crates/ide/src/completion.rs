@@ -222,8 +222,8 @@ impl CompletionContext<'_> {
         items.extend(JOINTS.iter().map(|joint| {
             let item = CompletionItem::word(&joint.word, 1);
             // the arguments are proposed one by one after the parenthesis
-            let plural = if joint.equations == 1 { "" } else { "s" };
-            let detail = format!("{} · {} equation{plural}", joint.takes, joint.equations);
+            let plural = if joint.rows.len() == 1 { "" } else { "s" };
+            let detail = format!("{} · {} equation{plural}", joint.takes, joint.rows.len());
             item.detail(detail)
         }));
         items
@@ -280,13 +280,12 @@ impl CompletionContext<'_> {
         let other = cursor.call().map(|call| cursor.arguments(call)).unwrap_or_default();
         for kind in expected {
             items.extend(scope.fitting(*kind, cursor));
-            if *kind == Expected::Side {
-                items.extend(
-                    ["left", "right"]
-                        .iter()
-                        .filter_map(|side| Some(CompletionItem::word(&Keyword::named(side)?.word, 1))),
-                );
-            }
+            let words: &[&str] = match kind {
+                Expected::Side => &["left", "right"],
+                Expected::Crossed => &["crossed"],
+                _ => &[],
+            };
+            items.extend(words.iter().filter_map(|word| Some(CompletionItem::word(&Keyword::named(word)?.word, 1))));
         }
         // a joint connects two different bodies
         if cursor.head() == "joint"

@@ -3,29 +3,17 @@
 use super::numbers::with_unit;
 use mechc_pipeline::Formula;
 use mechc_text::source::Sources;
-use mechc_text::vocabulary::{Category, Function, JointWord, Unit, Word};
+use mechc_text::vocabulary::{Category, Function, JointSpec, Unit, Word};
 
 /// Formats the documentation of a word: its forms, its meaning and details.
 pub(super) fn word_docs(word: &Word) -> String {
     let mut parts = vec![format!("```mech\n{}\n```", word.forms.join("\n")), word.meaning.to_owned()];
     parts.extend((!word.letters.is_empty()).then(|| word.letters.to_owned()));
-    parts.extend(equations(word));
+    parts.extend(JointSpec::named(word.name).filter(|_| word.category == Category::Joint).map(JointSpec::counts));
     parts.extend(in_si(word));
     parts.extend((!word.more.is_empty()).then(|| word.more.to_owned()));
     parts.extend(derivatives(word));
     parts.join("\n\n")
-}
-
-/// Formats the number of a joint's equations and coordinates: `2 equations, and 1 coordinate of its own`.
-fn equations(word: &Word) -> Option<String> {
-    let joint = JointWord::named(word.name).filter(|_| word.category == Category::Joint)?;
-    let count = |n: usize, what: &str| format!("{n} {what}{}", if n == 1 { "" } else { "s" });
-    let coordinates: Vec<String> = joint.coordinates.iter().map(|(name, what)| format!("`{name}`, {what}")).collect();
-    let equations = count(joint.equations, "equation");
-    Some(match coordinates.len() {
-        0 => equations,
-        n => format!("{equations}, and {} of its own: {}", count(n, "coordinate"), coordinates.join("; ")),
-    })
 }
 
 fn in_si(word: &Word) -> Option<String> {

@@ -1,6 +1,6 @@
 //! The declared things of a system, each with its name and source span.
 
-use super::{AxisId, BodyId, CircleId, DeclarationId, JointKind, PointId};
+use super::{AxisId, BodyId, CircleId, DeclarationId, JointSpec, PointId};
 use mechc_expr::{ExprId, Symbol, TIME_SIGNAL};
 use mechc_text::source::Span;
 use mechc_text::vocabulary::Dimension;
@@ -124,10 +124,10 @@ pub struct Coordinate {
 }
 
 /// Kinds of declarations that write rows.
-#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum DeclarationKind {
     /// A joint.
-    Joint(JointKind),
+    Joint(&'static JointSpec),
     /// A constraint.
     Constraint,
     /// A driver.

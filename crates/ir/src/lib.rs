@@ -54,7 +54,7 @@ pub use features::{Axis, Circle, Point};
 pub use forces::{ContactForce, Forces, LoadForce, Mechanics, Reaction};
 pub use homotopy::Homotopy;
 pub use ids::{AxisId, BodyId, CircleId, DeclarationId, IdVec, PointId};
-pub use mechc_text::vocabulary::JointKind;
+pub use mechc_text::vocabulary::JointSpec;
 pub use monitors::{
     Check, Condition, ConditionKind, Fit, Monitor, MonitorKind, OpenContact, PartStart, PartWithDerivatives,
 };

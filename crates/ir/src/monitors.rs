@@ -70,13 +70,13 @@ pub enum MonitorKind {
     Curvature,
 }
 
-/// A center distance at the assembled start, and its nominal value.
+/// A center distance, and its nominal value.
 #[derive(Clone, Debug)]
 pub struct Fit {
     /// Actual distance (m).
     pub distance: ExprId,
-    /// Nominal distance from the radii (m).
-    pub wanted: ExprId,
+    /// Nominal distance from the radii (m), which the assembled start must have; `None` if the distance must stay what it is there.
+    pub wanted: Option<ExprId>,
     /// Larger radius (m).
     pub radius: ExprId,
     /// Declaration of the joint.

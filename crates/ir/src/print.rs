@@ -112,7 +112,7 @@ impl ConstraintSystem {
         writeln!(f, "\nwritten by")?;
         for declaration in &self.declarations {
             let kind = match declaration.kind {
-                DeclarationKind::Joint(joint) => format!("joint, {}", joint.word()),
+                DeclarationKind::Joint(joint) => format!("joint, {}", joint.name()),
                 other => other.noun().to_owned(),
             };
             writeln!(f, "  {}: {kind}", declaration.name)?;

@@ -5,11 +5,10 @@
 //! measures and reactions, the values of formulas, and that derivatives belong to their formulas.
 
 use super::{
-    BodyId, ConstraintSystem, CoordinateKind, DeclarationId, DeclarationKind, Forces, JointKind, Owner, ReductionKind,
-    Row, Variations, With,
+    BodyId, ConstraintSystem, CoordinateKind, DeclarationId, DeclarationKind, Forces, Owner, ReductionKind, Row,
+    Variations, With,
 };
 use mechc_expr::{ExprId, Symbol, TIME_SIGNAL};
-use mechc_text::vocabulary::Dimension;
 
 impl ConstraintSystem {
     /// Checks all invariants and returns the first violation, in terms of the compiler's internals. Takes about as long as printing the
@@ -111,7 +110,7 @@ impl ConstraintSystem {
     /// Checks that the rows of a joint that are left have the units of its kind.
     fn check_row_units(&self) -> Result<(), String> {
         let mut expected_units = self.declarations.map(|declaration| match declaration.kind {
-            DeclarationKind::Joint(kind) => Some(units_of(kind).iter()),
+            DeclarationKind::Joint(kind) => Some(kind.rows.iter()),
             DeclarationKind::Constraint | DeclarationKind::Driver => None,
         });
         for (k, Row { declaration, unit, .. }) in self.rows.iter().enumerate() {
@@ -244,34 +243,16 @@ impl ConstraintSystem {
     }
 }
 
-/// Returns the units of the rows of a joint, in order.
-fn units_of(kind: JointKind) -> &'static [Dimension] {
-    const LENGTH: Dimension = Dimension::LENGTH;
-    match kind {
-        JointKind::Translational => &[LENGTH, Dimension::PURE],
-        JointKind::Weld => &[LENGTH, LENGTH, Dimension::ANGLE],
-        JointKind::RevoluteRevolute => &[Dimension::AREA],
-        JointKind::RevoluteTranslational | JointKind::RackPinion => &[LENGTH],
-        JointKind::Cam => &[LENGTH, LENGTH, Dimension::AREA],
-        JointKind::Revolute
-        | JointKind::Gear
-        | JointKind::InternalGear
-        | JointKind::PointFollower
-        | JointKind::FlatFollower => &[LENGTH, LENGTH],
-    }
-}
-
 fn ensure(holds: bool, fault: impl Fn() -> String) -> Result<(), String> {
     if holds { Ok(()) } else { Err(fault()) }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{
-        BodyId, ConstraintSystem, CoordinateKind, DeclarationId, DeclarationKind, JointKind, Owner, Row, With,
-    };
+    use super::{BodyId, ConstraintSystem, CoordinateKind, DeclarationId, DeclarationKind, Owner, Row, With};
     use crate::{
-        Body, Coordinate, Declaration, DomainBoundary, Measure, Monitor, MonitorKind, Outcome, Point, Units, Written,
+        Body, Coordinate, Declaration, DomainBoundary, JointSpec, Measure, Monitor, MonitorKind, Outcome, Point, Units,
+        Written,
     };
     use mechc_expr::{ExprId, Graph, Symbol, Unary};
     use mechc_text::source::{Sources, Span};
@@ -316,7 +297,7 @@ mod tests {
             written: None,
             is_referenced: false,
         };
-        let revolute = DeclarationKind::Joint(JointKind::Revolute);
+        let revolute = JointSpec::named("revolute").map(DeclarationKind::Joint).expect("a joint");
         let units = Units { si: "m".to_owned(), printed: ["m", "m/s", "m/s^2"].map(str::to_owned), scale: [1.0; 3] };
         let written = Written {
             name: "arms".to_owned(),

@@ -56,12 +56,22 @@ pub struct Choice {
     /// True if results are differentiated by these too, as results after all others. The two flags tell whether the first and the last time of
     /// the analysis are those of the text, which may depend on params.
     pub slopes: Option<[bool; 2]>,
-    /// True if the requirements of the text are judged with its results; see [`crate::Run::results`].
-    pub requirements: bool,
+    /// The treatment of the requirements of the text; see [`crate::Run::results`].
+    pub requirements: Requirements,
     /// True if the reactions of all joints and the efforts of all drivers are tabulated.
     pub reactions: bool,
     /// True if pictures show forces, if there are any.
     pub pictures_forces: bool,
+}
+
+/// The treatment of the requirements of a text.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub enum Requirements {
+    /// They are checked for mistakes alone.
+    #[default]
+    Unjudged,
+    /// They are judged with the results.
+    Judged,
 }
 
 /// Caches what the first query of an editor computes.
@@ -196,7 +206,7 @@ impl Checked {
                     given,
                     by,
                     slopes,
-                    judges_requirements: choice.requirements,
+                    judges_requirements: choice.requirements == Requirements::Judged,
                     ..CheckOptions::default()
                 };
                 let parsed = parsed.with_sources(sources);

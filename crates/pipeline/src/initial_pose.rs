@@ -2,7 +2,7 @@
 
 use crate::Checked;
 use mechc_expr::{ExprId, Symbol};
-use mechc_lang::model::{Frame, JoinedFeatures, Joint, Mechanism, Placement, Point};
+use mechc_lang::model::{Frame, Joint, Mechanism, Placement, Point};
 
 /// A mechanism in its initial pose.
 pub struct InitialPose {
@@ -70,21 +70,21 @@ fn drawn(model: &Mechanism) -> InitialPose {
             .find(|(point, _)| point.frame == frame)
             .map_or(f64::NAN, |(_, placement)| value(placement.phi)),
     };
-    let position = |features: JoinedFeatures| match features {
-        JoinedFeatures::Revolute(p, q) => Some(("rotation", angle(model[q].frame) - angle(model[p].frame))),
-        JoinedFeatures::Translational(a, b) => {
-            let [from, to] = [a, b].map(|axis| points[model[axis].origin.index()].map(value));
-            let [x, y] = directions[a.index()].map(value);
-            Some(("displacement", ((to[0] - from[0]) * x + (to[1] - from[1]) * y) / (x * x + y * y).sqrt()))
+    let position = |joint: &Joint| {
+        if let Some([p, q]) = joint.pin() {
+            return Some(angle(model[q].frame) - angle(model[p].frame));
         }
-        _ => None,
+        let guide = joint.guide()?;
+        let [from, to] = guide.map(|axis| points[model[axis].origin.index()].map(value));
+        let [x, y] = directions[guide[0].index()].map(value);
+        Some(((to[0] - from[0]) * x + (to[1] - from[1]) * y) / (x * x + y * y).sqrt())
     };
     let point = |((point, _), at): (&(&Point, Placement), &[ExprId; 2])| {
         let body = model.frame_name(point.frame).to_owned();
         Some(InitialPoint { body, name: point.name.clone()?, at: at.map(value) })
     };
     let joint = |joint: &Joint| {
-        let (quantity, value) = position(joint.features)?;
+        let (quantity, value) = (joint.spec.motion?.quantity(), position(joint)?);
         Some(InitialJoint { name: joint.declared.name.clone(), quantity, value })
     };
     InitialPose {

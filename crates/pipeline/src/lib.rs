@@ -39,7 +39,7 @@ mod times;
 mod tolerancing;
 mod visualization;
 
-pub use checked::{Checked, Choice};
+pub use checked::{Checked, Choice, Requirements};
 pub use compiled::{Compiled, Redundant};
 pub use controls::{InputControl, ParamControl, size_of_unit};
 pub use drag_handles::DragHandle;

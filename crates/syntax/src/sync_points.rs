@@ -3,7 +3,7 @@
 use super::foreign_syntax::hyphenated_at;
 use super::lexer::{Token, TokenKind, is_word_char};
 use mechc_text::diag::nearest;
-use mechc_text::vocabulary::{JointWord, Keyword, Position, Role, Synonym, declares_name, is_ground};
+use mechc_text::vocabulary::{JointSpec, Keyword, Position, Role, Synonym, declares_name, is_ground};
 use rustc_hash::FxHashSet;
 use std::ops::Range;
 
@@ -267,7 +267,7 @@ impl<'a> SyncPoints<'a> {
     /// Returns whether a line begins like a declaration behind its keyword: `r = 3`, `j: revolute(…)`; or with the kind of a joint.
     fn begins_without_keyword(&self, k: usize) -> bool {
         let [next, second] = [self.word(k + 1), self.word(k + 2)];
-        let is_joint = JointWord::named(self.word(k)).is_some();
+        let is_joint = JointSpec::named(self.word(k)).is_some();
         let is_named_joint = second == "(" && (is_joint || Synonym::of(Position::Joint, self.word(k)).is_some());
         self.is_first_on_its_line(k) && (["=", ":", "{"].contains(&next) || is_joint && next == "(" || is_named_joint)
     }

@@ -28,7 +28,7 @@ syntax match mechFunction /\v<%(abs|acos|angle|argmax|argmin|asin|at|atan|atan2|
 " </words>
 
 " <words joints>
-syntax match mechJoint /\v<%(revolute|translational|weld|revolute_revolute|revolute_translational|gear|internal_gear|rack_pinion|point_follower|cam|flat_follower)>\ze\s*\(/
+syntax match mechJoint /\v<%(revolute|translational|weld|revolute_revolute|revolute_translational|gear|internal_gear|belt|rack_pinion|point_follower|cam|flat_follower)>\ze\s*\(/
 " </words>
 
 " <words constants>
@@ -46,7 +46,7 @@ syntax match mechUnit /\v%([0-9.]\s*)@8<=in>/
 " <words contextual>
 syntax match mechPlace /\v<%(use|load|trace|result|input|part|mass|gravity|to|every|along|at|toward|radius|inertia|from|on|spline|in|mirrored|as|columns|periodic)>\ze\s+[^-+*\/^=<>: \t]/
 syntax match mechPlace /\v[^=,(]\s\zsmirrored>\ze\s*$/
-syntax match mechConstant /\v,\s*\zs%(left|right)>\ze\s*\)/
+syntax match mechConstant /\v,\s*\zs%(left|right|crossed)>\ze\s*\)/
 " </words>
 
 highlight default link mechNumber Number

@@ -121,7 +121,7 @@ fn points(features: &Features) -> (Vec<Point>, Vec<Option<usize>>) {
     let model = features.model;
     let mut is_pin = vec![false; model.points.len()];
     for joint in &model.joints {
-        joint.features.points(model).into_iter().for_each(|point| is_pin[point.index()] = true);
+        joint.points(model).into_iter().for_each(|point| is_pin[point.index()] = true);
     }
     for equation in &model.equations {
         if let model::EquationForm::Distance(p, q, _) = equation.form {
@@ -144,7 +144,7 @@ fn points(features: &Features) -> (Vec<Point>, Vec<Option<usize>>) {
 
 /// Returns the points that show the shape of bodies: those of joints and drivers, traces, measures and masses.
 pub(super) fn shape_points(model: &Mechanism) -> Vec<PointId> {
-    let mut points: Vec<PointId> = model.joints.iter().flat_map(|joint| joint.features.points(model)).collect();
+    let mut points: Vec<PointId> = model.joints.iter().flat_map(|joint| joint.points(model)).collect();
     for equation in &model.equations {
         if let model::EquationForm::Distance(p, q, _) = equation.form {
             points.extend([p, q]);

@@ -5,7 +5,7 @@ use super::features::Features;
 use super::plane::{Path, Vector, bounds, distance, distance_to_segment, dot, minus, plus, times};
 use super::symbols::PIN;
 use super::{Anchor, Contact, Look, Shape, Touch};
-use mechc_lang::model::{AxisId, JoinedFeatures, PointId, Profile};
+use mechc_lang::model::{AxisId, JointFeature, PointId, Profile};
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Length of a face beyond the contact (symbol units).
@@ -13,7 +13,17 @@ const BEYOND: f64 = 1.0;
 /// Tolerance of the line that shows a profile (symbol units).
 const TOLERANCE: f64 = 0.008;
 
-pub(super) fn point_follower(drawing: &mut Drawing, number: usize, p: PointId, profile: Profile) {
+/// Draws a contact: a point or a profile on a profile, or a profile at a face.
+pub(super) fn draw(drawing: &mut Drawing, number: usize, features: [JointFeature; 2]) {
+    match features {
+        [JointFeature::Point(p), JointFeature::Profile(profile)] => point_follower(drawing, number, p, profile),
+        [JointFeature::Profile(k), JointFeature::Profile(m)] => cam(drawing, number, [k, m]),
+        [JointFeature::Profile(profile), JointFeature::Axis(face)] => flat_follower(drawing, number, profile, face),
+        _ => {}
+    }
+}
+
+fn point_follower(drawing: &mut Drawing, number: usize, p: PointId, profile: Profile) {
     let declaration = drawing.first.joints + number;
     let range = arguments(drawing, number, "u");
     draw_profile(drawing, profile, range, false);
@@ -24,7 +34,7 @@ pub(super) fn point_follower(drawing: &mut Drawing, number: usize, p: PointId, p
     drawing.outlines[at.frame].is_shown = true;
 }
 
-pub(super) fn cam(drawing: &mut Drawing, number: usize, [k, m]: [Profile; 2]) {
+fn cam(drawing: &mut Drawing, number: usize, [k, m]: [Profile; 2]) {
     let range = ["u", "w"].map(|part| arguments(drawing, number, part));
     let roller = roller(&drawing.features, [k, m]);
     draw_profile(drawing, k, range[0], roller == Some(0));
@@ -41,7 +51,7 @@ pub(super) fn cam(drawing: &mut Drawing, number: usize, [k, m]: [Profile; 2]) {
     drawing.add_fixed(Layer::Blocks, declaration, frame, mark.into_iter().collect());
 }
 
-pub(super) fn flat_follower(drawing: &mut Drawing, number: usize, profile: Profile, face: AxisId) {
+fn flat_follower(drawing: &mut Drawing, number: usize, profile: Profile, face: AxisId) {
     let declaration = drawing.first.joints + number;
     draw_profile(drawing, profile, arguments(drawing, number, "u"), false);
     let line = drawing.features.axis(face);
@@ -69,15 +79,16 @@ pub(super) fn contacts(features: &Features, first_joint: usize) -> Vec<Contact> 
     let carrier = |profile: Profile| features.frame(profile.frame(model));
     let contact = |(number, joint): (usize, &mechc_lang::model::Joint)| {
         let (cam, follower, touch) = match joint.features {
-            JoinedFeatures::PointFollower(p, profile) => {
+            _ if !joint.spec.has_contact() => return None,
+            [JointFeature::Point(p), JointFeature::Profile(profile)] => {
                 let tip = features.point(p);
                 (carrier(profile), tip.frame, Touch::Tip(tip.at))
             }
-            JoinedFeatures::FlatFollower(profile, face) => {
+            [JointFeature::Profile(profile), JointFeature::Axis(face)] => {
                 let line = features.axis(face);
                 (carrier(profile), line.frame, Touch::Face(line.at, line.along))
             }
-            JoinedFeatures::Cam(k, m) => {
+            [JointFeature::Profile(k), JointFeature::Profile(m)] => {
                 let (cam, roller, part) = if roller(features, [k, m])? == 0 { (m, k, "u") } else { (k, m, "w") };
                 let argument = format!("{}.{part}", joint.declared.name);
                 (carrier(cam), carrier(roller), roller_touch(features, roller, argument))

@@ -5,7 +5,7 @@ use super::plane::{Vector, minus, plus, times};
 use super::symbols::{BLOCK, Symbols};
 use super::{Anchor, Attachment, Node, Shape, pins};
 use mechc_expr::{ExprId, Symbol};
-use mechc_lang::model::{AxisId, Direction, EquationForm, JoinedFeatures, Mechanism, Named, Quantity};
+use mechc_lang::model::{AxisId, Direction, EquationForm, Mechanism, Named, Quantity};
 use std::f64::consts::PI;
 
 /// Start and end of the arrow around a pin (rad), and its radius (symbol units).
@@ -64,7 +64,7 @@ fn add_arrow(drawing: &mut Drawing, declaration: usize, quantity: Quantity) {
     let model = drawing.features.model;
     match quantity {
         Quantity::Rotation(joint, _) => {
-            let JoinedFeatures::Revolute(p, q) = model[joint].features else { return };
+            let Some([p, q]) = model[joint].pin() else { return };
             let (p, q) = (drawing.features.point(p), drawing.features.point(q));
             add_arc_arrow(drawing, declaration, p, [p.frame, q.frame]);
         }
@@ -107,8 +107,7 @@ pub(super) fn frame_of(drawing: &Drawing, direction: Direction) -> usize {
 fn pivot(drawing: &Drawing, frames: [usize; 2]) -> Anchor {
     let model = drawing.features.model;
     let pin = model.joints.iter().find_map(|joint| {
-        let JoinedFeatures::Revolute(p, q) = joint.features else { return None };
-        let (p, q) = (drawing.features.point(p), drawing.features.point(q));
+        let [p, q] = joint.pin()?.map(|point| drawing.features.point(point));
         if [p.frame, q.frame] == frames { Some(p) } else { ([q.frame, p.frame] == frames).then_some(q) }
     });
     let first = || drawing.outlines[frames[1]].positions.first().copied().unwrap_or([0.0; 2]);

@@ -5,7 +5,11 @@ use super::length_marks::{self, Length};
 use super::plane::{Path, Pose, Vector, cross, distance, dot, left, length, minus, plus, times, unit as normal};
 use super::symbols::Symbols;
 use super::{Anchor, Attachment, Look, Motion, Node, Scene, Shape, builder};
-use mechc_lang::model::{EquationForm, JoinedFeatures, Mechanism};
+use mechc_lang::model::{
+    EquationForm,
+    JointFeature::{Axis, Point},
+    Mechanism,
+};
 use std::f64::consts::PI;
 
 /// Distance of the halves of an open joint (symbol units), and of one in the pose as drawn.
@@ -164,23 +168,22 @@ impl Marks<'_> {
     fn halves(&self, number: usize) -> Option<[Vector; 2]> {
         let (features, model) = (&self.features, self.features.model);
         let joint = &model.joints[number];
+        let value = features.signed_value(joint);
         let ends = match joint.features {
-            JoinedFeatures::Revolute(p, q) | JoinedFeatures::Weld(p, q, _) => {
-                [p, q].map(|point| features.point(point).position(self.poses))
+            [Point(p), Point(q)] => {
+                let ends = [p, q].map(|point| features.point(point));
+                if joint.spec.holds_distance() {
+                    self.link_gap(ends, value.abs())?
+                } else {
+                    ends.map(|end| end.position(self.poses))
+                }
             }
-            JoinedFeatures::RevoluteRevolute(p, q, length) => {
-                self.link_gap([features.point(p), features.point(q)], features.value(length))?
-            }
-            JoinedFeatures::Translational(a, b) => {
+            [Axis(a), Axis(b)] => {
                 let [first, second] = [a, b].map(|axis| features.axis(axis));
                 let (guide, slider) = if second.frame == 0 { (second, first) } else { (first, second) };
                 self.offset_gap(Anchor { frame: slider.frame, at: slider.at }, &guide, 0.0)
             }
-            JoinedFeatures::RevoluteTranslational(p, axis, offset) => {
-                let offset = features.value(offset);
-                let offset = if model.is_mirrored(joint.part) { -offset } else { offset };
-                self.offset_gap(features.point(p), &features.axis(axis), offset)
-            }
+            [Point(p), Axis(axis)] => self.offset_gap(features.point(p), &features.axis(axis), value),
             _ => return None,
         };
         ends.iter().all(|position| super::is_finite(*position)).then_some(ends)
@@ -204,7 +207,7 @@ impl Marks<'_> {
     fn ring(&mut self, declaration: usize) {
         let model = self.features.model;
         let joint = declaration.checked_sub(self.joints).and_then(|number| model.joints.get(number));
-        let points = joint.map_or_else(Vec::new, |joint| joint.features.points(model));
+        let points = joint.map_or_else(Vec::new, |joint| joint.points(model));
         let anchors: Vec<Anchor> = points.into_iter().map(|point| self.features.point(point)).collect();
         let Some(anchor) = anchors.iter().find(|anchor| anchor.frame > 0).or(anchors.first()) else { return };
         let path = Path::Circle { at: anchor.at, radius: RING * self.unit };

@@ -3,7 +3,7 @@
 use super::plane::{Pose, Vector, minus, plus, unit};
 use super::{Anchor, Sample};
 use mechc_expr::{ExprId, Symbol};
-use mechc_lang::model::{AxisId, CircleId, Frame, Mechanism, Named, PartId, PointId, Profile};
+use mechc_lang::model::{AxisId, CircleId, Frame, Joint, Mechanism, Named, PartId, PointId, Profile};
 
 /// A directed line of a frame.
 #[derive(Clone, Copy, Debug)]
@@ -51,6 +51,12 @@ impl<'m> Features<'m> {
     /// Returns the value of a formula of parameters, in SI.
     pub fn value(&self, formula: ExprId) -> f64 {
         self.values[formula.index()]
+    }
+
+    /// Returns the value of a joint (m or rad) in the handedness of the ground, or 0 if it has none.
+    pub fn signed_value(&self, joint: &Joint) -> f64 {
+        let value = joint.value().map_or(0.0, |value| self.value(value));
+        if self.model.is_mirrored(joint.part) { -value } else { value }
     }
 
     /// Returns the index of the frame that carries a frame.

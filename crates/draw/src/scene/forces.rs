@@ -5,7 +5,7 @@ use super::features::{Features, PartFrame};
 use super::plane::{Vector, length, minus, polar, times};
 use super::{Anchor, Motion};
 use mechc_expr::{ExprId, Node, Symbol};
-use mechc_lang::model::{EquationForm, JoinedFeatures, Mechanism, Named, PartId, Profile, Quantity};
+use mechc_lang::model::{EquationForm, Joint, Mechanism, Named, PartId, Quantity};
 use std::f64::consts::PI;
 
 /// Origin of a force.
@@ -110,7 +110,7 @@ pub(super) fn vectors(drawing: &Drawing, has_torques: bool) -> Vec<ForceVector> 
     for (number, joint) in model.joints.iter().enumerate() {
         let name = &joint.declared.name;
         let columns = [format!("{name}.fx"), format!("{name}.fy")];
-        forces.extend(point_of_action(features, &joint.features).map(|at| ForceVector {
+        forces.extend(point_of_action(features, joint).map(|at| ForceVector {
             declaration: first.joints + number,
             kind: ForceKind::Reaction,
             at,
@@ -165,22 +165,17 @@ pub(super) fn bare_quantity(model: &Mechanism, side: ExprId) -> Option<(Option<P
 }
 
 /// Returns the point of action of a joint's reaction, as the language defines it. A force on a circle passes its centre.
-pub(super) fn point_of_action(features: &Features, joined: &JoinedFeatures) -> Option<Anchor> {
-    let model = features.model;
-    Some(match *joined {
-        JoinedFeatures::Revolute(_, q) | JoinedFeatures::Weld(_, q, _) | JoinedFeatures::RevoluteRevolute(_, q, _) => {
-            features.point(q)
-        }
-        JoinedFeatures::Translational(_, axis)
-        | JoinedFeatures::RevoluteTranslational(_, axis, _)
-        | JoinedFeatures::RackPinion { rack: axis, .. } => features.point(model[axis].origin),
-        JoinedFeatures::Gear { circles: [_, second], .. } => features.circle(second).center,
-        JoinedFeatures::PointFollower(point, _) => features.point(point),
-        JoinedFeatures::Cam(Profile::Circle(circle), _)
-        | JoinedFeatures::Cam(_, Profile::Circle(circle))
-        | JoinedFeatures::FlatFollower(Profile::Circle(circle), _) => features.circle(circle).center,
-        JoinedFeatures::Cam(..) | JoinedFeatures::FlatFollower(..) => return None,
-    })
+pub(super) fn point_of_action(features: &Features, joint: &Joint) -> Option<Anchor> {
+    let point = if joint.spec.has_contact() {
+        joint
+            .features
+            .iter()
+            .filter(|feature| feature.axis().is_none())
+            .find_map(|feature| feature.point(features.model))
+    } else {
+        joint.features[1].point(features.model)
+    };
+    point.map(|point| features.point(point))
 }
 
 /// An effort or load whose value is a column of the table.

@@ -9,9 +9,10 @@ use super::guides::height;
 use super::plane::{Contour, Path, Segment, direction, dot, minus, plus, polar};
 use super::symbols::Symbols;
 use super::teeth::{DEDENDUM, Rack, Wheel, integer_residual, offset};
-use super::{Look, PitchLine, Shape};
+use super::{Anchor, Look, PitchLine, Shape};
 use mechc_expr::math;
-use mechc_lang::model::{AxisId, CircleId, JoinedFeatures};
+use mechc_lang::model::JointFeature;
+use mechc_text::vocabulary::JointSymbol;
 use std::f64::consts::{PI, TAU};
 
 /// Number of teeth of the smallest gear of a train, at least and at most.
@@ -26,13 +27,6 @@ const TOLERANCE: f64 = 0.012;
 const SAMPLED_ROWS: usize = 60;
 /// Gears smaller than this are drawn above bodies (symbol units).
 const SMALL: f64 = 2.0;
-
-/// Feature that carries teeth.
-#[derive(Clone, Copy, PartialEq, Debug)]
-enum Carrier {
-    Circle(CircleId),
-    Axis(AxisId),
-}
 
 /// Two members that mesh.
 #[derive(Clone, Copy, Debug)]
@@ -53,7 +47,7 @@ enum MeshKind {
 /// A member with teeth.
 #[derive(Clone, Copy, Debug)]
 struct Member {
-    carrier: Carrier,
+    carrier: JointFeature,
     frame: usize,
     is_ring: bool,
     disc: Option<Disc>,
@@ -102,17 +96,13 @@ impl Trains {
         let (model, features) = (drawing.features.model, &drawing.features);
         let mut trains = Trains { all: Vec::new(), meshes: Vec::new() };
         for (joint, declared) in model.joints.iter().enumerate() {
-            let (carriers, kind) = match declared.features {
-                JoinedFeatures::Gear { circles, internal, .. } => {
-                    let kind = if internal { MeshKind::Internal } else { MeshKind::External };
-                    (circles.map(Carrier::Circle), kind)
-                }
-                JoinedFeatures::RackPinion { pinion, rack, .. } => {
-                    ([Carrier::Circle(pinion), Carrier::Axis(rack)], MeshKind::Rack)
-                }
+            let kind = match declared.spec.symbol {
+                JointSymbol::Gear => MeshKind::External,
+                JointSymbol::RingGear => MeshKind::Internal,
+                JointSymbol::Rack => MeshKind::Rack,
                 _ => continue,
             };
-            let members = carriers.map(|carrier| trains.member(features, carrier));
+            let members = declared.features.map(|carrier| trains.member(features, carrier));
             if kind == MeshKind::Internal {
                 let [first, second] = members.map(|member| trains.all[member].disc.map_or(0.0, |disc| disc.radius));
                 trains.all[members[usize::from(second > first)]].is_ring = true;
@@ -122,14 +112,12 @@ impl Trains {
         trains
     }
 
-    fn member(&mut self, features: &super::features::Features, carrier: Carrier) -> usize {
+    fn member(&mut self, features: &super::features::Features, carrier: JointFeature) -> usize {
         if let Some(other) = self.all.iter().position(|other| other.carrier == carrier) {
             return other;
         }
-        let (disc, line) = match carrier {
-            Carrier::Circle(id) => (Some(features.circle(id)), None),
-            Carrier::Axis(id) => (None, Some(features.axis(id))),
-        };
+        let disc = carrier.circle().map(|circle| features.circle(circle));
+        let line = carrier.axis().map(|axis| features.axis(axis));
         let frame = disc.map(|disc| disc.center.frame).or(line.map(|line| line.frame)).unwrap_or(0);
         self.all.push(Member { carrier, frame, is_ring: false, disc, line });
         self.all.len() - 1
@@ -336,22 +324,35 @@ fn wheel(drawing: &mut Drawing, part: &Member, disc: &Disc, teeth: Option<&Teeth
             let inner = Contour { start, segments: vec![half(-radius), half(radius)], is_closed: true };
             vec![Symbols::ring(inner, at, radius + (0.8 * unit).min(0.2 * radius), Look::Gear)]
         }
-        None => {
-            let mark = [plus(at, polar(0.55 * radius, 0.0)), plus(at, polar(0.95 * radius, 0.0))];
-            vec![shape(Look::Gear, Path::Circle { at, radius }), shape(Look::Pitch, Path::line(mark))]
-        }
+        None => disc_with_mark(disc),
     };
+    add_wheel(drawing, disc, shapes, part.is_ring);
+}
+
+/// Draws a wheel without teeth.
+pub(super) fn disc(drawing: &mut Drawing, disc: &Disc) {
+    add_wheel(drawing, disc, disc_with_mark(disc), false);
+}
+
+/// Returns a disc with a mark that makes its rotation visible.
+fn disc_with_mark(&Disc { center: Anchor { at, .. }, radius }: &Disc) -> Vec<Shape> {
+    let mark = [plus(at, polar(0.55 * radius, 0.0)), plus(at, polar(0.95 * radius, 0.0))];
+    vec![shape(Look::Gear, Path::Circle { at, radius }), shape(Look::Pitch, Path::line(mark))]
+}
+
+fn add_wheel(drawing: &mut Drawing, disc: &Disc, shapes: Vec<Shape>, is_ring: bool) {
+    let (Anchor { frame, at }, radius) = (disc.center, disc.radius);
     let path = Path::Circle { at, radius };
-    drawing.pitch_lines.push(PitchLine { declaration: part.frame, frame: part.frame, path });
-    let layer = match part.frame {
+    drawing.pitch_lines.push(PitchLine { declaration: frame, frame, path });
+    let layer = match frame {
         0 => Layer::Ground,
-        _ if radius < SMALL * unit => Layer::Slots,
+        _ if radius < SMALL * drawing.unit => Layer::Slots,
         _ => Layer::Wheels,
     };
-    drawing.add_fixed(layer, part.frame, part.frame, shapes);
-    let outline = &mut drawing.outlines[part.frame];
+    drawing.add_fixed(layer, frame, frame, shapes);
+    let outline = &mut drawing.outlines[frame];
     outline.is_shown = true;
-    if !part.is_ring {
+    if !is_ring {
         outline.discs.push((at, radius));
     }
 }

@@ -5,7 +5,8 @@ use super::features::Line;
 use super::plane::{Path, Vector, cross, distance, dot, left, minus, plus, rectangle, times};
 use super::symbols::{BLOCK, SLEEVE, SLOT, Symbols};
 use super::{Anchor, Look};
-use mechc_lang::model::{AxisId, JoinedFeatures, PointId, Profile};
+use mechc_lang::model::{AxisId, JointFeature, PointId};
+use mechc_text::vocabulary::JointSymbol;
 
 /// Length of a guide beyond the slider (symbol units).
 const BEYOND: f64 = 0.5;
@@ -99,33 +100,25 @@ fn obstruction(drawing: &Drawing, axis: AxisId) -> Option<Obstruction> {
     let model = drawing.features.model;
     let slider = drawing.features.axis(axis);
     let near = |anchor: Anchor| anchor.frame == slider.frame && distance(anchor.at, slider.at) < 2.5 * drawing.unit;
-    let middle = |profile: Profile| match profile {
-        Profile::Circle(circle) => drawing.features.circle(circle).center,
-        Profile::Curve(curve) => {
-            // a plate usually turns about its origin
-            drawing.features.resolve(model[curve].frame, [0.0, 0.0])
-        }
+    // a plate usually turns about its origin
+    let middle = |feature: JointFeature| match feature.point(model) {
+        Some(point) => drawing.features.point(point),
+        None => drawing.features.resolve(feature.frame(model), [0.0, 0.0]),
     };
-    let line = |axis: AxisId| {
-        let line = drawing.features.axis(axis);
-        Anchor { frame: line.frame, at: line.at }
+    let obstruction_at = |feature: JointFeature, other: JointFeature| {
+        let reach = feature.circle().map_or(0.0, |circle| drawing.features.circle(circle).radius);
+        near(middle(feature)).then(|| Obstruction { away_from: Some(middle(other)), reach })
     };
-    let radius = |profile: Profile| match profile {
-        Profile::Circle(circle) => drawing.features.circle(circle).radius,
-        Profile::Curve(_) => 0.0,
-    };
-    let obstruction_at =
-        |contact: Anchor, other: Anchor, reach| near(contact).then_some(Obstruction { away_from: Some(other), reach });
-    model.joints.iter().find_map(|joint| match joint.features {
-        JoinedFeatures::PointFollower(p, profile) => obstruction_at(drawing.features.point(p), middle(profile), 0.0),
-        JoinedFeatures::Cam(k, m) => {
-            obstruction_at(middle(k), middle(m), radius(k)).or_else(|| obstruction_at(middle(m), middle(k), radius(m)))
+    model.joints.iter().find_map(|joint| {
+        let [first, second] = joint.features;
+        match (joint.spec.symbol, first.profile(), second.profile()) {
+            // a profile obstructs nothing but another one
+            (JointSymbol::Contact, None, _) => obstruction_at(first, second),
+            (JointSymbol::Contact, _, None) => obstruction_at(second, first),
+            (JointSymbol::Contact, ..) => obstruction_at(first, second).or_else(|| obstruction_at(second, first)),
+            (JointSymbol::Rack, ..) => near(middle(second)).then_some(Obstruction { away_from: None, reach: 0.0 }),
+            _ => None,
         }
-        JoinedFeatures::FlatFollower(profile, face) => obstruction_at(line(face), middle(profile), 0.0),
-        JoinedFeatures::RackPinion { rack, .. } => {
-            near(line(rack)).then_some(Obstruction { away_from: None, reach: 0.0 })
-        }
-        _ => None,
     })
 }
 

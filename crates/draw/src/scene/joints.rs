@@ -1,31 +1,25 @@
-//! Dispatch of joints to their symbols; each kind is drawn in a file of its own.
+//! Dispatch of joints to their symbols; each symbol is drawn in a file of its own.
 
 use super::drawing::Drawing;
-use super::{contacts, guides, pins};
-use mechc_lang::model::JoinedFeatures;
+use super::{belts, contacts, guides, pins};
+use mechc_lang::model::JointFeature::{Axis, Point};
+use mechc_text::vocabulary::JointSymbol;
 
 /// Draws all joints but gears and racks.
 pub(super) fn draw(drawing: &mut Drawing) {
     let model = drawing.features.model;
     for (number, joint) in model.joints.iter().enumerate() {
         let declaration = drawing.first.joints + number;
-        match joint.features {
-            JoinedFeatures::Revolute(p, q) => pins::revolute(drawing, declaration, [p, q]),
-            JoinedFeatures::Weld(p, q, _) => pins::weld(drawing, declaration, [p, q]),
-            JoinedFeatures::RevoluteRevolute(p, q, length) => {
-                let length = drawing.features.value(length);
-                pins::massless_link(drawing, declaration, [p, q], length);
-            }
-            JoinedFeatures::Translational(a, b) => guides::translational(drawing, declaration, [a, b]),
-            JoinedFeatures::RevoluteTranslational(p, axis, offset) => {
-                let offset = drawing.features.value(offset);
-                let offset = if model.is_mirrored(joint.part) { -offset } else { offset };
-                guides::slot(drawing, declaration, p, axis, offset);
-            }
-            JoinedFeatures::PointFollower(p, profile) => contacts::point_follower(drawing, number, p, profile),
-            JoinedFeatures::Cam(k, m) => contacts::cam(drawing, number, [k, m]),
-            JoinedFeatures::FlatFollower(profile, face) => contacts::flat_follower(drawing, number, profile, face),
-            JoinedFeatures::Gear { .. } | JoinedFeatures::RackPinion { .. } => {}
+        let value = drawing.features.signed_value(joint);
+        match (joint.spec.symbol, joint.features) {
+            (JointSymbol::Pin, [Point(p), Point(q)]) => pins::revolute(drawing, declaration, [p, q]),
+            (JointSymbol::Weld, [Point(p), Point(q)]) => pins::weld(drawing, declaration, [p, q]),
+            (JointSymbol::Link, [Point(p), Point(q)]) => pins::massless_link(drawing, declaration, [p, q], value.abs()),
+            (JointSymbol::Slider, [Axis(a), Axis(b)]) => guides::translational(drawing, declaration, [a, b]),
+            (JointSymbol::Slot, [Point(p), Axis(axis)]) => guides::slot(drawing, declaration, p, axis, value),
+            (JointSymbol::Belt, _) => belts::draw(drawing, number),
+            (JointSymbol::Contact, features) => contacts::draw(drawing, number, features),
+            _ => {}
         }
     }
 }

@@ -61,7 +61,7 @@ impl LengthMarks<'_> {
             };
         }
         let joint = declaration.checked_sub(self.joints).and_then(|number| model.joints.get(number));
-        joint.map_or_else(Vec::new, |joint| joint.features.points(model))
+        joint.map_or_else(Vec::new, |joint| joint.points(model))
     }
 }
 

@@ -9,6 +9,7 @@
 //! Mechanism, Motion ──▶ Scene ──view──▶ pictures and pages
 //! ```
 
+mod belts;
 mod bodies;
 mod builder;
 mod catalogue;
@@ -361,6 +362,8 @@ pub enum Look {
     Pitch,
     /// Straight row of teeth.
     Rack,
+    /// Belt around pulleys.
+    Belt,
     /// Filled profile of a contact.
     Cam,
     /// Profile of a contact as a line.
@@ -389,7 +392,7 @@ pub enum Look {
 
 impl Look {
     /// All looks.
-    pub const ALL: [Look; 30] = [
+    pub const ALL: [Look; 31] = [
         Look::Link,
         Look::Cross,
         Look::MasslessLink,
@@ -408,6 +411,7 @@ impl Look {
         Look::Gear,
         Look::Pitch,
         Look::Rack,
+        Look::Belt,
         Look::Cam,
         Look::Track,
         Look::Roller,
@@ -444,6 +448,7 @@ impl Look {
             Look::Gear => "gear",
             Look::Pitch => "pitch",
             Look::Rack => "rack",
+            Look::Belt => "belt",
             Look::Cam => "cam",
             Look::Track => "track",
             Look::Roller => "roller",

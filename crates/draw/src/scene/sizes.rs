@@ -4,7 +4,6 @@ use super::drawing::Outline;
 use super::features::Features;
 use super::plane::{Vector, bounds, distance};
 use super::{Anchor, Motion};
-use mechc_lang::model::{JoinedFeatures, Profile};
 
 /// Size of symbols as a part of the mechanism's extent, if links are long enough.
 const PART_OF_EXTENT: f64 = 1.0 / 46.0;
@@ -40,16 +39,9 @@ fn anchors(features: &Features, outlines: &[Outline]) -> Vec<Anchor> {
         .flat_map(|(frame, outline)| outline.positions.iter().map(move |at| Anchor { frame, at: *at }));
     let mut anchors: Vec<Anchor> = outline_anchors.collect();
     for joint in &model.joints {
-        anchors.extend(joint.features.points(model).into_iter().map(|point| features.point(point)));
-        let profiles: &[Profile] = match joint.features {
-            JoinedFeatures::Gear { circles: [c, d], .. } => &[Profile::Circle(c), Profile::Circle(d)],
-            JoinedFeatures::RackPinion { pinion, .. } => &[Profile::Circle(pinion)],
-            JoinedFeatures::PointFollower(_, k) | JoinedFeatures::FlatFollower(k, _) => &[k],
-            JoinedFeatures::Cam(k, m) => &[k, m],
-            _ => &[],
-        };
-        for profile in profiles {
-            anchors.extend((0..8).map(|k| features.on_profile(*profile, f64::from(k) * std::f64::consts::FRAC_PI_4)));
+        anchors.extend(joint.points(model).into_iter().map(|point| features.point(point)));
+        for profile in joint.profiles() {
+            anchors.extend((0..8).map(|k| features.on_profile(profile, f64::from(k) * std::f64::consts::FRAC_PI_4)));
         }
     }
     anchors
@@ -59,10 +51,8 @@ fn anchors(features: &Features, outlines: &[Outline]) -> Vec<Anchor> {
 fn short_link(features: &Features, outlines: &[Outline]) -> Option<f64> {
     let widest = |positions: &[Vector]| bounds(positions.iter().copied()).map(|[low, high]| distance(low, high));
     let mut lengths: Vec<f64> = outlines.iter().filter_map(|outline| widest(&outline.positions)).collect();
-    lengths.extend(features.model.joints.iter().filter_map(|joint| match joint.features {
-        JoinedFeatures::RevoluteRevolute(_, _, length) => Some(features.value(length)),
-        _ => None,
-    }));
+    let links = features.model.joints.iter().filter(|joint| joint.spec.holds_distance());
+    lengths.extend(links.filter_map(|joint| joint.value().map(|length| features.value(length))));
     lengths.retain(|length| length.is_finite() && *length > 0.0);
     lengths.sort_by(f64::total_cmp);
     lengths.get(lengths.len() / 4).copied()

@@ -5,7 +5,7 @@ use super::plane::{Path, distance, polar};
 use super::symbols::Symbols;
 use super::{Alignment, Anchor, Attachment, Look, Node, Shape, drivers};
 use mechc_expr::{ExprId, Symbol};
-use mechc_lang::model::{JoinedFeatures, Load, Mechanism, Named, PartId, Quantity};
+use mechc_lang::model::{Load, Mechanism, Named, PartId, Quantity};
 use std::f64::consts::TAU;
 
 /// Number of coils of a zigzag spring.
@@ -62,7 +62,7 @@ fn draw_element(drawing: &mut Drawing, Element { on, declaration, dependencies, 
             add_between(drawing, *declaration, ends, *dependencies);
         }
         Quantity::Rotation(joint, _) if dependencies.on_position => {
-            if let JoinedFeatures::Revolute(p, _) = model[joint].features {
+            if let Some([p, _]) = model[joint].pin() {
                 let at = drawing.features.point(p);
                 spiral(drawing, *declaration, at);
             }

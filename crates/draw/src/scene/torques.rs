@@ -2,7 +2,7 @@
 
 use super::drawing::Drawing;
 use super::{Anchor, ForceKind, Motion, drivers, forces};
-use mechc_lang::model::{EquationForm, JoinedFeatures, PartId, Quantity};
+use mechc_lang::model::{EquationForm, PartId, Quantity};
 
 /// A torque about a position, on the second of two bodies that turn against each other, or on the first if the second is the ground.
 #[derive(Clone, PartialEq, Debug)]
@@ -31,10 +31,10 @@ impl Torque {
 pub(super) fn torques(drawing: &Drawing) -> Vec<Torque> {
     let (model, first) = (drawing.features.model, drawing.first);
     let mut torques: Vec<Torque> = Vec::new();
-    for (number, joint) in model.joints.iter().enumerate().filter(|(_, joint)| joint.features.kind().has_torque()) {
+    for (number, joint) in model.joints.iter().enumerate().filter(|(_, joint)| joint.spec.has_torque()) {
         let (declaration, kind) = (first.joints + number, ForceKind::Reaction);
         let column = format!("{}.torque", joint.declared.name);
-        torques.extend(forces::point_of_action(&drawing.features, &joint.features).map(|at| Torque {
+        torques.extend(forces::point_of_action(&drawing.features, joint).map(|at| Torque {
             declaration,
             kind,
             at,
@@ -72,10 +72,10 @@ pub(super) fn torques(drawing: &Drawing) -> Vec<Torque> {
 fn torque_site(drawing: &Drawing, view: Option<PartId>, quantity: Quantity) -> Option<(Anchor, f64)> {
     let model = drawing.features.model;
     let (at, second) = match quantity {
-        Quantity::Rotation(joint, _) => match model[joint].features {
-            JoinedFeatures::Revolute(p, q) => (drawing.features.point(p), drawing.features.point(q).frame),
-            _ => return None,
-        },
+        Quantity::Rotation(joint, _) => {
+            let [p, q] = model[joint].pin()?.map(|point| drawing.features.point(point));
+            (p, q.frame)
+        }
         Quantity::Angle(from, to) => (drivers::angle_pivot(drawing, from, to), drivers::frame_of(drawing, to)),
         _ => return None,
     };

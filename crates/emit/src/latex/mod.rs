@@ -228,7 +228,7 @@ impl Writer<'_> {
 
     fn element(&mut self, declaration: &Declaration, rows: &[usize]) {
         let kind = match declaration.kind {
-            DeclarationKind::Joint(kind) => format!("joint, {}", words(kind.word())),
+            DeclarationKind::Joint(kind) => format!("joint, {}", words(kind.name())),
             other => other.noun().to_owned(),
         };
         self.text += &format!("\n\\element{{{}}}{{{kind}}}\n", words(&declaration.name));

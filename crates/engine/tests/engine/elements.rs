@@ -161,6 +161,83 @@ fn willis() {
     });
 }
 
+/// Pulleys of 20 mm and 50 mm on fixed shafts; the second of them is braked with 3 N·m.
+fn belt(word: &str) -> Outcome {
+    motion(&format!(
+        "ground {{ point A = (0, 0) point B = (90 mm, 60 mm) }}
+         body first at (0, 0, 15 deg) {{ point M = (0, 0) circle c = M radius 20 mm }}
+         body second at (90 mm, 60 mm, -0.3 rad) {{ point M = (0, 0) circle c = M radius 50 mm }}
+         joint a: revolute(ground.A, first.M)
+         joint b: revolute(ground.B, second.M)
+         joint drive: belt(first.c, second.c{word})
+         driver motor: rotation(a) = 15 deg + 2 * t + sin(3 * t)
+         load brake: -3 N*m on rotation(b)
+         measure hold = torque(drive)
+         measure supply = effort(motor)
+         analysis from 0 s to 3 s every 0.1 s"
+    ))
+}
+
+#[test]
+fn a_belt_turns_its_pulleys_by_their_radii() {
+    for (word, sense) in [("", 1.0), (", crossed", -1.0)] {
+        let got = belt(word);
+        assert_is(&got, "second.phi", |t| line(-0.3, sense * 0.4, to_and_fro(t)));
+        for (hold, supply) in got.column("hold").into_iter().zip(got.column("supply")) {
+            assert!((hold - 3.0).abs() < 1e-12 && (supply - sense * 1.2).abs() < 1e-12, "{hold} {supply}");
+        }
+    }
+}
+
+/// A pulley on an arm, with a belt from a pulley that stands still: seen from the arm, that one turns back.
+#[test]
+fn a_belt_on_an_arm_rolls_on_the_pulley_of_the_ground() {
+    for (word, ratio) in [("", 0.4), (", crossed", -0.4)] {
+        let got = motion(&format!(
+            "ground {{ point A = (0, 0) circle c = A radius 20 mm }}
+             body arm at (0, 0, 30 deg) {{ point A = (0, 0) point B = (110 mm, 0) }}
+             body second at (95.262794416288244 mm, 55 mm, 0.7 rad) {{ point M = (0, 0) circle c = M radius 50 mm }}
+             joint a: revolute(ground.A, arm.A)
+             joint b: revolute(arm.B, second.M)
+             joint drive: belt(ground.c, second.c{word})
+             driver carry: rotation(a) = 30 deg + 2 * t + sin(3 * t)
+             analysis from 0 s to 3 s every 0.1 s"
+        ));
+        assert_is(&got, "second.phi", |t| line(0.7, 1.0 - ratio, to_and_fro(t)));
+    }
+}
+
+/// Two belts in a chain, in a part and in its mirror image: the ratios are those of the text.
+#[test]
+fn belts_in_parts_keep_their_ratios() {
+    let part = "mechanism train {
+         ground { point A = (0, 0) point B = (90 mm, 60 mm) point C = (200 mm, 10 mm) }
+         body first at (0, 0, 15 deg) { point M = (0, 0) circle c = M radius 20 mm }
+         body second at (90 mm, 60 mm, 1) { point M = (0, 0) circle c = M radius 50 mm circle d = M radius 30 mm }
+         body third at (200 mm, 10 mm, -0.2) { point M = (0, 0) circle c = M radius 12 mm }
+         joint a: revolute(ground.A, first.M)
+         joint b: revolute(ground.B, second.M)
+         joint c: revolute(ground.C, third.M)
+         joint near: belt(first.c, second.c)
+         joint far: belt(third.c, second.d, crossed)
+         driver motor: rotation(a) = 15 deg + 2 * t + sin(3 * t)
+         measure turn = angle(third)
+     }";
+    for (mirrored, sense) in [("", 1.0), (" mirrored", -1.0)] {
+        let text = format!(
+            "mechanism m {{ part one: train() at (20 mm, 30 mm, 40 deg){mirrored}
+             measure turn = one.turn
+             measure seen = angle(one.third)
+             analysis from 0 s to 3 s every 0.1 s }} {part}"
+        );
+        let got = run("elements", &text, Span::default());
+        assert!(got.codes().is_empty() && got.rows.len() > 20, "{}", got.text());
+        assert_is(&got, "turn", |t| line(-0.2, -1.0, to_and_fro(t)));
+        let start = 40.0 * PI / 180.0 - sense * 0.2;
+        assert_is(&got, "seen", |t| line(start, -sense, to_and_fro(t)));
+    }
+}
+
 #[test]
 fn a_rack_runs_as_fast_as_the_rim_of_its_pinion() {
     // above the rack, that is to its left, and below

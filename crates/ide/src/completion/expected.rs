@@ -2,7 +2,7 @@
 
 use super::cursor::{Call, Cursor};
 use mechc_syntax::ast::FeatureKind;
-use mechc_text::vocabulary::{Dimension, Function, Group, JointWord, QuantityWord, ReductionWord, Word};
+use mechc_text::vocabulary::{Dimension, Function, Group, JointSpec, QuantityWord, ReductionWord, Word};
 
 /// A kind of argument or formula.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -23,6 +23,8 @@ pub(super) enum Expected {
     Variable,
     /// A side of an axis.
     Side,
+    /// The word `crossed`.
+    Crossed,
 }
 
 impl Expected {
@@ -54,7 +56,7 @@ pub(super) fn expected(cursor: &Cursor<'_>) -> Vec<Expected> {
 
 fn of_call(cursor: &Cursor<'_>, call: Call<'_>) -> Vec<Expected> {
     if cursor.head() == "joint" {
-        return JointWord::named(call.name)
+        return JointSpec::named(call.name)
             .map(|joint| by_forms(&joint.word, call.argument, of_joint))
             .unwrap_or_default();
     }
@@ -96,6 +98,7 @@ fn of_joint(letters: &str) -> Expected {
         "k" | "m" => Expected::Profile,
         "angle" => Expected::Number(Some(Dimension::PURE)),
         "left" | "right" => Expected::Side,
+        "crossed" => Expected::Crossed,
         _ if letters.starts_with(char::is_uppercase) => Expected::Point,
         _ => Expected::Number(Some(Dimension::LENGTH)),
     }

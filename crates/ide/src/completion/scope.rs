@@ -10,7 +10,7 @@ use mechc_lang::check::{LibraryMechanism, NameKind, name_of};
 use mechc_pipeline::Checked;
 use mechc_syntax::ast::{ExprKind, Feature, Item as Declaration, ItemKind as Declared, Mechanism, MechanismName, Name};
 use mechc_text::source::Span;
-use mechc_text::vocabulary::{CONSTANTS, JointWord};
+use mechc_text::vocabulary::{CONSTANTS, JointSpec};
 use std::cell::Cell;
 
 /// A mechanism with its names.
@@ -383,7 +383,7 @@ fn all_mechanisms(checked: &Checked) -> impl Iterator<Item = (Option<&str>, Libr
 
 /// Returns whether a joint of a given kind has a quantity.
 fn has_quantity(joint: &Name, quantity: &str) -> bool {
-    JointWord::named(&joint.text).is_some_and(|joint| joint.kind.has_quantity(quantity))
+    JointSpec::named(&joint.text).is_some_and(|joint| joint.has_quantity(quantity))
 }
 
 /// Returns items for the mechanisms that can be parts; after a prefix, for those of its file.

@@ -9,7 +9,7 @@ const LONGEST: usize = 40;
 #[must_use]
 pub fn table(system: &ConstraintSystem) -> String {
     let kind_of = |declaration: &Declaration| match declaration.kind {
-        DeclarationKind::Joint(joint) => joint.word().to_owned(),
+        DeclarationKind::Joint(joint) => joint.name().to_owned(),
         other => other.noun().to_owned(),
     };
     let mut owners: Vec<[String; 3]> =

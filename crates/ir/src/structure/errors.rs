@@ -3,10 +3,11 @@
 use super::Subsystem;
 use super::count::table;
 use crate::{
-    ConstraintSystem, CoordinateKind, Declaration, DeclarationId, DeclarationKind, JointKind, Owner,
+    ConstraintSystem, CoordinateKind, Declaration, DeclarationId, DeclarationKind, JointSpec, Owner,
     PartWithDerivatives, PointId,
 };
 use mechc_text::diag::{Code, Diagnostic};
+use mechc_text::vocabulary::JointMotion;
 use rustc_hash::FxHashMap;
 
 /// Number of names that one message lists at most.
@@ -48,12 +49,12 @@ pub fn count(system: &ConstraintSystem, too_many: &Subsystem, too_few: &Subsyste
 
 /// Returns two joints of one kind that join the same points.
 fn duplicate_joint(system: &ConstraintSystem) -> Option<[DeclarationId; 2]> {
-    let mut joint_at: FxHashMap<(DeclarationKind, Vec<PointId>), DeclarationId> = FxHashMap::default();
-    let joints = system.declarations().pairs().filter(|(_, one)| matches!(one.kind, DeclarationKind::Joint(_)));
-    for (k, joint) in joints.filter(|(_, joint)| joint.points.len() == 2) {
-        let mut points = joint.points.clone();
+    let mut joint_at: FxHashMap<(&str, Vec<PointId>), DeclarationId> = FxHashMap::default();
+    for (k, declaration) in system.declarations().pairs().filter(|(_, one)| one.points.len() == 2) {
+        let DeclarationKind::Joint(joint) = declaration.kind else { continue };
+        let mut points = declaration.points.clone();
         points.sort_unstable();
-        if let Some(first) = joint_at.insert((joint.kind, points), k) {
+        if let Some(first) = joint_at.insert((joint.name(), points), k) {
             return Some([first, k]);
         }
     }
@@ -67,10 +68,10 @@ fn free_quantities(system: &ConstraintSystem, free: &[u32]) -> Vec<String> {
     for declaration in system.declarations() {
         let rows = first_row..first_row + declaration.rows;
         first_row = rows.end;
-        let freedom = match declaration.kind {
-            DeclarationKind::Joint(JointKind::Revolute) => CoordinateKind::Angle,
-            DeclarationKind::Joint(JointKind::Translational) => CoordinateKind::Length,
-            _ => continue,
+        let DeclarationKind::Joint(JointSpec { motion: Some(motion), .. }) = declaration.kind else { continue };
+        let freedom = match motion {
+            JointMotion::Rotation => CoordinateKind::Angle,
+            JointMotion::Displacement => CoordinateKind::Length,
         };
         // a pin at the origin of a body leaves the angle out of its equations, although the body turns
         let owners = rows
@@ -83,8 +84,7 @@ fn free_quantities(system: &ConstraintSystem, free: &[u32]) -> Vec<String> {
             coordinate.kind == freedom && owners.contains(&coordinate.owner)
         });
         if moves {
-            let quantity = if freedom == CoordinateKind::Angle { "rotation" } else { "displacement" };
-            quantities.push(format!("{quantity}({})", declaration.name));
+            quantities.push(format!("{}({})", motion.quantity(), declaration.name));
         }
     }
     quantities.truncate(MOST_DRIVERS);

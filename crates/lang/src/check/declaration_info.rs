@@ -14,7 +14,7 @@ use mechc_expr::{ExprId, Printer, Symbol};
 use mechc_syntax::ast::{Expr, ExprKind, IndexRange, Item, ItemKind, Mechanism};
 use mechc_syntax::keywords_in;
 use mechc_text::source::{Sources, Span};
-use mechc_text::vocabulary::{Dimension, JointWord, Unit};
+use mechc_text::vocabulary::{Dimension, JointSpec, Unit};
 use rustc_hash::FxHashMap;
 use std::rc::Rc;
 
@@ -147,8 +147,8 @@ impl Counter<'_> {
             ItemKind::Body { .. } => Some(3),
             ItemKind::Equation { .. } => Some(-1),
             ItemKind::Joint { kind, .. } => {
-                let word = JointWord::named(&kind.text)?;
-                Some(word.coordinates.len().cast_signed() as i64 - word.equations.cast_signed() as i64)
+                let word = JointSpec::named(&kind.text)?;
+                Some(word.coordinates.len().cast_signed() as i64 - word.rows.len().cast_signed() as i64)
             }
             ItemKind::Part(part) => {
                 let part = Rc::clone(instance.part(&part.name.text)?);

@@ -206,11 +206,10 @@ impl Checker<'_> {
         match moved {
             ExprKind::Name(name) => match self.entity(name)? {
                 Entity::Body(_) => Some(vec![format!("angle({})", name.text)]),
-                Entity::Joint(k) => match self.model[self.joints.get(k).copied().flatten()?].features.kind() {
-                    kind if kind.has_quantity("rotation") => Some(vec![format!("rotation({})", name.text)]),
-                    kind if kind.has_quantity("displacement") => Some(vec![format!("displacement({})", name.text)]),
-                    _ => None,
-                },
+                Entity::Joint(k) => {
+                    let motion = self.model[self.joints.get(k).copied().flatten()?].spec.motion?;
+                    Some(vec![format!("{}({})", motion.quantity(), name.text)])
+                }
                 _ => None,
             },
             ExprKind::Member { owner, feature } => {
@@ -272,9 +271,9 @@ impl Checker<'_> {
         };
         let force = match name.text.as_str() {
             "effort" => Force::Effort(self.equation_named(argument)?),
-            "force_x" => Force::ReactionX(self.joint_named("force_x", argument)?.0),
-            "force_y" => Force::ReactionY(self.joint_named("force_y", argument)?.0),
-            _ => Force::ReactionTorque(self.joint_with_torque(argument)?),
+            "force_x" => Force::ReactionX(self.joint_with_reaction("force_x", argument)?),
+            "force_y" => Force::ReactionY(self.joint_with_reaction("force_y", argument)?),
+            _ => Force::ReactionTorque(self.joint_with_reaction("torque", argument)?),
         };
         let dimension = self.model.dimension_of_force(force);
         // A force holds accelerations.
@@ -307,16 +306,21 @@ impl Checker<'_> {
         }
     }
 
-    /// Returns a joint of a kind that exerts moments.
-    fn joint_with_torque(&mut self, e: &Expr) -> Option<JointId> {
-        let (joint, name) = self.joint_named("torque", e)?;
-        let kind = self.model[joint].features.kind();
-        if kind.has_torque() {
+    /// Returns a joint of a kind whose reaction has a component.
+    fn joint_with_reaction(&mut self, component: &str, e: &Expr) -> Option<JointId> {
+        let (joint, name) = self.joint_named(component, e)?;
+        let kind = self.model[joint].spec;
+        if kind.has_quantity(component) {
             return Some(joint);
         }
         let Declared { name: joint_name, span } = self.model[joint].declared.clone();
-        let driver = self.driver_of(&name.text);
-        self.report(errors::no_torque(&joint_name, kind.word(), name.span, span, driver.as_deref()));
+        let diagnostic = if kind.has_force() {
+            let driver = self.driver_of(&name.text);
+            errors::no_torque(&joint_name, kind.name(), name.span, span, driver.as_deref())
+        } else {
+            errors::no_force(&joint_name, kind.name(), name.span, span)
+        };
+        self.report(diagnostic);
         None
     }
 

@@ -1,11 +1,11 @@
 //! Joints: their arguments, and what the drawn poses must determine.
 
 use super::{Checker, errors};
-use crate::model::{BodyId, CircleId, Dimension, Frame, GuardKind, JoinedFeatures, Joint, JointId, PointId, Side};
+use crate::model::{Argument, BodyId, Dimension, Frame, GuardKind, Joint, JointFeature, JointId, PointId, Profile};
 use mechc_expr::ExprId;
 use mechc_syntax::ast::{Expr, ExprKind, ItemKind, Name};
 use mechc_text::source::Span;
-use mechc_text::vocabulary::JointWord;
+use mechc_text::vocabulary::{ArgumentSpec, FeatureWord, JointSpec};
 
 impl Checker<'_> {
     pub(super) fn joints(&mut self) {
@@ -14,8 +14,7 @@ impl Checker<'_> {
             match &item.kind {
                 ItemKind::Joint { name, kind, arguments, call_span } => {
                     let joint = self.joint(name, kind, arguments, *call_span);
-                    let (declared, part) = (self.declared(name), self.address.part);
-                    let id = joint.map(|features| self.model.add_joint(Joint { part, declared, features }));
+                    let id = joint.map(|joint| self.model.add_joint(joint));
                     self.set_joint(numbers.next().unwrap_or_default(), id);
                 }
                 ItemKind::Part(_) => {
@@ -36,123 +35,68 @@ impl Checker<'_> {
         self.joints[k] = joint;
     }
 
-    fn joint(&mut self, name: &Name, kind: &Name, arguments: &[Expr], span: Span) -> Option<JoinedFeatures> {
-        if self.refuses_arguments(kind, arguments) {
+    fn joint(&mut self, name: &Name, kind: &Name, arguments: &[Expr], span: Span) -> Option<Joint> {
+        let Some(spec) = JointSpec::named(&kind.text) else {
+            let texts: Vec<&str> = arguments.iter().map(|e| self.sources.text(e.span)).collect();
+            let diagnostic = errors::unknown_joint(kind, &texts);
+            self.report(diagnostic);
+            return None;
+        };
+        if self.refuses_arguments(kind, spec, arguments) {
             return None;
         }
-        let joint = match kind.text.as_str() {
-            "revolute" | "weld" | "revolute_revolute" => self.joint_of_points(kind, arguments, span),
-            "translational" | "revolute_translational" => self.joint_of_axes(kind, arguments, span),
-            "gear" | "internal_gear" => self.gear(kind, arguments, span),
-            "rack_pinion" => self.rack_pinion(kind, arguments, span),
-            "point_follower" | "cam" | "flat_follower" => self.contact(kind, arguments, span),
-            _ => self.unknown_joint(kind, arguments),
-        }?;
+        let required = spec.arguments.iter().filter(|argument| matches!(argument, ArgumentSpec::Length(_))).count();
+        let (&[ref first, ref second, ref rest @ ..], true) = (arguments, arguments.len() >= 2 + required) else {
+            return self.wrong_count(spec, span, arguments.len());
+        };
+        if rest.len() > spec.arguments.len() {
+            return self.wrong_count(spec, span, arguments.len());
+        }
+        let features = [(spec.features[0], first), (spec.features[1], second)].map(|(word, e)| self.joined(word, e));
+        let given: Vec<Option<Argument>> =
+            spec.arguments.iter().zip(rest).map(|(argument, e)| self.argument(*argument, e)).collect();
+        let (features, mut arguments) = ([features[0]?, features[1]?], given.into_iter().collect::<Option<Vec<_>>>()?);
+        if let Some(ArgumentSpec::Angle(_) | ArgumentSpec::Offset(_)) = spec.arguments.get(arguments.len()) {
+            arguments.push(Argument::Value(self.model.graph.constant(0.0)));
+        }
+        let joint = Joint { part: self.address.part, declared: self.declared(name), spec, features, arguments };
         let frames = joint.frames(&self.model);
         if self.model.carrier(frames[0]) == self.model.carrier(frames[1]) {
             let frame = self.frame_name(frames[0]).to_owned();
-            self.report(errors::joint_with_itself(name, &frame, [arguments[0].span, arguments[1].span]));
+            self.report(errors::joint_with_itself(name, &frame, [first.span, second.span]));
             return None;
         }
-        self.is_drawn_apart(joint, arguments).then_some(joint)
+        self.is_drawn_apart(&joint, [first.span, second.span]).then_some(joint)
     }
 
-    fn unknown_joint(&mut self, kind: &Name, arguments: &[Expr]) -> Option<JoinedFeatures> {
-        let texts: Vec<&str> = arguments.iter().map(|e| self.sources.text(e.span)).collect();
-        let diagnostic = errors::unknown_joint(kind, &texts);
-        self.report(diagnostic);
+    fn wrong_count(&mut self, spec: &JointSpec, span: Span, found: usize) -> Option<Joint> {
+        self.report(errors::argument_count(spec.name(), Some(&spec.word), span, spec.takes, found));
         None
     }
 
-    fn wrong_count(&mut self, kind: &Name, span: Span, found: usize) -> Option<JoinedFeatures> {
-        if let Some(joint) = JointWord::named(&kind.text) {
-            self.report(errors::argument_count(&kind.text, Some(&joint.word), span, joint.takes, found));
-        }
-        None
-    }
-
-    fn joint_of_points(&mut self, kind: &Name, arguments: &[Expr], span: Span) -> Option<JoinedFeatures> {
-        Some(match (kind.text.as_str(), arguments) {
-            ("revolute", [p, q]) => {
-                let (p, q) = self.two_points(p, q)?;
-                JoinedFeatures::Revolute(p, q)
-            }
-            ("weld", [p, q]) => {
-                let (p, q) = self.two_points(p, q)?;
-                JoinedFeatures::Weld(p, q, self.model.graph.constant(0.0))
-            }
-            ("weld", [p, q, angle]) => {
-                let points = self.two_points(p, q);
-                let angle = self.angle(angle, "the angle of a weld");
-                let (p, q) = points?;
-                JoinedFeatures::Weld(p, q, angle?)
-            }
-            ("revolute_revolute", [p, q, length]) => {
-                let points = self.two_points(p, q);
-                let length = self.positive_length(length, "the length of the link");
-                let (p, q) = points?;
-                JoinedFeatures::RevoluteRevolute(p, q, length?)
-            }
-            _ => return self.wrong_count(kind, span, arguments.len()),
+    fn joined(&mut self, word: FeatureWord, e: &Expr) -> Option<JointFeature> {
+        Some(match word {
+            FeatureWord::Point => JointFeature::Point(self.point(e)?),
+            FeatureWord::Axis => JointFeature::Axis(self.axis(e)?),
+            FeatureWord::Circle => JointFeature::Profile(Profile::Circle(self.circle(e)?)),
+            FeatureWord::Curve => JointFeature::Profile(self.profile(e)?),
         })
     }
 
-    fn joint_of_axes(&mut self, kind: &Name, arguments: &[Expr], span: Span) -> Option<JoinedFeatures> {
-        Some(match (kind.text.as_str(), arguments) {
-            ("translational", [a, b]) => {
-                let (a, b) = (self.axis(a), self.axis(b));
-                JoinedFeatures::Translational(a?, b?)
+    fn argument(&mut self, spec: ArgumentSpec, e: &Expr) -> Option<Argument> {
+        Some(match spec {
+            ArgumentSpec::Angle(what) => Argument::Value(self.angle(e, what)?),
+            ArgumentSpec::Offset(what) => {
+                Argument::Value(self.constant_by(e, what, Dimension::LENGTH, GuardKind::Finite)?.0)
             }
-            ("revolute_translational", [p, a]) => {
-                let (p, a) = (self.point(p), self.axis(a));
-                JoinedFeatures::RevoluteTranslational(p?, a?, self.model.graph.constant(0.0))
-            }
-            ("revolute_translational", [p, a, offset]) => {
-                let (p, a) = (self.point(p), self.axis(a));
-                let place = "the offset from the axis";
-                let offset = self.constant_by(offset, place, Dimension::LENGTH, GuardKind::Finite);
-                JoinedFeatures::RevoluteTranslational(p?, a?, offset?.0)
-            }
-            _ => return self.wrong_count(kind, span, arguments.len()),
-        })
-    }
-
-    fn gear(&mut self, kind: &Name, arguments: &[Expr], span: Span) -> Option<JoinedFeatures> {
-        let ([c, d] | [c, d, _]) = arguments else {
-            return self.wrong_count(kind, span, arguments.len());
-        };
-        let circles = (self.circle(c), self.circle(d));
-        let phase = arguments.get(2).map(|phase| self.phase(phase));
-        let circles = [circles.0?, circles.1?];
-        Some(JoinedFeatures::Gear { circles, internal: kind.text == "internal_gear", phase: settled(phase)? })
-    }
-
-    fn rack_pinion(&mut self, kind: &Name, arguments: &[Expr], span: Span) -> Option<JoinedFeatures> {
-        let ([c, a] | [c, a, _] | [c, a, _, _]) = arguments else {
-            return self.wrong_count(kind, span, arguments.len());
-        };
-        let (pinion, rack) = (self.circle(c), self.axis(a));
-        let phase = arguments.get(2).map(|phase| self.phase(phase));
-        let side = arguments.get(3).map(|side| self.side(side));
-        Some(JoinedFeatures::RackPinion { pinion: pinion?, rack: rack?, phase: settled(phase)?, side: settled(side)? })
-    }
-
-    fn contact(&mut self, kind: &Name, arguments: &[Expr], span: Span) -> Option<JoinedFeatures> {
-        let [first, second] = arguments else {
-            return self.wrong_count(kind, span, arguments.len());
-        };
-        Some(match kind.text.as_str() {
-            "point_follower" => {
-                let (point, profile) = (self.point(first), self.profile(second));
-                JoinedFeatures::PointFollower(point?, profile?)
-            }
-            "cam" => {
-                let (k, m) = (self.profile(first), self.profile(second));
-                JoinedFeatures::Cam(k?, m?)
-            }
-            _ => {
-                let (profile, face) = (self.profile(first), self.axis(second));
-                JoinedFeatures::FlatFollower(profile?, face?)
+            ArgumentSpec::Length(what) => Argument::Value(self.positive_length(e, what)?),
+            ArgumentSpec::Phase => Argument::Value(self.phase(e)?),
+            ArgumentSpec::Word(words, what) => {
+                let word = words.iter().find(|word| matches!(&e.kind, ExprKind::Name(name) if name.text == **word));
+                if word.is_none() {
+                    self.report(errors::no_word(words, what, e.span));
+                }
+                Argument::Word(word?)
             }
         })
     }
@@ -173,7 +117,7 @@ impl Checker<'_> {
     /// Evaluates the phase `κ`, a length.
     fn phase(&mut self, e: &Expr) -> Option<ExprId> {
         if let ExprKind::Name(name) = &e.bare().kind
-            && side_named(&name.text).is_some()
+            && ["left", "right"].contains(&name.text.as_str())
             && self.entity(name).is_none()
         {
             self.report(errors::side_without_phase(&name.text, e.span));
@@ -182,58 +126,43 @@ impl Checker<'_> {
         self.constant_by(e, "the phase", Dimension::LENGTH, GuardKind::Finite).map(|(id, _)| id)
     }
 
-    fn side(&mut self, e: &Expr) -> Option<Side> {
-        let side = match &e.kind {
-            ExprKind::Name(name) => side_named(&name.text),
-            _ => None,
-        };
-        if side.is_none() {
-            self.report(errors::no_side(e.span));
-        }
-        side
-    }
-
     /// Returns whether the drawn poses determine the side or direction of one wheel relative to the other.
-    fn is_drawn_apart(&mut self, joint: JoinedFeatures, arguments: &[Expr]) -> bool {
+    fn is_drawn_apart(&mut self, joint: &Joint, spans: [Span; 2]) -> bool {
+        let frames = joint.frames(&self.model);
         // A broken pose has been reported.
-        if joint.frames(&self.model).iter().any(|frame| self.is_place_broken(*frame)) {
+        if !joint.spec.rolls() || frames.iter().any(|frame| self.is_place_broken(*frame)) {
             return true;
         }
-        match joint {
-            JoinedFeatures::Gear { circles, .. } => {
-                let [c, d] = circles.map(|circle| self.drawn_center(circle));
+        let [Some(first), Some(second)] = joint.features.map(|feature| feature.point(&self.model)) else { return true };
+        match joint.features[1].axis() {
+            Some(_) if joint.has_word("left") || joint.has_word("right") => true,
+            Some(rack) => {
+                let turned = self.drawn(frames[1], self.model[rack].direction, false);
+                let apart = match (self.drawn_point(first), self.drawn_point(second), turned) {
+                    (Some(c), Some(o), Some([vx, vy])) => vx * (c[1] - o[1]) - vy * (c[0] - o[0]) != 0.0,
+                    _ => true,
+                };
+                if !apart {
+                    self.report(errors::center_on_the_rack(spans));
+                }
+                apart
+            }
+            None => {
+                let (c, d) = (self.drawn_point(first), self.drawn_point(second));
                 let apart = c.zip(d).is_none_or(|(c, d)| (c[0] - d[0]).abs() + (c[1] - d[1]).abs() > 0.0);
                 if !apart {
-                    self.report(errors::centers_coincide([arguments[0].span, arguments[1].span]));
+                    self.report(errors::centers_coincide(spans));
                     // A body without a pose is marked, so that it is reported once and not for each of its gears.
-                    let frames = circles.map(|circle| self.model[self.model[circle].center].frame);
                     let without: Vec<Frame> = frames.into_iter().filter(|frame| self.has_no_pose(*frame)).collect();
                     self.common.broken_poses.extend(without);
                 }
                 apart
             }
-            JoinedFeatures::RackPinion { pinion, rack, side: None, .. } => {
-                let (origin, direction) = (self.model[rack].origin, self.model[rack].direction);
-                let turned = self.drawn(self.model[rack].frame, direction, false);
-                let apart = match (self.drawn_center(pinion), self.drawn_point(origin), turned) {
-                    (Some(c), Some(o), Some([vx, vy])) => vx * (c[1] - o[1]) - vy * (c[0] - o[0]) != 0.0,
-                    _ => true,
-                };
-                if !apart {
-                    self.report(errors::center_on_the_rack([arguments[0].span, arguments[1].span]));
-                }
-                apart
-            }
-            _ => true,
         }
     }
 
     fn has_no_pose(&self, frame: Frame) -> bool {
         matches!(frame, Frame::Body(body) if self.model[body].pose_span.is_none())
-    }
-
-    fn drawn_center(&mut self, circle: CircleId) -> Option<[f64; 2]> {
-        self.drawn_point(self.model[circle].center)
     }
 
     fn drawn_point(&mut self, point: PointId) -> Option<[f64; 2]> {
@@ -272,22 +201,5 @@ impl Checker<'_> {
         let place = if is_point { placement.placed(graph, local) } else { placement.turned(graph, local) };
         let [x, y] = place.map(|id| self.constant_value(id));
         Some([x?, y?])
-    }
-}
-
-fn side_named(word: &str) -> Option<Side> {
-    match word {
-        "left" => Some(Side::Left),
-        "right" => Some(Side::Right),
-        _ => None,
-    }
-}
-
-/// Returns the value of an optional argument: the inner `None` if it is left out, the outer `None` if it is broken.
-#[allow(clippy::option_option)] // left out, or broken
-fn settled<T>(argument: Option<Option<T>>) -> Option<Option<T>> {
-    match argument {
-        None => Some(None),
-        Some(value) => value.map(Some),
     }
 }

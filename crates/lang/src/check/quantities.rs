@@ -3,9 +3,7 @@
 use super::entity::Entity;
 use super::formula::{Context, Dim, Value};
 use super::{Checker, errors};
-use crate::model::{
-    AxisId, Condition, ConditionKind, Direction, Frame, JoinedFeatures, JointId, Named, PointId, Quantity,
-};
+use crate::model::{AxisId, Condition, ConditionKind, Direction, Frame, Joint, JointId, Named, PointId, Quantity};
 use mechc_syntax::ast::{Expr, ExprKind, Name};
 use mechc_text::source::Span;
 use mechc_text::vocabulary::QuantityWord;
@@ -86,10 +84,8 @@ impl Checker<'_> {
             ("rotation", [joint, u, v]) => self.rotation_between(joint, u, v)?,
             ("displacement", [joint]) => {
                 let joint = self.joint_with("displacement", joint)?;
-                match self.model[joint].features {
-                    JoinedFeatures::Translational(a, b) => Quantity::Displacement(joint, a, b),
-                    _ => return None,
-                }
+                let [a, b] = self.model[joint].guide()?;
+                Quantity::Displacement(joint, a, b)
             }
             ("angle", [p, q, r]) => {
                 let [p, q, r] = [p, q, r].map(|point| self.point(point));
@@ -163,7 +159,7 @@ impl Checker<'_> {
         let joint = self.joint_with("rotation", joint);
         let (u_id, v_id) = (self.axis(u), self.axis(v));
         let (joint, u_id, v_id) = (joint?, u_id?, v_id?);
-        let frames = self.model[joint].features.frames(&self.model);
+        let frames = self.model[joint].frames(&self.model);
         for (axis, e, frame) in [(u_id, u, frames[0]), (v_id, v, frames[1])] {
             if self.model[axis].frame != frame {
                 let expected = self.frame_name(frame).to_owned();
@@ -178,17 +174,12 @@ impl Checker<'_> {
     /// Returns a joint of a kind that has the quantity.
     fn joint_with(&mut self, quantity: &str, e: &Expr) -> Option<JointId> {
         let (joint, name) = self.joint_named(quantity, e)?;
-        let kind = self.model[joint].features.kind();
-        if kind.has_quantity(quantity) {
+        let Joint { spec, declared, .. } = &self.model[joint];
+        if spec.has_quantity(quantity) {
             return Some(joint);
         }
-        let expected = match quantity {
-            "rotation" => "revolute",
-            "displacement" => "translational",
-            _ => "`point_follower`, `cam` and `flat_follower`",
-        };
-        let declared = self.model[joint].declared.clone();
-        self.report(errors::joint_without(quantity, expected, &declared.name, kind, name.span, declared.span));
+        let diagnostic = errors::joint_without(quantity, &declared.name, spec, name.span, declared.span);
+        self.report(diagnostic);
         None
     }
 
@@ -270,7 +261,7 @@ impl Checker<'_> {
             Quantity::Pole(b, c, _) => vec![b, c],
             Quantity::PressureAngle(_, b) => vec![b],
             Quantity::Rotation(joint, _) | Quantity::Displacement(joint, ..) | Quantity::Slip(joint) => {
-                self.model[joint].features.frames(&self.model).to_vec()
+                self.model[joint].frames(&self.model).to_vec()
             }
         }
     }

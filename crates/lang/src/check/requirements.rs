@@ -76,7 +76,7 @@ impl Checker<'_> {
         }
         let Bounded { value: (formula, value), bounds } = self.bounded(requirement, &sides)?;
         let dimension = sides.iter().map(|(_, value)| value.dim.settled()).reduce(Dimension::marked_by)?;
-        let units = self.units_of_sides(&sides, dimension);
+        let units = units_of_sides(&sides, dimension);
         let text = self.sources.text(requirement_text(requirement));
         let named = requirement.name.as_ref().map(|name| format!("{}{}", self.address.path, name.text));
         let declared = Declared { name: named.unwrap_or_else(|| text.to_owned()), span };
@@ -157,20 +157,20 @@ impl Checker<'_> {
     fn is_fixed(&self, value: Value) -> bool {
         self.model.graph.dependence(value.id).is_constant()
     }
-
-    /// Returns the units in which a requirement is reported: that of the first number among its sides with a unit that fits, or else SI.
-    fn units_of_sides(&self, sides: &[Side<'_>], dimension: Dimension) -> Units {
-        let unit = |e: &Expr| match &e.kind {
-            ExprKind::Literal { unit: Some((name, power)), .. } => Some((Unit::named(&name.text)?, *power)),
-            _ => None,
-        };
-        let mut units = sides.iter().flat_map(|(side, _)| side.parts().filter_map(unit));
-        let fitting = units.find(|(unit, power)| unit.dimension.to_the(f64::from(*power)).is(dimension));
-        fitting.map_or_else(|| Units::si(dimension), |unit| Units::of(&CompoundUnit::new(vec![unit]), dimension))
-    }
 }
 
 /// Returns the span of all that a requirement compares.
 fn requirement_text(requirement: &ast::Requirement) -> Span {
     requirement.formulas().fold(requirement.first.span, |span, side| span.to(side.span))
+}
+
+/// Returns the units in which a requirement is reported: that of the first number among its sides with a unit that fits, or else SI.
+fn units_of_sides(sides: &[Side<'_>], dimension: Dimension) -> Units {
+    let unit = |e: &Expr| match &e.kind {
+        ExprKind::Literal { unit: Some((name, power)), .. } => Some((Unit::named(&name.text)?, *power)),
+        _ => None,
+    };
+    let mut units = sides.iter().flat_map(|(side, _)| side.parts().filter_map(unit));
+    let fitting = units.find(|(unit, power)| unit.dimension.to_the(f64::from(*power)).is(dimension));
+    fitting.map_or_else(|| Units::si(dimension), |unit| Units::of(&CompoundUnit::new(vec![unit]), dimension))
 }

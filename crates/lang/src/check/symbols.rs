@@ -11,7 +11,7 @@ use mechc_syntax::ast::{
 use mechc_syntax::keywords_in;
 use mechc_text::source::{FileId, Span};
 use mechc_text::vocabulary::{
-    Constant, Function, JointWord, Keyword, NamedConstant, QuantityWord, ReductionWord, Role, Unit, Word,
+    Constant, Function, JointSpec, Keyword, NamedConstant, QuantityWord, ReductionWord, Role, Unit, Word,
 };
 use rustc_hash::{FxHashMap, FxHashSet};
 
@@ -365,7 +365,7 @@ impl Walk<'_> {
                 }
             }
             ItemKind::Joint { kind, arguments, .. } => {
-                if let Some(joint) = JointWord::named(&kind.text) {
+                if let Some(joint) = JointSpec::named(&kind.text) {
                     self.word(kind, &joint.word);
                 }
                 for argument in arguments {

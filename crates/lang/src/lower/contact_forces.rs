@@ -2,7 +2,7 @@
 
 use super::Lowering;
 use super::frames::Vector;
-use crate::model::{JoinedFeatures, JointId, Named, Profile};
+use crate::model::{JointFeature, JointId, Named, Profile};
 use mechc_expr::{ExprId, Symbol, Unary};
 use mechc_ir::ContactForce;
 use std::f64::consts::PI;
@@ -17,7 +17,7 @@ impl Lowering<'_> {
     pub(super) fn contact_forces(&mut self) -> Vec<ContactForce> {
         let mut presses = Vec::new();
         for id in self.model.joint_ids() {
-            if self.model[id].features.kind().has_contact() {
+            if self.model[id].spec.has_contact() {
                 let on_second = self.reaction_on_second(id);
                 let force = self.relative_to(None, |l| l.contact_force(id, on_second));
                 let press =
@@ -36,7 +36,7 @@ impl Lowering<'_> {
         let argument = |l: &mut Self, k: u32| l.graph.symbol(Symbol::Coordinate { index: start + k, order: 0 });
         match self.model[joint].features {
             // The curve's body is inside the curve.
-            JoinedFeatures::PointFollower(_, profile) => {
+            [JointFeature::Point(_), JointFeature::Profile(profile)] => {
                 let round = self.orientation(profile);
                 let u = argument(self, 0);
                 let is_closed = round.is_some();
@@ -49,7 +49,7 @@ impl Lowering<'_> {
                 Some((self.normal_component(side, tangent, on_second), is_closed))
             }
             // A curve bends away from the face.
-            JoinedFeatures::FlatFollower(profile, face) => {
+            [JointFeature::Profile(profile), JointFeature::Axis(face)] => {
                 let u = argument(self, 0);
                 let (_, bend) = self.tangent_and_bend(profile, u);
                 let face = self.direction(face);
@@ -58,7 +58,7 @@ impl Lowering<'_> {
                 Some((self.normal_component(curvature, face, on_first), true))
             }
             // A curve bends away from the other curve more than that curve bends towards it, on either side.
-            JoinedFeatures::Cam(first, second) => {
+            [JointFeature::Profile(first), JointFeature::Profile(second)] => {
                 let (u, w) = (argument(self, 0), argument(self, 1));
                 let ((s, bend_k), (t, bend_m)) = (self.tangent_and_bend(first, u), self.tangent_and_bend(second, w));
                 let (of_k, of_m, together) = (self.left_of(t, bend_k), self.left_of(t, bend_m), self.dot(s, s));

@@ -2,7 +2,7 @@
 
 use super::Lowering;
 use super::frames::Vector;
-use crate::model::{self, JoinedFeatures, JointId};
+use crate::model::{self, Joint, JointId};
 use mechc_ir::{Axis, Circle, ConstraintSystem, DeclarationId};
 
 impl Lowering<'_> {
@@ -37,19 +37,10 @@ impl Lowering<'_> {
     /// Returns the attachment point of a joint (m) in the ground's frame: its second point, the origin of its second axis, the centre of
     /// its second circle, or its contact.
     pub(super) fn attachment_point(&mut self, joint: JointId) -> Option<Vector> {
-        let model = self.model;
-        let point = match model[joint].features {
-            JoinedFeatures::Revolute(_, q)
-            | JoinedFeatures::Weld(_, q, _)
-            | JoinedFeatures::RevoluteRevolute(_, q, _) => q,
-            JoinedFeatures::Translational(_, axis)
-            | JoinedFeatures::RevoluteTranslational(_, axis, _)
-            | JoinedFeatures::RackPinion { rack: axis, .. } => model[axis].origin,
-            JoinedFeatures::Gear { circles: [_, second], .. } => model[second].center,
-            JoinedFeatures::PointFollower(..) | JoinedFeatures::Cam(..) | JoinedFeatures::FlatFollower(..) => {
-                return self.contact_position(joint);
-            }
-        };
-        Some(self.position(point))
+        let Joint { spec, features, .. } = &self.model[joint];
+        if spec.has_contact() {
+            return self.contact_position(joint);
+        }
+        features[1].point(self.model).map(|point| self.position(point))
     }
 }

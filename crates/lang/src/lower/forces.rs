@@ -119,8 +119,9 @@ impl Lowering<'_> {
         for (joint, id) in model.joints.iter().zip(model.joint_ids()) {
             let all =
                 [("fx", Force::ReactionX(id)), ("fy", Force::ReactionY(id)), ("torque", Force::ReactionTorque(id))];
-            let components = if joint.features.kind().has_torque() { &all[..] } else { &all[..2] };
-            columns.extend(components.iter().map(|&(ending, force)| self.column(&joint.declared, ending, force)));
+            let from = if joint.spec.has_force() { 0 } else { 2 };
+            let to = if joint.spec.has_torque() { 3 } else { 2 };
+            columns.extend(all[from..to].iter().map(|&(ending, force)| self.column(&joint.declared, ending, force)));
         }
         for (equation, id) in model.equations.iter().zip(model.equation_ids()) {
             columns.push(self.column(&equation.declared, "effort", Force::Effort(id)));
@@ -234,7 +235,7 @@ impl Lowering<'_> {
             Some(point) => point,
             None => [0.0; 2].map(|zero| self.graph.constant(zero)),
         };
-        let [first, second] = self.model[joint].features.frames(self.model).map(|frame| self.model.carrier(frame));
+        let [first, second] = self.model[joint].frames(self.model).map(|frame| self.model.carrier(frame));
         let frame = if second == Frame::Ground { first } else { second };
         let [x, y, about_origin] = self.exerted(joint, frame);
         let origin = self.relative_to(None, |l| [0, 1].map(|part| l.frame_coordinate(frame, part)));

@@ -3,13 +3,11 @@
 //! H stands for E. J. Haug, *Computer-Aided Kinematics and Dynamics of Mechanical Systems*, 1989.
 
 mod contact_forces;
-mod contacts;
+mod elements;
 mod features;
 mod forces;
 mod frames;
-mod gears;
 mod inputs;
-mod joints;
 mod numbering;
 mod param_path;
 mod part_derivatives;
@@ -201,11 +199,6 @@ fn condition(of: &model::Condition, positive: ExprId) -> Option<Condition> {
 
 /// An entry of `Φ` with its dimension.
 type Entry = (ExprId, Dimension);
-
-/// Returns entries of one unit.
-fn entries<const N: usize>(unit: Dimension, phi: [ExprId; N]) -> Vec<Entry> {
-    phi.map(|phi| (phi, unit)).to_vec()
-}
 
 /// Returns the unit of an equation's row: that of its sides; for a distance its square.
 fn equation_unit(equation: &model::Equation) -> Dimension {
@@ -464,13 +457,11 @@ impl Lowering<'_> {
         let model = self.model;
         for joint in &model.joints {
             let phi = self.joint(joint);
-            let kind = DeclarationKind::Joint(joint.features.kind());
-            self.declare(&joint.declared, kind, &phi, &joint.features.points(model));
+            self.declare(&joint.declared, DeclarationKind::Joint(joint.spec), &phi, &joint.points(model));
             if let Some(declaration) = self.declarations.last_mut() {
                 // Axes and circles have the same order in the model and in the system.
-                declaration.axes = joint.features.axes().into_iter().map(|axis| axis.index().into()).collect();
-                declaration.circles =
-                    joint.features.circles().into_iter().map(|circle| circle.index().into()).collect();
+                declaration.axes = joint.axes().map(|axis| axis.index().into()).collect();
+                declaration.circles = joint.circles().map(|circle| circle.index().into()).collect();
             }
         }
         for named in &model.named[..model.named_before_results] {
@@ -510,7 +501,8 @@ impl Lowering<'_> {
             }
             EquationForm::Distance(p, q, distance) => {
                 let distance = self.formula(distance);
-                self.squared_distance_row(p, q, distance)
+                let ends = [p, q].map(|point| self.position(point));
+                self.squared_distance_row(ends, distance)
             }
         }
     }

@@ -24,7 +24,7 @@ impl Numbering {
             [x, x + 1, x + 2]
         });
         let poses = poses.collect();
-        let joints = model.joints.iter().map(|joint| take(joint.features.coordinate_names().len())).collect();
+        let joints = model.joints.iter().map(|joint| take(joint.spec.coordinates.len())).collect();
         Numbering { poses, joints }
     }
 

@@ -74,7 +74,7 @@ impl Lowering<'_> {
 
     /// Returns `(φ_j + θ_j) − (φ_i + θ_i)` (rad).
     pub(super) fn rotation(&mut self, joint: JointId, axes: Option<(AxisId, AxisId)>) -> ExprId {
-        let frames = self.model[joint].features.frames(self.model);
+        let frames = self.model[joint].frames(self.model);
         let turn = self.turn(frames[0], frames[1]);
         match axes {
             None => turn,

@@ -4,8 +4,9 @@
 //! would look singular.
 
 use super::used_features::UsedFeatures;
-use crate::model::{Body, Curve, Frame, JoinedFeatures, Mechanism, Named};
+use crate::model::{Body, Curve, Frame, Joint, Mechanism, Named};
 use mechc_expr::{ExprId, Symbol};
+use mechc_text::vocabulary::ArgumentSpec;
 
 use rustc_hash::FxHashMap;
 
@@ -67,7 +68,7 @@ fn sizes_by_features(
         Frame::Ground | Frame::Part(_) => 0.0,
     };
     for joint in &model.joints {
-        let frames = joint.features.frames(model);
+        let frames = joint.frames(model);
         for (frame, other) in [(frames[0], frames[1]), (frames[1], frames[0])] {
             if let Frame::Body(body) = model.carrier(frame)
                 && !is_size(from_features[body.index()])
@@ -166,11 +167,10 @@ fn fallback_size(model: &Mechanism, value: impl Fn(ExprId) -> f64) -> f64 {
     let ground = feature_positions(model, &value, None).get(&Frame::Ground).map_or(0.0, |points| extent(points));
     let of_a_body = model.points.iter().filter(|point| point.frame != Frame::Ground);
     let offsets = of_a_body.map(|point| mechc_expr::math::hypot(value(point.at[0]), value(point.at[1])));
-    let links = model.joints.iter().filter_map(|joint| match joint.features {
-        JoinedFeatures::RevoluteRevolute(_, _, length) => Some(value(length)),
-        JoinedFeatures::RevoluteTranslational(_, _, offset) => Some(value(offset).abs()),
-        _ => None,
-    });
+    let is_length = |joint: &&Joint| {
+        matches!(joint.spec.arguments.first(), Some(ArgumentSpec::Length(_) | ArgumentSpec::Offset(_)))
+    };
+    let links = model.joints.iter().filter(is_length).filter_map(|joint| Some(value(joint.value()?).abs()));
     let places: Vec<[f64; 2]> = model.bodies.iter().map(|body| [value(body.pose[0]), value(body.pose[1])]).collect();
     let size = offsets.chain(links).chain([ground, extent(&places)]).fold(0.0, f64::max);
     if is_size(size) { size } else { 1.0 }

@@ -21,9 +21,9 @@ impl UsedFeatures {
             curves: vec![false; model.curves.len()],
         };
         for joint in &model.joints {
-            joint.features.points(model).into_iter().for_each(|point| uses.points[point.index()] = true);
-            joint.features.circles().into_iter().for_each(|circle| uses.circles[circle.index()] = true);
-            joint.features.curves().into_iter().for_each(|curve| uses.curves[curve.index()] = true);
+            joint.points(model).into_iter().for_each(|point| uses.points[point.index()] = true);
+            joint.circles().for_each(|circle| uses.circles[circle.index()] = true);
+            joint.curves().for_each(|curve| uses.curves[curve.index()] = true);
         }
         for k in 0..model.equations.len() {
             for point in equation_points(model, k) {

@@ -4,7 +4,7 @@
 
 use super::Lowering;
 use super::frames::Vector;
-use crate::model::{Frame, JoinedFeatures, JointId, PartId, PointId, Profile, Quantity};
+use crate::model::{Frame, JointId, PartId, PointId, Profile, Quantity};
 use mechc_expr::{Binary, Comparison, ExprId, Symbol, Unary};
 use mechc_ir::ConstraintSystem;
 use std::f64::consts::PI;
@@ -123,15 +123,12 @@ impl Lowering<'_> {
                 (lowering.transform_point(frame, local.at), lowering.transform_vector(frame, local.tangent));
             Contact { at, tangent }
         };
-        match self.model[joint].features {
-            JoinedFeatures::PointFollower(_, profile) | JoinedFeatures::Cam(profile, _) => Some(on(self, profile)),
-            JoinedFeatures::FlatFollower(profile, face) => {
-                // The face has a direction even where the curve has none.
-                let tangent = self.direction(face);
-                Some(Contact { tangent, ..on(self, profile) })
-            }
-            _ => None,
-        }
+        let joined = &self.model[joint];
+        let profile = joined.profiles().next().filter(|_| joined.spec.has_contact())?;
+        // A face has a direction even where the curve has none.
+        let face = joined.features[1].axis().map(|face| self.direction(face));
+        let contact = on(self, profile);
+        Some(Contact { tangent: face.unwrap_or(contact.tangent), ..contact })
     }
 
     /// Returns the position of a contact in the ground's frame (m).
@@ -157,7 +154,7 @@ impl Lowering<'_> {
     /// Returns the sliding speed of the bodies at a contact (m/s).
     pub(super) fn slip(&mut self, joint: JointId) -> ExprId {
         let Some(Contact { at, tangent }) = self.contact(joint) else { return self.placeholder() };
-        let [first, second] = self.model[joint].features.frames(self.model).map(|frame| self.point_velocity(frame, at));
+        let [first, second] = self.model[joint].frames(self.model).map(|frame| self.point_velocity(frame, at));
         let sliding = self.difference(second, first);
         let (along, length) = (self.dot(tangent, sliding), self.length(tangent));
         let slip = self.graph.div(along, length);

@@ -120,12 +120,3 @@ impl Profile {
         }
     }
 }
-
-/// The side of a rack on which its pinion lies.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Side {
-    /// To the left of the axis' direction.
-    Left,
-    /// To the right of the axis' direction.
-    Right,
-}

@@ -17,9 +17,9 @@ mod quotients;
 mod results;
 
 pub use equations::{Analysis, Condition, ConditionKind, Equation, EquationForm, Measure, Trace, Units};
-pub use features::{Axis, Body, Circle, Curve, Frame, Point, Profile, Side};
+pub use features::{Axis, Body, Circle, Curve, Frame, Point, Profile};
 pub use forces::{Force, Load, Mass};
-pub use joints::{JoinedFeatures, Joint};
+pub use joints::{Argument, Joint, JointFeature};
 pub use mechc_text::vocabulary::{CompoundUnit, Dimension};
 pub use named::Named;
 pub use params::{ContinuedParam, Input, Param, TimeFormula, Variable};

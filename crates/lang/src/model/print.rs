@@ -1,10 +1,11 @@
 //! The model as readable text: names are resolved, values are in SI units.
 
 use super::{
-    AxisId, BodyId, CircleId, Direction, EquationForm, Frame, JoinedFeatures, Mechanism, Named, PointId, Profile,
-    Quantity, Reduction, Side,
+    Argument, AxisId, BodyId, Direction, EquationForm, Frame, Joint, JointFeature, Mechanism, Named, PointId, Profile,
+    Quantity, Reduction,
 };
 use mechc_expr::{ExprId, Printer, Symbol, number};
+use mechc_text::vocabulary::ArgumentSpec;
 use rustc_hash::FxHashMap;
 
 /// A mechanism as text. Subformulas that occur several times have names, so that each is written out once.
@@ -24,10 +25,6 @@ impl Text<'_> {
     }
 
     fn axis_text(&self, id: AxisId) -> String {
-        format!("{}.{}", self.model.frame_name(self.model[id].frame), self.model[id].name)
-    }
-
-    fn circle_text(&self, id: CircleId) -> String {
         format!("{}.{}", self.model.frame_name(self.model[id].frame), self.model[id].name)
     }
 
@@ -116,35 +113,22 @@ impl Text<'_> {
         if whole { printer.definition(id) } else { printer.text(id) }
     }
 
-    fn joint_text(&self, features: JoinedFeatures) -> String {
+    fn joint_text(&self, joint: &Joint) -> String {
         let text = |id: ExprId| self.formula_text(id);
-        let point = |id: PointId| self.point_text(id, &text);
-        let arguments = match features {
-            JoinedFeatures::Revolute(p, q) => vec![point(p), point(q)],
-            JoinedFeatures::Translational(a, b) => vec![self.axis_text(a), self.axis_text(b)],
-            JoinedFeatures::Weld(p, q, value) | JoinedFeatures::RevoluteRevolute(p, q, value) => {
-                vec![point(p), point(q), text(value)]
-            }
-            JoinedFeatures::RevoluteTranslational(p, a, offset) => vec![point(p), self.axis_text(a), text(offset)],
-            JoinedFeatures::Gear { circles, phase, .. } => {
-                circles.map(|circle| self.circle_text(circle)).into_iter().chain(phase.map(text)).collect()
-            }
-            JoinedFeatures::RackPinion { pinion, rack, phase, side } => {
-                let side = side.map(|side| if side == Side::Left { "left".to_owned() } else { "right".to_owned() });
-                let wheels = [self.circle_text(pinion), self.axis_text(rack)];
-                wheels.into_iter().chain(phase.map(text)).chain(side).collect()
-            }
-            JoinedFeatures::PointFollower(p, profile) => vec![point(p), self.profile_text(profile)],
-            JoinedFeatures::Cam(k, m) => vec![self.profile_text(k), self.profile_text(m)],
-            JoinedFeatures::FlatFollower(profile, face) => vec![self.profile_text(profile), self.axis_text(face)],
+        let feature = |feature: JointFeature| match feature {
+            JointFeature::Point(point) => self.point_text(point, &text),
+            JointFeature::Axis(axis) => self.axis_text(axis),
+            JointFeature::Profile(profile) => self.profile_text(profile),
         };
-        let drawn = match features {
-            JoinedFeatures::Gear { phase: None, .. } | JoinedFeatures::RackPinion { phase: None, .. } => {
-                ", meshing as drawn"
-            }
-            _ => "",
+        let argument = |argument: &Argument| match argument {
+            Argument::Value(id) => text(*id),
+            Argument::Word(word) => (*word).to_owned(),
         };
-        format!("{}({}){drawn}", features.word(), arguments.join(", "))
+        let arguments: Vec<String> =
+            joint.features.map(feature).into_iter().chain(joint.arguments.iter().map(argument)).collect();
+        let is_drawn = joint.spec.arguments.contains(&ArgumentSpec::Phase) && joint.value().is_none();
+        let drawn = if is_drawn { ", meshing as drawn" } else { "" };
+        format!("{}({}){drawn}", joint.spec.name(), arguments.join(", "))
     }
 
     fn write_features(&self, f: &mut std::fmt::Formatter<'_>, frame: Frame) -> std::fmt::Result {
@@ -216,7 +200,7 @@ impl Text<'_> {
     fn write_equations(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         writeln!(f, "\njoints")?;
         for joint in &self.model.joints {
-            writeln!(f, "  {}: {}", joint.declared.name, self.joint_text(joint.features))?;
+            writeln!(f, "  {}: {}", joint.declared.name, self.joint_text(joint))?;
         }
         writeln!(f, "\nconstraints and drivers")?;
         for equation in &self.model.equations {
@@ -282,13 +266,7 @@ impl Mechanism {
         let mut list: Vec<ExprId> = self.points.iter().flat_map(|point| point.at).collect();
         list.extend(self.axes.iter().flat_map(|axis| axis.direction));
         list.extend(self.bodies.iter().flat_map(|body| body.pose));
-        list.extend(self.joints.iter().filter_map(|joint| match joint.features {
-            JoinedFeatures::Weld(_, _, value)
-            | JoinedFeatures::RevoluteRevolute(_, _, value)
-            | JoinedFeatures::RevoluteTranslational(_, _, value) => Some(value),
-            JoinedFeatures::Gear { phase, .. } | JoinedFeatures::RackPinion { phase, .. } => phase,
-            _ => None,
-        }));
+        list.extend(self.joints.iter().filter_map(Joint::value));
         list.extend(self.graph.tables().iter().flat_map(|table| table.knots.iter().chain(&table.values)));
         list.extend(self.circles.iter().map(|circle| circle.radius));
         list.extend(self.curves.iter().flat_map(|curve| curve.at.into_iter().chain(curve.estimate)));

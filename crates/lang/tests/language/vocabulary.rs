@@ -108,10 +108,10 @@ fn joint_counts_match_their_pages() {
     for joint in vocabulary::JOINTS {
         let (determined, _) = compiled(joint.word.name, &joint.word.example()).inside();
         let system = determined.system();
-        let is_it = |kind| matches!(kind, DeclarationKind::Joint(kind) if kind.word() == joint.word.name);
+        let is_it = |kind| kind == DeclarationKind::Joint(joint);
         let number = system.declarations().find(|declaration| is_it(declaration.kind)).expect("the joint");
         let rows = system.rows().iter().filter(|row| row.declaration == number).count();
-        assert_eq!(rows, joint.equations, "{}", joint.word.name);
+        assert_eq!(rows, joint.rows.len(), "{}", joint.word.name);
         let name = &system.declarations()[number].name;
         let own: Vec<&str> =
             system.coordinates().iter().filter_map(|c| c.name.strip_prefix(&format!("{name}."))).collect();

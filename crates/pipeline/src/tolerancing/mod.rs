@@ -215,7 +215,9 @@ impl Tolerancing<'_> {
         }
         outputs.hold_others(&mut swept, &followers, self.tolerances.len());
         let mut affected = outputs.affected(&swept, &self.tolerances);
-        affected.iter_mut().for_each(|output| output.is_verifiable = !followers.change(&output.name));
+        for output in &mut affected {
+            output.is_verifiable = !followers.change(&output.name);
+        }
         Ok(affected)
     }
 
@@ -424,14 +426,16 @@ impl ToleratedOutputs {
         if followers.is_empty() {
             return;
         }
-        let mut last = 0;
+        let mut next = 1;
         for measure in &self.measures {
-            last += 1;
+            // behind the measure stand its derivatives
+            let mut last = next;
             let mut place = |by: &Option<usize>| {
                 last += usize::from(by.is_some());
                 by.map(|_| last)
             };
             let places: Vec<Option<usize>> = measure.by.iter().map(&mut place).collect();
+            next = last + 1;
             for row in 0..swept.columns[0].len() {
                 let slope = |place: &Option<usize>| place.map_or(f64::NAN, |place| swept.columns[place][row]);
                 let mut slopes: Vec<f64> = places.iter().map(slope).collect();

@@ -3,7 +3,7 @@
 use super::Fault;
 use crate::lexer::tokens;
 use mechc_text::diag::{Applicability, Fix};
-use mechc_text::vocabulary::{JointWord, Position, QuantityWord, Synonym, is_called};
+use mechc_text::vocabulary::{JointSpec, Position, QuantityWord, Synonym, is_called};
 
 /// Separators behind a name, by their description, with the wrong one.
 const SEPARATORS: [(&str, &str, &str); 2] = [("`:`", ":", "="), ("`=`", "=", ":")];
@@ -60,7 +60,7 @@ impl Fault<'_> {
         let is_sure = match (separator, self.found) {
             (":", word) if is_equation => is_call && QuantityWord::named(word).is_some(),
             (":", word) => {
-                is_call && (JointWord::named(word).is_some() || Synonym::of(Position::Joint, word).is_some())
+                is_call && (JointSpec::named(word).is_some() || Synonym::of(Position::Joint, word).is_some())
             }
             (_, "(") => is_gap || keyword.text == "point",
             (_, "spline" | "periodic") => true,

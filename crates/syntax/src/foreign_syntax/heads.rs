@@ -4,7 +4,7 @@ use super::{Correction, Foreign, hyphenated_at, is_name};
 use crate::grammar::Rule;
 use crate::lexer::{Token, is_word_char, tokens};
 use mechc_text::diag::{Applicability, Fix};
-use mechc_text::vocabulary::{JointWord, Keyword, Position, Role, Synonym, is_called, is_declaration};
+use mechc_text::vocabulary::{JointSpec, Keyword, Position, Role, Synonym, is_called, is_declaration};
 
 impl Foreign<'_> {
     /// Returns a correction of the head of a declaration.
@@ -38,9 +38,9 @@ impl Foreign<'_> {
 
     /// Corrects `joint revolute j2(…)`.
     fn name_behind_kind(&self, keyword: &str, last: &Token<'_>) -> Option<Correction> {
-        let is_kind = |word: &str| JointWord::named(word).is_some() || Synonym::of(Position::Joint, word).is_some();
+        let is_kind = |word: &str| JointSpec::named(word).is_some() || Synonym::of(Position::Joint, word).is_some();
         let is_called = self.rest.get(1).is_some_and(|token| token.text == "(");
-        if keyword != "joint" || !self.is_behind_the_name() || JointWord::named(last.text).is_none() {
+        if keyword != "joint" || !self.is_behind_the_name() || JointSpec::named(last.text).is_none() {
             return None;
         }
         if !is_name(self.found) || is_kind(self.found) || !is_called {
@@ -60,7 +60,7 @@ impl Foreign<'_> {
             return None;
         }
         let is_named_by_a_call = || match keyword {
-            "joint" => JointWord::named(last.text).is_some(),
+            "joint" => JointSpec::named(last.text).is_some(),
             "body" | "fn" | "table" => false,
             _ => is_called(last.text) || Synonym::of(Position::Call, last.text).is_some() || last.text == "der",
         };
@@ -114,7 +114,7 @@ impl Foreign<'_> {
         let parts = &self.rest[..end];
         let is_name_alone = !parts.is_empty() && parts.iter().all(is_part);
         let is_word = |token: &Token<'_>| {
-            JointWord::named(token.text).is_some() || Keyword::named(token.text).is_some_and(Keyword::is_joining)
+            JointSpec::named(token.text).is_some() || Keyword::named(token.text).is_some_and(Keyword::is_joining)
         };
         if !is_name_alone || parts.iter().any(is_word) {
             return None;

@@ -2,7 +2,7 @@
 
 use super::{Correction, Foreign, holds_quantity, is_name};
 use crate::grammar::Rule;
-use mechc_text::vocabulary::{JointWord, Keyword, Position, Role, Synonym};
+use mechc_text::vocabulary::{JointSpec, Keyword, Position, Role, Synonym};
 
 impl Foreign<'_> {
     /// Suggests the keyword of a declaration without one: `a = 30 mm`, `j: revolute(…)`, `revolute j: (…)`.
@@ -23,7 +23,7 @@ impl Foreign<'_> {
                 let edit = self.edit(self.at..end, &format!("joint {name}: {kind}"));
                 Some(Foreign::change(format!("a joint is declared by `joint {name}: {kind}(…)`"), vec![edit]))
             }
-            [kind, "(", ..] if JointWord::named(kind).is_some() => {
+            [kind, "(", ..] if JointSpec::named(kind).is_some() => {
                 Some(Correction::Words(format!("a joint is declared by `joint NAME: {kind}(…)`")))
             }
             [_, ":" | "=", _, ..] => self.keyword_by_value(&words),
@@ -111,7 +111,7 @@ impl Foreign<'_> {
 }
 
 fn is_joint(word: &str) -> bool {
-    JointWord::named(word).is_some() || Synonym::of(Position::Joint, word).is_some()
+    JointSpec::named(word).is_some() || Synonym::of(Position::Joint, word).is_some()
 }
 
 /// Returns the language's name for a kind of joint.

@@ -5,12 +5,12 @@ use crate::grammar::Rule;
 use crate::keywords::begins_declaration;
 use crate::lexer::Token;
 use mechc_text::diag::{Applicability, Fix};
-use mechc_text::vocabulary::{JointWord, Keyword, QuantityWord, Role};
+use mechc_text::vocabulary::{JointSpec, Keyword, QuantityWord, Role};
 
 impl Foreign<'_> {
     /// Corrects `joint j: revolute A, B`, `rotation j = …`, `x arm.tip`.
     pub(super) fn bare_arguments(&self, keyword: &str, last: &Token<'_>) -> Option<Correction> {
-        let is_kind = keyword == "joint" && last.text == ":" && JointWord::named(self.found).is_some();
+        let is_kind = keyword == "joint" && last.text == ":" && JointSpec::named(self.found).is_some();
         let (called, arguments) =
             if is_kind { (self.rest.first()?, self.rest.get(1..)?) } else { (last, self.rest.as_slice()) };
         let is_operand = arguments.first().is_some_and(|token| is_name(token.text));
@@ -21,7 +21,7 @@ impl Foreign<'_> {
         let is_part = |token: &&Token<'_>| [".", ","].contains(&token.text) || token.text.chars().all(is_of_a_word);
         let parts: Vec<&Token<'_>> = arguments.iter().take_while(is_part).collect();
         let (Some(first), Some(end)) = (parts.first(), parts.last()) else {
-            let form = JointWord::named(called.text)?.word.written();
+            let form = JointSpec::named(called.text)?.word.written();
             return Some(Correction::Words(format!("what a joint is of stands in parentheses: {form}")));
         };
         let behind = self.text[end.end()..].trim_start();

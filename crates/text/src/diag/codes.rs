@@ -119,7 +119,7 @@ catalogue! {
         E0507 Error "equations that conflict"
         E0508 Error "a derivative in a part that is not determined alone"
         E0509 Error "a force in a loop with redundant equations"
-        W0501 Warning "gears or racks that do not fit their radii"
+        W0501 Warning "gears, racks or belts whose centres are not as far apart as they should be"
         W0502 Warning "redundant equations that are left out"
     }
     "assembly and motion" {

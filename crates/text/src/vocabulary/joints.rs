@@ -1,111 +1,237 @@
-//! Joints, with the equations of each.
+//! Joints as data: what the language, explanations and pictures need to know of each kind. Its equations are in `mechc-lang`.
 
-use super::{Category, Example, Word};
+use super::{Category, Dimension, Example, Word};
 
-/// Kind of joint.
-#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
-#[allow(missing_docs)] // the entries of `JOINTS` document them
-pub enum JointKind {
-    Revolute,
-    Translational,
-    Weld,
-    RevoluteRevolute,
-    RevoluteTranslational,
-    Gear,
-    InternalGear,
-    RackPinion,
-    PointFollower,
-    Cam,
-    FlatFollower,
+const LENGTH: Dimension = Dimension::LENGTH;
+
+/// A kind of joint. Every stage reads this data; only the rows of `Φ` and new symbols are code.
+pub struct JointSpec {
+    /// Documentation.
+    pub word: Word,
+    /// Arguments in words.
+    pub takes: &'static str,
+    /// The features of the first and of the second body, which are the first two arguments.
+    pub features: [FeatureWord; 2],
+    /// The arguments that follow the features.
+    pub arguments: &'static [ArgumentSpec],
+    /// Dimensions of the rows of `Φ`, in order.
+    pub rows: &'static [Dimension],
+    /// Coordinates of the joint, with descriptions.
+    pub coordinates: &'static [(&'static str, &'static str)],
+    /// The motion that the joint leaves to its bodies and that has a quantity.
+    pub motion: Option<JointMotion>,
+    /// What the joint exerts on its bodies.
+    pub reaction: ReactionKind,
+    /// The distance that the joint needs between its features, and does not hold.
+    pub spacing: Option<Spacing>,
+    /// Symbol in pictures.
+    pub symbol: JointSymbol,
 }
 
-impl JointKind {
-    /// Returns the word of the language.
+/// A kind of feature, in the place of a joint's argument.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum FeatureWord {
+    /// A point.
+    Point,
+    /// An axis.
+    Axis,
+    /// A circle.
+    Circle,
+    /// A curve, or a circle in its place.
+    Curve,
+}
+
+impl FeatureWord {
+    /// Returns the keyword that declares such a feature.
     #[must_use]
     pub const fn word(self) -> &'static str {
         match self {
-            JointKind::Revolute => "revolute",
-            JointKind::Translational => "translational",
-            JointKind::Weld => "weld",
-            JointKind::RevoluteRevolute => "revolute_revolute",
-            JointKind::RevoluteTranslational => "revolute_translational",
-            JointKind::Gear => "gear",
-            JointKind::InternalGear => "internal_gear",
-            JointKind::RackPinion => "rack_pinion",
-            JointKind::PointFollower => "point_follower",
-            JointKind::Cam => "cam",
-            JointKind::FlatFollower => "flat_follower",
+            FeatureWord::Point => "point",
+            FeatureWord::Axis => "axis",
+            FeatureWord::Circle => "circle",
+            FeatureWord::Curve => "curve",
+        }
+    }
+}
+
+/// An argument of a joint that is not a feature. All but a length may be left out.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum ArgumentSpec {
+    /// An angle with its name in messages; 0 if it is left out.
+    Angle(&'static str),
+    /// A length of either sign with its name in messages; 0 if it is left out.
+    Offset(&'static str),
+    /// A positive length with its name in messages; required.
+    Length(&'static str),
+    /// The phase of a mesh, a length; that of the drawn poses if it is left out.
+    Phase,
+    /// One of some words, with what it says.
+    Word(&'static [&'static str], &'static str),
+}
+
+/// A motion that a joint leaves to its bodies.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum JointMotion {
+    /// A rotation about a common point.
+    Rotation,
+    /// A displacement along a common line.
+    Displacement,
+}
+
+impl JointMotion {
+    /// Returns the quantity that measures the motion.
+    #[must_use]
+    pub const fn quantity(self) -> &'static str {
+        match self {
+            JointMotion::Rotation => "rotation",
+            JointMotion::Displacement => "displacement",
+        }
+    }
+}
+
+/// What a joint exerts on its bodies, at its point of action.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum ReactionKind {
+    /// A force.
+    Force,
+    /// A force and a torque.
+    ForceAndTorque,
+    /// A torque, and a force that the motion does not determine.
+    Torque,
+}
+
+/// The distance that a joint needs between its features.
+#[derive(Clone, Copy, Debug)]
+pub struct Spacing {
+    /// What is apart.
+    pub of: &'static str,
+    /// What the distance must be.
+    pub wanted: &'static str,
+    /// The kind of joint that takes the sum of the radii for their difference, or the other way round.
+    pub other: Option<&'static str>,
+}
+
+/// The symbol of a joint in pictures.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[allow(missing_docs)] // named like the joints that have them
+pub enum JointSymbol {
+    Pin,
+    Slider,
+    Weld,
+    Link,
+    Slot,
+    Gear,
+    RingGear,
+    Rack,
+    Belt,
+    Contact,
+}
+
+impl JointSpec {
+    /// Returns the joint of a name.
+    #[must_use]
+    pub fn named(name: &str) -> Option<&'static JointSpec> {
+        JOINTS.iter().find(|joint| joint.word.name == name)
+    }
+
+    /// Returns the word of the language.
+    #[must_use]
+    pub const fn name(&self) -> &'static str {
+        self.word.name
+    }
+
+    /// Returns the numbers of equations and coordinates in words: `2 equations, and 1 coordinate of its own: u, its place`.
+    #[must_use]
+    pub fn counts(&self) -> String {
+        let count = |n: usize, what: &str| format!("{n} {what}{}", if n == 1 { "" } else { "s" });
+        let coordinates: Vec<String> =
+            self.coordinates.iter().map(|(name, what)| format!("`{name}`, {what}")).collect();
+        let equations = count(self.rows.len(), "equation");
+        match coordinates.len() {
+            0 => equations,
+            n => format!("{equations}, and {} of its own: {}", count(n, "coordinate"), coordinates.join("; ")),
         }
     }
 
-    /// Returns whether a quantity such as `rotation` or `displacement` is defined for the joint. All quantities of reactions are, except
-    /// `torque`.
+    /// Returns whether a quantity such as `rotation`, `slip` or `torque` is defined for the joint.
     #[must_use]
-    pub fn has_quantity(self, quantity: &str) -> bool {
+    pub fn has_quantity(&self, quantity: &str) -> bool {
         match quantity {
-            "rotation" => self == JointKind::Revolute,
-            "displacement" => self == JointKind::Translational,
+            "rotation" | "displacement" => self.motion.is_some_and(|motion| motion.quantity() == quantity),
             "slip" | "pressure_angle" => self.has_contact(),
             "torque" => self.has_torque(),
+            "force_x" | "force_y" => self.has_force(),
             _ => true,
         }
     }
 
     /// Returns whether the joint is a contact of two outlines, or of a point and an outline.
     #[must_use]
-    pub const fn has_contact(self) -> bool {
-        match self {
-            JointKind::PointFollower | JointKind::Cam | JointKind::FlatFollower => true,
-            JointKind::Revolute
-            | JointKind::Translational
-            | JointKind::Weld
-            | JointKind::RevoluteRevolute
-            | JointKind::RevoluteTranslational
-            | JointKind::Gear
-            | JointKind::InternalGear
-            | JointKind::RackPinion => false,
-        }
+    pub fn has_contact(&self) -> bool {
+        self.features.contains(&FeatureWord::Curve)
+    }
+
+    /// Returns whether the joint is a contact that needs a tangent of its first curve.
+    #[must_use]
+    pub fn has_tangent(&self) -> bool {
+        self.features[0] == FeatureWord::Curve
+    }
+
+    /// Returns whether the joint is a contact with a straight face.
+    #[must_use]
+    pub fn has_face(&self) -> bool {
+        self.has_tangent() && self.features[1] == FeatureWord::Axis
+    }
+
+    /// Returns whether the joint is of two points.
+    #[must_use]
+    pub fn is_of_points(&self) -> bool {
+        self.features == [FeatureWord::Point; 2]
+    }
+
+    /// Returns whether the joint holds two points at a distance, its first value, by the row `dᵀd − L²`.
+    #[must_use]
+    pub fn holds_distance(&self) -> bool {
+        self.is_of_points() && self.rows == [Dimension::AREA]
+    }
+
+    /// Returns whether the joint holds two points together.
+    #[must_use]
+    pub fn holds_points_together(&self) -> bool {
+        self.is_of_points() && !self.holds_distance()
+    }
+
+    /// Returns whether the joint rolls, at a phase that the drawn poses decide.
+    #[must_use]
+    pub fn rolls(&self) -> bool {
+        self.features[0] == FeatureWord::Circle
     }
 
     /// Returns whether the joint's reaction can have a moment about its point of action; for the others it is zero.
     #[must_use]
-    pub const fn has_torque(self) -> bool {
-        match self {
-            JointKind::Translational
-            | JointKind::Weld
-            | JointKind::RevoluteTranslational
-            | JointKind::Gear
-            | JointKind::InternalGear
-            | JointKind::RackPinion => true,
-            JointKind::Revolute
-            | JointKind::RevoluteRevolute
-            | JointKind::PointFollower
-            | JointKind::Cam
-            | JointKind::FlatFollower => false,
-        }
+    pub fn has_torque(&self) -> bool {
+        self.reaction != ReactionKind::Force
+    }
+
+    /// Returns whether the motion determines the force of the joint's reaction.
+    #[must_use]
+    pub fn has_force(&self) -> bool {
+        self.reaction != ReactionKind::Torque
     }
 }
 
-/// A kind of joint in the language.
-#[derive(Debug)]
-pub struct JointWord {
-    /// Kind.
-    pub kind: JointKind,
-    /// Documentation.
-    pub word: Word,
-    /// Arguments in words.
-    pub takes: &'static str,
-    /// Number of equations.
-    pub equations: usize,
-    /// Coordinates of the joint, with descriptions.
-    pub coordinates: &'static [(&'static str, &'static str)],
+/// Kinds of joints are equal if their names are.
+impl PartialEq for JointSpec {
+    fn eq(&self, other: &JointSpec) -> bool {
+        self.name() == other.name()
+    }
 }
 
-impl JointWord {
-    /// Returns the joint of a name.
-    #[must_use]
-    pub fn named(name: &str) -> Option<&'static JointWord> {
-        JOINTS.iter().find(|joint| joint.word.name == name)
+impl Eq for JointSpec {}
+
+impl std::fmt::Debug for JointSpec {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(self.name())
     }
 }
 
@@ -114,28 +240,50 @@ pub const NOTATION: &str = "Here i is the body of the first argument and j that 
                             from the first argument's point to the second's, `v` the unit direction of an axis, `v^⊥` that turned \
                             by +90°, `φ` a body's angle and `A` its rotation matrix.";
 
+/// A joint that exerts a force and a torque, and has no arguments but its features.
+const PLAIN: JointSpec = JointSpec {
+    word: Word {
+        name: "",
+        category: Category::Joint,
+        forms: &[],
+        letters: "",
+        meaning: "",
+        more: "",
+        example: Example::Of(""),
+    },
+    takes: "",
+    features: [FeatureWord::Point; 2],
+    arguments: &[],
+    rows: &[],
+    coordinates: &[],
+    motion: None,
+    reaction: ReactionKind::ForceAndTorque,
+    spacing: None,
+    symbol: JointSymbol::Pin,
+};
+
 /// All joints.
-pub static JOINTS: &[JointWord] = &[
-    JointWord {
-        kind: JointKind::Revolute,
+pub static JOINTS: &[JointSpec] = &[
+    JointSpec {
         word: Word {
-            name: JointKind::Revolute.word(),
-            category: Category::Joint,
+            name: "revolute",
             forms: &["revolute(P, Q)"],
-            letters: "",
             meaning: "two points coincide, and the bodies turn about them",
             more: "`Φ = r_i^P − r_j^Q`",
             example: Example::Arm("driver motor: rotation(main) = 60 rpm * t"),
+            ..PLAIN.word
         },
         takes: "two points",
-        equations: 2,
-        coordinates: &[],
+        features: [FeatureWord::Point, FeatureWord::Point],
+        rows: &[LENGTH, LENGTH],
+        motion: Some(JointMotion::Rotation),
+        reaction: ReactionKind::Force,
+        symbol: JointSymbol::Pin,
+        ..PLAIN
     },
-    JointWord {
-        kind: JointKind::Translational,
+    JointSpec {
         word: Word {
-            name: JointKind::Translational.word(),
-            category: Category::Joint,
+            name: "translational",
             forms: &["translational(a, b)"],
             letters: "a and b axes",
             meaning: "two axes lie on one line, and the bodies slide along it without turning",
@@ -151,18 +299,19 @@ body slide {
 joint guide: translational(ground.way, slide.way)
 driver piston: displacement(guide) = 50 mm + 20 mm/s * t",
             ),
+            ..PLAIN.word
         },
         takes: "two axes",
-        equations: 2,
-        coordinates: &[],
+        features: [FeatureWord::Axis, FeatureWord::Axis],
+        rows: &[LENGTH, Dimension::PURE],
+        motion: Some(JointMotion::Displacement),
+        symbol: JointSymbol::Slider,
+        ..PLAIN
     },
-    JointWord {
-        kind: JointKind::Weld,
+    JointSpec {
         word: Word {
-            name: JointKind::Weld.word(),
-            category: Category::Joint,
+            name: "weld",
             forms: &["weld(P, Q)", "weld(P, Q, angle)"],
-            letters: "",
             meaning: "two points coincide, and the bodies do not turn against each other",
             more: "`Φ = [r_i^P − r_j^Q, φ_j − φ_i − φ_0]`, `φ_0` the angle, 0 if it is not given.",
             example: Example::Whole(
@@ -181,18 +330,19 @@ joint main: revolute(ground.O, arm.O)
 joint seat: weld(arm.tip, tool.O, 30 deg)
 driver motor: rotation(main) = 60 rpm * t",
             ),
+            ..PLAIN.word
         },
         takes: "two points, and an angle if it is not 0",
-        equations: 3,
-        coordinates: &[],
+        features: [FeatureWord::Point, FeatureWord::Point],
+        arguments: &[ArgumentSpec::Angle("the angle of a weld")],
+        rows: &[LENGTH, LENGTH, Dimension::ANGLE],
+        symbol: JointSymbol::Weld,
+        ..PLAIN
     },
-    JointWord {
-        kind: JointKind::RevoluteRevolute,
+    JointSpec {
         word: Word {
-            name: JointKind::RevoluteRevolute.word(),
-            category: Category::Joint,
+            name: "revolute_revolute",
             forms: &["revolute_revolute(P, Q, length)"],
-            letters: "",
             meaning: "two points stay at a distance, as if a massless link with a pin at both ends joined them",
             more: "`Φ = dᵀd − L²`, L the length, which is positive.",
             example: Example::Whole(
@@ -214,18 +364,20 @@ joint pivot: revolute(ground.D, rocker.D)
 joint rod: revolute_revolute(crank.B, rocker.C, 210 mm)
 driver motor: rotation(main) = 90 deg + 60 rpm * t",
             ),
+            ..PLAIN.word
         },
         takes: "two points and a length",
-        equations: 1,
-        coordinates: &[],
+        features: [FeatureWord::Point, FeatureWord::Point],
+        arguments: &[ArgumentSpec::Length("the length of the link")],
+        rows: &[Dimension::AREA],
+        reaction: ReactionKind::Force,
+        symbol: JointSymbol::Link,
+        ..PLAIN
     },
-    JointWord {
-        kind: JointKind::RevoluteTranslational,
+    JointSpec {
         word: Word {
-            name: JointKind::RevoluteTranslational.word(),
-            category: Category::Joint,
+            name: "revolute_translational",
             forms: &["revolute_translational(P, a)", "revolute_translational(P, a, offset)"],
-            letters: "",
             meaning: "a point stays on an axis, as a pin in a slot",
             more: "`Φ = v_j^⊥ᵀ (r_i^P − r_j^a) − c`, c the offset to the left of the axis, 0 if it is not given.",
             example: Example::Whole(
@@ -247,16 +399,18 @@ joint pivot: revolute(ground.B, arm.B)
 joint guide: revolute_translational(crank.pin, arm.slot)
 driver motor: rotation(main) = 60 rpm * t",
             ),
+            ..PLAIN.word
         },
         takes: "a point and an axis, and an offset if it is not 0",
-        equations: 1,
-        coordinates: &[],
+        features: [FeatureWord::Point, FeatureWord::Axis],
+        arguments: &[ArgumentSpec::Offset("the offset from the axis")],
+        rows: &[LENGTH],
+        symbol: JointSymbol::Slot,
+        ..PLAIN
     },
-    JointWord {
-        kind: JointKind::Gear,
+    JointSpec {
         word: Word {
-            name: JointKind::Gear.word(),
-            category: Category::Joint,
+            name: "gear",
             forms: &["gear(c, d)", "gear(c, d, phase)"],
             letters: "c and d circles",
             meaning: "two circles roll on each other from outside",
@@ -282,16 +436,20 @@ joint shaft: revolute(ground.B, wheel.O)
 joint mesh: gear(pinion.pitch, wheel.pitch)
 driver motor: rotation(axle) = 60 rpm * t",
             ),
+            ..PLAIN.word
         },
         takes: "two circles, and a phase if the drawing does not give it",
-        equations: 2,
+        features: [FeatureWord::Circle, FeatureWord::Circle],
+        arguments: &[ArgumentSpec::Phase],
+        rows: &[LENGTH, LENGTH],
         coordinates: &[("theta", "the direction of the line of centres")],
+        spacing: Some(Spacing { of: "centres", wanted: "the sum of the radii", other: Some("internal_gear") }),
+        symbol: JointSymbol::Gear,
+        ..PLAIN
     },
-    JointWord {
-        kind: JointKind::InternalGear,
+    JointSpec {
         word: Word {
-            name: JointKind::InternalGear.word(),
-            category: Category::Joint,
+            name: "internal_gear",
             forms: &["internal_gear(c, d)", "internal_gear(c, d, phase)"],
             letters: "c and d circles",
             meaning: "two circles roll on each other, one of them a ring around the other",
@@ -317,16 +475,67 @@ joint shaft: revolute(ground.B, ring.O)
 joint mesh: internal_gear(pinion.pitch, ring.pitch)
 driver motor: rotation(axle) = 60 rpm * t",
             ),
+            ..PLAIN.word
         },
         takes: "two circles, and a phase if the drawing does not give it",
-        equations: 2,
+        features: [FeatureWord::Circle, FeatureWord::Circle],
+        arguments: &[ArgumentSpec::Phase],
+        rows: &[LENGTH, LENGTH],
         coordinates: &[("theta", "the direction of the line of centres")],
+        spacing: Some(Spacing { of: "centres", wanted: "the difference of the radii", other: Some("gear") }),
+        symbol: JointSymbol::RingGear,
+        ..PLAIN
     },
-    JointWord {
-        kind: JointKind::RackPinion,
+    JointSpec {
         word: Word {
-            name: JointKind::RackPinion.word(),
-            category: Category::Joint,
+            name: "belt",
+            forms: &["belt(c, d)", "belt(c, d, crossed)"],
+            letters: "c and d circles",
+            meaning: "a belt or chain runs around two circles without slip",
+            more: "`Φ = [−dx sin θ + dy cos θ, R_i(φ_i − θ) ∓ R_j(φ_j − θ) − κ]`, (dx, dy) from centre to centre, plus for a crossed belt, \
+                   whose pulleys turn against each other. `κ` is taken from the poses in `at`. A belt does not hold the centres of its \
+                   pulleys apart: the bodies' other joints do, and a warning says where their distance changes. It pulls them \
+                   together as hard as it was tightened, which no motion tells: it has a `torque`, but no `force_x` and `force_y`.",
+            example: Example::Whole(
+                "\
+ground {
+    point A = (0, 0)
+    point B = (150 mm, 0)
+    point C = (150 mm, 120 mm)
+}
+body pulley {
+    circle rim = (0, 0) radius 20 mm
+    point O    = (0, 0)
+}
+body drum at (150 mm, 0, 0) {
+    circle rim = (0, 0) radius 50 mm
+    point O    = (0, 0)
+}
+body fan at (150 mm, 120 mm, 0) {
+    circle rim = (0, 0) radius 15 mm
+    point O    = (0, 0)
+}
+joint axle: revolute(ground.A, pulley.O)
+joint shaft: revolute(ground.B, drum.O)
+joint pivot: revolute(ground.C, fan.O)
+joint drive: belt(pulley.rim, drum.rim)
+joint back: belt(drum.rim, fan.rim, crossed)
+driver motor: rotation(axle) = 60 rpm * t",
+            ),
+            ..PLAIN.word
+        },
+        takes: "two circles, and `crossed` if the belt crosses itself",
+        features: [FeatureWord::Circle, FeatureWord::Circle],
+        arguments: &[ArgumentSpec::Word(&["crossed"], "a belt that crosses itself")],
+        rows: &[LENGTH, LENGTH],
+        coordinates: &[("theta", "the direction of the line of centres")],
+        reaction: ReactionKind::Torque,
+        symbol: JointSymbol::Belt,
+        ..PLAIN
+    },
+    JointSpec {
+        word: Word {
+            name: "rack_pinion",
             forms: &["rack_pinion(c, a)", "rack_pinion(c, a, phase)", "rack_pinion(c, a, phase, left)"],
             letters: "c a circle and a an axis",
             meaning: "a circle rolls on an axis",
@@ -351,16 +560,25 @@ joint guide: translational(ground.way, rack.way)
 joint mesh: rack_pinion(pinion.pitch, rack.way)
 driver motor: rotation(axle) = 30 deg/s * t",
             ),
+            ..PLAIN.word
         },
         takes: "a circle and an axis, and a phase and a side if the drawing does not give them",
-        equations: 1,
-        coordinates: &[],
+        features: [FeatureWord::Circle, FeatureWord::Axis],
+        arguments: &[
+            ArgumentSpec::Phase,
+            ArgumentSpec::Word(
+                &["left", "right"],
+                "the side of the axis on which the pinion lies, seen along the axis",
+            ),
+        ],
+        rows: &[LENGTH],
+        spacing: Some(Spacing { of: "centre and axis", wanted: "the radius", other: None }),
+        symbol: JointSymbol::Rack,
+        ..PLAIN
     },
-    JointWord {
-        kind: JointKind::PointFollower,
+    JointSpec {
         word: Word {
-            name: JointKind::PointFollower.word(),
-            category: Category::Joint,
+            name: "point_follower",
             forms: &["point_follower(P, k)"],
             letters: "k a curve or circle",
             meaning: "a point stays on a curve",
@@ -384,16 +602,19 @@ joint guide: translational(ground.way, rod.way)
 joint contact: point_follower(rod.tip, disc.profile)
 driver motor: rotation(axle) = 60 rpm * t",
             ),
+            ..PLAIN.word
         },
         takes: "a point and a curve",
-        equations: 2,
+        features: [FeatureWord::Point, FeatureWord::Curve],
+        rows: &[LENGTH, LENGTH],
         coordinates: &[("u", "the argument of the curve at the point")],
+        reaction: ReactionKind::Force,
+        symbol: JointSymbol::Contact,
+        ..PLAIN
     },
-    JointWord {
-        kind: JointKind::Cam,
+    JointSpec {
         word: Word {
-            name: JointKind::Cam.word(),
-            category: Category::Joint,
+            name: "cam",
             forms: &["cam(k, m)"],
             letters: "k and m curves or circles",
             meaning: "two curves touch",
@@ -418,19 +639,22 @@ joint guide: translational(ground.way, rod.way)
 joint contact: cam(disc.profile, rod.roller)
 driver motor: rotation(axle) = 60 rpm * t",
             ),
+            ..PLAIN.word
         },
         takes: "two curves",
-        equations: 3,
+        features: [FeatureWord::Curve, FeatureWord::Curve],
+        rows: &[LENGTH, LENGTH, Dimension::AREA],
         coordinates: &[
             ("u", "the argument of the first curve at the contact"),
             ("w", "the argument of the second curve there"),
         ],
+        reaction: ReactionKind::Force,
+        symbol: JointSymbol::Contact,
+        ..PLAIN
     },
-    JointWord {
-        kind: JointKind::FlatFollower,
+    JointSpec {
         word: Word {
-            name: JointKind::FlatFollower.word(),
-            category: Category::Joint,
+            name: "flat_follower",
             forms: &["flat_follower(k, a)"],
             letters: "k a curve or circle and a an axis",
             meaning: "a curve touches a straight face",
@@ -454,9 +678,14 @@ joint guide: translational(ground.way, rod.way)
 joint contact: flat_follower(disc.profile, rod.face)
 driver motor: rotation(axle) = 60 rpm * t",
             ),
+            ..PLAIN.word
         },
         takes: "a curve and an axis",
-        equations: 2,
+        features: [FeatureWord::Curve, FeatureWord::Axis],
+        rows: &[LENGTH, LENGTH],
         coordinates: &[("u", "the argument of the curve at the contact")],
+        reaction: ReactionKind::Force,
+        symbol: JointSymbol::Contact,
+        ..PLAIN
     },
 ];

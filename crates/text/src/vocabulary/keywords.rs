@@ -653,6 +653,14 @@ driver motor: rotation(main) = direction(A, B) + 90 deg/s * t",
         "",
         ON_THE_RIGHT,
     ),
+    keyword(
+        Role::Side,
+        "crossed",
+        &["belt(c, d, crossed)"],
+        "the belt crosses itself between its pulleys, which turn against each other",
+        "",
+        Example::Of("belt"),
+    ),
 ];
 
 #[cfg(test)]

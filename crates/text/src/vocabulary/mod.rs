@@ -20,7 +20,7 @@ pub use constants::{CONSTANTS, Constant, NamedConstant};
 pub use dimension::Dimension;
 pub use free_names::{SubstituteKind, substitute_name};
 pub use functions::{FUNCTIONS, Function, Group};
-pub use joints::{JOINTS, JointKind, JointWord};
+pub use joints::{ArgumentSpec, FeatureWord, JOINTS, JointMotion, JointSpec, JointSymbol, ReactionKind, Spacing};
 pub use keywords::{KEYWORDS, Keyword, Role, declares_name, is_declaration, is_feature};
 pub use page::{OVERVIEWS, page};
 pub use quantities::{QUANTITIES, QuantityWord};

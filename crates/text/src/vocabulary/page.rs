@@ -3,7 +3,7 @@
 use super::functions::MOTION_NOTES;
 use super::joints::NOTATION;
 use super::{
-    Category, Example, FUNCTIONS, Function, JOINTS, JointWord, KEYWORDS, Keyword, QUANTITIES, QuantityWord, REDUCTIONS,
+    Category, Example, FUNCTIONS, Function, JOINTS, JointSpec, KEYWORDS, Keyword, QUANTITIES, QuantityWord, REDUCTIONS,
     Role, Synonym, UNITS, Unit, Word, topic, words,
 };
 
@@ -95,8 +95,8 @@ fn noun(word: &Word) -> &'static str {
 /// Returns the paragraphs after the meaning.
 fn details(word: &Word) -> Vec<String> {
     let mut details = Vec::new();
-    if let Some(joint) = JointWord::named(word.name).filter(|_| word.category == Category::Joint) {
-        details.push(equations(joint));
+    if let Some(joint) = JointSpec::named(word.name).filter(|_| word.category == Category::Joint) {
+        details.push(joint.counts() + ".");
         details.push(word.more.to_owned());
         details.push(NOTATION.to_owned());
         return details;
@@ -128,19 +128,6 @@ fn details(word: &Word) -> Vec<String> {
         details.push(MOTION_NOTES.to_owned());
     }
     details
-}
-
-/// Describes the equations of a joint: `2 equations, and 1 coordinate of its own: theta, the direction of the line of centres`.
-fn equations(joint: &JointWord) -> String {
-    let count = |n: usize, what: &str| format!("{n} {what}{}", if n == 1 { "" } else { "s" });
-    let mut text = count(joint.equations, "equation");
-    if !joint.coordinates.is_empty() {
-        let coordinates: Vec<String> =
-            joint.coordinates.iter().map(|(name, what)| format!("`{name}`, {what}")).collect();
-        text +=
-            &format!(", and {} of its own: {}", count(joint.coordinates.len(), "coordinate"), coordinates.join("; "));
-    }
-    text + "."
 }
 
 /// Returns the value of one unit in SI: `0.001 m`.

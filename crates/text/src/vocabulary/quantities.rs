@@ -287,10 +287,10 @@ measure tilt = torque(guide)",
 const TORQUE: QuantityWord = force(
     "torque",
     &["torque(J)"],
-    "J a joint that keeps its bodies from turning, a gear or a rack",
+    "J a joint that keeps its bodies from turning, a gear, a belt or a rack",
     "the moment that a joint exerts on the body of its second argument, in a measure or result",
     "In N·m, positive counter-clockwise: about the point of a `weld`, the second axis' point of `translational`, \
-     `revolute_translational` and `rack_pinion`, the second circle's centre of gears. That of a `revolute` is zero by its kind: what a \
+     `revolute_translational` and `rack_pinion`, the second circle's centre of gears and belts. That of a `revolute` is zero by its kind: what a \
      motor supplies there is `effort(motor)`.",
     "one argument, a joint",
     "",

@@ -206,9 +206,14 @@ pub static SYNONYMS: &[Synonym] = &[
         "a contact is `point_follower(P, k)`, `cam(k, m)` or `flat_follower(k, a)`",
     ).with_formula(),
     joint(
-        &["belt", "chain", "pulley", "timing_belt", "coupler", "ratio", "transmission"],
+        &["chain", "pulley", "pulleys", "timing_belt", "toothed_belt", "belt_drive", "chain_drive", "sprocket"],
+        &["belt"],
+        "a belt or chain around two wheels is `belt(c, d)`, of a circle on each",
+    ),
+    joint(
+        &["coupler", "ratio", "transmission"],
         &["constraint"],
-        "a belt or chain couples two rotations: `constraint belt: rotation(a) = 2 * rotation(b)`, a and b revolute joints",
+        "two rotations are coupled by an equation: `constraint ratio: rotation(a) = 2 * rotation(b)`, a and b revolute joints",
     ).with_formula(),
     joint(
         &["parallel"],

@@ -96,12 +96,12 @@
 ; <words joints>
 ((joint value: (call name: (identifier) @function.builtin))
   (#any-of? @function.builtin
-    "revolute" "translational" "weld" "revolute_revolute" "revolute_translational" "gear" "internal_gear"
+    "revolute" "translational" "weld" "revolute_revolute" "revolute_translational" "gear" "internal_gear" "belt"
     "rack_pinion" "point_follower" "cam" "flat_follower"))
 ; </words>
 
 ; <words sides>
 ((joint value: (call arguments: (arguments (reference) @constant.builtin)))
   (#any-of? @constant.builtin
-    "left" "right"))
+    "left" "right" "crossed"))
 ; </words>

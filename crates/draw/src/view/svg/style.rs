@@ -159,6 +159,7 @@ fn shapes(usage: &StyleUsage, strong: f64) -> String {
                 format!("stroke-width:{};stroke-dasharray:{} {} {0} {1}", width(0.6), width(4.0), width(2.5))
             }
             Look::Face => format!("stroke-width:{}", width(3.0)),
+            Look::Belt => format!("stroke-width:{}", width(2.2)),
             Look::Arrow => format!("stroke-width:{}", width(1.6)),
             Look::Free => format!("stroke-width:{};stroke-dasharray:{} {}", width(1.6), width(3.2), width(2.6)),
             Look::FreeHead => format!("stroke-width:{}", width(1.3)),
@@ -223,7 +224,7 @@ fn colors(usage: &StyleUsage, palette: &Palette) -> String {
     group(&[Look::MasslessLink, Look::Cylinder, Look::Rod], &format!("fill:{paper};stroke:{ink}"));
     group(&[Look::Weld, Look::Dot], &format!("fill:{ink};stroke:{ink}"));
     group(
-        &[Look::Cross, Look::GroundLine, Look::Guide, Look::Track, Look::Spring, Look::Face],
+        &[Look::Cross, Look::GroundLine, Look::Guide, Look::Track, Look::Spring, Look::Face, Look::Belt],
         &format!("fill:none;stroke:{ink}"),
     );
     group(&[Look::Hatching, Look::Pitch], &format!("fill:none;stroke:{quiet}"));

@@ -2,8 +2,9 @@
 
 use super::assembly::{self, Assembled, Moved};
 use super::branches::{self, Doubt};
-use super::errors::{far_estimates, misfit};
+use super::errors::far_estimates;
 use crate::analysis::explain::Stop;
+use crate::analysis::explain::errors::misfit;
 use crate::analysis::state::{Horizon, Kinematics, SignalBounds, State};
 use crate::solver::Solver;
 use mechc_expr::math::Vectors;

@@ -12,7 +12,7 @@ use crate::analysis::state::Horizon;
 use crate::limits::assembly::AGREES;
 use crate::limits::explain::LARGEST;
 use mechc_ir::structure::{self, Determined, Refused, Subsystem};
-use mechc_ir::{ConstraintSystem, DeclarationKind, Homotopy, JointKind};
+use mechc_ir::{ConstraintSystem, DeclarationKind, Homotopy};
 use mechc_text::diag::{Diagnostic, Diagnostics};
 
 /// Largest part if redundant equations are allowed: that takes some seconds.
@@ -220,7 +220,7 @@ fn stuck_driver(system: &ConstraintSystem, dependents: &[Dependent]) -> Option<u
 /// Ranks how likely a row is wrong rather than one before it: a prescribed length is wrong more often than a pin.
 fn suspicion(system: &ConstraintSystem, row: usize) -> u8 {
     match system.declaration_of(row).kind {
-        DeclarationKind::Joint(JointKind::RevoluteRevolute) => 2,
+        DeclarationKind::Joint(joint) if joint.holds_distance() => 2,
         DeclarationKind::Joint(_) | DeclarationKind::Driver => 0,
         DeclarationKind::Constraint => 1,
     }

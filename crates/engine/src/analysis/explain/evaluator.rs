@@ -6,7 +6,7 @@ use crate::analysis::state::{Evaluated, Linear, aslant, minimize};
 use crate::limits::assembly::NUDGE;
 use mechc_expr::math;
 use mechc_ir::program::{Program, Registers, Stage};
-use mechc_ir::{ConstraintSystem, DeclarationId, DeclarationKind, JointKind, PointId};
+use mechc_ir::{ConstraintSystem, DeclarationId, DeclarationKind, PointId};
 
 /// An equation whose residual over its slope exceeds this, scaled, has a vanishing slope.
 const HOPELESS: f64 = 30.0;
@@ -98,7 +98,7 @@ impl<'s> Evaluator<'s> {
     pub fn distance(&self, declaration: DeclarationId) -> Option<[f64; 2]> {
         let system = self.system;
         let is_distance = match system.declarations()[declaration].kind {
-            DeclarationKind::Joint(kind) => kind == JointKind::RevoluteRevolute,
+            DeclarationKind::Joint(joint) => joint.holds_distance(),
             _ => true,
         };
         let &[p, q] = system.declarations()[declaration].points.as_slice() else {

@@ -10,7 +10,7 @@ use crate::limits::assembly::AGREES;
 use crate::limits::explain::{LARGEST, NAMED, YIELDING};
 use mechc_expr::math;
 use mechc_ir::structure::{Block, Determined, Subsystem};
-use mechc_ir::{BodyId, ConstraintSystem, CoordinateKind, DeclarationId, DeclarationKind, JointKind, PointId};
+use mechc_ir::{BodyId, ConstraintSystem, CoordinateKind, DeclarationId, DeclarationKind, PointId};
 
 /// An equation is part of the loop if its share of the residual exceeds this part of the largest.
 const TAKES_PART: f64 = 0.01;
@@ -211,7 +211,7 @@ fn weakest(
         first.is_some_and(|row| errors::gap_kind(system, row) == CoordinateKind::Length)
     };
     let rank = |k: DeclarationId| match system.declarations()[k].kind {
-        DeclarationKind::Joint(JointKind::RevoluteRevolute) => 2,
+        DeclarationKind::Joint(joint) if joint.holds_distance() => 2,
         DeclarationKind::Constraint => 1,
         DeclarationKind::Driver if is_about_places(k) => 1,
         _ => 0,

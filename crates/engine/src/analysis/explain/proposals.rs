@@ -5,8 +5,9 @@ use super::orthonormal::Orthonormal;
 use crate::limits::explain::{MOST_NAMED, SEEN};
 use mechc_expr::math;
 use mechc_ir::{
-    Axis, AxisId, BodyId, ConstraintSystem, Declaration, DeclarationKind, IdVec, JointKind, Point, PointId,
+    Axis, AxisId, BodyId, ConstraintSystem, Declaration, DeclarationKind, IdVec, JointSpec, Point, PointId,
 };
+use mechc_text::vocabulary::JointMotion;
 use nalgebra::DVector;
 use rustc_hash::FxHashMap;
 use std::collections::hash_map::Entry;
@@ -59,19 +60,14 @@ impl Proposals<'_, '_> {
             let [Some(&p), Some(&q)] = [0, 1].map(|k| declaration.points.get(k)) else {
                 continue;
             };
-            let rates: Vec<f64> = match declaration.kind {
-                DeclarationKind::Joint(JointKind::Revolute) => {
+            let DeclarationKind::Joint(JointSpec { motion: Some(motion), .. }) = declaration.kind else { continue };
+            let rates: Vec<f64> = match motion {
+                JointMotion::Rotation => {
                     self.motions.iter().map(|motion| turn(system, motion, q) - turn(system, motion, p)).collect()
                 }
-                DeclarationKind::Joint(JointKind::Translational) => self.slides(p, q),
-                _ => continue,
+                JointMotion::Displacement => self.slides(p, q),
             };
-            let quantity = if declaration.kind == DeclarationKind::Joint(JointKind::Revolute) {
-                "rotation"
-            } else {
-                "displacement"
-            };
-            candidates.push((format!("{quantity}({})", declaration.name), rates));
+            candidates.push((format!("{}({})", motion.quantity(), declaration.name), rates));
         }
         for &body in self.moving {
             let name = &system.bodies()[body].name;
@@ -208,8 +204,8 @@ fn pinned_together(system: &ConstraintSystem) -> IdVec<PointId, PointId> {
         }
     };
     for declaration in system.declarations() {
-        if let (DeclarationKind::Joint(JointKind::Revolute | JointKind::Weld), &[a, b]) =
-            (declaration.kind, declaration.points.as_slice())
+        if let (DeclarationKind::Joint(joint), &[a, b]) = (declaration.kind, declaration.points.as_slice())
+            && joint.holds_points_together()
         {
             join(a, b);
         }

@@ -7,7 +7,7 @@ use crate::limits::explain::{NAMED, SEEN};
 use crate::limits::redundancy::NO_SHARE;
 use crate::limits::singular::NEAR_FOLD;
 use mechc_ir::program::BoundaryRegisters;
-use mechc_ir::{ConstraintSystem, DeclarationId, DeclarationKind, JointKind, Monitor, MonitorKind};
+use mechc_ir::{ConstraintSystem, DeclarationId, DeclarationKind, Monitor, MonitorKind};
 
 /// A position closer to a singular one than this is called singular, or as close as steps could get.
 const NEAR: f64 = 1e-2;
@@ -125,7 +125,7 @@ pub fn end_of_contact(kinematics: &Kinematics, index: usize, t: f64) -> Box<Stop
     let system = kinematics.system();
     let monitors = system.monitors();
     let Monitor { kind, declaration, .. } = monitors[index];
-    let is_flat = system.declarations()[declaration].kind == DeclarationKind::Joint(JointKind::FlatFollower);
+    let is_flat = matches!(system.declarations()[declaration].kind, DeclarationKind::Joint(joint) if joint.has_face());
     let of_contact = |k: &usize| monitors[*k].kind == MonitorKind::Curvature && monitors[*k].declaration == declaration;
     let curvature = (0..monitors.len()).find(of_contact).map_or(0.0, |k| kinematics.monitored(k).abs());
     // with `T` the tangent and `B` its derivative the radius is T²/B across; where the argument alone rests it is no less than usual

@@ -330,6 +330,15 @@ pub enum WarningCause {
         /// Index of the load.
         index: usize,
     },
+    /// A distance that has to stay what it is at the start changes.
+    SpacingChanges {
+        /// Index of the fit.
+        index: usize,
+        /// Distance at the time of the warning, where it has changed most (m).
+        distance: f64,
+        /// Distance at the start (m).
+        at_start: f64,
+    },
     /// A contact would have to pull.
     ContactPulls {
         /// Index of the contact force.
@@ -376,6 +385,9 @@ impl Warning {
             }
             WarningCause::WithoutValue { quantity, rows } => errors::without_value(system, *quantity, t, *rows),
             WarningCause::LoadWithoutDirection { index } => errors::load_without_direction(&system.loads()[*index], t),
+            WarningCause::SpacingChanges { index, distance, at_start } => {
+                errors::spacing_changes(system, &system.fits()[*index], [*distance, *at_start], t)
+            }
             WarningCause::ContactPulls { index, force } => {
                 errors::contact_pulls(system, &system.contact_forces()[*index], *force, t)
             }

@@ -11,7 +11,7 @@
 
 use mechc_expr::math;
 use mechc_ir::structure::Block;
-use mechc_ir::{BodyId, ConstraintSystem, CoordinateKind, DeclarationKind, IdVec, JointKind, PointId};
+use mechc_ir::{BodyId, ConstraintSystem, CoordinateKind, DeclarationKind, IdVec, PointId};
 use std::ops::Range;
 
 /// Number of sweeps over rows and columns; the remaining factor is irrelevant.
@@ -354,9 +354,7 @@ fn is_of_joint(system: &ConstraintSystem, row: usize) -> bool {
 /// Returns whether the magnitudes of a row's slopes change along the motion.
 fn changes(system: &ConstraintSystem, row: usize) -> bool {
     match system.declaration_of(row).kind {
-        DeclarationKind::Joint(kind) => {
-            !matches!(kind, JointKind::Revolute | JointKind::Weld | JointKind::RevoluteRevolute)
-        }
+        DeclarationKind::Joint(joint) => !joint.is_of_points(),
         _ => system.phi_q().row(row).iter().any(|&(_, slope)| !system.graph().dependence(slope).is_constant()),
     }
 }

@@ -1,6 +1,7 @@
 //! Diagnostics of drawn poses, times and missing units.
 
 use super::dimensions::{MOST_PLACES, format_value};
+use super::list;
 use crate::check::suggest::edits::{is_bare_number, with_factors};
 use crate::model::Dimension;
 use mechc_text::diag::{Applicability, Code, Diagnostic, Edit, Fix, readable};
@@ -8,10 +9,10 @@ use mechc_text::source::Span;
 
 /// Gears whose drawn poses give no direction between their centres.
 pub fn centers_coincide(circles: [Span; 2]) -> Diagnostic {
-    Diagnostic::new(Code::E0412, "the centres of these gears coincide as the bodies are drawn")
+    Diagnostic::new(Code::E0412, "the centres of these circles coincide as the bodies are drawn")
         .at(circles[1], "its centre is that of the other one")
         .also(circles[0], "the other one")
-        .help("give the bodies poses in `at` that show in which direction one gear lies from the other")
+        .help("give the bodies poses in `at` that show in which direction one lies from the other")
 }
 
 /// A pinion whose drawn pose gives no side of its rack.
@@ -33,10 +34,9 @@ pub fn side_without_phase(side: &str, span: Span) -> Diagnostic {
         ))
 }
 
-pub fn no_side(span: Span) -> Diagnostic {
-    Diagnostic::new(Code::E0302, "expected `left` or `right`")
-        .at(span, "the side of the axis on which the pinion lies")
-        .help("left and right are seen along the direction of the axis")
+/// Another formula where one of some words may stand, which say `what`.
+pub fn no_word(words: &[&str], what: &str, span: Span) -> Diagnostic {
+    Diagnostic::new(Code::E0302, format!("expected {}", list(words).replace(" and ", " or "))).at(span, what)
 }
 
 pub fn step_not_positive(span: Span, value: f64) -> Diagnostic {

@@ -158,6 +158,14 @@ pub fn no_torque(joint: &str, kind: &str, span: Span, declared: Span, driver: Op
         .help(help)
 }
 
+pub fn no_force(joint: &str, kind: &str, span: Span, declared: Span) -> Diagnostic {
+    Diagnostic::new(Code::E0304, format!("the force of a `{kind}` is not known"))
+        .at(span, format!("`{joint}` is `{kind}`"))
+        .also(declared, "declared here")
+        .note("it pulls along the line of centres as hard as it was tightened, which no motion tells")
+        .help(format!("its torque is known: `torque({joint})`"))
+}
+
 /// Reports a torque in a unit of energy.
 pub fn torque_in_joules(span: Span, formula: Span) -> Diagnostic {
     Diagnostic::new(Code::E0402, "a torque is in newton metres, not in joules")

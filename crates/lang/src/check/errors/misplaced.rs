@@ -1,11 +1,11 @@
 //! Diagnostics of words that are not allowed where they stand.
 
-use super::some_of;
+use super::{list, some_of};
 use crate::check::entity::Entity;
 use mechc_syntax::ast::Name;
 use mechc_text::diag::{Applicability, Code, Diagnostic, Fix};
 use mechc_text::source::Span;
-use mechc_text::vocabulary::JointKind;
+use mechc_text::vocabulary::{JOINTS, JointMotion, JointSpec};
 
 pub fn not_callable(name: &Name, entity: Entity) -> Diagnostic {
     Diagnostic::new(Code::E0302, format!("`{}` is {}, and cannot be called", name.text, entity.noun()))
@@ -20,18 +20,13 @@ pub fn joint_with_itself(joint: &Name, frame: &str, spans: [Span; 2]) -> Diagnos
         .help("a joint needs features of two different bodies, or of a body and the ground")
 }
 
-pub fn joint_without(
-    quantity: &str,
-    expected: &str,
-    joint: &str,
-    kind: JointKind,
-    span: Span,
-    declared: Span,
-) -> Diagnostic {
-    let motions = ["rotation", "displacement"];
-    let other = motions.into_iter().filter(|_| motions.contains(&quantity)).find(|other| kind.has_quantity(other));
+pub fn joint_without(quantity: &str, joint: &str, kind: &JointSpec, span: Span, declared: Span) -> Diagnostic {
+    let is_motion = |spec: &JointSpec| spec.motion.is_some_and(|motion| motion.quantity() == quantity);
+    let expected: Vec<&str> = JOINTS.iter().filter(|spec| spec.has_quantity(quantity)).map(JointSpec::name).collect();
+    let other = kind.motion.filter(|_| JOINTS.iter().any(is_motion)).map(JointMotion::quantity);
+    let expected = if let [only] = expected[..] { only.to_owned() } else { list(&expected) };
     Diagnostic::new(Code::E0304, format!("only {expected} joints have a `{quantity}`"))
-        .at(span, format!("`{joint}` is `{}`", kind.word()))
+        .at(span, format!("`{joint}` is `{}`", kind.name()))
         .also(declared, "declared here")
         .help_if(other.map(|other| format!("was `{other}({joint})` meant?")))
 }

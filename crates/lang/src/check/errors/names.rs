@@ -6,7 +6,7 @@ use mechc_syntax::ast::Name;
 use mechc_text::diag::{Applicability, Code, Diagnostic, Fix};
 use mechc_text::source::Span;
 use mechc_text::vocabulary::{
-    Constant, FUNCTIONS, JOINTS, JointWord, Position, QUANTITIES, QuantityWord, Synonym, Unit,
+    Constant, FUNCTIONS, JOINTS, JointSpec, Position, QUANTITIES, QuantityWord, Synonym, Unit,
 };
 
 pub fn unknown(what: &str, name: &Name, candidates: &[&str]) -> Diagnostic {
@@ -112,7 +112,7 @@ fn suggest_other_form(name: &str, arguments: &[&str]) -> Option<String> {
     if let Some(synonym) = Synonym::of(Position::Call, name) {
         return Some(synonym.message(arguments));
     }
-    if let Some(joint) = JointWord::named(name) {
+    if let Some(joint) = JointSpec::named(name) {
         let form = joint.word.forms.first().copied().unwrap_or(name);
         return Some(format!("`{name}` is a kind of joint: `joint NAME: {form}`"));
     }

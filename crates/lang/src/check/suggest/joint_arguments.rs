@@ -6,27 +6,20 @@ use crate::check::{Checker, errors};
 use crate::model::Frame;
 use mechc_syntax::ast::{Expr, ExprKind, Name};
 use mechc_text::diag::{Applicability, Edit, Fix};
-
-/// The kinds of a joint's first two arguments, where they differ.
-const ORDERS: [(&str, [&str; 2]); 4] = [
-    ("revolute_translational", ["point", "axis"]),
-    ("rack_pinion", ["circle", "axis"]),
-    ("point_follower", ["point", "curve"]),
-    ("flat_follower", ["curve", "axis"]),
-];
+use mechc_text::vocabulary::{FeatureWord, JointSpec};
 
 impl Checker<'_> {
     /// Reports a joint whose first two arguments are swapped or belong to another kind of joint.
-    pub(in crate::check) fn refuses_arguments(&mut self, kind: &Name, arguments: &[Expr]) -> bool {
+    pub(in crate::check) fn refuses_arguments(&mut self, kind: &Name, spec: &JointSpec, arguments: &[Expr]) -> bool {
         let [first, second, ..] = arguments else { return false };
-        let order = ORDERS.into_iter().find(|(word, _)| *word == kind.text);
-        let (Some((_, [one, other])), Some(a), Some(b)) = (order, self.feature_of(first), self.feature_of(second))
-        else {
-            return false;
-        };
+        let (Some(a), Some(b)) = (self.feature_of(first), self.feature_of(second)) else { return false };
+        let [one, other] = spec.features.map(FeatureWord::word);
         let fix = if !a.is(one) && a.is(other) && b.is(one) {
             self.swapped(first, second)
-        } else if kind.text == "point_follower" && matches!(a, Feature::Circle(_)) && b.is("curve") {
+        } else if spec.features == [FeatureWord::Point, FeatureWord::Curve]
+            && matches!(a, Feature::Circle(_))
+            && b.is("curve")
+        {
             Fix::replace(kind.span, "cam", "a circle on a curve is a `cam`", Applicability::Probably)
         } else {
             return false;

@@ -5,7 +5,7 @@ use crate::check::Checker;
 use crate::check::entity::Entity;
 use crate::check::errors::list;
 use crate::check::features::Feature;
-use crate::model::{Dimension, Frame, JoinedFeatures};
+use crate::model::{Dimension, Frame};
 use mechc_syntax::ast::{Expr, ExprKind, Factor, ItemKind, Name};
 use mechc_text::diag::{Applicability, Code, Diagnostic, Edit, Fix};
 use mechc_text::source::Span;
@@ -52,15 +52,9 @@ impl Checker<'_> {
             Some(Entity::Body(k)) => self.bodies[k],
             _ => return diagnostic,
         };
-        let is_one = |features: JoinedFeatures| match features {
-            JoinedFeatures::Revolute(..) if quantity == "rotation" => true,
-            JoinedFeatures::Translational(..) if quantity == "displacement" => true,
-            _ if quantity == "torque" => features.kind().has_torque(),
-            _ => is_force(quantity),
-        };
         let joints = self.joints.iter().flatten().map(|&id| &self.model[id]);
         let fitting =
-            joints.filter(|joint| is_one(joint.features) && joint.features.frames(&self.model).contains(&body));
+            joints.filter(|joint| joint.spec.has_quantity(quantity) && joint.frames(&self.model).contains(&body));
         let names: Vec<&str> = fitting.map(|joint| joint.declared.name.as_str()).collect();
         let diagnostic = match names[..] {
             [] => diagnostic,
@@ -89,7 +83,7 @@ impl Checker<'_> {
             }
             Entity::Joint(k) if means == ["torque"] || means == ["effort"] => {
                 let joint = self.joints.get(k).copied().flatten()?;
-                let is_driven = means == ["effort"] || !self.model[joint].features.kind().has_torque();
+                let is_driven = means == ["effort"] || !self.model[joint].spec.has_torque();
                 let driver = self.driver_of(&name.text).filter(|_| is_driven)?;
                 (format!("what drives `{}` supplies", name.text), format!("effort({driver})"))
             }

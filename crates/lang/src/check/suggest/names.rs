@@ -4,7 +4,7 @@ use crate::check::entity::Entity;
 use crate::check::features::Feature;
 use crate::check::formula::{Context, Dim};
 use crate::check::{Checker, errors};
-use crate::model::{Dimension, JoinedFeatures};
+use crate::model::Dimension;
 use mechc_syntax::ast::{Expr, ExprKind, ItemKind, Name};
 use mechc_text::diag::{Applicability, Code, Diagnostic, Diagnostics, Edit, Fix};
 use mechc_text::source::Span;
@@ -16,12 +16,8 @@ impl Checker<'_> {
     /// Returns the quantity of a joint that a driver can prescribe.
     fn quantity_of(&self, name: &Name) -> Option<String> {
         let Some(Entity::Joint(k)) = self.entity(name) else { return None };
-        let quantity = match self.model[self.joints.get(k).copied().flatten()?].features {
-            JoinedFeatures::Revolute(..) => "rotation",
-            JoinedFeatures::Translational(..) => "displacement",
-            _ => return None,
-        };
-        Some(format!("{quantity}({})", name.text))
+        let motion = self.model[self.joints.get(k).copied().flatten()?].spec.motion?;
+        Some(format!("{}({})", motion.quantity(), name.text))
     }
 
     /// Adds a suggestion to a diagnostic of a joint or body where a number is expected.

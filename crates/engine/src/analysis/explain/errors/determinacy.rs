@@ -6,8 +6,9 @@ use crate::analysis::explain::redundancy::Dependent;
 use crate::analysis::explain::sharing::Shared;
 use crate::limits::explain::MOST_NAMED;
 use mechc_expr::ExprId;
-use mechc_ir::{ConstraintSystem, CoordinateKind, Declaration, DeclarationId, DeclarationKind, JointKind, PointId};
+use mechc_ir::{ConstraintSystem, CoordinateKind, Declaration, DeclarationId, DeclarationKind, PointId};
 use mechc_text::diag::{Code, Diagnostic, Diagnostics};
+use mechc_text::vocabulary::JointMotion;
 
 /// Equations that depend on others: a message for each declaration that wrote them.
 pub fn too_many(system: &ConstraintSystem, dependents: &[Dependent]) -> Diagnostics {
@@ -124,14 +125,15 @@ fn mend(system: &ConstraintSystem, group: &[Dependent]) -> String {
     if declaration.rows == 1 {
         return whole;
     }
-    match declaration.kind {
-        DeclarationKind::Joint(JointKind::Revolute) => sliding_pin(system, index).unwrap_or_else(|| {
+    let DeclarationKind::Joint(joint) = declaration.kind else { return whole };
+    match joint.motion {
+        Some(JointMotion::Rotation) => sliding_pin(system, index).unwrap_or_else(|| {
             format!(
                 "let the pin of `{name}` slide along the line between the pins of its link: \
                  `joint {name}: revolute_translational(P, axis)`, with an axis along that line"
             )
         }),
-        DeclarationKind::Joint(JointKind::Translational) => {
+        Some(JointMotion::Displacement) => {
             let axes: Vec<&String> = declaration.axes.iter().map(|&axis| &system.axes()[axis].name).collect();
             match (gap_kind(system, one.row), axes.as_slice()) {
                 (CoordinateKind::Length, [a, b]) => {
@@ -148,12 +150,12 @@ fn mend(system: &ConstraintSystem, group: &[Dependent]) -> String {
                 ),
             }
         }
-        DeclarationKind::Joint(JointKind::Weld) => {
+        None if joint.holds_points_together() => {
             let names: Option<Vec<String>> = declaration.points.iter().map(|&k| system.point_name(k)).collect();
             let points = names.map_or("P, Q".to_owned(), |names| names.join(", "));
             format!("let `{name}` hold the point, and not the angle too: `joint {name}: revolute({points})`")
         }
-        _ => whole,
+        None => whole,
     }
 }
 
@@ -314,8 +316,7 @@ const MESHES_AS_DRAWN: &str =
     "it meshes as the poses in `at` have it: write these as formulas, or with twelve digits, so that all fit";
 
 fn meshes(kind: DeclarationKind) -> bool {
-    use JointKind::{Gear, InternalGear, RackPinion};
-    matches!(kind, DeclarationKind::Joint(Gear | InternalGear | RackPinion))
+    matches!(kind, DeclarationKind::Joint(joint) if joint.rolls())
 }
 
 /// Returns the diagnostic of an equation that was left out and does not hold where the others are assembled.

@@ -4,11 +4,13 @@ mod assembly;
 mod determinacy;
 mod motion;
 mod singularity;
+mod spacing;
 
 pub use assembly::*;
 pub use determinacy::*;
 pub use motion::*;
 pub use singularity::*;
+pub use spacing::*;
 
 use crate::limits::printed::NOTHING;
 use mechc_ir::{ConstraintSystem, CoordinateKind, DeclarationId};

@@ -3,9 +3,7 @@
 use super::{at, in_units, named_all, short, with_places};
 use crate::analysis::state::Unknown;
 use mechc_expr::{Symbol, TableId};
-use mechc_ir::{
-    Condition, ConditionKind, ConstraintSystem, ContactForce, DeclarationId, DeclarationKind, JointKind, LoadForce,
-};
+use mechc_ir::{Condition, ConditionKind, ConstraintSystem, ContactForce, DeclarationId, DeclarationKind, LoadForce};
 use mechc_text::diag::{Code, Diagnostic};
 
 /// Columns that one message names at most.
@@ -58,7 +56,7 @@ pub fn contact_pulls(system: &ConstraintSystem, contact: &ContactForce, force: f
 
 /// Returns whether a declaration is a contact that needs a tangent of its curve.
 pub fn has_tangent(system: &ConstraintSystem, declaration: DeclarationId) -> bool {
-    matches!(system.declarations()[declaration].kind, DeclarationKind::Joint(JointKind::Cam | JointKind::FlatFollower))
+    matches!(system.declarations()[declaration].kind, DeclarationKind::Joint(joint) if joint.has_tangent())
 }
 
 /// Returns a warning that a quantity has no value in some rows, the first of them at `t` (s).

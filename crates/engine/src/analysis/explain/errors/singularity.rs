@@ -1,7 +1,7 @@
 //! Diagnostics of singular positions, at the start and on the way, and of contacts that end.
 
 use super::{at, named, names, owners, with_places};
-use mechc_ir::{ConstraintSystem, DeclarationId, DeclarationKind, JointKind, MonitorKind};
+use mechc_ir::{ConstraintSystem, DeclarationId, DeclarationKind, MonitorKind};
 use mechc_text::diag::{Code, Diagnostic};
 
 /// Kind of singular position in which a mechanism starts.
@@ -60,7 +60,7 @@ pub fn undercut(system: &ConstraintSystem, index: usize, t: f64) -> Diagnostic {
 pub fn equal_curvatures(diagnostic: Diagnostic, system: &ConstraintSystem, joint: DeclarationId) -> Diagnostic {
     let name = &system.declarations()[joint].name;
     match system.declarations()[joint].kind {
-        DeclarationKind::Joint(JointKind::FlatFollower) => {
+        DeclarationKind::Joint(joint) if joint.has_face() => {
             diagnostic.note(format!("at the contact `{name}` the curve is as flat as the face")).help(
                 "a flat face needs a curve that is round all the way it touches it: without hollows and straight parts",
             )

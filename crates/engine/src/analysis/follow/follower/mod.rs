@@ -14,7 +14,7 @@ use super::crossing::{Crossing, is_clear};
 use super::edges::{Edge, Edges};
 use super::near_misses::NearMisses;
 use super::row_selection::RowSelection;
-use super::rows::{ForceMonitor, Place, RowBatch, Rows};
+use super::rows::{ForceMonitor, Place, RowBatch, Rows, SpacingMonitor};
 use super::step::{Accepted, Step, reject_near_singular};
 use super::warnings::Warnings;
 use crate::analysis::assemble::Started;
@@ -41,6 +41,8 @@ pub struct Follower {
     choice: Option<RowSelection>,
     /// `None` where there are no contacts and loads, or no forces are requested.
     forces: Option<ForceMonitor>,
+    /// `None` without belts.
+    spacings: Option<SpacingMonitor>,
     misses: NearMisses,
     warnings: Warnings,
     /// True if derivatives at the start have been computed.
@@ -72,6 +74,7 @@ impl Follower {
         let edges = Edges::new(&mut kinematics, &state, span, edges_end);
         let crossing = Crossing::new(&state, span, last);
         let forces = ForceMonitor::new(&kinematics, &state);
+        let spacings = SpacingMonitor::new(kinematics.system(), &state);
         let misses = NearMisses::new(&state);
         let step = Step::new(&kinematics, state, times.span());
         let origin = || Checkpoint::new(&step, &edges, &crossing);
@@ -88,6 +91,7 @@ impl Follower {
             rows,
             choice,
             forces,
+            spacings,
             misses,
             warnings,
             begun,
@@ -117,6 +121,9 @@ impl Follower {
     /// Takes the warnings so far, each once.
     pub fn take_warnings(&mut self) -> Vec<Warning> {
         self.rows.report_missing(&mut self.warnings);
+        if let Some(spacings) = &mut self.spacings {
+            spacings.report(&mut self.warnings);
+        }
         let Follower { kinematics, step, rows, misses, warnings, .. } = self;
         if let Some(missed) = rows.last_time().and_then(|t| misses.take_warning(kinematics, step.state(), t)) {
             warnings.push(missed);
@@ -132,7 +139,7 @@ impl Follower {
         if self.forces.is_none()
             && let Some(place) = self.rows.hand_out_ready()
         {
-            return Some(Ok(self.rows.row(place)));
+            return Some(Ok(self.checked_row(place)));
         }
         let t = self.rows.next_time()?;
         self.misses.watch();
@@ -153,7 +160,16 @@ impl Follower {
         if !self.rows.is_whole(place) {
             self.rows.leave_out_measures(&self.kinematics, place, t);
         }
-        Some(Ok(self.rows.row(place)))
+        Some(Ok(self.checked_row(place)))
+    }
+
+    /// Returns a row, whose distances have been checked.
+    fn checked_row(&mut self, place: Place) -> &[f64] {
+        let row = self.rows.row(place);
+        if let Some(spacings) = &mut self.spacings {
+            spacings.look(row);
+        }
+        row
     }
 
     /// Goes on until the row of the next output time `t` (s) is there.

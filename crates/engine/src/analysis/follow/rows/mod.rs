@@ -4,6 +4,7 @@ mod force_monitor;
 mod missing_values;
 mod row_batch;
 mod single_row;
+mod spacing_monitor;
 
 use super::checkpoint::Checkpoint;
 use super::edges::Edge;
@@ -14,6 +15,7 @@ pub use force_monitor::ForceMonitor;
 use missing_values::MissingValues;
 pub use row_batch::{RowBatch, state_of_row};
 pub use single_row::SingleRow;
+pub use spacing_monitor::SpacingMonitor;
 
 /// Location of a row.
 #[derive(Clone, Copy)]
