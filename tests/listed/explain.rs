@@ -202,7 +202,7 @@ fn every_code_is_raised_somewhere() {
 /// Codes that a file alone cannot raise; the sessions in `tests/program/cli.rs` do.
 const OF_THE_COMMAND_LINE: &[&str] = &[
     "E0102", "E0509", "E0611", "E0612", "W0502", "W0602", "E0701", "E0702", "E0703", "E0704", "E0705", "E0706",
-    "E0707", "E0708", "W0701", "N0701", "N0702",
+    "E0613", "N0606", "E0707", "E0708", "W0701", "N0701", "N0702",
 ];
 
 fn every_code_is_shown_by_a_test() {
