@@ -22,15 +22,15 @@
   '("use" "load" "trace" "result" "input" "part")
   "Words of the language.")
 (defconst mech-mode-places
-  '("mass" "gravity" "to" "every" "along" "at" "toward" "radius" "inertia" "from" "on" "spline" "in"
-    "mirrored" "as" "columns" "periodic")
+  '("mass" "gravity" "require" "to" "every" "within" "along" "at" "toward" "radius" "inertia" "from" "on"
+    "spline" "in" "mirrored" "as" "columns" "periodic")
   "Words of the language.")
 (defconst mech-mode-sides
   '("left" "right" "crossed")
   "Words of the language.")
 (defconst mech-mode-joints
-  '("revolute" "translational" "weld" "revolute_revolute" "revolute_translational" "gear" "internal_gear" "belt"
-    "rack_pinion" "point_follower" "cam" "flat_follower")
+  '("revolute" "translational" "weld" "revolute_revolute" "revolute_translational" "gear" "internal_gear"
+    "belt" "rack_pinion" "point_follower" "cam" "flat_follower")
   "Words of the language.")
 (defconst mech-mode-called
   '("abs" "acos" "angle" "argmax" "argmin" "asin" "at" "atan" "atan2" "cos" "cosh" "curvature" "cycloidal"

@@ -16,14 +16,14 @@ const RESERVED = [
 // words that a number may stand before, and that are not its unit; names elsewhere
 // <words separators>
 const SEPARATORS = [
-  'to', 'every', 'along', 'at', 'toward', 'radius', 'inertia', 'from', 'on',
+  'to', 'every', 'within', 'along', 'at', 'toward', 'radius', 'inertia', 'from', 'on',
 ];
 // </words>
 
 // words that begin a declaration where one begins; names elsewhere, but no unit
 // <words openers>
 const OPENERS = [
-  'use', 'mass', 'gravity', 'load', 'trace', 'result', 'input', 'part',
+  'use', 'mass', 'gravity', 'load', 'trace', 'result', 'require', 'input', 'part',
 ];
 // </words>
 

@@ -44,7 +44,7 @@ syntax keyword mechUnit MPa bar
 syntax match mechUnit /\v%([0-9.]\s*)@8<=in>/
 " names too, which are none of these words where they are declared, called or set
 " <words contextual>
-syntax match mechPlace /\v<%(use|load|trace|result|input|part|mass|gravity|to|every|along|at|toward|radius|inertia|from|on|spline|in|mirrored|as|columns|periodic)>\ze\s+[^-+*\/^=<>: \t]/
+syntax match mechPlace /\v<%(use|load|trace|result|input|part|mass|gravity|require|to|every|within|along|at|toward|radius|inertia|from|on|spline|in|mirrored|as|columns|periodic)>\ze\s+[^-+*\/^=<>: \t]/
 syntax match mechPlace /\v[^=,(]\s\zsmirrored>\ze\s*$/
 syntax match mechConstant /\v,\s*\zs%(left|right|crossed)>\ze\s*\)/
 " </words>
