@@ -1,6 +1,6 @@
 //! The lexical context of a byte, from the tokens around it. It needs no tree, so it works in an unfinished text.
 
-use mechc_syntax::{Lexer, TokenKind, is_word_char, tokens};
+use mechc_syntax::{LexemeKind, Lexer, is_word_char, tokens};
 use mechc_text::vocabulary::Keyword;
 use std::ops::Range;
 
@@ -56,7 +56,7 @@ pub(super) fn lexical_context(text: &str, offset: usize) -> LexicalContext {
     let is_open = |string: &str| string.len() < 2 || !string.ends_with('"');
     match Lexer::new(before, line).last() {
         Some(token) if token.is_comment() => LexicalContext::Comment,
-        Some(token) if token.kind == TokenKind::String && is_open(token.text) => LexicalContext::String(token.start),
+        Some(token) if token.kind == LexemeKind::String && is_open(token.text) => LexicalContext::String(token.start),
         _ => LexicalContext::Code,
     }
 }

@@ -4,7 +4,7 @@ use super::location::FilePosition;
 use super::snapshot::Snapshot;
 use mechc_pipeline::Parsed;
 use mechc_syntax::ast::{Expr, Feature, Item, ItemKind, Mechanism, TableRows};
-use mechc_syntax::{TokenKind, tokens};
+use mechc_syntax::{LexemeKind, tokens};
 use mechc_text::source::Span;
 use std::ops::Range;
 use std::path::Path;
@@ -100,7 +100,7 @@ pub fn selection_ranges(snapshot: &Snapshot, position: &FilePosition) -> Option<
             ranges.push(range);
         }
     };
-    for token in tokens(text).into_iter().filter(|token| matches!(token.kind, TokenKind::Word | TokenKind::Number)) {
+    for token in tokens(text).into_iter().filter(|token| matches!(token.kind, LexemeKind::Word | LexemeKind::Number)) {
         add(token.start as u32..token.end() as u32);
     }
     for fold in between_brackets(text) {

@@ -2,11 +2,11 @@
 
 use super::fixits::{Fault, FixIt};
 use super::foreign_syntax::{Correction, Foreign};
-use super::grammar::Rule;
-use super::lexer::{Lexer, TokenKind, is_word_char, tokens, tokens_in};
+use super::grammar::{Rule, keyword_of};
+use super::lexer::{LexemeKind, Lexer, is_word_char, tokens, tokens_in};
 use mechc_text::diag::{Applicability, Code, Diagnostic, Edit, Fix};
 use mechc_text::source::{FileId, Source, Span};
-use mechc_text::vocabulary::{Keyword, Role};
+use mechc_text::vocabulary::Role;
 use pest::error::{Error, ErrorVariant};
 use std::borrow::Cow;
 use std::ops::Range;
@@ -323,9 +323,9 @@ fn found_at(text: &str, offset: usize) -> Range<usize> {
     let Some(token) = Lexer::new(text, offset).find(|token| !token.is_comment()) else { return text.len()..text.len() };
     let rest = &text[token.start..];
     let length = match token.kind {
-        TokenKind::Word | TokenKind::Number => rest.find(|c| !is_word_char(c)).unwrap_or(rest.len()).max(1),
-        TokenKind::String => 1,
-        TokenKind::Sign | TokenKind::Comment => token.text.len(),
+        LexemeKind::Word | LexemeKind::Number => rest.find(|c| !is_word_char(c)).unwrap_or(rest.len()).max(1),
+        LexemeKind::String => 1,
+        LexemeKind::Sign | LexemeKind::Comment => token.text.len(),
     };
     token.start..token.start + length
 }
@@ -357,13 +357,6 @@ fn expectation(rules: &[Rule], found: &str, end: &str) -> String {
     }
     let last = words.pop().unwrap_or_default();
     if words.is_empty() { last.into_owned() } else { format!("{} or {last}", words.join(", ")) }
-}
-
-/// Returns the keyword that a rule consists of or begins with: `kw_param`, `param`, `ground_head`, `to`.
-pub(super) fn keyword_of(rule: Rule) -> Option<&'static Keyword> {
-    let rule = format!("{rule:?}");
-    let word = rule.trim_start_matches("kw_").trim_end_matches("_head");
-    Keyword::named(if word == "function" { "fn" } else { word })
 }
 
 /// Describes a rule; empty if the description of another rule covers it.

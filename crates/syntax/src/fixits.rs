@@ -8,10 +8,9 @@ mod separators;
 mod uses;
 mod windows;
 
-use super::errors::keyword_of;
-use super::grammar::Rule;
+use super::grammar::{Rule, keyword_of};
 use super::keywords::begins_declaration;
-use super::lexer::{Lexer, TokenKind, is_word_char, tokens};
+use super::lexer::{LexemeKind, Lexer, is_word_char, tokens};
 use mechc_text::diag::{Applicability, Edit, Fix, nearest};
 use mechc_text::source::{FileId, Span};
 use mechc_text::vocabulary::{
@@ -206,7 +205,7 @@ impl Fault<'_> {
     /// Returns the number before the word that ends before the fault, and where that word begins.
     fn number_before_the_word(&self) -> Option<(&str, usize)> {
         let start = self.before().len() - self.word_before().len();
-        let number = tokens(&self.text[..start]).pop().filter(|token| token.kind == TokenKind::Number)?;
+        let number = tokens(&self.text[..start]).pop().filter(|token| token.kind == LexemeKind::Number)?;
         Some((number.text, start))
     }
 

@@ -10,7 +10,7 @@ mod separators;
 
 use super::grammar::Rule;
 use super::keywords::begins_declaration;
-use super::lexer::{Token, TokenKind, is_word_char, tokens, tokens_in};
+use super::lexer::{LexemeKind, Token, is_word_char, tokens, tokens_in};
 use heads::is_dash;
 use mechc_text::diag::{Applicability, Edit, Fix};
 use mechc_text::source::{FileId, Span};
@@ -157,7 +157,7 @@ impl<'a> Foreign<'a> {
     fn unit_in_brackets(&self, last: &Token<'_>) -> Option<Correction> {
         let (unit, _) = self.text[self.at..].strip_prefix('[')?.split_once(']')?;
         let is_unit = unit.split(['/', '*', '^']).next().is_some_and(|unit| Unit::named(unit.trim()).is_some());
-        let is_number = last.kind == TokenKind::Number;
+        let is_number = last.kind == LexemeKind::Number;
         (is_unit && is_number).then(|| {
             let unit_only = self.edit(self.at..self.at + unit.len() + 2, unit.trim());
             let message = format!("a unit follows its number without brackets: `{} {}`", last.text, unit.trim());
@@ -207,7 +207,7 @@ impl<'a> Foreign<'a> {
 
     /// Corrects `angle(rod) as deg`, `displacement(guide) mm`.
     fn trailing_unit(&self, keyword: &str, last: &Token<'_>) -> Option<Correction> {
-        let is_number = last.kind == TokenKind::Number;
+        let is_number = last.kind == LexemeKind::Number;
         // `2 pi t` is a product with the time
         if !self.expects(Rule::infix) || is_number && self.found != "in" || self.found == "t" {
             return None;
@@ -250,7 +250,7 @@ impl<'a> Foreign<'a> {
     /// Corrects `3 N m`.
     fn adjacent_units(&self, last: &Token<'_>) -> Option<Correction> {
         let [.., number, _] = self.before.as_slice() else { return None };
-        let is_number = number.kind == TokenKind::Number;
+        let is_number = number.kind == LexemeKind::Number;
         // an angle is no factor of a unit
         Unit::named(self.found).filter(|unit| is_number && !unit.dimension.is(Dimension::PURE))?;
         let power = match self.rest.get(1..).unwrap_or_default() {

@@ -7,7 +7,7 @@ use std::ops::Range;
 
 /// Kinds of tokens.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum TokenKind {
+pub enum LexemeKind {
     /// A name, unit or keyword.
     Word,
     /// A number with its exponent, without sign and unit.
@@ -28,7 +28,7 @@ pub struct Token<'a> {
     /// Text.
     pub text: &'a str,
     /// Kind.
-    pub kind: TokenKind,
+    pub kind: LexemeKind,
     /// Number of line ends between this token and the one before.
     pub lines_before: u32,
 }
@@ -49,7 +49,7 @@ impl Token<'_> {
     /// Returns whether it is a comment.
     #[must_use]
     pub fn is_comment(&self) -> bool {
-        self.kind == TokenKind::Comment
+        self.kind == LexemeKind::Comment
     }
 }
 
@@ -110,26 +110,26 @@ pub fn is_word_char(c: char) -> bool {
 }
 
 /// Returns the kind and length of the token that a text begins with.
-fn first_token(text: &str) -> Option<(TokenKind, usize)> {
+fn first_token(text: &str) -> Option<(LexemeKind, usize)> {
     let first = text.chars().next()?;
     Some(match first {
-        'a'..='z' | 'A'..='Z' | '_' => (TokenKind::Word, word_length(text)),
-        '0'..='9' => (TokenKind::Number, number_length(text)),
-        '.' if text[1..].starts_with(|c: char| c.is_ascii_digit()) => (TokenKind::Number, number_length(text)),
+        'a'..='z' | 'A'..='Z' | '_' => (LexemeKind::Word, word_length(text)),
+        '0'..='9' => (LexemeKind::Number, number_length(text)),
+        '.' if text[1..].starts_with(|c: char| c.is_ascii_digit()) => (LexemeKind::Number, number_length(text)),
         '"' => {
             let end = text[1..].find(['"', '\n']).map_or(text.len(), |end| 1 + end);
             let is_closed = text[end..].starts_with('"');
-            (TokenKind::String, if is_closed { end + 1 } else { text[..end].trim_end().len() })
+            (LexemeKind::String, if is_closed { end + 1 } else { text[..end].trim_end().len() })
         }
         '/' if text.starts_with("//") => {
             let line = text.find('\n').map_or(text, |end| &text[..end]);
-            (TokenKind::Comment, line.trim_end().len())
+            (LexemeKind::Comment, line.trim_end().len())
         }
-        '.' if text.starts_with("..=") => (TokenKind::Sign, 3),
-        '.' if text.starts_with("..") => (TokenKind::Sign, 2),
-        '=' | '<' | '>' | '!' if text[1..].starts_with('=') => (TokenKind::Sign, 2),
-        _ if !first.is_ascii() && XID_START(first) => (TokenKind::Word, word_length(text)),
-        _ => (TokenKind::Sign, first.len_utf8()),
+        '.' if text.starts_with("..=") => (LexemeKind::Sign, 3),
+        '.' if text.starts_with("..") => (LexemeKind::Sign, 2),
+        '=' | '<' | '>' | '!' if text[1..].starts_with('=') => (LexemeKind::Sign, 2),
+        _ if !first.is_ascii() && XID_START(first) => (LexemeKind::Word, word_length(text)),
+        _ => (LexemeKind::Sign, first.len_utf8()),
     })
 }
 
@@ -153,7 +153,7 @@ fn number_length(text: &str) -> usize {
 
 #[cfg(test)]
 mod tests {
-    use super::{Lexer, TokenKind, tokens};
+    use super::{LexemeKind, Lexer, tokens};
     use crate::grammar::{Grammar, Rule};
     use pest::Parser;
 
@@ -165,7 +165,7 @@ mod tests {
         assert_eq!(texts("größe<=e\u{301}==-滑 m²"), "größe|<=|e\u{301}|==|-|滑|m|²");
         let all: Vec<_> = Lexer::new("a\r\n\r\n/// b\nc", 0).collect();
         assert_eq!(all.iter().map(|token| token.lines_before).collect::<Vec<_>>(), [0, 2, 1]);
-        assert_eq!(all[1].kind, TokenKind::Comment);
+        assert_eq!(all[1].kind, LexemeKind::Comment);
     }
 
     #[test]

@@ -29,6 +29,6 @@ pub use build::{is_name, normalized};
 pub use depth::DEEPEST;
 pub use format::{format, formatted};
 pub use keywords::{begins_declaration, keywords_in};
-pub use lexer::{Lexer, Token, TokenKind, is_word_char, tokens};
+pub use lexer::{LexemeKind, Lexer, Token, is_word_char, tokens};
 pub use parse::{ParsedText, parse, parse_declaration, parse_expression, reparse};
 pub use trivia::{Comment, Trivia};

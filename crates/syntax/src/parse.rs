@@ -47,7 +47,8 @@ pub fn parse(sources: &Sources, file: FileId) -> ParsedText {
 /// Parses an edited file with the help of its previous tree; the result is that of [`parse`].
 #[must_use]
 pub fn reparse(old: &ParsedText, old_text: &str, sources: &Sources, file: FileId) -> ParsedText {
-    read(sources, file, Some(&PreviousTree::new(old, [old_text, &sources.get(file).text], file)))
+    let texts = [old_text, &sources.get(file).text];
+    read(sources, file, Some(&PreviousTree::new(&old.tree, &old.faulty, texts, file)))
 }
 
 fn read(sources: &Sources, file: FileId, previous: Option<&PreviousTree<'_>>) -> ParsedText {

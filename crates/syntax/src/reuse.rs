@@ -3,8 +3,7 @@
 //! The boundaries of declarations are found anew, and only the result of the grammar for unchanged words is reused. A declaration with a
 //! fault is always parsed again, since its diagnostic may depend on any other declaration.
 
-use super::ast::Item;
-use super::parse::ParsedText;
+use super::ast::{File, Item};
 use super::shift_spans::{Shift, Spans};
 use super::sync_points::SyncPoints;
 use mechc_text::source::FileId;
@@ -30,12 +29,17 @@ pub(super) struct PreviousTree<'a> {
 
 impl<'a> PreviousTree<'a> {
     /// Creates the tree of a text that has been edited from `old_text` to `text`.
-    pub fn new(old: &'a ParsedText, [old_text, text]: [&str; 2], file: FileId) -> PreviousTree<'a> {
+    pub fn new(
+        old: &'a File,
+        faulty: &'a FxHashSet<u32>,
+        [old_text, text]: [&str; 2],
+        file: FileId,
+    ) -> PreviousTree<'a> {
         let (before, same) = ends_in_common(old_text.as_bytes(), text.as_bytes());
-        let mut items: Vec<&Item> = old.tree.mechanisms.iter().flat_map(|mechanism| &mechanism.items).collect();
+        let mut items: Vec<&Item> = old.mechanisms.iter().flat_map(|mechanism| &mechanism.items).collect();
         items.sort_by_key(|item| item.span.start);
         let grown = (text.len() as u32).wrapping_sub(old_text.len() as u32);
-        PreviousTree { file, before, behind: text.len() - same, grown, items, faulty: &old.faulty }
+        PreviousTree { file, before, behind: text.len() - same, grown, items, faulty }
     }
 
     /// Returns the declaration without faults that begins at a token, and the token behind it, if neither it nor its surroundings changed.

@@ -1,7 +1,7 @@
 //! Synchronization points: where declarations begin, judging by words and braces alone. Parsing resumes there after a fault.
 
 use super::foreign_syntax::hyphenated_at;
-use super::lexer::{Token, TokenKind, is_word_char};
+use super::lexer::{LexemeKind, Token, is_word_char};
 use mechc_text::diag::nearest;
 use mechc_text::vocabulary::{JointSpec, Keyword, Position, Role, Synonym, declares_name, is_ground};
 use rustc_hash::FxHashSet;
@@ -182,7 +182,7 @@ impl<'a> SyncPoints<'a> {
 
     /// Returns the names that the declaration at a token would define: the word behind its keyword, or the first of two words.
     pub fn names_of(&self, k: usize, end: usize) -> impl Iterator<Item = Token<'a>> {
-        let is_name = |token: &&Token<'a>| token.kind == TokenKind::Word;
+        let is_name = |token: &&Token<'a>| token.kind == LexemeKind::Word;
         // a word that is no keyword may be a name without one, `r = 3`, or a misspelt keyword before one
         let whole = |token: Token<'a>| Token { text: self.hyphenated_name(&token).unwrap_or(token.text), ..token };
         let head = (k..end.min(k + 2).min(self.tokens.len())).filter(|&k| !self.is_declaration(k));
@@ -245,7 +245,7 @@ impl<'a> SyncPoints<'a> {
         // `30 mm` and `a.b` go on with a word
         let before = if k > 0 { self.word(k - 1) } else { "" };
         let is_behind_number =
-            self.tokens(k.saturating_sub(1)..k).iter().any(|before| before.kind == TokenKind::Number);
+            self.tokens(k.saturating_sub(1)..k).iter().any(|before| before.kind == LexemeKind::Number);
         if !is_word(k) || before.starts_with('.') || is_behind_number && !self.is_first_on_its_line(k) {
             return false;
         }
@@ -321,7 +321,7 @@ fn opens(tokens: &[Token<'_>], roles: &[Option<Role>], k: usize) -> bool {
         return opens_with_a_formula(tokens, roles, k);
     }
     let word = |k: usize| tokens.get(k).map_or("", |token| token.text);
-    let is_word = tokens.get(k + 1).is_some_and(|next| next.kind == TokenKind::Word);
+    let is_word = tokens.get(k + 1).is_some_and(|next| next.kind == LexemeKind::Word);
     let is_defined = ["=", "[", ":"].contains(&word(k + 2));
     is_word && (is_defined || begins_line(tokens, k) && roles.get(k + 1).is_some_and(Option::is_none))
 }

@@ -1,7 +1,7 @@
 //! The syntactic context of the cursor, from the tokens before it: the text is unfinished and need not follow the grammar.
 
 use crate::lexical::{LexicalContext, lexical_context};
-use mechc_syntax::{Token, TokenKind, begins_declaration, is_word_char, tokens};
+use mechc_syntax::{LexemeKind, Token, begins_declaration, is_word_char, tokens};
 use mechc_text::vocabulary::{Dimension, Keyword, Unit, is_feature};
 use std::ops::Range;
 
@@ -108,13 +108,13 @@ impl<'t> Cursor<'t> {
     pub fn is_behind_operand(&self) -> bool {
         self.declaration().last().is_some_and(|last| {
             let joins = Keyword::named(last.text).is_some_and(|keyword| keyword.is_joining() || keyword.is_reserved());
-            matches!(last.text, ")" | "]") || last.kind != TokenKind::Sign && !joins
+            matches!(last.text, ")" | "]") || last.kind != LexemeKind::Sign && !joins
         })
     }
 
     /// Returns whether the last token is a number.
     pub fn is_behind_number(&self) -> bool {
-        self.declaration().last().is_some_and(|last| last.kind == TokenKind::Number)
+        self.declaration().last().is_some_and(|last| last.kind == LexemeKind::Number)
     }
 
     /// Returns whether the word is the first of its line or block.
@@ -186,7 +186,7 @@ impl<'t> Cursor<'t> {
             }
         }
         let is_printed = tokens[at].text == "in" && matches!(self.head(), "measure" | "trace" | "result");
-        let is_of_number = tokens[at].kind == TokenKind::Number && self.last() == Some("/");
+        let is_of_number = tokens[at].kind == LexemeKind::Number && self.last() == Some("/");
         let begins =
             !dimensions.is_empty() && (is_printed || is_of_number && !has_space) || is_printed && at + 1 < tokens.len();
         begins.then_some(PartialUnit { dimensions })

@@ -1,7 +1,7 @@
 //! Classification of the tokens of a declaration, which determines the spaces between them.
 
 use crate::keywords::may_begin_a_bound;
-use crate::lexer::{Token, TokenKind};
+use crate::lexer::{LexemeKind, Token};
 use crate::sync_points::begins;
 use mechc_text::vocabulary::{Constant, Keyword, Position, Role, Synonym, Unit, declares_name};
 use rustc_hash::FxHashSet;
@@ -210,11 +210,11 @@ impl<'a> Classifier<'a> {
 
     fn class(&mut self, k: usize) -> Class {
         match self.tokens[k].kind {
-            TokenKind::Comment => Class::Comment,
-            TokenKind::Number => Class::Number,
-            TokenKind::String => Class::Quoted,
-            TokenKind::Word => self.class_of_word(k),
-            TokenKind::Sign => self.class_of_sign(k),
+            LexemeKind::Comment => Class::Comment,
+            LexemeKind::Number => Class::Number,
+            LexemeKind::String => Class::Quoted,
+            LexemeKind::Word => self.class_of_word(k),
+            LexemeKind::Sign => self.class_of_sign(k),
         }
     }
 
@@ -407,5 +407,5 @@ fn is_exponent<'a>(mut behind: impl Iterator<Item = &'a Token<'a>>) -> bool {
     if next.is_some_and(|token| token.text == "-") {
         next = behind.next();
     }
-    next.is_some_and(|token| token.kind == TokenKind::Number && token.text.bytes().all(|byte| byte.is_ascii_digit()))
+    next.is_some_and(|token| token.kind == LexemeKind::Number && token.text.bytes().all(|byte| byte.is_ascii_digit()))
 }
