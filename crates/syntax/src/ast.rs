@@ -257,7 +257,7 @@ pub struct Requirement {
     /// Left of the first comparison.
     pub first: Expr,
     /// The comparisons: one, or two.
-    pub rest: Vec<Comparison>,
+    pub rest: Vec<ComparedSide>,
     /// The tolerance behind `within`, if given.
     pub within: Option<Expr>,
 }
@@ -271,7 +271,7 @@ impl Requirement {
 
 /// A comparison with the formula on its right.
 #[derive(Clone, PartialEq, Debug)]
-pub struct Comparison {
+pub struct ComparedSide {
     /// Operator.
     pub sign: ComparisonSign,
     /// Span of the operator.

@@ -1,7 +1,7 @@
 //! Conversion of the parser's pairs to the tree of declarations.
 
 use super::ast::{
-    Binding, ColumnName, ColumnWord, Comparison, DrawnPose, Expr, ExprKind, Factor, Feature, FeatureKind, IndexRange,
+    Binding, ColumnName, ColumnWord, ComparedSide, DrawnPose, Expr, ExprKind, Factor, Feature, FeatureKind, IndexRange,
     Item, ItemKind, MechanismName, Name, Part, Requirement, TableRows, UnitFactor, UsedFile, WrittenUnit,
 };
 use super::grammar::{Grammar, Rule};
@@ -226,7 +226,7 @@ impl Builder<'_> {
         let (mut rest, mut within) = (Vec::new(), None);
         for (side, sign) in sides {
             match sign {
-                Some((sign, span)) => rest.push(Comparison { sign, span, right: side }),
+                Some((sign, span)) => rest.push(ComparedSide { sign, span, right: side }),
                 None => within = Some(side),
             }
         }

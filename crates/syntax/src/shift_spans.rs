@@ -1,7 +1,7 @@
 //! Shifts the spans of a tree to where its text stands after an edit before it.
 
 use super::ast::{
-    Binding, ColumnName, ColumnWord, Comparison, ComparisonSign, DrawnPose, Expr, ExprKind, Factor, Feature,
+    Binding, ColumnName, ColumnWord, ComparedSide, ComparisonSign, DrawnPose, Expr, ExprKind, Factor, Feature,
     FeatureKind, IndexRange, Item, ItemKind, MechanismName, Name, Part, PathSegment, Requirement, Sign, TableRows,
     UnitFactor, Window, WrittenUnit,
 };
@@ -97,7 +97,7 @@ collections!([] Vec<T>, [] Option<T>, [const N: usize] [T; N]);
 without_spans!(bool, f64, i32, String, ColumnWord, ComparisonSign, Factor, Sign);
 
 structures! {
-    Comparison { sign, span, right }
+    ComparedSide { sign, span, right }
     Binding { name, coordinate, value, span }
     ColumnName { kind, span }
     DrawnPose { at, toward }

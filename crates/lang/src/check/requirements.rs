@@ -145,7 +145,7 @@ impl Checker<'_> {
                 None
             }
             _ => {
-                let is_bound = |side: &&ast::Comparison| matches!(side.sign, LessEqual | GreaterEqual);
+                let is_bound = |side: &&ast::ComparedSide| matches!(side.sign, LessEqual | GreaterEqual);
                 let wrong = requirement.rest.iter().find(|side| !is_bound(side)).or(requirement.rest.last())?;
                 self.report(errors::no_bound(wrong.sign, wrong.span));
                 None

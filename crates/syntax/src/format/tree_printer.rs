@@ -3,7 +3,7 @@
 use super::expression::{comparison_sign, expression};
 use super::rows::Group;
 use crate::ast::{
-    Binding, ColumnName, ColumnWord, Comparison, DrawnPose, Expr, ExprKind, Factor, Feature, FeatureKind, File,
+    Binding, ColumnName, ColumnWord, ComparedSide, DrawnPose, Expr, ExprKind, Factor, Feature, FeatureKind, File,
     IndexRange, Item, ItemKind, Mechanism, Name, Part, Requirement, TableRows, UsedFile, WrittenUnit,
 };
 
@@ -86,7 +86,7 @@ fn item(item: &Item) -> String {
 fn requirement(of: &Requirement) -> String {
     let name = of.name.as_ref().map_or_else(String::new, |name| format!("{}: ", name.text));
     let mut text = format!("{name}{}", expression(&of.first));
-    for Comparison { sign, right, .. } in &of.rest {
+    for ComparedSide { sign, right, .. } in &of.rest {
         text += &format!(" {} {}", comparison_sign(*sign), expression(right));
     }
     text + &of.within.as_ref().map_or_else(String::new, |within| format!(" within {}", expression(within)))

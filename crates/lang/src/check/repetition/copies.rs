@@ -47,8 +47,8 @@ impl Expander<'_, '_> {
             }
             ItemKind::Requirement(requirement) => {
                 let ast::Requirement { name, first, rest, within } = &**requirement;
-                let side = |side: &ast::Comparison| {
-                    Ok(ast::Comparison { right: self.formula(&side.right, numbers)?, ..side.clone() })
+                let side = |side: &ast::ComparedSide| {
+                    Ok(ast::ComparedSide { right: self.formula(&side.right, numbers)?, ..side.clone() })
                 };
                 ItemKind::Requirement(Box::new(ast::Requirement {
                     name: name.clone(),

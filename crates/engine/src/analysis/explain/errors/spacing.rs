@@ -7,6 +7,9 @@ use mechc_ir::{ConstraintSystem, DeclarationKind, Fit, JointSpec};
 use mechc_text::diag::{Code, Diagnostic, readable};
 use mechc_text::vocabulary::Spacing;
 
+/// Shorter distances are told in millimetres.
+const MILLIMETRES_PER_METRE: f64 = 1e3;
+
 /// Returns a warning if the distance between the centres of gears, or of a pinion and its rack, differs from what the radii require.
 pub fn misfit(system: &ConstraintSystem, fit: &Fit, q: &[f64], t: f64) -> Option<Diagnostic> {
     let [distance, required, radius] = [fit.distance, fit.wanted?, fit.radius].map(|id| system.value_at(id, q));
@@ -80,7 +83,7 @@ fn digits_that_differ(value: f64, other: f64) -> String {
 
 /// Formats a length (m) with so many digits behind the first one, in the unit that suits `larger`, the larger of two lengths.
 fn in_one_unit(value: f64, digits: usize, larger: f64) -> String {
-    let (times, unit) = if larger.abs() < 1.0 { (1e3, "mm") } else { (1.0, "m") };
+    let (times, unit) = if larger.abs() < 1.0 { (MILLIMETRES_PER_METRE, "mm") } else { (1.0, "m") };
     let rounded: f64 = format!("{:.digits$e}", value * times).parse().unwrap_or(value);
     format!("{} {unit}", readable(rounded))
 }
