@@ -207,9 +207,11 @@ impl<'t, 'c> Expander<'t, 'c> {
         let is_duplicate = before.into_iter().any(|other| other.index.text == name.text);
         let is_unique_index = !is_taken(&name.text) && !self.names.contains(name.text.as_str()) && !is_duplicate;
         if !is_unique_index {
-            let is_free =
-                |word: &&&str| !self.names.contains(**word) && all.iter().all(|other| other.index.text != **word);
-            let free: Vec<&str> = ["i", "j", "k", "m", "n"].iter().filter(is_free).take(3).copied().collect();
+            let is_free = |word: &&&str| {
+                let is_index = all.iter().any(|other| other.index.text == **word);
+                !is_index && !is_taken(word) && !self.names.contains(**word)
+            };
+            let free: Vec<&str> = ["i", "j", "k", "n", "p", "q"].iter().filter(is_free).take(3).copied().collect();
             self.report_once(errors::index_is_taken(name, &free));
         }
         is_unique_index
