@@ -147,7 +147,8 @@ module.exports = grammar({
     result: $ => seq('result', $._repeated_name, begun(seq(is($), optional($.printed)))),
     require: $ => seq(
       'require', optional(seq(field('name', $.identifier), ':')),
-      begun(field('condition', $.expression), seq('within', field('tolerance', $.expression))),
+      // alone the word is a name
+      field('condition', $.expression), optional(seq('within', field('tolerance', $.expression))),
     ),
     printed: $ => seq('in', $.unit_product),
     analysis: $ => seq(
