@@ -51,8 +51,8 @@ struct Pair {
     velocity: f64,
     velocity_column: usize,
     acceleration: f64,
-    /// Remainders of position and velocity, and the difference of acceleration, scaled.
-    rests: [f64; 3],
+    /// Remainders of position and velocity, scaled.
+    rests: [f64; 2],
     /// True if rounding is small enough for the acceleration to be judged.
     is_exact: bool,
     /// The largest velocity and acceleration, scaled.
@@ -186,7 +186,7 @@ impl OneSidedLimits {
             position_column,
             velocity: velocity / allowed[1],
             velocity_column,
-            rests: [position, velocity, acceleration],
+            rests: [position, velocity],
             acceleration: acceleration / allowed[2].max(noise),
             is_exact: noise <= allowed[2] || noise <= EXACT * acceleration,
             fastest,
@@ -222,7 +222,6 @@ impl OneSidedLimits {
             self.pairs().all(|pair| size(pair) > 1.0) && !shrinks(self.pairs().map(|pair| pair.rests[order]))
         };
         let all_grow = |size: fn(&Pair) -> f64| grows(self.pairs().map(size));
-        let exact = || self.pairs().filter(|pair| pair.is_exact);
         let Some(nearest) = self.pairs().next_back() else {
             return Verdict::Smooth;
         };
@@ -235,9 +234,8 @@ impl OneSidedLimits {
             Verdict::Velocity { column: nearest.velocity_column }
         } else if all_grow(|pair| if pair.hardest > pair.noise { pair.hardest } else { 0.0 }) {
             Verdict::NotFinite
-        } else if exact().count() >= FEWEST
-            && exact().all(|pair| pair.acceleration > 1.0)
-            && !shrinks(exact().map(|pair| pair.rests[2]))
+        } else if self.pairs().filter(|pair| pair.is_exact).count() >= FEWEST
+            && self.pairs().filter(|pair| pair.is_exact).all(|pair| pair.acceleration > 1.0)
         {
             Verdict::Acceleration
         } else {
