@@ -76,7 +76,7 @@ fn missing_jerks_stop_no_motion() {
     };
     for (lift, stops) in [("t^2.5", 0), ("abs(t - 0.5)^2.5", 2)] {
         let plain = run("m", &text(lift, ""), Span::default()).expect_success();
-        let with = "measure a = der(der(x(b.P)))  measure s = speed(b.P)  result r = max(a)";
+        let with = "measure a = der(der(x(b.P)))  measure v = speed(b.P)  result r = max(a)";
         let found = run("m", &text(lift, with), Span::default()).expect_success();
         for name in ["b.x", "b.x.d", "b.x.dd"] {
             assert_eq!(column(&plain, name), column(&found, name), "{lift} {name}");

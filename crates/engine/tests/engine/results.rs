@@ -145,7 +145,7 @@ fn velocities_accelerations_and_jerks_are_reduced_too() {
 fn measures_with_a_literal_point_are_reduced() {
     let text = arm(
         "t",
-        "measure far = distance(arm.tip, (3, 4))  measure twice = 2 * far  result r = max(far)  result s = max(twice)",
+        "measure far = distance(arm.tip, (3, 4))  measure twice = 2 * far  result r = max(far)  result s2 = max(twice)",
     );
     check(&text, 1.0, &[(hypot(2.0, 4.0), 0.0), (2.0 * hypot(2.0, 4.0), 0.0)]);
 }

@@ -75,7 +75,10 @@ impl<'a> Fault<'a> {
             (_, "{") if self.found.is_empty() => self.braces_at_the_end(&opened),
             (_, "{") if self.found == "mechanism" => {
                 let edits = vec![self.brace_before()?];
-                Some(Fix { message: "close it with `}`".to_owned(), edits, applies: Applicability::Always })
+                // within a line the word may stand in the place of a name
+                let is_first = self.text[self.before().len()..self.at].contains('\n');
+                let applies = if is_first { Applicability::Always } else { Applicability::Probably };
+                Some(Fix { message: "close it with `}`".to_owned(), edits, applies })
             }
             (_, "{") => None,
             _ => self.round_and_square(&opened),
@@ -144,10 +147,11 @@ impl<'a> Fault<'a> {
     }
 }
 
-/// Returns whether tokens are words and numbers with commas; otherwise a part may belong behind the parenthesis.
+/// Returns whether tokens are words and numbers with commas; otherwise a part may belong behind the parenthesis, and a string that is not
+/// closed may hold it.
 fn is_plain_list(tokens: &[&str]) -> bool {
     tokens.iter().enumerate().all(|(k, token)| {
         let is_sign = *token == "-" && (k == 0 || tokens[k - 1] == ",");
-        is_sign || !is_operator(token) && *token != "("
+        is_sign || !is_operator(token) && *token != "(" && !token.starts_with('"')
     })
 }
