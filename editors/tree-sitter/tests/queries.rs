@@ -53,7 +53,7 @@ fn every_word_has_its_colour() {
         let mut without = Vec::new();
         for word in mechc::words() {
             let wanted: &[&str] = match word.category {
-                Category::Keyword if ["left", "right"].contains(&word.name) => &["constant.builtin"],
+                Category::Keyword if ["left", "right", "crossed"].contains(&word.name) => &["constant.builtin"],
                 Category::Keyword => {
                     &["keyword", "keyword.conditional", "keyword.control.conditional", "keyword.operator"]
                 }

@@ -129,6 +129,7 @@ fn declarations_come_where_they_can_begin() {
     2 measure — a number that is printed for every time, with its first two derivatives where it has them → measure «NAME» = «FORMULA»
     2 trace — the path of a point: the columns `NAME.x` and `NAME.y`, with their first two derivatives → trace «NAME» = «P»
     2 result — one number for the whole analysis → result «NAME» = «FORMULA»
+    2 require — a bound that must hold → require «A» <= «FORMULA» <= «B»
     2 input — a signal that comes from outside, as from an encoder → input «NAME» = «FORMULA»
     2 part — the declarations of another mechanism, once more, under a name → part «NAME»: «MECHANISM»(«»)
     2 analysis — the times for which `mechc run` prints rows → analysis from «A» to «B» every «H»

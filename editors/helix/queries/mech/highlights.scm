@@ -96,8 +96,8 @@
 ; <words joints>
 ((joint value: (call name: (identifier) @function.builtin))
   (#any-of? @function.builtin
-    "revolute" "translational" "weld" "revolute_revolute" "revolute_translational" "gear" "internal_gear" "belt"
-    "rack_pinion" "point_follower" "cam" "flat_follower"))
+    "revolute" "translational" "weld" "revolute_revolute" "revolute_translational" "gear" "internal_gear"
+    "belt" "rack_pinion" "point_follower" "cam" "flat_follower"))
 ; </words>
 
 ; <words sides>
