@@ -54,7 +54,7 @@ pub struct Requirement {
 pub struct Bound {
     /// True for an upper bound.
     pub is_upper: bool,
-    /// How far it is exceeded (SI): at most 0 if it holds.
+    /// The excess of the value over the bound (SI): at most 0 if the bound holds.
     pub excess: ExprId,
     /// The bounded value, where it exceeds the bound most.
     pub value: ExprId,

@@ -25,7 +25,7 @@ pub struct ParsedText {
     pub trivia: Trivia,
     /// Syntax errors, in order of position.
     pub faults: Diagnostics,
-    /// Where declarations of mechanisms begin that have one, reported or not.
+    /// First bytes of the declarations of mechanisms that have a fault, reported or not.
     pub(super) faulty: FxHashSet<u32>,
 }
 

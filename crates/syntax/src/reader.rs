@@ -60,7 +60,7 @@ struct Reader<'a> {
     last_reported: Option<usize>,
     /// True if the declaration that is being parsed has a fault, reported or not.
     is_faulty: bool,
-    /// Where declarations of mechanisms begin that have a fault.
+    /// First bytes of the declarations of mechanisms that have a fault.
     faulty: FxHashSet<u32>,
 }
 

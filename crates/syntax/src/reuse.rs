@@ -23,7 +23,7 @@ pub(super) struct PreviousTree<'a> {
     grown: u32,
     /// Declarations of mechanisms, in order.
     items: Vec<&'a Item>,
-    /// Where those begin that have a fault.
+    /// First bytes of the declarations that have a fault.
     faulty: &'a FxHashSet<u32>,
 }
 

@@ -36,7 +36,8 @@ impl ColumnUnit {
     }
 
     /// Creates the unit of a value, or of its time derivative of an order.
-    fn from_units(units: &Units, order: usize) -> ColumnUnit {
+    #[must_use]
+    pub fn from_units(units: &Units, order: usize) -> ColumnUnit {
         ColumnUnit::new(units.printed[order].clone(), units.scale)
     }
 

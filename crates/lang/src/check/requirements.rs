@@ -1,6 +1,6 @@
 //! Requirements: bounds that a number of the whole analysis keeps, or a quantity at all times of it.
 //!
-//! How far a bound is exceeded is a formula of reductions, as a result is: for a quantity `e` and an upper bound `b` it is `max(e − b)`.
+//! The excess over a bound is a formula of reductions, as a result is: for a quantity `e` and an upper bound `b` it is `max(e − b)`.
 
 use super::elements::measure_context;
 use super::formula::{Context, Value};

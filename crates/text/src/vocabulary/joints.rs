@@ -20,7 +20,7 @@ pub struct JointSpec {
     pub coordinates: &'static [(&'static str, &'static str)],
     /// The motion that the joint leaves to its bodies and that has a quantity.
     pub motion: Option<JointMotion>,
-    /// What the joint exerts on its bodies.
+    /// The components of the reaction on its bodies.
     pub reaction: ReactionKind,
     /// The distance that the joint needs between its features, and does not hold.
     pub spacing: Option<Spacing>,
@@ -89,7 +89,7 @@ impl JointMotion {
     }
 }
 
-/// What a joint exerts on its bodies, at its point of action.
+/// Components of the reaction that a joint exerts on its bodies, at its point of action.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum ReactionKind {
     /// A force.
@@ -103,9 +103,9 @@ pub enum ReactionKind {
 /// The distance that a joint needs between its features.
 #[derive(Clone, Copy, Debug)]
 pub struct Spacing {
-    /// What is apart.
+    /// The features that are apart, in words.
     pub of: &'static str,
-    /// What the distance must be.
+    /// The required distance, in words.
     pub wanted: &'static str,
     /// The kind of joint that takes the sum of the radii for their difference, or the other way round.
     pub other: Option<&'static str>,

@@ -2,6 +2,7 @@
 
 use super::interval_search::NoValueCause;
 use crate::analysis::explain::errors::{at, short};
+use mechc_ir::layout::ColumnUnit;
 use mechc_ir::{Bound, Outcome, Reduction, Requirement};
 use mechc_text::diag::{Code, Diagnostic};
 
@@ -89,10 +90,10 @@ pub fn requirement_fails(
     times: Option<[f64; 2]>,
 ) -> Diagnostic {
     let Requirement { name, span, formula, units, .. } = requirement;
-    let [a, b, c] = units.scale;
-    let in_unit = |si: f64| match units.printed[0].as_str() {
-        "1" => short(si),
-        unit => format!("{} {unit}", short(si / a * b / c)),
+    let unit = ColumnUnit::from_units(units, 0);
+    let in_unit = |si: f64| match short(unit.printed(si)) {
+        number if unit.text == "1" => number,
+        number => format!("{number} {}", unit.text),
     };
     let [value, limit] = values.map(in_unit);
     let side = if bound.is_upper { "more" } else { "less" };
