@@ -5,7 +5,7 @@ use super::free_names::{uses_in, uses_of_argument};
 use super::{Checker, MOST_SUGGESTIONS, errors};
 use mechc_syntax::ast::{Expr, ExprKind, FeatureKind, ItemKind, Mechanism, Name};
 use mechc_text::source::Span;
-use mechc_text::vocabulary::{Dimension, SubstituteKind, Unit, gives_way, is_called, is_taken, substitute_name};
+use mechc_text::vocabulary::{Constant, Dimension, SubstituteKind, Unit, gives_way, is_called, substitute_name};
 use rustc_hash::{FxHashMap, FxHashSet};
 
 /// The number of named declarations of each kind.
@@ -124,7 +124,7 @@ impl Checker<'_> {
                 ItemKind::Ground { .. } | ItemKind::Gravity { .. } | ItemKind::Analysis { .. } => continue,
             };
             let callable = matches!(entity, Entity::Function(_) | Entity::Table(_));
-            let is_reserved = is_taken(&name.text) || callable && is_called(&name.text) && !gives_way(&name.text);
+            let is_reserved = is_constant(name) || callable && is_called(&name.text) && !gives_way(&name.text);
             if is_reserved {
                 let uses = uses_in(mechanism, name, callable);
                 let kind = match &item.kind {
@@ -171,7 +171,7 @@ impl Checker<'_> {
     pub(super) fn is_reserved_but_declared(&self, name: &Name) -> bool {
         let is_callable = |entity| matches!(entity, Entity::Function(_) | Entity::Table(_));
         let is_function = is_called(&name.text) && !gives_way(&name.text);
-        self.space.get(&name.text).is_some_and(|entity| is_taken(&name.text) || is_function && is_callable(entity))
+        self.space.get(&name.text).is_some_and(|entity| is_constant(name) || is_function && is_callable(entity))
     }
 
     /// Returns whether a call is one of the language's own functions or quantities.
@@ -209,11 +209,11 @@ impl Checker<'_> {
     /// Reports an argument of a function or curve that has the name of a declaration.
     fn argument_name(&mut self, argument: &Name, formula: &Expr) {
         let uses = || uses_of_argument(argument, formula);
-        if is_taken(&argument.text) {
+        if is_constant(argument) {
             self.report_reserved(argument, SubstituteKind::Argument, &uses());
         } else if let Some(declared) = self.space.span(&argument.text) {
-            let is_unique_index = |name: &&str| !is_taken(name) && self.space.get(name).is_none();
-            let free = ["u", "v", "w", "x", "y", "z"].into_iter().find(is_unique_index);
+            let is_free = |name: &&str| self.space.get(name).is_none();
+            let free = ["u", "v", "w", "x", "y", "z"].into_iter().find(is_free);
             self.report(errors::hidden_name(argument, declared, free, &uses()));
         }
     }
@@ -289,6 +289,11 @@ impl Checker<'_> {
         let on_cycles = (0..definitions.len()).filter(|&k| marks[k] == Mark::Broken).collect();
         DefinitionOrder { order, on_cycles }
     }
+}
+
+/// Returns whether a name is that of a constant of the language, of the time or of the ground.
+pub(super) fn is_constant(name: &Name) -> bool {
+    Constant::named(&name.text).is_some()
 }
 
 /// Returns every word of a text.

@@ -1,6 +1,6 @@
 //! Suggestions of free names in place of names that are words of the language.
 
-use super::{Dimension, is_called, is_taken};
+use super::{Constant, Dimension, Unit, is_called};
 
 /// Kind of what a name is for.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -67,18 +67,7 @@ impl SubstituteKind {
 
 /// Substitutes for words of the language: as the name of a body, of a joint or equation, and of a feature or value.
 const SUBSTITUTES: &[(&str, [&str; 3])] = &[
-    // ---- units and constants
-    ("s", ["slide", "guide", "stroke"]),
-    ("m", ["arm", "mount", "module"]),
-    ("mm", ["arm", "mount", "span"]),
-    ("cm", ["arm", "mount", "span"]),
-    ("in", ["input_arm", "entry", "entry"]),
-    ("ft", ["foot", "foot_pin", "height"]),
-    ("ms", ["slide", "guide", "delay"]),
-    ("deg", ["arm", "hinge", "tilt"]),
-    ("rad", ["wheel", "bearing", "r"]),
-    ("rev", ["wheel", "bearing", "turns"]),
-    ("rpm", ["rotor", "spindle", "speed"]),
+    // ---- constants
     ("t", ["top", "top_pin", "thickness"]),
     ("pi", ["shaft", "pin", "ratio"]),
     ("tau", ["arm", "hinge", "delay"]),
@@ -116,16 +105,15 @@ pub fn substitute_name(word: &str, kind: SubstituteKind, is_free: impl Fn(&str) 
         // the substitutes for values are mostly lengths
         SubstituteKind::Mass | SubstituteKind::Time => None,
     });
-    substitute
-        .into_iter()
-        .chain(kind.names().iter().copied())
-        .find(|name| !is_taken(name) && !is_called(name) && is_free(name))
+    substitute.into_iter().chain(kind.names().iter().copied()).find(|name| {
+        Constant::named(name).is_none() && Unit::named(name).is_none() && !is_called(name) && is_free(name)
+    })
 }
 
 #[cfg(test)]
 mod tests {
     use super::{SUBSTITUTES, SubstituteKind, substitute_name};
-    use crate::vocabulary::{Keyword, Unit, is_called, is_taken};
+    use crate::vocabulary::{Constant, Keyword, Unit, is_called};
 
     #[test]
     fn every_proposed_name_can_be_declared() {
@@ -134,7 +122,7 @@ mod tests {
         let kinds = general.iter().chain(&values).flat_map(|kind| kind.names());
         let names = SUBSTITUTES.iter().flat_map(|(_, names)| names).chain(kinds);
         for name in names {
-            let is_word = is_taken(name) || is_called(name) || Unit::named(name).is_some();
+            let is_word = Constant::named(name).is_some() || Unit::named(name).is_some() || is_called(name);
             assert!(!is_word && Keyword::named(name).is_none(), "`{name}` is a word of the language");
         }
     }
@@ -142,10 +130,10 @@ mod tests {
     #[test]
     fn proposed_names_are_unused() {
         let kind = SubstituteKind::behind("body");
-        assert_eq!(substitute_name("s", kind, |_| true), Some("slide"));
-        assert_eq!(substitute_name("s", kind, |name| name != "slide"), Some("arm"));
+        assert_eq!(substitute_name("t", kind, |_| true), Some("top"));
+        assert_eq!(substitute_name("t", kind, |name| name != "top"), Some("arm"));
         assert_eq!(substitute_name("cosh", kind, |name| !["arm", "slide"].contains(&name)), Some("link"));
-        assert_eq!(substitute_name("s", kind, |_| false), None);
-        assert_eq!(substitute_name("m", SubstituteKind::Mass, |_| true), Some("m1"));
+        assert_eq!(substitute_name("t", kind, |_| false), None);
+        assert_eq!(substitute_name("tau", SubstituteKind::Mass, |_| true), Some("m1"));
     }
 }

@@ -3,7 +3,7 @@
 use super::{list, nearest_name, wrong_kind};
 use crate::check::suggest::edits::suggest_rename;
 use mechc_syntax::ast::Name;
-use mechc_text::diag::{Applicability, Code, Diagnostic, Fix};
+use mechc_text::diag::{Applicability, Code, Diagnostic, Edit, Fix};
 use mechc_text::source::Span;
 use mechc_text::vocabulary::{
     Constant, FUNCTIONS, JOINTS, JointSpec, Position, QUANTITIES, QuantityWord, Synonym, Unit,
@@ -147,6 +147,29 @@ pub fn not_a_unit(name: &Name, [number, power]: [&str; 2], is_a_name: bool) -> D
         };
     }
     suggest_unit(diagnostic, name)
+}
+
+/// A factor of a product that begins with a number and its unit, where `declared` is what its name stands for in the mechanism.
+pub fn name_or_unit(
+    name: &Name,
+    (number, written): (Span, &str),
+    product: &str,
+    declared: &str,
+    is_number: bool,
+) -> Diagnostic {
+    let unit = format!("(1 {})", name.text);
+    let message = format!("the unit is meant: `{unit}`");
+    let unit = Fix::replace(name.span, unit, message, Applicability::Probably);
+    let around = |at: u32, text: &str| Edit { span: Span { start: at, end: at, ..number }, text: text.to_owned() };
+    let declaration = Fix {
+        message: format!("the name is meant: `({written})`"),
+        edits: vec![around(number.start, "("), around(number.end, ")")],
+        applies: Applicability::Probably,
+    };
+    Diagnostic::new(Code::E0210, format!("`{}` in `{product}` is both a unit and the name of {declared}", name.text))
+        .at(name.span, "which of the two is meant?")
+        .fix(unit)
+        .fix_if(is_number.then_some(declaration))
 }
 
 /// Returns the power that is intended by `mm2`, such as `mm^2`.
