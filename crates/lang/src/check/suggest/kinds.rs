@@ -72,7 +72,7 @@ impl Checker<'_> {
     pub(in crate::check) fn suggest_effort(&self, e: &Expr, called: &Name, arguments: &[Expr]) -> Option<Fix> {
         let [argument] = arguments else { return None };
         let ExprKind::Name(name) = &argument.bare().kind else { return None };
-        let means = Synonym::of(Position::Call, &called.text)?.means;
+        let means: Vec<&str> = Synonym::of(Position::Call, &called.text)?.means().collect();
         let (what, text) = match self.entity(name)? {
             Entity::Equation(_) if called.text == "power" => {
                 let moved = self.moved_by(&name.text)?;

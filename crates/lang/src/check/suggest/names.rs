@@ -40,7 +40,7 @@ impl Checker<'_> {
         let [argument] = arguments else { return None };
         let ExprKind::Name(joint) = &argument.bare().kind else { return None };
         let synonym = Synonym::of(Position::Call, &name.text);
-        let is_rate = name.text == "speed" || synonym.is_some_and(|synonym| synonym.means.contains(&"der"));
+        let is_rate = name.text == "speed" || synonym.is_some_and(|synonym| synonym.means().any(|word| word == "der"));
         let quantity = self.quantity_of(joint).filter(|_| is_rate)?;
         if !context.rates {
             return Some(self.replace_in_equation(e.span, &quantity));
