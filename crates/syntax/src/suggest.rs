@@ -9,7 +9,7 @@ mod rules;
 
 use super::grammar::{Rule, keyword_of};
 use super::keywords::begins_declaration;
-use super::lexer::{LexemeKind, Token, hyphenated_at, is_dash, tokens, tokens_in};
+use super::lexer::{LexemeKind, Token, hyphenated_at, is_dash, is_word_char, tokens, tokens_in};
 use mechc_text::diag::{Applicability, Edit, Fix, nearest};
 use mechc_text::source::{FileId, Span};
 use mechc_text::vocabulary::{KEYWORDS, Keyword, Position, Role, Synonym, Unit, is_declaration, is_feature};
@@ -112,18 +112,11 @@ impl<'a> Fault<'a> {
 
     /// Returns whether a declaration of the mechanism stands where a body's `}` is expected.
     fn ends_a_body(&self) -> bool {
-        self.begins_feature() && is_declaration(self.found) && !is_feature(self.found)
+        let is_in_body = self.expects(Rule::kw_point) || self.expects(Rule::point);
+        is_in_body && is_declaration(self.found) && !is_feature(self.found)
     }
 
-    fn begins_feature(&self) -> bool {
-        self.expects(Rule::kw_point) || self.expects(Rule::point)
-    }
-
-    fn begins_item(&self) -> bool {
-        self.expects(Rule::kw_param) || self.expects(Rule::param)
-    }
-
-    /// Returns a suggestion for the fault; `separator` is the only text that was expected, if there is one.
+    /// Returns a suggestion for the fault.
     pub fn suggestion(&self) -> Option<Suggestion> {
         self.missing_keyword()
             .or_else(|| self.incomplete_declaration())
@@ -142,8 +135,11 @@ impl<'a> Fault<'a> {
     fn correction(&self, table: &[rules::Correction]) -> Option<Suggestion> {
         let declaration = self.declaration();
         let declaration = &declaration[declaration.len().saturating_sub(LONGEST_LINE)..];
-        // behind the end of a line only what is complete is corrected
-        let rest = if self.is_on_new_line() { &[] } else { &self.rest[..self.rest.len().min(LONGEST_LINE)] };
+        // a word at the beginning of a line is no part of the declaration, unless it joins its parts
+        let is_part = !self.is_on_new_line()
+            || Keyword::named(self.found).is_some_and(Keyword::is_joining)
+            || !self.found.starts_with(|c: char| is_word_char(c) || "(){}\"".contains(c));
+        let rest = &self.rest[..if is_part { self.rest.len().min(LONGEST_LINE) } else { 0 }];
         let tokens = [declaration, rest].concat();
         self.correction_of(table, &tokens, declaration.len())
     }
@@ -156,19 +152,14 @@ impl<'a> Fault<'a> {
 
     /// Suggests the keyword of a declaration without one.
     fn missing_keyword(&self) -> Option<Suggestion> {
-        let is_first = self.is_on_new_line() || ["{", "}"].contains(&self.word_before(1));
-        let is_name = is_name(self.found) && Keyword::named(self.found).is_none();
-        let table = match () {
-            () if !is_first || !is_name && self.found != "inertia" => return None,
-            () if self.begins_item() => rules::WITHOUT_KEYWORD,
-            () if self.begins_feature() => rules::FEATURES_WITHOUT_KEYWORD,
-            () => return None,
-        };
+        if !self.is_on_new_line() && !["{", "}", ""].contains(&self.word_before(1)) {
+            return None;
+        }
         let of_units = || {
             let synonym = Synonym::of(Position::Declaration, self.found).filter(|_| self.rest.len() == 2)?;
             (synonym.means().count() == 0).then(|| Suggestion::words(synonym.message(&[])))
         };
-        self.correction_of(table, &self.rest, 0).or_else(of_units)
+        self.correction_of(rules::BEGINNINGS, &self.rest, 0).or_else(of_units)
     }
 
     /// Reports `circle c = (0, 0)`, `axis a = (0, 1)` and `load push: 20 N` at their ends.

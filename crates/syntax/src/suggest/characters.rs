@@ -1,5 +1,6 @@
 //! Characters of other languages, keyboards and calculators: signs, comments, semicolons.
 
+use super::rules::OPERAND;
 use super::{Fault, Suggestion};
 use crate::grammar::Rule;
 use crate::keywords::begins_declaration;
@@ -20,7 +21,7 @@ const COMMENT: &str = "a comment begins with `//`";
 impl Fault<'_> {
     pub(super) fn character(&self) -> Option<Suggestion> {
         // inside of a name the character is no operator
-        let is_operator = [Rule::infix, Rule::prefix, Rule::expr].iter().any(|rule| self.expects(*rule));
+        let is_operator = OPERAND.iter().chain(&[Rule::infix]).any(|rule| self.expects(*rule));
         let written = WRITTEN.iter().find(|(written, ..)| *written == self.found);
         if let Some((_, by, message)) = written.filter(|_| is_operator) {
             return Some(self.everywhere_on_the_line(by, (*message).to_owned()));
@@ -32,12 +33,11 @@ impl Fault<'_> {
         Some(match self.found {
             "#" => self.comment(),
             "%" if self.is_on_new_line() => self.comment(),
+            "%" => Suggestion::words("a comment begins with `//`; a remainder is `mod(a, b)`"),
             "*" if self.text[..self.at].ends_with('/') => self.block_comment(self.at - 1),
             "/" if self.behind().starts_with('*') => self.block_comment(self.at),
             ";" => self.semicolon(),
-            "," if self.rest.len() == 1 && self.expects(Rule::infix) && self.is_outside_of_brackets() => {
-                self.separator()
-            }
+            "," if self.rest.len() == 1 && self.is_complete() => self.separator(),
             "\"" if is_closed => {
                 Suggestion::words("text in quotes is the file of a `table` or a `use`, and stands nowhere else")
             }
@@ -90,53 +90,50 @@ impl Fault<'_> {
     /// Corrects a `;` behind a declaration, between rows, or between arguments.
     fn semicolon(&self) -> Suggestion {
         let opened = self.opened();
-        let Some((start, bracket)) = opened.iter().find(|(_, token)| *token != "{") else { return self.terminator() };
-        let closed = || {
-            let mut depth = 0;
-            self.rest_of_line(self.here().end).iter().any(|token| {
-                depth += i32::from(matches!(token.text, "(" | "[")) - i32::from(matches!(token.text, ")" | "]"));
-                depth < 0
-            })
-        };
-        if *bracket == "(" && !(self.expects(Rule::comma) && closed()) {
+        let Some((start, bracket)) = opened.last().filter(|(_, token)| *token != "{") else { return self.terminator() };
+        let mut depth = 0;
+        let mut list = Vec::new();
+        for token in self.rest_of_line(*start) {
+            depth += i32::from(matches!(token.text, "(" | "[")) - i32::from(matches!(token.text, ")" | "]"));
+            match token.text {
+                _ if depth == 0 => break,
+                "," | ";" if depth == 1 => list.push(token),
+                _ => {}
+            }
+        }
+        if *bracket == "(" && !(self.expects(Rule::comma) && depth == 0) {
+            if self.rest.len() == 1 && self.expects(Rule::comma) {
+                let message = "close it with `)`, and leave the `;` out";
+                return self.replaced(self.here(), ")", message, Applicability::Probably);
+            }
             let words = "what stands in parentheses is separated by commas, and they are closed with `)`";
             return Suggestion::words(words);
         }
         // next to decimal commas a comma would be one more
-        let mut depth = 0;
-        let is_inside = |token: &Token<'_>| {
-            depth += i32::from(matches!(token.text, "(" | "[")) - i32::from(matches!(token.text, ")" | "]"));
-            depth > 0
+        let is_digit = |c: Option<char>| c.is_some_and(|c| c.is_ascii_digit());
+        let is_decimal = |token: &&Token<'_>| {
+            let [before, behind] = [&self.text[..token.start], &self.text[token.end()..]];
+            token.text == "," && is_digit(before.chars().next_back()) && is_digit(behind.chars().next())
         };
-        let list: Vec<Token<'_>> = self.rest_of_line(*start).into_iter().take_while(is_inside).collect();
-        let is_decimal = |at: usize| {
-            let digit = |c: Option<char>| c.is_some_and(|c| c.is_ascii_digit());
-            digit(self.text[..at].chars().next_back()) && digit(self.text[at + 1..].chars().next())
+        let commas = list.iter().filter(|token| token.text == ",").count();
+        let decimals = list.iter().filter(is_decimal).count();
+        let message = match *bracket {
+            _ if decimals > 0 => "decimals are written with a point, and lists with commas: `(0.5, 1.5)`",
+            "[" => "rows are separated by commas: `(1, 2), (3, 4)`",
+            _ => "what stands in parentheses is separated by commas",
         };
-        let commas: Vec<usize> = list.iter().filter(|token| token.text == ",").map(|token| token.start).collect();
-        let decimals = commas.iter().filter(|at| is_decimal(**at)).count();
-        let message = "decimals are written with a point, and lists with commas: `(0.5, 1.5)`";
         if decimals == 0 {
-            let message = if *bracket == "[" {
-                "rows are separated by commas: `(1, 2), (3, 4)`"
-            } else {
-                "what stands in parentheses is separated by commas"
-            };
             return self.replaced(self.here(), ",", message, Applicability::Always);
         }
-        if decimals < commas.len() {
+        if decimals < commas {
             return Suggestion::words(message);
         }
-        let separators = list.iter().filter(|token| [",", ";"].contains(&token.text));
         let edit = |token: &Token<'_>| Edit {
             span: self.span(token.range()),
             text: if token.text == "," { "." } else { "," }.to_owned(),
         };
-        Suggestion::Fix(Fix {
-            message: message.to_owned(),
-            edits: separators.map(edit).collect(),
-            applies: Applicability::Probably,
-        })
+        let edits = list.iter().map(edit).collect();
+        Suggestion::Fix(Fix { message: message.to_owned(), edits, applies: Applicability::Probably })
     }
 
     /// Corrects `param a = 3; param b = 4;`.
@@ -161,8 +158,10 @@ impl Fault<'_> {
         self.replaced(self.here(), "", "declarations need nothing between them; leave the `,` out", applies)
     }
 
-    fn is_outside_of_brackets(&self) -> bool {
-        self.opened().iter().all(|(_, token)| *token == "{")
+    /// Returns whether the declaration before the fault may be complete: all its brackets are closed.
+    fn is_complete(&self) -> bool {
+        let is_begun = self.declaration().len() > 1 && !["{", "}", ","].contains(&self.word_before(1));
+        is_begun && self.opened().iter().all(|(_, token)| *token == "{")
     }
 
     /// Returns the token behind the fault.

@@ -19,7 +19,7 @@
 //! of the word in the language, and `{=}` in a message for the replacement.
 
 use super::{Fault, is_name};
-use crate::lexer::{LexemeKind, Token, is_word_char};
+use crate::lexer::{LexemeKind, Token, is_word_char, tokens};
 use mechc_text::diag::{Applicability, Fix};
 use mechc_text::vocabulary::{
     JointSpec, Keyword, Position, QuantityWord, ReductionWord, Synonym, Unit, is_called, is_declaration, is_feature,
@@ -156,6 +156,17 @@ impl Line<'_> {
                     .contains(&word),
             ),
             "ARGUMENT" => usize::from(["u", "v", "w", "x", "phi", "theta", "φ", "θ", "s", "a"].contains(&word)),
+            "WHOLE" => usize::from(word.bytes().all(|byte| byte.is_ascii_digit())),
+            // the name of something in the text
+            "QUOTED" => {
+                let name = string_as_name(word).filter(|_| token.kind == LexemeKind::String);
+                let is_known =
+                    |name: &str| tokens(self.text).iter().any(|token| name.split('.').next() == Some(token.text));
+                usize::from(name.is_some_and(|name| is_known(&name)))
+            }
+            "FREE" => usize::from(is_name(word) && Keyword::named(word).is_none()),
+            "REST" => self.tokens.len() - k,
+            "TEXT" => usize::from(token.kind == LexemeKind::String),
             "STRING" => usize::from(token.kind == LexemeKind::String && string_as_name(word).is_some()),
             "QUOTE" => usize::from(["'", "‘", "’", "`", "“", "”"].contains(&word)),
             "BAR" => usize::from(word == "|"),
@@ -193,7 +204,7 @@ impl Line<'_> {
         match *kind {
             "JOINT" => joint(text).to_owned(),
             "UNIT" => unit(text).unwrap_or(text).to_owned(),
-            "STRING" => string_as_name(text).unwrap_or_default(),
+            "STRING" | "QUOTED" => string_as_name(text).unwrap_or_default(),
             "GLUED" => text.trim_matches(['\'', '<', '>', ';']).to_owned(),
             _ => text.to_owned(),
         }
@@ -205,7 +216,7 @@ impl Line<'_> {
         let mut rest = template;
         while let Some((before, after)) = rest.split_once('{') {
             let Some((gap, after)) =
-                after.split_once('}').filter(|(gap, _)| gap.ends_with(|c: char| c.is_ascii_digit()))
+                after.split_once('}').filter(|(gap, _)| gap.trim_start_matches("form ").parse::<usize>().is_ok())
             else {
                 text = text + before + "{";
                 rest = after;

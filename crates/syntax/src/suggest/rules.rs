@@ -48,39 +48,41 @@ pub(super) fn first_of(table: &[Correction], line: &Line<'_>, fault: &Fault<'_>)
     })
 }
 
-const OPERAND: &[Rule] = &[Rule::expr, Rule::prefix, Rule::literal, Rule::number, Rule::call];
+/// Rules that begin an operand.
+pub(super) const OPERAND: &[Rule] = &[Rule::expr, Rule::prefix, Rule::literal, Rule::number, Rule::call];
 const OPERATOR: &[Rule] = &[Rule::infix];
 const UNIT_AS_FACTOR: &str =
     "a unit follows a number only: `… * 1 {1}` gives it to a pure number, `… / 1 {1}` takes it away";
 
-/// Declarations without their keyword, at the beginning of a line of a mechanism.
-#[rustfmt::skip]
-pub(super) const WITHOUT_KEYWORD: &[Correction] = &[
-    fix("« JOINT NAME : » (", "joint {2}: {1}", "a joint is declared by `{=}(…)`"),
-    fix("« JOINT NAME » (", "joint {2}: {1}", "a joint is declared by `{=}(…)`"),
-    words("JOINT (", "a joint is declared by `joint NAME: {1}(…)`"),
-    fix("« » NAME = spline|periodic", "table ", "a table is declared by `table {1} = …`"),
-    fix("« » NAME = … QUANTITY|der|x|y (", "measure ", "a measure is declared by `measure {1} = …`"),
-    fix("« » NAME =", "param ", "a param is declared by `param {1} = …`"),
-    fix("« » NAME : … = … t", "driver ", "a driver is declared by `driver {1}: …`"),
-    fix("« » NAME : … =", "constraint ", "a constraint is declared by `constraint {1}: …`"),
-    fix("« » NAME : JOINT", "joint ", "a joint is declared by `joint {1}: …`"),
-    fix("« » NAME {", "body ", "a body is declared by `body {1} {`"),
-];
+/// Rules that begin a declaration of a mechanism, and one of a body.
+const ITEM: &[Rule] = &[Rule::kw_param, Rule::param];
+const FEATURE: &[Rule] = &[Rule::kw_point, Rule::point];
 
-/// Features without their keyword, at the beginning of a line of a body or of the ground.
+/// What stands where a declaration begins and is none.
 #[rustfmt::skip]
-pub(super) const FEATURES_WITHOUT_KEYWORD: &[Correction] = &[
-    words("inertia", "an inertia stands behind its mass: `mass M inertia I`"),
-    fix("« » NAME = (", "point ", "a point is declared by `point {1} = …`"),
+pub(super) const BEGINNINGS: &[Correction] = &[
+    fix("« import|include|require|from » TEXT", "use", "a file is used by `use \"FILE.mech\"`").at(&[Rule::kw_use, Rule::kw_mechanism]),
+    words("use TEXT", "a `use` stands at the top of the file, above the first `mechanism`").at(&[Rule::kw_param, Rule::param, Rule::kw_point, Rule::point]),
+    words("inertia", "an inertia stands behind its mass: `mass M inertia I`").at(FEATURE),
+    fix("« » FREE = (", "point ", "a point is declared by `point {1} = …`").at(FEATURE),
+    fix("« JOINT NAME : » (", "joint {2}: {1}", "a joint is declared by `{=}(…)`").at(ITEM),
+    fix("« JOINT NAME » (", "joint {2}: {1}", "a joint is declared by `{=}(…)`").at(ITEM),
+    words("JOINT (", "a joint is declared by `joint NAME: {1}(…)`").at(ITEM),
+    fix("« » FREE = spline|periodic", "table ", "a table is declared by `table {1} = …`").at(ITEM),
+    fix("« » FREE = … QUANTITY|der|x|y (", "measure ", "a measure is declared by `measure {1} = …`").at(ITEM),
+    fix("« » FREE =", "param ", "a param is declared by `param {1} = …`").at(ITEM),
+    fix("« » FREE : … = … t", "driver ", "a driver is declared by `driver {1}: …`").at(ITEM),
+    fix("« » FREE : … =", "constraint ", "a constraint is declared by `constraint {1}: …`").at(ITEM),
+    fix("« » FREE : JOINT", "joint ", "a joint is declared by `joint {1}: …`").at(ITEM),
+    fix("« » FREE {", "body ", "a body is declared by `body {1} {`").at(ITEM),
 ];
 
 /// Faults within a declaration; the first that fits applies.
 #[rustfmt::skip]
 pub(super) const DECLARATIONS: &[Correction] = &[
     // masses, gravity and loads
-    fix("mass|gravity « @ =|: »", " ", "it is written without `{2}`"),
-    fix("mass « NAME @ : »", " ", "a mass has no name"),
+    fix("mass|gravity « @ =|: » REST", " ", "it is written without `{2}`: `{1} {3}`"),
+    fix("mass « NAME @ =|: »", " ", "a mass has no name"),
     fix("mass ANY « @ , » at|inertia", "", "what belongs to a mass stands behind it without commas"),
     fix("mass ANY « inertia ANY @ at ANY » $", "at {3} inertia {2}", "the place of a mass stands before its inertia: `mass M at (x, y) inertia I`"),
     fix("mass ANY « » @ (", " at ", "the place of a mass stands behind `at`: `mass M at (x, y)`").at(&[Rule::at]),
@@ -94,16 +96,16 @@ pub(super) const DECLARATIONS: &[Correction] = &[
     fix("REPEATED NAME [ « NUM ..|..= NUM|NAME » ]", "k in {3}{4}{5}", "what is repeated has an index with its range: `{1} {2}[{=}]`"),
     fix("EQUALS NAME « : UNIT = NUM » $", " = {4} {3}", "a unit stands behind its number: `{1} {2} {=}`"),
     words("EQUALS NAME : UNIT =", "a unit stands behind each number, and not behind the name"),
-    fix("EQUALS NAME « : NAME = »", " = ", "a type is not written, its value has one"),
+    fix("EQUALS NAME « : NAME = »", " = ", "a type is not written, its value has one: `{1} {2} = …`"),
     // names
     sure("COLON NAME « » @ JOINT|rotation|displacement|distance|angle|x|y (", ": ", "write `:` before `{3}`"),
     sure("joint « JOINT @ NAME » (", "{2}: {1}", "the name of a joint stands before its kind: `{=}(…)`"),
-    words("COLON @ : ANY", "a {1} needs a name: `{1} NAME: {2}`"),
-    words("EQUALS @ = ANY $", "a {1} needs a name: `{1} NAME = {2}`"),
+    words("COLON @ : REST", "a {1} needs a name: `{1} NAME: {2}`"),
+    words("EQUALS @ = REST", "a {1} needs a name: `{1} NAME = {2}`"),
     words("EQUALS @ ( …", "a {1} needs a name: `{1} NAME = (…)`").at(&[Rule::name]),
     words("joint JOINT @ ( ANY ) $", "a joint needs a name: `joint NAME: {1}({2})`"),
-    words("COLON CALLED @ (", "a {1} needs a name: `{1} NAME: {2}(…)`"),
-    words("EQUALS CALLED|der @ (", "a {1} needs a name: `{1} NAME = {2}(…)`"),
+    words("COLON CALLED ~ @ REST", "a {1} needs a name: `{1} NAME: {2}{3}`"),
+    words("EQUALS CALLED|der ~ @ REST", "a {1} needs a name: `{1} NAME = {2}{3}`").at(&[Rule::equals]),
     words("body @ {", "a body needs a name: `body NAME { … }`"),
     fix("DECLARATION « @ STRING »", "{2}", "a name stands without quotes: `{2}`").at(&[Rule::name]),
     fix("body|mechanism « NAME @ WORD » {|at", "{2}_{3}", "a name is one word: write `{=}`"),
@@ -141,12 +143,13 @@ pub(super) const DECLARATIONS: &[Correction] = &[
     sure("EQUALS NAMED « @ : = »", " = ", "write `=` instead of `:=`"),
     sure("EQUALS NAMED « @ : »", " = ", "write `=` instead of `:`").at(&[Rule::equals]),
     sure("table|measure|param|result NAMED « » @ NUM|spline|periodic", " = ", "write `=` before `{3}`").at(&[Rule::equals]),
+    sure("param|measure|result NAMED « » @ CALLED|x|y|der (", " = ", "write `=` before `{3}`").at(&[Rule::equals]),
     sure("point NAMED « » @ (", " = ", "write `=` before `(`").at(&[Rule::equals]),
     fix("EQUALS NAMED « » @ (|WORD", " = ", "write `=` before `{3}`").at(&[Rule::equals]),
     sure("fn|curve NAME ( NAME ) « @ : »", " = ", "write `=` instead of `:`"),
     sure("fn|curve NAME ( NAME ) « » @ (|NUM|NAME", " = ", "write `=` before `{4}`").at(&[Rule::equals]),
     fix("COLON NAMED « » @ WORD", ": ", "write `:` before `{3}`").at(&[Rule::colon]),
-    sure("… « = @ = »", "=", "an equation is written with one `=`"),
+    sure("… « = ~ @ = »", "=", "an equation is written with one `=`"),
     sure("… « @ == »", "=", "an equation is written with one `=`").at(&[Rule::equals]),
     sure("… « @ = »", "==", "a comparison is written `==`").at(&[Rule::kw_then]),
     // features
@@ -173,8 +176,11 @@ pub(super) const DECLARATIONS: &[Correction] = &[
     words("measure|result NAME = ANY @ , ANY", "a {1} is one number: each has its own `{1}`"),
     fix("… NUM « @ [ UNITS ] »", " {2}", "a unit follows its number without brackets: `{1} {2}`"),
     words("… NUM UNIT @ deg|rad|rev|mrad", "an angle is no factor of a unit: `… * 1 {3}` gives it to a pure number, `… / 1 {3}` takes it away"),
+    fix("… NUM « @ in » UNIT", "", "a unit follows its number without `in`: `{1} {2}`").at(OPERATOR),
+    fix("… NUM UNIT « » @ UNIT ^ NUM", "*", "a product of units is written with `*`: `{1} {2}*{3}^{4}`"),
     fix("… NUM UNIT « » @ UNIT", "*", "a product of units is written with `*`: `{1} {2}*{3}`"),
     fix("measure|trace|result NAMED = ANY « @ as|in UNITS » $", " in {5}", "the unit in which it is printed stands behind `in`: `in {5}`"),
+    fix("measure|trace|result NAMED = PATH « » @ UNITS $", " in ", "the unit in which it is printed stands behind `in`: `in {4}`"),
     fix("measure|trace|result NAMED = … ) … « » @ UNITS $", " in ", "the unit in which it is printed stands behind `in`: `in {3}`"),
     words("… !t @ UNIT", UNIT_AS_FACTOR).at(OPERATOR),
     words("load NAME : ANY @ =|at|to|NAME", "what a load works on stands behind `on`: `20 N on x(P)`, `3 N*m on rotation(J)`").at(&[Rule::kw_on]),
@@ -187,14 +193,14 @@ pub(super) const DECLARATIONS: &[Correction] = &[
     fix("… @ ground « : : » NAME", ".", "what belongs to the ground is written `ground.{1}`"),
     fix("… @ ground « » NAME", ".", "what belongs to the ground is written `ground.{1}`"),
     fix("… « @ QUOTE PATH QUOTE »", "{2}", "names stand without quotes: `{2}`"),
-    fix("… « @ STRING »", "{1}", "names stand without quotes: `{1}`").at(OPERAND),
+    fix("… « @ QUOTED »", "{1}", "names stand without quotes: `{1}`").at(OPERAND),
     // files
     fix("… use « @ GLUED »", "\"{1}\"", "the path of a file stands in quotes").at(&[Rule::string]),
-    fix("… « @ import|include|require|from » STRING", "use", "a file is used by `use \"FILE.mech\"`").at(&[Rule::kw_use, Rule::kw_mechanism]),
-    words("… @ use STRING", "a `use` stands at the top of the file, above the first `mechanism`"),
+    words("… as $", "a name stands behind `as`: `use \"FILE.mech\" as legs`").at(&[Rule::use_prefix, Rule::name]),
     // windows of reductions
     sure("… REDUCTION ( ANY , from ANY « , » @ to", " ", "no comma stands in a window: `from A to B`"),
     words("… REDUCTION ( ANY , from|to ANY , @", "a window stands behind all arguments"),
+    words("… REDUCTION ( … from … @ to", "a sign or a bracket behind `from` stands in parentheses apart from it: `from (-1 s)`").at(&[Rule::comma]),
     sure("… REDUCTION ( ANY « » @ from|to", ", ", "a window stands behind a comma: `max(e, from A to B)`").at(&[Rule::comma]),
     words("… REDUCTION ( from|to @", "a window stands behind a formula: `max(e, from A to B)`").at(&[Rule::comma]),
     // what is superfluous
@@ -210,7 +216,6 @@ pub(super) const DECLARATIONS: &[Correction] = &[
     words("… @ ?", "a choice is written `if CONDITION then A else B`").at(OPERATOR),
     words("… ) @ . d|dot|diff", "a time derivative is written `der(…)`, in a measure; `der(der(…))` is the second"),
     sure("… « @ + »", "", "a positive number needs no sign").at(OPERAND),
-    words("… @ %", "a comment begins with `//`; a remainder is `mod(a, b)`"),
     words("… @ √", "a square root is written `sqrt(a)`"),
     words("… @ ²|³ (", "the power of a function is `f(x)^2`"),
     sure("… « @ ² »", "^2", "a square is written `^2`").at(OPERATOR),
@@ -219,8 +224,8 @@ pub(super) const DECLARATIONS: &[Correction] = &[
     sure("… NUM « @ ° »", " deg", "degrees are written `{1} deg`"),
     fix("… NAME|) « @ ° »", " * 1 deg", "degrees are written `deg`").at(OPERATOR),
     // numbers
-    sure("… « 0 ~ @ , ~ NUM »", "0.{1}", "decimals are written with a point: `0.{1}`").at(OPERATOR),
-    fix("… « NUM ~ @ , ~ NUM »", "{1}.{2}", "decimals are written with a point: `{=}`").at(OPERATOR),
-    words("… NUM ~ @ . ~ NAME", "a digit follows the point: `{1}.0`").at(OPERATOR),
-    sure("… « NUM ~ @ . » !.", "{1}.0", "a digit follows the point: `{1}.0`").at(OPERATOR),
+    sure("… « 0 ~ @ , ~ WHOLE »", "0.{1}", "decimals are written with a point: `0.{1}`").at(OPERATOR),
+    fix("… « WHOLE ~ @ , ~ WHOLE »", "{1}.{2}", "decimals are written with a point: `{=}`").at(OPERATOR),
+    words("… WHOLE ~ @ . ~ NAME", "a digit follows the point: `{1}.0`").at(OPERATOR),
+    sure("… « WHOLE ~ @ . » !.", "{1}.0", "a digit follows the point: `{1}.0`").at(OPERATOR),
 ];
