@@ -83,7 +83,7 @@ impl Fault<'_> {
         let inside = self.text[start + 2..end - 2].trim_matches('*').trim();
         let lines: Vec<&str> = inside.lines().map(|line| line.trim().trim_start_matches('*').trim()).collect();
         let mark = if is_doc { "/// " } else { "// " };
-        let gap = format!("\n{}{mark}", self.indentation(start));
+        let gap = format!("{}{}{mark}", self.line_end(), self.indentation(start));
         self.replaced(start..end, &(mark.to_owned() + &lines.join(&gap)), &message, Applicability::Always)
     }
 
@@ -123,7 +123,11 @@ impl Fault<'_> {
             _ => "what stands in parentheses is separated by commas",
         };
         if decimals == 0 {
-            return self.replaced(self.here(), ",", message, Applicability::Always);
+            // a comma further in may be a decimal one
+            let first = opened.iter().find(|(_, token)| *token != "{").map_or(self.at, |(start, _)| *start);
+            let is_sure = !self.rest_of_line(first).iter().any(|token| is_decimal(&token));
+            let applies = if is_sure { Applicability::Always } else { Applicability::Probably };
+            return self.replaced(self.here(), ",", message, applies);
         }
         if decimals < commas {
             return Suggestion::words(message);

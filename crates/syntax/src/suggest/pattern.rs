@@ -139,6 +139,7 @@ impl Line<'_> {
                     || token.kind == LexemeKind::Number
             }),
             "JOINT" => usize::from(is_joint(word)),
+            "KIND" => usize::from(JointSpec::named(word).is_some()),
             // single letters may be names
             "QUANTITY" => usize::from(word.len() > 1 && QuantityWord::named(word).is_some()),
             "REDUCTION" => usize::from(ReductionWord::named(word).is_some()),

@@ -98,8 +98,9 @@ pub(super) const DECLARATIONS: &[Correction] = &[
     words("EQUALS NAME : UNIT =", "a unit stands behind each number, and not behind the name"),
     fix("EQUALS NAME « : NAME = »", " = ", "a type is not written, its value has one: `{1} {2} = …`"),
     // names
-    sure("COLON NAME « » @ JOINT|rotation|displacement|distance|angle|x|y (", ": ", "write `:` before `{3}`"),
-    sure("joint « JOINT @ NAME » (", "{2}: {1}", "the name of a joint stands before its kind: `{=}(…)`"),
+    sure("COLON NAME « » @ JOINT|rotation|displacement|distance|angle|x|y (|{|[", ": ", "write `:` before `{3}`"),
+    sure("joint « KIND @ NAME » (", "{2}: {1}", "the name of a joint stands before its kind: `{=}(…)`"),
+    fix("joint « JOINT @ NAME » (", "{2}: {1}", "the name of a joint stands before its kind: `{=}(…)`"),
     words("COLON @ : REST", "a {1} needs a name: `{1} NAME: {2}`"),
     words("EQUALS @ = REST", "a {1} needs a name: `{1} NAME = {2}`"),
     words("EQUALS @ ( …", "a {1} needs a name: `{1} NAME = (…)`").at(&[Rule::name]),
@@ -224,8 +225,8 @@ pub(super) const DECLARATIONS: &[Correction] = &[
     sure("… NUM « @ ° »", " deg", "degrees are written `{1} deg`"),
     fix("… NAME|) « @ ° »", " * 1 deg", "degrees are written `deg`").at(OPERATOR),
     // numbers
-    sure("… « 0 ~ @ , ~ WHOLE »", "0.{1}", "decimals are written with a point: `0.{1}`").at(OPERATOR),
-    fix("… « WHOLE ~ @ , ~ WHOLE »", "{1}.{2}", "decimals are written with a point: `{=}`").at(OPERATOR),
+    sure("… « 0 ~ @ , ~ NUM »", "0.{1}", "decimals are written with a point: `0.{1}`").at(OPERATOR),
+    fix("… « WHOLE ~ @ , ~ NUM »", "{1}.{2}", "decimals are written with a point: `{=}`").at(OPERATOR),
     words("… WHOLE ~ @ . ~ NAME", "a digit follows the point: `{1}.0`").at(OPERATOR),
     sure("… « WHOLE ~ @ . » !.", "{1}.0", "a digit follows the point: `{1}.0`").at(OPERATOR),
 ];
