@@ -1,7 +1,6 @@
 //! Synchronization points: where declarations begin, judging by words and braces alone. Parsing resumes there after a fault.
 
-use super::foreign_syntax::hyphenated_at;
-use super::lexer::{LexemeKind, Token, is_word_char};
+use super::lexer::{LexemeKind, Token, hyphenated_at, is_word_char};
 use mechc_text::diag::nearest;
 use mechc_text::vocabulary::{
     JointSpec, Keyword, Position, Role, Synonym, continues_declaration, declares_name, is_ground,

@@ -117,11 +117,8 @@ impl<'a> Checker<'a> {
                 None
             }
             None => {
-                if let Some(fix) = self.suggest_joint_rate(e, name, arguments, context) {
-                    self.report(errors::unknown_function(name, &[], &[]).instead(fix));
-                    return None;
-                }
-                if let Some(fix) = self.suggest_effort(e, name, arguments) {
+                let rate = self.suggest_joint_rate(e, name, arguments, context);
+                if let Some(fix) = rate.or_else(|| self.suggest_effort(e, name, arguments)) {
                     self.report(errors::unknown_function(name, &[], &[]).instead(fix));
                     return None;
                 }

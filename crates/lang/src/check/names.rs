@@ -163,7 +163,7 @@ impl Checker<'_> {
     fn report_reserved(&mut self, name: &Name, kind: SubstituteKind, uses: &[Span]) {
         let is_worth_it = self.diagnostics.len() <= MOST_SUGGESTIONS;
         let words = is_worth_it.then(|| words_of(self.sources.text(self.tree.span)));
-        let instead = words.and_then(|words| substitute_name(&name.text, kind, |name| !words.contains(name)));
+        let instead = words.and_then(|words| substitute_name(kind, |name| !words.contains(name)));
         self.report(errors::reserved(name, instead, uses));
     }
 

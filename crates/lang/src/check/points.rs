@@ -8,7 +8,6 @@ use super::formula_scope::{FormulaSite, InitialPoint, Position};
 use super::point_kinds::{Expected, coordinate};
 use super::point_names::PointLookup;
 use super::{Checker, errors};
-use crate::check::suggest::edits;
 use crate::model::{Dimension, Frame, GuardKind};
 use mechc_expr::{Binary, Comparison, ExprId, Graph, Node, Unary};
 use mechc_syntax::ast::{Expr, ExprKind, Factor, Name, Sign, Window};
@@ -84,7 +83,7 @@ impl Checker<'_> {
         let [x, y] = parts else {
             let word = Keyword::named("point").map(|keyword| &keyword.word);
             let diagnostic = errors::argument_count("point", word, e.span, "two lengths", parts.len());
-            self.report(edits::with_preferred_fix(diagnostic, self.suggest_decimal_point(parts, 2)));
+            self.report(diagnostic.instead_if(self.suggest_decimal_point(parts, 2)));
             return None;
         };
         let values = [x, y].map(|part| self.number(part, context));

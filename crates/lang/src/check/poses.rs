@@ -185,6 +185,6 @@ impl<'a> Checker<'a> {
         let word = Keyword::named("at").map(|keyword| &keyword.word);
         let diagnostic = errors::argument_count("at", word, e.span, "two lengths and an angle", found);
         let fix = self.suggest_decimal_point(parts, 3).or_else(|| edits::suggest_pose_angle(parts));
-        self.report(edits::with_preferred_fix(diagnostic, fix));
+        self.report(diagnostic.instead_if(fix));
     }
 }

@@ -4,7 +4,6 @@ use super::features::Feature;
 use super::formula::{Context, Dim, Value};
 use super::formula_scope::{FormulaSite, InitialPoint};
 use super::{Checker, errors};
-use crate::check::suggest::edits;
 use crate::model::{Circle, CircleId, Curve, CurveId, Frame, Named, Profile};
 use mechc_expr::Dependence;
 use mechc_syntax::ast::{self, Expr, ExprKind, FeatureKind, Name};
@@ -83,7 +82,7 @@ impl<'a> Checker<'a> {
             (Feature::Circle(circle), _) => circle,
             (other, span) => {
                 let diagnostic = errors::wrong_kind(span, "a circle", other.noun());
-                self.report(diagnostic.fix_if(self.suggest_profile(e, is_circle)));
+                self.report(diagnostic.fix_if(self.suggest_feature(e, is_circle)));
                 None
             }
         }
@@ -97,7 +96,7 @@ impl<'a> Checker<'a> {
             (Feature::Curve(curve), _) => curve.map(Profile::Curve),
             (other, span) => {
                 let diagnostic = errors::wrong_kind(span, "a curve or a circle", other.noun());
-                self.report(diagnostic.fix_if(self.suggest_profile(e, is_profile)));
+                self.report(diagnostic.fix_if(self.suggest_feature(e, is_profile)));
                 None
             }
         }
@@ -140,7 +139,7 @@ impl<'a> Checker<'a> {
                 } else {
                     let word = Keyword::named(what).map(|keyword| &keyword.word);
                     let diagnostic = errors::argument_count(what, word, e.span, "two lengths", parts.len());
-                    self.report(edits::with_preferred_fix(diagnostic, self.suggest_decimal_point(parts, 2)));
+                    self.report(diagnostic.instead_if(self.suggest_decimal_point(parts, 2)));
                     None
                 }
             }

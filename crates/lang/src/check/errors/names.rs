@@ -31,16 +31,16 @@ pub fn unknown_number(what: &str, name: &Name, candidates: &[&str]) -> Diagnosti
         return diagnostic.instead(Fix::suggest(name.span, &power));
     }
     if let Some(synonym) = Synonym::of(Position::Number, &name.text) {
-        return match synonym.means {
-            [only] if synonym.is_same => diagnostic.instead(Fix::suggest(name.span, only)),
-            _ => diagnostic.help(synonym.message(&[])),
+        return match synonym.equivalent() {
+            Some(word) => diagnostic.instead(Fix::suggest(name.span, word)),
+            None => diagnostic.help(synonym.message(&[])),
         };
     }
     match Synonym::of(Position::Unit, &name.text).filter(|_| name.text.len() > 1 && diagnostic.help.is_empty()) {
-        Some(synonym) => match synonym.means {
+        Some(synonym) => match synonym.equivalent() {
             // `turn` is more likely an undeclared input than a unit.
-            [unit @ "rev"] => diagnostic
-                .help(format!("the unit is `{unit}`; a number of that name is declared: `param {} = …`", name.text)),
+            Some("rev") => diagnostic
+                .help(format!("the unit is `rev`; a number of that name is declared: `param {} = …`", name.text)),
             _ => diagnostic.help(synonym.message(&[])),
         },
         None => diagnostic,
