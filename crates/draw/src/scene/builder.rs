@@ -157,7 +157,7 @@ pub(super) fn shape_points(model: &Mechanism) -> Vec<PointId> {
         match *quantity {
             Quantity::X(from, to) | Quantity::Y(from, to) => points.extend(from.into_iter().chain([to])),
             Quantity::Distance(p, q) => points.extend([p, q]),
-            Quantity::Speed(p) | Quantity::Curvature(p) => points.push(p),
+            Quantity::Measured(measured) => points.extend(measured.points()),
             Quantity::Corner(corners) => points.extend(corners),
             _ => {}
         }

@@ -8,6 +8,7 @@ mod features;
 mod forces;
 mod frames;
 mod inputs;
+mod measured;
 mod numbering;
 mod param_path;
 mod part_derivatives;
@@ -596,11 +597,7 @@ impl Lowering<'_> {
             Quantity::Rotation(joint, axes) => self.relative_to(view, |l| l.rotation(joint, axes)),
             Quantity::Displacement(_, a, b) => self.displacement(a, b),
             Quantity::Corner(points) => self.corner_angle(view, points),
-            Quantity::Curvature(point) => self.relative_to(view, |l| l.path_curvature(point)),
-            Quantity::Pole(of, from, part) => self.relative_to(view, |l| l.pole(of, from, part)),
-            Quantity::Speed(point) => self.relative_to(view, |l| l.speed(point)),
-            Quantity::PressureAngle(joint, frame) => self.relative_to(view, |l| l.pressure_angle(joint, frame)),
-            Quantity::Slip(joint) => self.slip(joint),
+            Quantity::Measured(measured) => self.measured(view, measured),
         }
     }
 }

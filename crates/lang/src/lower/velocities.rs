@@ -1,4 +1,4 @@
-//! Quantities of measures that depend on velocities and accelerations, the angle at a point, and where these quantities exist.
+//! Velocities and contacts, from which the quantities of measures are made, the angle at a point, and where it exists.
 //!
 //! A velocity is the time derivative of a position in the ground's frame, so that all formulas here follow from those of positions.
 
@@ -11,45 +11,27 @@ use std::f64::consts::PI;
 
 /// Distances below this part of the mechanism's size, and speeds below this part of it per duration of the analysis, are zero; the
 /// inverse is the largest distance of an instant centre, in sizes of the mechanism.
-const NOTHING: f64 = 1e-9;
+pub(super) const NOTHING: f64 = 1e-9;
 /// Relative rotations up to this many roundings of the fastest motion are zero.
 const ROUNDING: f64 = 64.0;
 
 /// The point in which two bodies touch.
-struct Contact {
+pub(super) struct Contact {
     /// The position in the ground's frame (m).
-    at: Vector,
+    pub at: Vector,
     /// A common tangent of both profiles, of any length.
-    tangent: Vector,
+    pub tangent: Vector,
 }
 
 impl Lowering<'_> {
     /// Returns the time derivative of a position or direction.
-    fn rate(&mut self, of: Vector) -> Vector {
+    pub(super) fn rate(&mut self, of: Vector) -> Vector {
         let rates = ConstraintSystem::time_derivatives(&mut self.graph, &of, 3);
         [rates[0], rates[1]]
     }
 
     pub(super) fn length(&mut self, [x, y]: Vector) -> ExprId {
         self.graph.binary(Binary::Hypot, x, y)
-    }
-
-    /// Returns the length of a point's velocity (m/s).
-    pub(super) fn speed(&mut self, point: PointId) -> ExprId {
-        let at = self.position(point);
-        let velocity = self.rate(at);
-        self.length(velocity)
-    }
-
-    /// Returns the curvature of a point's path, positive to the left (1/m): `(v^⊥)ᵀ a / |v|³`.
-    pub(super) fn path_curvature(&mut self, point: PointId) -> ExprId {
-        let at = self.position(point);
-        let velocity = self.rate(at);
-        let acceleration = self.rate(velocity);
-        let (turning, speed) = (self.left_of(velocity, acceleration), self.length(velocity));
-        let three = self.graph.constant(3.0);
-        let cube = self.graph.pow(speed, three);
-        self.graph.div(turning, cube)
     }
 
     /// Returns the vectors from the second of three points to the two others (m).
@@ -77,7 +59,7 @@ impl Lowering<'_> {
     }
 
     /// Returns the angular velocity of a frame (rad/s) and the velocity of its origin (m/s), relative to another frame.
-    fn relative(&mut self, of: Frame, from: Frame) -> (ExprId, Vector) {
+    pub(super) fn relative(&mut self, of: Frame, from: Frame) -> (ExprId, Vector) {
         let origin = [0, 1].map(|part| self.frame_coordinate(of, part));
         let [velocity, other] = [of, from].map(|frame| self.point_velocity(frame, origin));
         let rates = [of, from].map(|frame| self.angular_velocity(frame));
@@ -90,7 +72,7 @@ impl Lowering<'_> {
     }
 
     /// Returns the velocity of the point of a frame that is momentarily at a position (m/s): `ṙ + φ̇ (p − r)^⊥`.
-    fn point_velocity(&mut self, frame: Frame, place: Vector) -> Vector {
+    pub(super) fn point_velocity(&mut self, frame: Frame, place: Vector) -> Vector {
         let origin = [0, 1].map(|part| self.frame_coordinate(frame, part));
         let (velocity, turning) = (self.rate(origin), self.angular_velocity(frame));
         let [x, y] = self.difference(place, origin);
@@ -98,23 +80,8 @@ impl Lowering<'_> {
         [self.graph.sub(velocity[0], across), self.graph.add(velocity[1], along)]
     }
 
-    /// Returns x (part 0) or y (part 1) of the instant centre of a frame relative to another (m): the point where their velocities are
-    /// equal.
-    pub(super) fn pole(&mut self, of: Frame, from: Frame, part: u32) -> ExprId {
-        let (turning, velocity) = self.relative(of, from);
-        let origin = self.frame_coordinate(of, part);
-        let graph = &mut self.graph;
-        if part == 0 {
-            let offset = graph.div(velocity[1], turning);
-            graph.sub(origin, offset)
-        } else {
-            let offset = graph.div(velocity[0], turning);
-            graph.add(origin, offset)
-        }
-    }
-
     /// Returns the point of contact of a follower, cam or flat follower; `None` for other joints.
-    fn contact(&mut self, joint: JointId) -> Option<Contact> {
+    pub(super) fn contact(&mut self, joint: JointId) -> Option<Contact> {
         let on = |lowering: &mut Self, profile: Profile| {
             let frame = profile.frame(lowering.model);
             let u = lowering.contact_argument(joint);
@@ -142,27 +109,8 @@ impl Lowering<'_> {
         self.graph.symbol(Symbol::Coordinate { index, order: 0 })
     }
 
-    /// Returns the angle between the common normal at a contact and the velocity of a frame's point there, 0 to π/2 (rad).
-    pub(super) fn pressure_angle(&mut self, joint: JointId, frame: Frame) -> ExprId {
-        let Some(Contact { at, tangent }) = self.contact(joint) else { return self.placeholder() };
-        let velocity = self.point_velocity(frame, at);
-        let (along, across) = (self.dot(tangent, velocity), self.left_of(tangent, velocity));
-        let [along, across] = [along, across].map(|part| self.graph.unary(Unary::Abs, part));
-        self.graph.binary(Binary::Atan2, along, across)
-    }
-
-    /// Returns the sliding speed of the bodies at a contact (m/s).
-    pub(super) fn slip(&mut self, joint: JointId) -> ExprId {
-        let Some(Contact { at, tangent }) = self.contact(joint) else { return self.placeholder() };
-        let [first, second] = self.model[joint].frames(self.model).map(|frame| self.point_velocity(frame, at));
-        let sliding = self.difference(second, first);
-        let (along, length) = (self.dot(tangent, sliding), self.length(tangent));
-        let slip = self.graph.div(along, length);
-        self.graph.unary(Unary::Abs, slip)
-    }
-
     /// Returns a placeholder for a quantity that a joint does not have; `check` rejects these.
-    fn placeholder(&mut self) -> ExprId {
+    pub(super) fn placeholder(&mut self) -> ExprId {
         self.graph.constant(0.0)
     }
 
@@ -175,32 +123,14 @@ impl Lowering<'_> {
                 let shorter = self.graph.binary(Binary::Min, arms[0], arms[1]);
                 self.minus_constant(shorter, length)
             }
-            Quantity::Curvature(point) => {
-                let speed = self.speed(point);
-                self.minus_constant(speed, length / self.duration())
-            }
-            Quantity::PressureAngle(joint, frame) => {
-                let Some(Contact { at, .. }) = self.contact(joint) else { return self.placeholder() };
-                let velocity = self.point_velocity(frame, at);
-                let speed = self.length(velocity);
-                self.minus_constant(speed, length / self.duration())
-            }
-            Quantity::Pole(of, from, _) => {
-                let (turning, velocity) = self.relative(of, from);
-                let farthest = self.graph.constant(self.largest_size / NOTHING);
-                let (turning, speed) = (self.graph.unary(Unary::Abs, turning), self.length(velocity));
-                let limit = self.graph.mul(turning, farthest);
-                let (is_near, rounding) = (self.graph.sub(limit, speed), self.rounding_of_turning());
-                let turns = self.graph.sub(turning, rounding);
-                self.graph.binary(Binary::Min, is_near, turns)
-            }
+            Quantity::Measured(measured) => self.measured_existence(measured),
             _ => self.graph.constant(1.0),
         }
     }
 
     /// Returns a bound of the rounding in a body's angular velocity (rad/s). All bodies are solved for together, so that a body at rest has
     /// the rounding of the fastest one.
-    fn rounding_of_turning(&mut self) -> ExprId {
+    pub(super) fn rounding_of_turning(&mut self) -> ExprId {
         let mut fastest = self.graph.constant(0.0);
         for body in self.model.body_ids() {
             for (part, index) in self.numbering.pose(body).into_iter().enumerate() {
@@ -221,13 +151,13 @@ impl Lowering<'_> {
         self.graph.mul(size, speed)
     }
 
-    fn minus_constant(&mut self, value: ExprId, limit: f64) -> ExprId {
+    pub(super) fn minus_constant(&mut self, value: ExprId, limit: f64) -> ExprId {
         let limit = self.graph.constant(limit);
         self.graph.sub(value, limit)
     }
 
     /// Returns the duration of the model's analysis (s); 1 s without one.
-    fn duration(&self) -> f64 {
+    pub(super) fn duration(&self) -> f64 {
         self.model.analysis.map(|analysis| analysis.to - analysis.from).filter(|length| *length > 0.0).unwrap_or(1.0)
     }
 }

@@ -55,16 +55,15 @@ impl Text<'_> {
             }
             Quantity::Displacement(joint, ..) => format!("displacement({})", self.model[joint].declared.name),
             Quantity::Corner(points) => format!("angle({})", points.map(&point).join(", ")),
-            Quantity::Curvature(p) => format!("curvature({})", point(p)),
-            Quantity::Pole(b, c, part) => {
-                let name = |frame: Frame| self.model.frame_name(frame);
-                format!("pole_{}({}, {})", if part == 0 { "x" } else { "y" }, name(b), name(c))
+            Quantity::Measured(measured) => {
+                let argument = |argument: MeasuredArgument| match argument {
+                    MeasuredArgument::Point(id) => point(id),
+                    MeasuredArgument::Frame(frame) => self.model.frame_name(frame).to_string(),
+                    MeasuredArgument::Joint(joint) => self.model[joint].declared.name.clone(),
+                };
+                let arguments: Vec<String> = measured.arguments().map(argument).collect();
+                format!("{}({})", measured.word.word.name, arguments.join(", "))
             }
-            Quantity::Speed(p) => format!("speed({})", point(p)),
-            Quantity::PressureAngle(joint, b) => {
-                format!("pressure_angle({}, {})", self.model[joint].declared.name, self.model.frame_name(b))
-            }
-            Quantity::Slip(joint) => format!("slip({})", self.model[joint].declared.name),
         }
     }
 

@@ -1,6 +1,7 @@
 //! Kinematic quantities: scalar functions of the coordinates and of their rates.
 
 use super::{AxisId, Dimension, Frame, JointId, PointId};
+use mechc_text::vocabulary::{MeasuredQuantity, QuantityWord};
 
 /// A kinematic quantity (`elements.md`, "Kinematic quantities").
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
@@ -17,19 +18,65 @@ pub enum Quantity {
     Rotation(JointId, Option<(AxisId, AxisId)>),
     /// Displacement of a translational joint along its first axis, from there to its second axis (m).
     Displacement(JointId, AxisId, AxisId),
-    /// The angle at the second of three points, from the first to the third, in (−π, π] (rad). Only measures may hold this and the
-    /// following quantities.
+    /// The angle at the second of three points, from the first to the third, in (−π, π] (rad). Only measures may hold it.
     Corner([PointId; 3]),
-    /// Curvature of a point's path, positive to the left (1/m).
-    Curvature(PointId),
-    /// x (part 0) or y (part 1) of the instant centre of a frame relative to another (m).
-    Pole(Frame, Frame, u32),
-    /// Length of a point's velocity (m/s).
-    Speed(PointId),
-    /// The angle between the common normal at a contact and the velocity of a frame's point there, 0 to π/2 (rad).
-    PressureAngle(JointId, Frame),
-    /// Sliding speed at a contact (m/s).
-    Slip(JointId),
+    /// A quantity of the motion, which only measures may hold.
+    Measured(Measured),
+}
+
+/// A quantity of the motion with its arguments.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub struct Measured {
+    /// The word.
+    pub word: &'static QuantityWord,
+    /// The arguments in their order, followed by `None`.
+    pub arguments: [Option<MeasuredArgument>; 3],
+}
+
+/// An argument of a quantity of the motion.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub enum MeasuredArgument {
+    /// A point.
+    Point(PointId),
+    /// A body or a ground.
+    Frame(Frame),
+    /// A joint.
+    Joint(JointId),
+}
+
+impl Measured {
+    /// Returns the arguments.
+    pub fn arguments(&self) -> impl Iterator<Item = MeasuredArgument> {
+        self.arguments.into_iter().flatten()
+    }
+
+    /// Returns the points among the arguments.
+    pub fn points(&self) -> impl Iterator<Item = PointId> {
+        self.arguments().filter_map(|argument| match argument {
+            MeasuredArgument::Point(point) => Some(point),
+            _ => None,
+        })
+    }
+
+    /// Returns the bodies and grounds among the arguments.
+    pub fn frames(&self) -> impl Iterator<Item = Frame> {
+        self.arguments().filter_map(|argument| match argument {
+            MeasuredArgument::Frame(frame) => Some(frame),
+            _ => None,
+        })
+    }
+
+    /// Returns the joints among the arguments.
+    pub fn joints(&self) -> impl Iterator<Item = JointId> {
+        self.arguments().filter_map(|argument| match argument {
+            MeasuredArgument::Joint(joint) => Some(joint),
+            _ => None,
+        })
+    }
+
+    fn spec(&self) -> Option<MeasuredQuantity> {
+        self.word.measured()
+    }
 }
 
 impl Quantity {
@@ -37,8 +84,7 @@ impl Quantity {
     #[must_use]
     pub fn order(self) -> u8 {
         match self {
-            Quantity::Curvature(_) => 2,
-            Quantity::Pole(..) | Quantity::Speed(_) | Quantity::PressureAngle(..) | Quantity::Slip(_) => 1,
+            Quantity::Measured(measured) => measured.spec().map_or(0, |spec| spec.order),
             _ => 0,
         }
     }
@@ -46,23 +92,21 @@ impl Quantity {
     /// Returns whether the quantity has no value at some positions or velocities.
     #[must_use]
     pub fn may_not_exist(self) -> bool {
-        matches!(self, Quantity::Corner(_) | Quantity::Curvature(_) | Quantity::Pole(..) | Quantity::PressureAngle(..))
+        match self {
+            Quantity::Measured(measured) => measured.spec().is_some_and(|spec| spec.may_not_exist),
+            _ => matches!(self, Quantity::Corner(_)),
+        }
     }
 
     /// Returns the quantity's dimension.
     #[must_use]
     pub fn dimension(self) -> Dimension {
         match self {
-            Quantity::Angle(..) | Quantity::Rotation(..) | Quantity::Corner(_) | Quantity::PressureAngle(..) => {
-                Dimension::ANGLE
+            Quantity::Angle(..) | Quantity::Rotation(..) | Quantity::Corner(_) => Dimension::ANGLE,
+            Quantity::X(..) | Quantity::Y(..) | Quantity::Distance(..) | Quantity::Displacement(..) => {
+                Dimension::LENGTH
             }
-            Quantity::Curvature(_) => Dimension::PURE.over(Dimension::LENGTH),
-            Quantity::Speed(_) | Quantity::Slip(_) => Dimension::LENGTH.over(Dimension::TIME),
-            Quantity::X(..)
-            | Quantity::Y(..)
-            | Quantity::Distance(..)
-            | Quantity::Displacement(..)
-            | Quantity::Pole(..) => Dimension::LENGTH,
+            Quantity::Measured(measured) => measured.spec().map_or(Dimension::PURE, |spec| spec.dimension),
         }
     }
 }

@@ -23,7 +23,7 @@ pub use functions::{FUNCTIONS, Function, Group};
 pub use joints::{ArgumentSpec, FeatureWord, JOINTS, JointMotion, JointSpec, JointSymbol, ReactionKind, Spacing};
 pub use keywords::{KEYWORDS, Keyword, Role, continues_declaration, declares_name, is_declaration, is_feature};
 pub use page::{OVERVIEWS, page};
-pub use quantities::{QUANTITIES, QuantityWord};
+pub use quantities::{MeasuredQuantity, QUANTITIES, QuantityArgument, QuantityKind, QuantityWord};
 pub use reductions::{REDUCTIONS, ReductionWord};
 pub use synonyms::{Position, SYNONYMS, Synonym, is_ground};
 pub use topics::{topic, topics};
@@ -112,7 +112,7 @@ pub fn words() -> impl Iterator<Item = &'static Word> {
 /// Returns whether a name is reserved for a function or quantity. Some quantities give way to declarations of the user.
 #[must_use]
 pub fn is_called(name: &str) -> bool {
-    Function::named(name).is_some() || QuantityWord::named(name).is_some_and(|quantity| !quantity.gives_way)
+    Function::named(name).is_some() || QuantityWord::named(name).is_some_and(|quantity| !quantity.gives_way())
 }
 
 /// Returns whether a function or table of the user may replace the function of this name.
@@ -126,7 +126,7 @@ pub fn gives_way(name: &str) -> bool {
 pub fn is_one_argument_function(name: &str) -> bool {
     let function = Function::named(name).is_some_and(|function| (function.least, function.most) == (1, 1));
     let quantity = QuantityWord::named(name).is_some_and(|quantity| {
-        !quantity.gives_way && quantity.word.forms.first().is_some_and(|form| !form.contains(','))
+        !quantity.gives_way() && quantity.word.forms.first().is_some_and(|form| !form.contains(','))
     });
     name.len() > 1 && (function || quantity)
 }

@@ -116,8 +116,8 @@ fn details(word: &Word) -> Vec<String> {
         details.push("A function or table of the file that is called so hides it.".to_owned());
     }
     let quantity = QuantityWord::named(word.name).filter(|_| word.category == Category::Quantity);
-    if let Some(quantity) = quantity.filter(|quantity| quantity.gives_way) {
-        let places = if quantity.is_force { "measures and results" } else { "measures, traces and results" };
+    if let Some(quantity) = quantity.filter(|quantity| quantity.gives_way()) {
+        let places = if quantity.is_force() { "measures and results" } else { "measures, traces and results" };
         details.push(format!(
             "It stands in {places} alone. A `fn` or `table` of the mechanism that is called so is meant where it is called."
         ));

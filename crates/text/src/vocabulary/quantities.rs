@@ -1,6 +1,7 @@
 //! Quantities: numbers that depend on the positions of bodies and on the forces between them.
 
-use super::{Category, Example, Word};
+use super::{Category, Dimension, Example, Word};
+use std::hash::{Hash, Hasher};
 
 /// A kinematic quantity.
 #[derive(Debug)]
@@ -9,11 +10,59 @@ pub struct QuantityWord {
     pub word: Word,
     /// Arguments in words.
     pub takes: &'static str,
-    /// True if a function or table of the mechanism with this name replaces it: older texts keep their meaning. Such quantities may be used
-    /// only in measures, traces and results, and those of forces not in traces.
-    pub gives_way: bool,
-    /// True if it depends on forces, not only on positions and their rates.
-    pub is_force: bool,
+    /// What it depends on.
+    pub kind: QuantityKind,
+}
+
+/// What a quantity depends on.
+#[derive(Clone, Copy, Debug)]
+pub enum QuantityKind {
+    /// Positions alone; it may stand in equations.
+    Position,
+    /// The motion; it may stand only in measures, traces and results.
+    Measured(MeasuredQuantity),
+    /// Forces; it may stand only in measures and results.
+    Force,
+}
+
+/// A quantity of the motion. Its formula is in the lowering, by its name.
+#[derive(Clone, Copy, Debug)]
+pub struct MeasuredQuantity {
+    /// Kinds of its arguments.
+    pub arguments: &'static [QuantityArgument],
+    /// Dimension.
+    pub dimension: Dimension,
+    /// Highest order of time derivatives of the coordinates in it.
+    pub order: u8,
+    /// True if it has no value at some positions or velocities.
+    pub may_not_exist: bool,
+}
+
+/// Kind of an argument of a measured quantity.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum QuantityArgument {
+    /// A point.
+    Point,
+    /// A body or the ground.
+    Body,
+    /// A body, or the ground if it is left out; the last argument.
+    BodyOrGround,
+    /// A joint that has the quantity.
+    Joint,
+}
+
+impl PartialEq for QuantityWord {
+    fn eq(&self, other: &QuantityWord) -> bool {
+        self.word.name == other.word.name
+    }
+}
+
+impl Eq for QuantityWord {}
+
+impl Hash for QuantityWord {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        self.word.name.hash(state);
+    }
 }
 
 impl QuantityWord {
@@ -21,6 +70,27 @@ impl QuantityWord {
     #[must_use]
     pub fn named(name: &str) -> Option<&'static QuantityWord> {
         QUANTITIES.iter().find(|quantity| quantity.word.name == name)
+    }
+
+    /// Returns whether a function or table of the mechanism with this name replaces it, so that texts may use the name.
+    #[must_use]
+    pub fn gives_way(&self) -> bool {
+        !matches!(self.kind, QuantityKind::Position)
+    }
+
+    /// Returns whether it depends on forces, not only on positions and their rates.
+    #[must_use]
+    pub fn is_force(&self) -> bool {
+        matches!(self.kind, QuantityKind::Force)
+    }
+
+    /// Returns what a measured quantity takes and gives.
+    #[must_use]
+    pub fn measured(&self) -> Option<MeasuredQuantity> {
+        match self.kind {
+            QuantityKind::Measured(measured) => Some(measured),
+            _ => None,
+        }
     }
 }
 
@@ -58,8 +128,7 @@ pub static QUANTITIES: &[QuantityWord] = &[
             example: Example::Arm("measure reach = x(arm.tip)"),
         },
         takes: "one point, or two",
-        gives_way: false,
-        is_force: false,
+        kind: QuantityKind::Position,
     },
     QuantityWord {
         word: Word {
@@ -72,8 +141,7 @@ pub static QUANTITIES: &[QuantityWord] = &[
             example: Example::Arm("measure height = y(ground.O, arm.tip)"),
         },
         takes: "one point, or two",
-        gives_way: false,
-        is_force: false,
+        kind: QuantityKind::Position,
     },
     QuantityWord {
         word: Word {
@@ -90,8 +158,7 @@ pub static QUANTITIES: &[QuantityWord] = &[
             ),
         },
         takes: "one body or axis, or two; in a measure three points too",
-        gives_way: false,
-        is_force: false,
+        kind: QuantityKind::Position,
     },
     QuantityWord {
         word: Word {
@@ -105,8 +172,7 @@ pub static QUANTITIES: &[QuantityWord] = &[
             example: Example::Arm("measure reach = distance((200 mm, 50 mm), arm.tip)"),
         },
         takes: "two points",
-        gives_way: false,
-        is_force: false,
+        kind: QuantityKind::Position,
     },
     QuantityWord {
         word: Word {
@@ -120,8 +186,7 @@ pub static QUANTITIES: &[QuantityWord] = &[
             example: Example::Arm("driver motor: rotation(main) = 60 rpm * t"),
         },
         takes: "a joint, or a joint and two axes",
-        gives_way: false,
-        is_force: false,
+        kind: QuantityKind::Position,
     },
     QuantityWord {
         word: Word {
@@ -144,8 +209,7 @@ driver piston: displacement(guide) = 50 mm + 20 mm/s * t",
             ),
         },
         takes: "one argument, a joint",
-        gives_way: false,
-        is_force: false,
+        kind: QuantityKind::Position,
     },
     QuantityWord {
         word: Word {
@@ -159,8 +223,12 @@ driver piston: displacement(guide) = 50 mm + 20 mm/s * t",
             example: Example::Arm("measure bend = curvature(arm.tip)"),
         },
         takes: "one point",
-        gives_way: true,
-        is_force: false,
+        kind: QuantityKind::Measured(MeasuredQuantity {
+            arguments: &[QuantityArgument::Point],
+            dimension: Dimension::PURE.over(Dimension::LENGTH),
+            order: 2,
+            may_not_exist: true,
+        }),
     },
     QuantityWord {
         word: Word {
@@ -174,8 +242,12 @@ driver piston: displacement(guide) = 50 mm + 20 mm/s * t",
             example: Example::Arm("measure centre = pole_x(arm)"),
         },
         takes: "one body, or two",
-        gives_way: true,
-        is_force: false,
+        kind: QuantityKind::Measured(MeasuredQuantity {
+            arguments: &[QuantityArgument::Body, QuantityArgument::BodyOrGround],
+            dimension: Dimension::LENGTH,
+            order: 1,
+            may_not_exist: true,
+        }),
     },
     QuantityWord {
         word: Word {
@@ -189,8 +261,12 @@ driver piston: displacement(guide) = 50 mm + 20 mm/s * t",
             example: Example::Arm("measure centre = pole_y(arm)"),
         },
         takes: "one body, or two",
-        gives_way: true,
-        is_force: false,
+        kind: QuantityKind::Measured(MeasuredQuantity {
+            arguments: &[QuantityArgument::Body, QuantityArgument::BodyOrGround],
+            dimension: Dimension::LENGTH,
+            order: 1,
+            may_not_exist: true,
+        }),
     },
     QuantityWord {
         word: Word {
@@ -203,8 +279,12 @@ driver piston: displacement(guide) = 50 mm + 20 mm/s * t",
             example: Example::Arm("measure fast = speed(arm.tip) in mm/s"),
         },
         takes: "one point",
-        gives_way: true,
-        is_force: false,
+        kind: QuantityKind::Measured(MeasuredQuantity {
+            arguments: &[QuantityArgument::Point],
+            dimension: Dimension::SPEED,
+            order: 1,
+            may_not_exist: false,
+        }),
     },
     QuantityWord {
         word: Word {
@@ -218,8 +298,12 @@ driver piston: displacement(guide) = 50 mm + 20 mm/s * t",
             example: Example::Whole(CAM),
         },
         takes: "a joint and a body",
-        gives_way: true,
-        is_force: false,
+        kind: QuantityKind::Measured(MeasuredQuantity {
+            arguments: &[QuantityArgument::Joint, QuantityArgument::Body],
+            dimension: Dimension::ANGLE,
+            order: 1,
+            may_not_exist: true,
+        }),
     },
     QuantityWord {
         word: Word {
@@ -232,8 +316,12 @@ driver piston: displacement(guide) = 50 mm + 20 mm/s * t",
             example: Example::Whole(CAM),
         },
         takes: "one argument, a joint",
-        gives_way: true,
-        is_force: false,
+        kind: QuantityKind::Measured(MeasuredQuantity {
+            arguments: &[QuantityArgument::Joint],
+            dimension: Dimension::SPEED,
+            order: 1,
+            may_not_exist: false,
+        }),
     },
     force(
         "effort",
@@ -308,5 +396,5 @@ const fn force(
 ) -> QuantityWord {
     let example = Example::Arm(example);
     let word = Word { name, category: Category::Quantity, forms, letters, meaning, more, example };
-    QuantityWord { word, takes, gives_way: true, is_force: true }
+    QuantityWord { word, takes, kind: QuantityKind::Force }
 }
