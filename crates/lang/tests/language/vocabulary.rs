@@ -71,19 +71,6 @@ fn no_name_stands_twice_in_a_table() {
 }
 
 #[test]
-fn the_dictionary_of_the_fuzzers_has_every_word() {
-    let dictionary = text_of("fuzz/mech.dict");
-    let escaped = |name: &str| -> String {
-        name.bytes().map(|b| if b.is_ascii() { char::from(b).to_string() } else { format!("\\x{b:02x}") }).collect()
-    };
-    let missing: Vec<&str> = vocabulary::words()
-        .map(|word| word.name)
-        .filter(|name| !dictionary.lines().any(|line| line == format!("\"{}\"", escaped(name))))
-        .collect();
-    assert!(missing.is_empty(), "fuzz/mech.dict lacks {missing:?}");
-}
-
-#[test]
 fn every_example_of_a_page_checks_and_runs_without_a_word() {
     for word in vocabulary::words() {
         let example = word.example();
@@ -392,14 +379,6 @@ fn synonyms_are_unique() {
             assert!(seen.insert((format!("{:?}", synonym.position), name)), "`{name}` stands twice");
         }
     }
-}
-
-#[test]
-fn units_are_listed_in_their_page() {
-    let page = mechc::Code::named("E0202").expect("a code").page();
-    let listed: BTreeSet<&str> = code_in(page).into_iter().flat_map(str::split_whitespace).collect();
-    let missing: Vec<&str> = Unit::names().filter(|name| !listed.contains(name)).collect();
-    assert!(missing.is_empty(), "{missing:?}");
 }
 
 // ---- names that are units
