@@ -1,5 +1,6 @@
 //! Bindings of the params and inputs of a part.
 
+use super::dimensions::require_dimension;
 use super::entity::Entity;
 use super::formula::{Context, Dim, Value};
 use super::formula_scope::{FormulaSite, InitialPoint};
@@ -73,7 +74,7 @@ impl<'a> Checker<'a> {
             let entity = self.parts[part].space.get(&binding.name.text);
             let before = of_part.bindings.iter().take_while(|other| other.span != binding.span);
             if let Some(first) = before.into_iter().find(|other| is_twice(other, binding)) {
-                self.report(errors::bound_twice(binding, first.span));
+                self.reporter.report(errors::bound_twice(binding, first.span));
                 continue;
             }
             match entity {
@@ -97,7 +98,7 @@ impl<'a> Checker<'a> {
         let suggestion = nearest(&binding.name.text, candidates.iter().copied());
         let mechanism = &child.tree.name.text;
         let diagnostic = errors::no_name_to_bind(mechanism, binding, found.map(Entity::noun), &candidates, suggestion);
-        self.report(diagnostic);
+        self.reporter.report(diagnostic);
     }
 
     fn param_bound(&mut self, binding: &'a Binding, is_point: bool) -> Option<BoundValue> {
@@ -105,7 +106,7 @@ impl<'a> Checker<'a> {
         let context = Context::constant("a binding of a param");
         if let Some(coordinate) = &binding.coordinate {
             let Some(k) = point_kinds::coordinate(coordinate).filter(|_| is_point) else {
-                self.report(errors::no_coordinate_to_bind(binding, coordinate, is_point));
+                self.reporter.report(errors::no_coordinate_to_bind(binding, coordinate, is_point));
                 return None;
             };
             let judged = self.is_dimensional(value);
@@ -114,7 +115,7 @@ impl<'a> Checker<'a> {
         }
         if is_point {
             if !self.is_point(value) {
-                self.report(errors::number_for_point(binding));
+                self.reporter.report(errors::number_for_point(binding));
                 return None;
             }
             return self
@@ -143,7 +144,7 @@ impl<'a> Checker<'a> {
         if let (Some([expected, found]), Some(span)) = (unlike, span) {
             let place = format!("the parameter `{}`", name.text);
             let part = lost_rate::Part { span, dimension: found };
-            self.report(errors::wrong_dimension(&place, expected, part, self.sources.text(span)));
+            self.reporter.report(errors::wrong_dimension(&place, expected, part, self.reporter.text(span)));
             return Some(None);
         }
         let dim = if in_file.dim == Dim::Any { value.dim } else { in_file.dim };
@@ -174,8 +175,8 @@ impl<'a> Checker<'a> {
                     if let Some(span) = span.filter(|_| point.dimensional && !bound.dimensional && !is_zero) {
                         let plain = lost_rate::Part { span, dimension: Dimension::PURE };
                         let place = format!("the point `{}`", name.text);
-                        let text = self.sources.text(span);
-                        self.report(errors::wrong_dimension(&place, Dimension::LENGTH, plain, text));
+                        let text = self.reporter.text(span);
+                        self.reporter.report(errors::wrong_dimension(&place, Dimension::LENGTH, plain, text));
                         return None;
                     }
                     point = bound;
@@ -185,7 +186,7 @@ impl<'a> Checker<'a> {
                     let judged = judged || point.dimensional;
                     let context = Context { judged, ..Context::constant("a binding of a param") };
                     let span = span.unwrap_or(name.span);
-                    self.require_dimension(&place, Dimension::LENGTH, span, value.dim, &context)?;
+                    require_dimension(&mut self.reporter, &place, Dimension::LENGTH, span, value.dim, &context)?;
                     point.at[axis] = value.id;
                     point.dimensional |= judged;
                 }

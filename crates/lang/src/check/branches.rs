@@ -102,7 +102,7 @@ impl Checker<'_> {
                 })
             }
             _ => {
-                self.report(errors::number_as_condition(e.span));
+                self.reporter.report(errors::number_as_condition(e.span));
                 None
             }
         }

@@ -1,5 +1,6 @@
 //! Calls of the language's functions.
 
+use super::dimensions::require_dimension;
 use super::formula::{Context, Dim, Value};
 use super::{Checker, errors};
 use crate::model::{Condition, ConditionKind, Dimension};
@@ -28,7 +29,8 @@ impl Checker<'_> {
             return None;
         }
         // A function's formula is checked on its own.
-        if let ("sin" | "cos" | "tan", [argument], true) = (name.text.as_str(), arguments, self.calls.caller.is_none())
+        if let ("sin" | "cos" | "tan", [argument], true) =
+            (name.text.as_str(), arguments, self.reporter.caller.is_none())
         {
             self.warn_of_degrees(argument);
         }
@@ -71,7 +73,8 @@ impl Checker<'_> {
         match function.group {
             Group::Pure => {
                 let (span, value) = arguments[0];
-                self.require_dimension(
+                require_dimension(
+                    &mut self.reporter,
                     &format!("the argument of `{name}`"),
                     Dimension::PURE,
                     span,
@@ -97,7 +100,7 @@ impl Checker<'_> {
     fn report_no_such_angle(&mut self, span: Span, function: &str, argument: Value) -> bool {
         let number = self.number_of(argument.id).filter(|number| number.is_finite() && number.abs() > 1.0);
         let Some(number) = number.filter(|_| !self.branch.is_untaken) else { return false };
-        self.report(errors::no_such_angle(span, function, number));
+        self.reporter.report(errors::no_such_angle(span, function, number));
         true
     }
 
@@ -154,7 +157,7 @@ impl Checker<'_> {
         let (start, end) = (self.constant_value(u0.1.id), self.constant_value(u1.1.id));
         match (start, end) {
             (Some(start), Some(end)) if end <= start && !self.branch.is_untaken => {
-                self.report(errors::empty_interval(name, u1.0, [start, end], argument.settled()));
+                self.reporter.report(errors::empty_interval(name, u1.0, [start, end], argument.settled()));
                 return None;
             }
             (Some(_), Some(_)) => {}

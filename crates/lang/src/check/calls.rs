@@ -7,6 +7,7 @@
 use super::branches::Branch;
 use super::entity::Entity;
 use super::formula::{Context, DimKey, Value};
+use super::results::reject_window;
 use super::{Checker, errors};
 use crate::model::Condition;
 use mechc_expr::ExprId;
@@ -50,8 +51,6 @@ pub(super) struct Calls<'a> {
     pub expansions: FxHashMap<Call, Option<Value>>,
     /// The conditions of expansions that have any.
     pub conditions: FxHashMap<Call, Vec<Condition>>,
-    /// The call of the outermost formula that is being expanded.
-    pub caller: Option<Span>,
     /// The number of visited parts of the formula.
     visited: usize,
     /// The number of open levels of formulas.
@@ -82,7 +81,7 @@ impl<'a> Checker<'a> {
         if let Ok(reduced) = self.call_of_reduction(e, (name, window), arguments, context) {
             return reduced;
         }
-        self.reject_window(name, window)?;
+        reject_window(&mut self.reporter, name, window)?;
         if self.is_of_language(&name.text) {
             if self.is_reserved_but_declared(name) {
                 return None;
@@ -100,35 +99,41 @@ impl<'a> Checker<'a> {
         match self.resolve(name).ok()?.filter(|_| context.names) {
             Some(Entity::Function(k)) => {
                 let [argument] = arguments else {
-                    self.report(errors::argument_count(&name.text, None, e.span, "one argument", arguments.len()));
+                    self.reporter.report(errors::argument_count(
+                        &name.text,
+                        None,
+                        e.span,
+                        "one argument",
+                        arguments.len(),
+                    ));
                     return None;
                 };
                 let printed = self.unit_of_argument(argument, context);
                 let argument = self.number(argument, context)?;
                 if let Some(at) = self.functions[k].time.filter(|_| !context.time) {
-                    self.report(errors::time_in(context.place, e.span, Some((&name.text, at))));
+                    self.reporter.report(errors::time_in(context.place, e.span, Some((&name.text, at))));
                     return None;
                 }
                 self.function_value(k, argument, e.span, &Context { printed, ..*context })
             }
             Some(Entity::Table(k)) => self.table_call(k, e, arguments, context),
             Some(entity) => {
-                self.report(errors::not_callable(name, entity));
+                self.reporter.report(errors::not_callable(name, entity));
                 None
             }
             None => {
                 if let Some(fix) = self.suggest_joint_rate(e, name, arguments, context) {
-                    self.report(errors::unknown_function(name, &[], &[]).instead(fix));
+                    self.reporter.report(errors::unknown_function(name, &[], &[]).instead(fix));
                     return None;
                 }
                 if let Some(fix) = self.suggest_effort(e, name, arguments) {
-                    self.report(errors::unknown_function(name, &[], &[]).instead(fix));
+                    self.reporter.report(errors::unknown_function(name, &[], &[]).instead(fix));
                     return None;
                 }
                 let candidates = self.suggestions(|entity| matches!(entity, Entity::Function(_) | Entity::Table(_)));
-                let texts: Vec<&str> = arguments.iter().map(|e| self.sources.text(e.span)).collect();
+                let texts: Vec<&str> = arguments.iter().map(|e| self.reporter.text(e.span)).collect();
                 let diagnostic = errors::unknown_function(name, &candidates, &texts);
-                self.report(diagnostic);
+                self.reporter.report(diagnostic);
                 None
             }
         }
@@ -166,11 +171,11 @@ impl<'a> Checker<'a> {
     /// Expands the formula of another measure in its place.
     pub(super) fn measure_value(&mut self, at: usize, span: Span, context: &Context<'_>) -> Option<Value> {
         if let Some(&(part, Entity::Measure(inside))) = self.imported.get(&Entity::Measure(at)) {
-            let (branch, caller) = (self.branch, self.calls.caller.or(Some(span)));
+            let (branch, caller) = (self.branch, self.reporter.caller.or(Some(span)));
             return self.in_part(part, |child| {
-                (child.branch, child.calls.caller) = (branch, caller);
+                (child.branch, child.reporter.caller) = (branch, caller);
                 let value = child.measure_value(inside, span, context);
-                (child.branch, child.calls.caller) = (Branch::default(), None);
+                (child.branch, child.reporter.caller) = (Branch::default(), None);
                 value
             });
         }
@@ -198,7 +203,7 @@ impl<'a> Checker<'a> {
             }
             return cached;
         }
-        let caller = self.calls.caller.or(Some(span));
+        let caller = self.reporter.caller.or(Some(span));
         if self.calls.abandoned.contains(&call) {
             self.calls.is_abandoned = true;
             return None;
@@ -210,9 +215,9 @@ impl<'a> Checker<'a> {
             self.calls.is_abandoned = true;
             return None;
         }
-        let outer = std::mem::replace(&mut self.calls.caller, caller);
+        let outer = std::mem::replace(&mut self.reporter.caller, caller);
         let value = self.expansion(call, formula, &context.at(context.place, argument));
-        self.calls.caller = outer;
+        self.reporter.caller = outer;
         value
     }
 
@@ -287,7 +292,7 @@ impl<'a> Checker<'a> {
             return (!self.calls.is_too_large).then_some(());
         }
         self.calls.is_too_large = true;
-        self.diagnostics.push(errors::too_large(self.calls.caller.unwrap_or(span)));
+        self.reporter.diagnostics.push(errors::too_large(self.reporter.caller.unwrap_or(span)));
         None
     }
 
@@ -310,7 +315,7 @@ impl<'a> Checker<'a> {
 
     /// Expands all deferred calls, including those that they defer.
     fn expand_deferred(&mut self, before: usize, place: &str) {
-        let outer = (self.branch, self.calls.caller);
+        let outer = (self.branch, self.reporter.caller);
         while let Some(DeferredCall { call, formula, context, caller }) = self.calls.deferred.pop() {
             if self.calls.expansions.contains_key(&call) {
                 continue;
@@ -318,14 +323,14 @@ impl<'a> Checker<'a> {
             if self.calls.is_too_large {
                 break;
             }
-            (self.branch, self.calls.caller) = (call.branch, caller);
+            (self.branch, self.reporter.caller) = (call.branch, caller);
             let at = self.calls.deferred.len();
             self.reading(before, |checker| checker.expansion(call, formula, &context.at(place, context.argument)));
             if self.calls.is_abandoned {
                 self.calls.deferred.insert(at, DeferredCall { call, formula, context, caller });
             }
         }
-        (self.branch, self.calls.caller) = outer;
+        (self.branch, self.reporter.caller) = outer;
     }
 
     /// Removes duplicate conditions, which repeated readings and calls add.

@@ -1,5 +1,6 @@
 //! Formulas of the command line, which name nothing of a file.
 
+use super::errors::Reporter;
 use super::formula::Context;
 use super::{CheckOptions, Checker};
 use crate::model::{Condition, Dimension, GuardKind};
@@ -33,8 +34,8 @@ fn evaluate(
     let options = CheckOptions::default();
     let mut checker = Checker::new(&tree, &options, sources);
     match read(&mut checker) {
-        Some((_, value)) if !checker.diagnostics.has_errors() => Ok(value),
-        _ => Err(checker.diagnostics),
+        Some((_, value)) if !checker.reporter.diagnostics.has_errors() => Ok(value),
+        _ => Err(checker.reporter.diagnostics),
     }
 }
 
@@ -66,7 +67,7 @@ pub fn formula_of_time(formula: &Expr, sources: &Sources) -> Result<FormulaOfTim
     let judged = checker.is_dimensional(formula);
     let context = Context { judged, time: true, names: false, ..Context::constant("a formula of time") };
     let value = checker.formula(formula, &context);
-    let Checker { mut diagnostics, model, .. } = checker;
+    let Checker { reporter: Reporter { mut diagnostics, .. }, model, .. } = checker;
     diagnostics.sort_by_span();
     match value {
         Some(value) if !diagnostics.has_errors() => Ok(FormulaOfTime {

@@ -21,11 +21,11 @@ impl Checker<'_> {
     pub(super) fn resolve_column_variables(&mut self) {
         for name in &self.options.by {
             if let Some((path, params)) = self.part_named(name) {
-                self.report(errors::column_by_part(&path, &params));
+                self.reporter.report(errors::column_by_part(&path, &params));
                 continue;
             }
             if let Some(bound) = self.binding_of(name) {
-                self.report(errors::column_by_bound(name, bound.span, &bound.made_of));
+                self.reporter.report(errors::column_by_bound(name, bound.span, &bound.made_of));
                 continue;
             }
             let found = self.variables_named(name);
@@ -70,7 +70,7 @@ impl Checker<'_> {
         let whole = path.rsplit_once('.').map(|(point, _)| point).filter(|point| is_settable(point));
         let mechanism = &self.tree.name.text;
         let diagnostic = if is_settable(path) {
-            if self.diagnostics.has_errors() && !self.deciding.contains(path) {
+            if self.reporter.diagnostics.has_errors() && !self.deciding.contains(path) {
                 return;
             }
             // All other names have variables.
@@ -83,7 +83,7 @@ impl Checker<'_> {
             let meant = nearest(path, free.iter().copied());
             errors::no_column_by(mechanism, path, None, meant, &free)
         };
-        self.report(diagnostic);
+        self.reporter.report(diagnostic);
     }
 
     /// Returns the part that a name refers to, alone or with all copies, and its params and inputs that have derivatives.

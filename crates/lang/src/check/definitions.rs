@@ -6,7 +6,7 @@ use super::entity::Entity;
 use super::free_names::visit_free_names;
 use super::functions::Function;
 use super::inputs::InputState;
-use super::names::DefinitionOrder;
+use super::names::{DefinitionOrder, ordered};
 use super::overrides::override_matches;
 use super::params::ParamState;
 use super::results::ResultState;
@@ -28,7 +28,7 @@ impl<'a> Checker<'a> {
         }
         self.import_params();
         let uses = self.uses(&definitions, &entities);
-        let DefinitionOrder { order, on_cycles } = self.ordered(&uses);
+        let DefinitionOrder { order, on_cycles } = ordered(&mut self.reporter, &uses);
         self.define_parts_on_cycles(on_cycles.iter().map(|&at| entities[at]));
         let (mut measures, mut results) = (Vec::new(), Vec::new());
         for at in order {
@@ -150,7 +150,7 @@ impl<'a> Checker<'a> {
                                 entity => part.or(entity),
                             };
                             // An input in an option's formula is reported with that option.
-                            let is_from_option = self.sources.get(used.span.file).is_option;
+                            let is_from_option = self.reporter.sources.get(used.span.file).is_option;
                             let entity =
                                 entity.filter(|entity| !(is_from_option && matches!(entity, Entity::Input(_))));
                             if let Some(&at) = entity.and_then(|e| position.get(&e)) {

@@ -1,10 +1,11 @@
 //! Decides which formulas are judged by their dimensions, and compares these.
 
+use super::Checker;
 use super::entity::Entity;
+use super::errors::{self, Reporter};
 use super::formula::{Context, Dim, Value};
 use super::point_kinds::{self, Expected, coordinate};
 use super::suggest::lost_rate::Part;
-use super::{Checker, errors};
 use crate::model::Dimension;
 use mechc_expr::{Dependence, ExprId};
 use mechc_syntax::ast::{Expr, ExprKind, Name};
@@ -132,9 +133,9 @@ impl Checker<'_> {
             return Some(Dim::Plain { read: x.marked_by(y), fits: false });
         }
         let [x, y] = [(a.0, x), (b.0, y)].map(|(span, dimension)| Part { span, dimension });
-        let texts = [a.0, b.0].map(|span| self.sources.text(span));
+        let texts = [a.0, b.0].map(|span| self.reporter.text(span));
         let takes_factor = context.quantities && (self.is_of_quantities(b.1.id) || texts[1] == "t");
-        self.report(errors::unlike(what, [x, y], texts, context.time, takes_factor));
+        self.reporter.report(errors::unlike(what, [x, y], texts, context.time, takes_factor));
         None
     }
 
@@ -161,23 +162,23 @@ impl Checker<'_> {
             Dim::PURE
         }
     }
+}
 
-    /// Requires a dimension where dimensions count.
-    pub(super) fn require_dimension(
-        &mut self,
-        place: &str,
-        expected: Dimension,
-        span: Span,
-        found: Dim,
-        context: &Context<'_>,
-    ) -> Option<()> {
-        match found.when_judged(context.judged) {
-            Dim::Of(dimension) if context.judged && !dimension.is(expected) => {
-                let text = self.sources.text(span);
-                self.report(errors::wrong_dimension(place, expected, Part { span, dimension }, text));
-                None
-            }
-            _ => Some(()),
+/// Requires a dimension where dimensions count.
+pub(super) fn require_dimension(
+    reporter: &mut Reporter<'_>,
+    place: &str,
+    expected: Dimension,
+    span: Span,
+    found: Dim,
+    context: &Context<'_>,
+) -> Option<()> {
+    match found.when_judged(context.judged) {
+        Dim::Of(dimension) if context.judged && !dimension.is(expected) => {
+            let text = reporter.text(span);
+            reporter.report(errors::wrong_dimension(place, expected, Part { span, dimension }, text));
+            None
         }
+        _ => Some(()),
     }
 }

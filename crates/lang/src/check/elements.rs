@@ -1,5 +1,6 @@
 //! Measures, constraints, drivers and the analysis.
 
+use super::dimensions::require_dimension;
 use super::display_units::determined_dimension;
 use super::formula::{Context, Dim, Value};
 use super::{Checker, errors};
@@ -90,7 +91,7 @@ impl Checker<'_> {
         let coordinates = coordinates.filter(|pair: &[ExprId; 2]| {
             let is_of_forces = pair.iter().any(|&id| self.holds_force(id));
             if is_of_forces {
-                self.report(errors::force_in("a trace", "a force", point.span));
+                self.reporter.report(errors::force_in("a trace", "a force", point.span));
             }
             !is_of_forces
         });
@@ -110,7 +111,11 @@ impl Checker<'_> {
     /// Evaluates `(pole_x(b), pole_y(b))`, two formulas as in measures.
     fn coordinates_of_trace(&mut self, point: &Expr, parts: &[Expr]) -> Option<[ExprId; 2]> {
         let [x, y] = parts else {
-            self.wrong_kind(point.span, "a point `(x, y)`", &format!("a list of {}", parts.len()));
+            self.reporter.report(errors::wrong_kind(
+                point.span,
+                "a point `(x, y)`",
+                &format!("a list of {}", parts.len()),
+            ));
             return None;
         };
         let judged = self.is_dimensional(x) || self.is_dimensional(y);
@@ -118,7 +123,14 @@ impl Checker<'_> {
         let coordinates = [x, y].map(|part| {
             let value = self.formula(part, &context)?;
             let context = Context { judged: self.counts(value, &context), ..context };
-            self.require_dimension("a coordinate of a trace", Dimension::LENGTH, part.span, value.dim, &context)?;
+            require_dimension(
+                &mut self.reporter,
+                "a coordinate of a trace",
+                Dimension::LENGTH,
+                part.span,
+                value.dim,
+                &context,
+            )?;
             Some(value.id)
         });
         Some([coordinates[0]?, coordinates[1]?])
@@ -184,7 +196,7 @@ impl Checker<'_> {
             let context = self.equation_context(driver, sides);
             let (a, b) = (self.formula(left, &context), self.formula(right, &context));
             if a.is_some() && b.is_some() {
-                self.report(errors::no_quantity(driver, name, left.span.to(right.span)));
+                self.reporter.report(errors::no_quantity(driver, name, left.span.to(right.span)));
             }
             return None;
         }
@@ -227,7 +239,7 @@ impl Checker<'_> {
             }
         }
         if !self.has_moving_body([a.id, b.id]) {
-            self.report(errors::no_moving_body(driver, name, left.span.to(right.span)));
+            self.reporter.report(errors::no_moving_body(driver, name, left.span.to(right.span)));
             return None;
         }
         // `distance` alone on the left, and no quantity on the right.
@@ -270,7 +282,7 @@ impl Checker<'_> {
     ) -> Option<(EquationForm, Dim)> {
         match self.decided(distance, GuardKind::Sign) {
             Some(value) if value <= 0.0 => {
-                self.report(errors::not_positive_length("a distance", right.span, value));
+                self.reporter.report(errors::not_positive_length("a distance", right.span, value));
                 return None;
             }
             Some(_) => {}
@@ -301,7 +313,7 @@ impl Checker<'_> {
         {
             let dimension = if is_an_angle(other) { Dimension::PURE } else { Dimension::LENGTH };
             let place = format!("what equals this `{}`", quantity.word.name);
-            let _ = self.require_dimension(&place, dimension, side.0, side.1, context);
+            let _ = require_dimension(&mut self.reporter, &place, dimension, side.0, side.1, context);
         }
     }
 
@@ -361,15 +373,15 @@ impl Checker<'_> {
         if let Some((_, value)) = step
             && value <= 0.0
         {
-            self.report(errors::step_not_positive(every.span, value));
+            self.reporter.report(errors::step_not_positive(every.span, value));
             return;
         }
         let (Some((first, start)), Some((last, end)), Some((between, step))) = (start, end, step) else {
             return;
         };
         if end < start {
-            let texts = [from.span, to.span].map(|span| self.sources.text(span));
-            self.report(errors::ends_before_start([from.span, to.span], texts, start, end));
+            let texts = [from.span, to.span].map(|span| self.reporter.text(span));
+            self.reporter.report(errors::ends_before_start([from.span, to.span], texts, start, end));
             return;
         }
         self.model.analysis =

@@ -9,6 +9,7 @@ mod names;
 mod parts;
 mod points;
 mod repetition;
+mod reporter;
 mod results;
 mod tables;
 mod variables;
@@ -21,6 +22,7 @@ pub use names::*;
 pub use parts::*;
 pub use points::*;
 pub use repetition::*;
+pub use reporter::Reporter;
 pub use results::{
     REDUCES, derivative_of_result, equal_without_tolerance, negative_tolerance, no_bound, outside_reduction,
     reduction_in, requirement_of_both, result_in, signed_bound, tolerance_of_no_equality, variation_of_result,

@@ -1,10 +1,12 @@
 //! Bodies, the ground, and their features. Circles and curves are in `profiles`.
 
+use super::dimensions::require_dimension;
 use super::entity::Entity;
 use super::formula::{Context, Value};
 use super::formula_scope::{FormulaSite, InitialPoint};
-use super::names::Space;
+use super::names::{Space, ordered};
 use super::point_kinds::{self, Expected, coordinate};
+use super::quantities::describe;
 use super::{Checker, errors};
 use crate::model::{Axis, AxisId, Body, CircleId, CurveId, Dimension, Frame, GuardKind, Point, PointId};
 use mechc_expr::ExprId;
@@ -138,7 +140,7 @@ impl<'a> Checker<'a> {
             let first =
                 self.common.features.get_mut(&frame).and_then(|space| space.declare(&feature.name, entity).err());
             if let Some(first) = first {
-                self.report(errors::declared_twice(&feature.name, first));
+                self.reporter.report(errors::declared_twice(&feature.name, first));
             }
         }
     }
@@ -152,7 +154,7 @@ impl<'a> Checker<'a> {
             }
         }
         let uses = self.uses_of_points(frame, &points);
-        for k in self.ordered(&uses).order {
+        for k in ordered(&mut self.reporter, &uses).order {
             let (name, at) = points[k];
             let drawn = self.at_site(FormulaSite::Inside(frame), Some(&name.text), |checker| match at {
                 Some(at) => checker.place_of(at, "point", "a point", None),
@@ -235,11 +237,11 @@ impl<'a> Checker<'a> {
 
     fn direction_of(&mut self, e: &Expr) -> Option<[ExprId; 2]> {
         let ExprKind::Tuple(parts) = &e.kind else {
-            self.report(errors::no_direction(e.span, Self::describe(e), self.angle_of_place(e)));
+            self.reporter.report(errors::no_direction(e.span, describe(e), self.angle_of_place(e)));
             return None;
         };
         let [dx, dy] = parts.as_slice() else {
-            self.report(errors::argument_count(
+            self.reporter.report(errors::argument_count(
                 "along",
                 Keyword::named("along").map(|keyword| &keyword.word),
                 e.span,
@@ -259,7 +261,7 @@ impl<'a> Checker<'a> {
     fn angle_of_place(&self, e: &Expr) -> Option<&'a str> {
         match &e.bare().kind {
             ExprKind::Call { name, arguments, .. } if name.text == "polar" => {
-                arguments.get(1).map(|angle| self.sources.text(angle.span))
+                arguments.get(1).map(|angle| self.reporter.text(angle.span))
             }
             _ => None,
         }
@@ -268,7 +270,7 @@ impl<'a> Checker<'a> {
     fn not_zero(&mut self, direction: [ExprId; 2], span: Span) -> Option<[ExprId; 2]> {
         let [x, y] = direction.map(|id| self.decided(id, GuardKind::Sign));
         if x? == 0.0 && y? == 0.0 {
-            self.report(errors::zero_direction(span));
+            self.reporter.report(errors::zero_direction(span));
             return None;
         }
         Some(direction)
@@ -304,7 +306,7 @@ impl<'a> Checker<'a> {
             }
         }
         for (part, value) in parts.into_iter().zip([x, y]) {
-            self.require_dimension("a coordinate", Dimension::LENGTH, part.span, value.dim, context)?;
+            require_dimension(&mut self.reporter, "a coordinate", Dimension::LENGTH, part.span, value.dim, context)?;
             self.record_length_term(part, value.id, context.judged);
         }
         Some([x.id, y.id])
@@ -327,7 +329,7 @@ impl<'a> Checker<'a> {
                 self.point_named(frame, name)
             }
             ExprKind::Member { owner, feature } if self.is_feature_of_frame(frame, owner, feature) => {
-                self.report(errors::redundant_owner(e.span, &owner.text, &feature.text));
+                self.reporter.report(errors::redundant_owner(e.span, &owner.text, &feature.text));
                 None
             }
             _ => self.unnamed_point(frame, e),
@@ -352,7 +354,7 @@ impl<'a> Checker<'a> {
             ExprKind::Member { owner, feature }
                 if coordinate(feature).is_some() && self.point_param(owner).is_some() =>
             {
-                self.report(errors::coordinate_as_point(e.span, owner));
+                self.reporter.report(errors::coordinate_as_point(e.span, owner));
                 None
             }
             ExprKind::Member { owner, feature } => {
@@ -365,7 +367,7 @@ impl<'a> Checker<'a> {
                 None
             }
             _ => {
-                self.wrong_kind(e.span, "a point", Self::describe(e));
+                self.reporter.report(errors::wrong_kind(e.span, "a point", describe(e)));
                 None
             }
         }
@@ -375,7 +377,7 @@ impl<'a> Checker<'a> {
         match self.feature(frame, name, "point", |feature| matches!(feature, Feature::Point(_)))? {
             Feature::Point(point) => point,
             other => {
-                self.wrong_kind(name.span, "a point", other.noun());
+                self.reporter.report(errors::wrong_kind(name.span, "a point", other.noun()));
                 None
             }
         }
@@ -390,11 +392,11 @@ impl<'a> Checker<'a> {
                     Feature::Axis(axis) => axis,
                     Feature::Point(_) => {
                         let diagnostic = errors::wrong_kind(feature.span, "an axis", "a point");
-                        self.report(diagnostic.fix_if(self.suggest_axis(frame, feature)));
+                        self.reporter.report(diagnostic.fix_if(self.suggest_axis(frame, feature)));
                         None
                     }
                     other => {
-                        self.wrong_kind(feature.span, "an axis", other.noun());
+                        self.reporter.report(errors::wrong_kind(feature.span, "an axis", other.noun()));
                         None
                     }
                 }
@@ -404,7 +406,7 @@ impl<'a> Checker<'a> {
                 None
             }
             _ => {
-                self.wrong_kind(e.span, "an axis", Self::describe(e));
+                self.reporter.report(errors::wrong_kind(e.span, "an axis", describe(e)));
                 None
             }
         }
@@ -437,7 +439,7 @@ impl<'a> Checker<'a> {
             "a name" => format!("the name `{}`", name.text),
             noun => noun.to_owned(),
         };
-        self.report(errors::wrong_kind(name.span, &expected, &found).help(help));
+        self.reporter.report(errors::wrong_kind(name.span, &expected, &found).help(help));
     }
 
     pub(super) fn feature(
@@ -454,9 +456,9 @@ impl<'a> Checker<'a> {
             None => {}
             feature => return feature,
         }
-        let candidates = self.suggestions_in(space, expected);
+        let candidates = space.suggestions(&self.reporter, expected);
         let diagnostic = errors::unknown_feature(what, self.frame_name(frame), name, &candidates);
-        self.report(diagnostic);
+        self.reporter.report(diagnostic);
         None
     }
 

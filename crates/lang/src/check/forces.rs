@@ -1,11 +1,14 @@
 //! Masses, gravity and loads, and the efforts and reactions that outputs use.
 
 use super::Checker;
+use super::dimensions::require_dimension;
 use super::entity::Entity;
 use super::errors::{self, LoadTargetError};
 use super::features::Feature;
 use super::formula::{Context, Dim, Value};
 use super::formula_scope::FormulaSite;
+use super::quantities::describe;
+use super::results::reject_window;
 use super::suggest::lost_rate::Part;
 use crate::model::{
     BodyId, Declared, Dimension, EquationId, Force, Frame, GuardKind, JointId, Load, Mass, Named, Point, PointId,
@@ -24,7 +27,7 @@ impl<'a> Checker<'a> {
         for feature in features {
             let FeatureKind::Mass { mass, at, inertia } = &feature.kind else { continue };
             let Frame::Body(body) = frame else {
-                self.report(errors::mass_of_the_ground(feature.span));
+                self.reporter.report(errors::mass_of_the_ground(feature.span));
                 continue;
             };
             if let Some(mass) = self.mass(body, feature, [Some(mass), at.as_deref(), inertia.as_deref()]) {
@@ -57,7 +60,7 @@ impl<'a> Checker<'a> {
             checker.constant_by(e, &place, expected, GuardKind::Sign)
         })?;
         if value < 0.0 {
-            self.report(errors::negative_mass(e.span, value, expected));
+            self.reporter.report(errors::negative_mass(e.span, value, expected));
             return None;
         }
         Some(id)
@@ -85,12 +88,12 @@ impl<'a> Checker<'a> {
         });
         let acceleration = self.declared_gravity()?;
         let ExprKind::Tuple(parts) = &acceleration.kind else {
-            self.report(errors::gravity_of_one_number(acceleration.span, Self::describe(acceleration)));
+            self.reporter.report(errors::gravity_of_one_number(acceleration.span, describe(acceleration)));
             return None;
         };
         let [x, y] = parts.as_slice() else {
             let found = format!("a list of {}", parts.len());
-            self.report(errors::gravity_of_one_number(acceleration.span, &found));
+            self.reporter.report(errors::gravity_of_one_number(acceleration.span, &found));
             return None;
         };
         let context = self.pair_context([x, y], "`gravity`", None);
@@ -98,7 +101,14 @@ impl<'a> Checker<'a> {
         let mut ids = Vec::new();
         for (part, value) in values {
             let value = value?;
-            self.require_dimension("`gravity`", Dimension::ACCELERATION, part.span, value.dim, &context)?;
+            require_dimension(
+                &mut self.reporter,
+                "`gravity`",
+                Dimension::ACCELERATION,
+                part.span,
+                value.dim,
+                &context,
+            )?;
             ids.push(value.id);
         }
         ids.try_into().ok()
@@ -111,7 +121,7 @@ impl<'a> Checker<'a> {
             if let Some((mechanism, gravity)) = part.gravity_inside().filter(|(_, span)| !reported.contains(span)) {
                 reported.push(gravity);
                 let warning = errors::gravity_of_a_part(&written.name, mechanism, gravity);
-                self.diagnostics.push(warning);
+                self.reporter.diagnostics.push(warning);
             }
         }
     }
@@ -147,7 +157,7 @@ impl Checker<'_> {
 
     fn load(&mut self, name: &Name, force: &Expr, on: &Expr) -> Option<Load> {
         if let ExprKind::Tuple(_) = &force.bare().kind {
-            self.report(errors::load_of_a_pair(name, force.span));
+            self.reporter.report(errors::load_of_a_pair(name, force.span));
             return None;
         }
         let judged = self.is_dimensional(force);
@@ -172,24 +182,24 @@ impl Checker<'_> {
                 ExprKind::Sum(..) => LoadTargetError::Sum,
                 kind => self.quantities_of(kind).map_or(LoadTargetError::Other, LoadTargetError::Suggested),
             };
-            self.report(errors::load_on_no_quantity(name, on.span, &fault));
+            self.reporter.report(errors::load_on_no_quantity(name, on.span, &fault));
             return None;
         };
         let Some(word) = self.quantity_word(called) else {
             let fault = if called.text == "der" { LoadTargetError::Rate } else { LoadTargetError::Other };
-            self.report(errors::load_on_no_quantity(name, on.span, &fault));
+            self.reporter.report(errors::load_on_no_quantity(name, on.span, &fault));
             return None;
         };
         let is_angle_of_points = called.text == "angle" && arguments.len() == 3;
         if word.gives_way || is_angle_of_points {
             let fault = LoadTargetError::OfMeasures(&called.text);
-            self.report(errors::load_on_no_quantity(name, on.span, &fault));
+            self.reporter.report(errors::load_on_no_quantity(name, on.span, &fault));
             return None;
         }
-        self.reject_window(called, window.as_deref())?;
+        reject_window(&mut self.reporter, called, window.as_deref())?;
         let value = self.quantity(bare, called, arguments, &driven("a load", true))?;
         if !self.has_moving_body([value.id; 2]) {
-            self.report(errors::load_on_no_body(name, on.span));
+            self.reporter.report(errors::load_on_no_body(name, on.span));
             return None;
         }
         self.model.graph.symbols(value.id).into_iter().find_map(|symbol| match symbol {
@@ -233,16 +243,16 @@ impl Checker<'_> {
         judged: bool,
     ) -> Option<()> {
         let (works_on, expected) = (quantity.dimension(), Dimension::ENERGY.over(quantity.dimension()));
-        let text = self.sources.text(force.span);
+        let text = self.reporter.text(force.span);
         match value.dim {
             Dim::Of(dimension) if self.counts(value, &driven("a load", judged)) && !dimension.is(expected) => {
                 let parts = [Part { span: force.span, dimension }, Part { span: on.span, dimension: works_on }];
-                self.report(errors::load_of_no_energy(name, parts, expected, text));
+                self.reporter.report(errors::load_of_no_energy(name, parts, expected, text));
                 None
             }
             Dim::Of(_) | Dim::Plain { .. } if !judged && !works_on.is(Dimension::PURE) && !self.is_zero(force) => {
                 let on = Part { span: on.span, dimension: works_on };
-                self.report(errors::plain_load(name, force.span, text, on, expected));
+                self.reporter.report(errors::plain_load(name, force.span, text, on, expected));
                 None
             }
             _ => Some(()),
@@ -261,12 +271,18 @@ impl Checker<'_> {
     /// Evaluates `effort(D)`, `force_x(J)`, `force_y(J)` or `torque(J)`.
     pub(super) fn force(&mut self, e: &Expr, name: &Name, arguments: &[Expr], context: &Context<'_>) -> Option<Value> {
         if !context.measures {
-            self.report(errors::force_in(context.place, &format!("`{}`", name.text), e.span));
+            self.reporter.report(errors::force_in(context.place, &format!("`{}`", name.text), e.span));
             return None;
         }
         let [argument] = arguments else {
             let word = QuantityWord::named(&name.text)?;
-            self.report(errors::argument_count(&name.text, Some(&word.word), e.span, word.takes, arguments.len()));
+            self.reporter.report(errors::argument_count(
+                &name.text,
+                Some(&word.word),
+                e.span,
+                word.takes,
+                arguments.len(),
+            ));
             return None;
         };
         let force = match name.text.as_str() {
@@ -286,7 +302,7 @@ impl Checker<'_> {
     /// Returns a constraint or driver; `None` if it is broken, which has been reported.
     fn equation_named(&mut self, e: &Expr) -> Option<EquationId> {
         let ExprKind::Name(name) = &e.bare().kind else {
-            self.wrong_kind(e.span, "a driver or constraint", Self::describe(e));
+            self.reporter.report(errors::wrong_kind(e.span, "a driver or constraint", describe(e)));
             return None;
         };
         match self.resolve(name).ok()? {
@@ -294,13 +310,13 @@ impl Checker<'_> {
             Some(entity) => {
                 let joint = matches!(entity, Entity::Joint(_)).then_some(name.text.as_str());
                 let driver = joint.and_then(|joint| self.driver_of(joint));
-                self.report(errors::effort_of_no_equation(name, entity.noun(), joint, driver.as_deref()));
+                self.reporter.report(errors::effort_of_no_equation(name, entity.noun(), joint, driver.as_deref()));
                 None
             }
             None => {
                 let candidates = self.suggestions(|entity| matches!(entity, Entity::Equation(_)));
                 let diagnostic = errors::unknown("driver or constraint", name, &candidates);
-                self.report(diagnostic);
+                self.reporter.report(diagnostic);
                 None
             }
         }
@@ -320,7 +336,7 @@ impl Checker<'_> {
         } else {
             errors::no_force(&joint_name, kind.name(), name.span, span)
         };
-        self.report(diagnostic);
+        self.reporter.report(diagnostic);
         None
     }
 

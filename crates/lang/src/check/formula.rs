@@ -4,12 +4,12 @@
 //! of the expected dimension (`language.md`, "Units"): its numbers have whatever dimension they need. But its quantities keep their
 //! dimensions, so that terms without a number as factor must agree too.
 
-use super::Checker;
 use super::bare_names::{BareName, resolve_bare_name};
+use super::dimensions::require_dimension;
 use super::entity::Entity;
-use super::errors;
 use super::point_kinds::Expected;
 use super::suggest::lost_rate::Part;
+use super::{Checker, errors};
 use crate::model::{Dimension, GuardKind, Named};
 use mechc_expr::{Dependence, ExprId, Symbol};
 use mechc_syntax::ast::{Expr, ExprKind, Factor, ItemKind, Name, PathSegment, Sign};
@@ -219,7 +219,7 @@ impl Checker<'_> {
                 None
             }
             ExprKind::Tuple(_) => {
-                self.report(errors::wrong_kind(e.span, "a number", "a point"));
+                self.reporter.report(errors::wrong_kind(e.span, "a number", "a point"));
                 None
             }
             ExprKind::Path(segments) => {
@@ -227,7 +227,7 @@ impl Checker<'_> {
                 None
             }
             ExprKind::Not(_) | ExprKind::Compare(..) | ExprKind::And(_) | ExprKind::Or(_) => {
-                self.report(errors::condition_as_number(e.span));
+                self.reporter.report(errors::condition_as_number(e.span));
                 None
             }
         }?;
@@ -239,7 +239,7 @@ impl Checker<'_> {
     pub(super) fn finite(&mut self, span: Span, value: Value) -> Option<Value> {
         match self.decided(value.id, GuardKind::Finite) {
             Some(number) if !number.is_finite() && !self.branch.is_untaken => {
-                self.report(errors::not_finite(span, number));
+                self.reporter.report(errors::not_finite(span, number));
                 None
             }
             _ => Some(value),
@@ -248,7 +248,7 @@ impl Checker<'_> {
 
     fn literal(&mut self, e: &Expr, value: f64, unit: Option<&(Name, i32)>, context: &Context<'_>) -> Option<Value> {
         if !value.is_finite() {
-            self.report(errors::not_finite(e.span, value));
+            self.reporter.report(errors::not_finite(e.span, value));
             return None;
         }
         let Some((name, power)) = unit else {
@@ -266,13 +266,13 @@ impl Checker<'_> {
             let is_a_name = is_argument || !is_time && Constant::named(&name.text).is_some() || is_number;
             let until_the_name = Span { end: name.span.start, ..e.span };
             let behind_it = Span { start: name.span.end, ..e.span };
-            let [number, power] = [until_the_name, behind_it].map(|span| self.sources.text(span).trim_end());
-            self.report(errors::not_a_unit(name, [number, power], is_a_name));
+            let [number, power] = [until_the_name, behind_it].map(|span| self.reporter.text(span).trim_end());
+            self.reporter.report(errors::not_a_unit(name, [number, power], is_a_name));
             return None;
         };
         let si = unit.to_si(value, *power);
         if !si.is_finite() {
-            self.report(errors::not_finite(e.span, si));
+            self.reporter.report(errors::not_finite(e.span, si));
             return None;
         }
         Some(Value { id: self.model.graph.constant(si), dim: Dim::Of(unit.dimension.to_the(f64::from(*power))) })
@@ -311,7 +311,7 @@ impl Checker<'_> {
         }
         // Otherwise a parameter was intended.
         if !self.is_reserved_but_declared(name) {
-            self.report(if context.results {
+            self.reporter.report(if context.results {
                 errors::outside_reduction("time `t`", name.span, "t")
             } else {
                 errors::time_in(context.place, name.span, None)
@@ -324,31 +324,39 @@ impl Checker<'_> {
     fn declared_number(&mut self, name: &Name, context: &Context<'_>) -> Option<Value> {
         match self.resolve(name).ok()?.filter(|_| context.names) {
             Some(Entity::Param(_)) if self.point_param(name).is_some() => {
-                self.report(errors::point_as_number(name));
+                self.reporter.report(errors::point_as_number(name));
                 None
             }
             Some(Entity::Param(k)) => self.params[k].value,
             Some(Entity::Input(k)) if context.inputs => self.value_of_input(k),
             Some(Entity::Input(_)) if context.results => {
-                self.report(errors::outside_reduction(&format!("the input `{}`", name.text), name.span, &name.text));
+                self.reporter.report(errors::outside_reduction(
+                    &format!("the input `{}`", name.text),
+                    name.span,
+                    &name.text,
+                ));
                 None
             }
             Some(Entity::Input(_)) => {
-                self.input_in(name, context);
+                self.reporter.report(errors::input_in(context.place, name, context.time));
                 None
             }
             Some(Entity::Measure(k)) if context.measures => self.measure_value(k, name.span, context),
             Some(Entity::Measure(_)) if context.results => {
-                self.report(errors::outside_reduction(&format!("the measure `{}`", name.text), name.span, &name.text));
+                self.reporter.report(errors::outside_reduction(
+                    &format!("the measure `{}`", name.text),
+                    name.span,
+                    &name.text,
+                ));
                 None
             }
             Some(Entity::Result(k)) if context.results => self.result_state(k)?.value,
             Some(Entity::Result(_)) => {
-                self.report(errors::result_in(context.place, name));
+                self.reporter.report(errors::result_in(context.place, name));
                 None
             }
             Some(Entity::Measure(_)) => {
-                self.report(
+                self.reporter.report(
                     errors::wrong_kind(name.span, "a number", "a measure")
                         .help(format!("measures stand in other measures only, not in {}", context.place)),
                 );
@@ -360,12 +368,12 @@ impl Checker<'_> {
             }
             Some(entity @ (Entity::Function(_) | Entity::Table(_))) => {
                 let help = format!("call it: `{}(…)`", name.text);
-                self.report(errors::wrong_kind(name.span, "a number", entity.noun()).help(help));
+                self.reporter.report(errors::wrong_kind(name.span, "a number", entity.noun()).help(help));
                 None
             }
             Some(entity) => {
                 let diagnostic = errors::wrong_kind(name.span, "a number", entity.noun());
-                self.report(self.suggest_quantity(name, diagnostic));
+                self.reporter.report(self.suggest_quantity(name, diagnostic));
                 None
             }
             None => {
@@ -385,17 +393,17 @@ impl Checker<'_> {
         }
         let what = self.describe_member(owner, feature);
         let diagnostic = errors::wrong_kind(span, "a number", &what);
-        self.report(diagnostic.fix_if(self.suggest_number(span, owner, feature)));
+        self.reporter.report(diagnostic.fix_if(self.suggest_number(span, owner, feature)));
     }
 
     /// Reports a longer path where a number is expected.
     fn path_as_number(&mut self, span: Span, segments: &[PathSegment]) {
-        let text: String = self.sources.text(span).chars().filter(|c| !c.is_whitespace()).collect();
+        let text: String = self.reporter.text(span).chars().filter(|c| !c.is_whitespace()).collect();
         // Paths of the text have been expanded; this one comes from outside.
         let owner = text.split_once("].").map_or(text.clone(), |(owner, _)| format!("{owner}]"));
         let unknown = segments.first().filter(|first| matches!(self.resolve(&first.name), Ok(None)));
         let unknown = unknown.filter(|first| first.name.text != "ground" && segments.len() > 2);
-        self.report(match (self.space.get(&owner), unknown) {
+        self.reporter.report(match (self.space.get(&owner), unknown) {
             (Some(entity), _) => errors::path_from_outside(span, &owner, entity.noun(), owner == text),
             (None, Some(first)) => errors::unknown_owner(&first.name, self.tree),
             (None, None) => {
@@ -409,31 +417,35 @@ impl Checker<'_> {
     pub(super) fn trace_in_a_formula(&mut self, span: Span, expected: &str, name: &Name) {
         let point = self.items().iter().find_map(|item| match &item.kind {
             ItemKind::Trace { name: trace, point, .. } if trace.text == name.text => {
-                Some(self.sources.text(point.span))
+                Some(self.reporter.text(point.span))
             }
             _ => None,
         });
         let diagnostic = errors::trace_in_a_formula(span, expected, name, point);
-        self.report(diagnostic);
+        self.reporter.report(diagnostic);
     }
 
     fn unknown_number(&mut self, name: &Name, context: &Context<'_>) {
         if self.body_point(name, Expected::Point).is_some() {
-            self.report(errors::point_as_number(name));
+            self.reporter.report(errors::point_as_number(name));
             return;
         }
         if name.text == "min" {
-            self.report(errors::not_a_unit(name, ["", ""], false));
+            self.reporter.report(errors::not_a_unit(name, ["", ""], false));
             return;
         }
         let is_quantity = QuantityWord::named(&name.text).is_some();
         if !context.names && (is_quantity || !is_called(&name.text)) {
-            self.report(if context.time { errors::names_in_formula(name) } else { errors::names_in_option(name) });
+            self.reporter.report(if context.time {
+                errors::names_in_formula(name)
+            } else {
+                errors::names_in_option(name)
+            });
             return;
         }
         if is_called(&name.text) {
             let help = format!("call it: `{}(…)`", name.text);
-            self.report(errors::wrong_kind(name.span, "a number", "a function").help(help));
+            self.reporter.report(errors::wrong_kind(name.span, "a number", "a function").help(help));
             return;
         }
         let mut candidates = self.suggestions(|entity| match entity {
@@ -452,7 +464,8 @@ impl Checker<'_> {
         let is_bound = matches!(name.text.as_str(), "from" | "to") && context.results && diagnostic.help.is_empty();
         let diagnostic = diagnostic.help_if(is_bound.then(|| errors::signed_bound(&name.text)));
         let argument = context.argument.filter(|_| diagnostic.help.is_empty());
-        self.report(diagnostic.help_if(argument.map(|(argument, _)| format!("the argument here is `{argument}`"))));
+        self.reporter
+            .report(diagnostic.help_if(argument.map(|(argument, _)| format!("the argument here is `{argument}`"))));
     }
 
     fn sum(&mut self, first: &Expr, rest: &[(Sign, Expr)], context: &Context<'_>) -> Option<Value> {
@@ -504,7 +517,7 @@ impl Checker<'_> {
     fn power(&mut self, base: &Expr, exponent: &Expr, context: &Context<'_>) -> Option<Value> {
         let (a, b) = (self.number(base, context), self.number(exponent, context));
         let (a, b) = (a?, b?);
-        self.require_dimension("an exponent", Dimension::PURE, exponent.span, b.dim, context)?;
+        require_dimension(&mut self.reporter, "an exponent", Dimension::PURE, exponent.span, b.dim, context)?;
         let id = self.model.graph.pow(a.id, b.id);
         let dimension = a.dim.settled();
         let dim = if dimension.is(Dimension::PURE) {
@@ -514,7 +527,7 @@ impl Checker<'_> {
             match self.constant_value(b.id) {
                 Some(power) => a.dim.map(|dimension| dimension.to_the(power)),
                 None if context.judged => {
-                    self.report(errors::exponent(exponent.span, Part { span: base.span, dimension }));
+                    self.reporter.report(errors::exponent(exponent.span, Part { span: base.span, dimension }));
                     return None;
                 }
                 None => Dim::UNFIT,
@@ -544,21 +557,21 @@ impl Checker<'_> {
     /// Evaluates `der(e)`.
     pub(super) fn derivative(&mut self, e: &Expr, argument: &Expr, context: &Context<'_>) -> Option<Value> {
         if context.results && !context.measures {
-            self.report(errors::derivative_of_result(e.span));
+            self.reporter.report(errors::derivative_of_result(e.span));
             return None;
         }
         if !context.rates {
-            self.report(errors::derivative_in(context.place, e.span));
+            self.reporter.report(errors::derivative_in(context.place, e.span));
             return None;
         }
         let inner = self.number(argument, context)?;
         if self.holds_force(inner.id) {
-            self.report(errors::derivative_of_force(e.span));
+            self.reporter.report(errors::derivative_of_force(e.span));
             return None;
         }
         let order = self.derivative_order(inner.id) + 1;
         if order > 3 {
-            self.report(errors::derivative_too_high(e.span));
+            self.reporter.report(errors::derivative_too_high(e.span));
             return None;
         }
         let dim = inner.dim.map(|dimension| dimension.over(Dimension::TIME));
@@ -566,12 +579,12 @@ impl Checker<'_> {
             return Some(Value { id: self.model.graph.constant(0.0), dim });
         }
         if self.is_of_whole_analysis(inner.id) {
-            self.report(errors::derivative_of_result(e.span));
+            self.reporter.report(errors::derivative_of_result(e.span));
             return None;
         }
         let id = self.name_symbol(Named::Derivative(inner.id), order);
         if !self.register_rate(inner.id, id) {
-            self.report(errors::derivative_of_jerk(e.span));
+            self.reporter.report(errors::derivative_of_jerk(e.span));
             return None;
         }
         Some(Value { id, dim })
@@ -622,7 +635,7 @@ impl Checker<'_> {
         if !judged && expected.is(Dimension::LENGTH) && self.reject_angle(place, e) {
             return None;
         }
-        self.require_dimension(place, expected, e.span, value.dim, &context)?;
+        require_dimension(&mut self.reporter, place, expected, e.span, value.dim, &context)?;
         if expected.is(Dimension::LENGTH) {
             self.record_length_term(e, value.id, judged);
         }

@@ -4,9 +4,9 @@
 use super::entity::Entity;
 use super::formula::{Context, Dim, Value};
 use super::free_names::visit_free_names;
-use super::names::DefinitionOrder;
+use super::names::{DefinitionOrder, ordered};
+use super::suggest::lost_rate;
 use super::{Checker, errors};
-use crate::check::suggest::lost_rate;
 use mechc_expr::Symbol;
 use mechc_syntax::ast::{Binding, Expr, Name};
 use mechc_text::source::Span;
@@ -30,7 +30,7 @@ impl<'a> Checker<'a> {
         let mut bound = Vec::new();
         self.add_bound_inputs(&mut Vec::new(), &mut bound);
         let uses = self.uses_of_bound_inputs(&bound);
-        let DefinitionOrder { order, on_cycles } = self.ordered(&uses);
+        let DefinitionOrder { order, on_cycles } = ordered(&mut self.reporter, &uses);
         for k in order {
             let BoundInput { around, part, input, binding, .. } = &bound[k];
             self.in_nested_part(around, |checker| checker.bind_input(*part, *input, binding));
@@ -164,7 +164,12 @@ impl<'a> Checker<'a> {
         if let Some([expected, found]) = unlike {
             let place = format!("the input `{}` of `{}`", binding.name.text, self.part_declarations[part].name.text);
             let wrong = lost_rate::Part { span: binding.value.span, dimension: found };
-            self.report(errors::wrong_dimension(&place, expected, wrong, self.sources.text(binding.value.span)));
+            self.reporter.report(errors::wrong_dimension(
+                &place,
+                expected,
+                wrong,
+                self.reporter.text(binding.value.span),
+            ));
             return None;
         }
         Some(Value { dim: expected, ..value })

@@ -1,10 +1,11 @@
 //! Inputs: their formulas in the text, and their overrides.
 
+use super::Checker;
+use super::errors::{self, Reporter};
 use super::formula::{Context, Dim, Value};
 use super::overrides::override_matches;
 use super::samples::{self, Column, ColumnHeader, Samples};
 use super::suggest::lost_rate::Part;
-use super::{Checker, errors};
 use crate::model::{Condition, ConditionKind, Dimension, Input, TimeFormula};
 use mechc_expr::{ExprId, Symbol};
 use mechc_syntax::ast::{Expr, ItemKind, Name};
@@ -72,7 +73,7 @@ impl Checker<'_> {
             Some((input, [second.1.span, first.1.span]))
         });
         if let Some((input, places)) = twice {
-            self.report(errors::duplicate_override(input, places));
+            self.reporter.report(errors::duplicate_override(input, places));
         }
     }
 
@@ -97,12 +98,12 @@ impl Checker<'_> {
             let names: Vec<&str> = settable.iter().map(|(full, _)| full.as_str()).collect();
             let suggestion = nearest(path, names.iter().copied());
             let diagnostic = errors::no_such_name(what.noun(), &self.tree.name.text, path, &names, suggestion);
-            self.report(diagnostic.at(span, format!("for `{path}`")));
+            self.reporter.report(diagnostic.at(span, format!("for `{path}`")));
             return false;
         }
         let bound = found.find_map(|(full, binding)| Some((full, (*binding)?)));
         if let Some((full, binding)) = bound {
-            self.report(errors::bound_from_outside(what.noun(), full, span, binding));
+            self.reporter.report(errors::bound_from_outside(what.noun(), full, span, binding));
         }
         bound.is_none()
     }
@@ -110,28 +111,23 @@ impl Checker<'_> {
     /// Returns the samples, if they are valid.
     pub(super) fn read_samples(&mut self) -> Option<Samples> {
         let file = self.options.given.samples?;
-        let sources = self.sources;
-        let headed = self.report_faults(samples::header(sources.get(file), file))?;
+        let sources = self.reporter.sources;
+        let headed = report_faults(&mut self.reporter, samples::header(sources.get(file), file))?;
         let inputs = self.all_inputs();
         let faulty = headed.columns().filter(|head| !self.has_an_input(head, &inputs)).count();
         match headed.rows() {
             // A column of an unknown input may well hold no numbers.
             Err(_) if faulty > 0 => None,
-            rows => self.report_faults(rows),
+            rows => report_faults(&mut self.reporter, rows),
         }
-    }
-
-    /// Returns a value, or reports the faults.
-    fn report_faults<T>(&mut self, found: Result<T, Vec<Diagnostic>>) -> Option<T> {
-        found.map_err(|faults| faults.into_iter().for_each(|fault| self.report(fault))).ok()
     }
 
     /// Returns whether a column names an input that can be overridden.
     fn has_an_input(&mut self, head: &ColumnHeader<'_>, inputs: &[(String, Option<Span>)]) -> bool {
         let path = head.path();
         if let Some(suggestion) = head.suggestion().filter(|_| !inputs.iter().any(|(full, _)| *full == path)) {
-            let written = self.sources.text(head.span).trim_matches('"');
-            self.report(errors::column_of_no_input(&self.tree.name.text, written, head.span, &suggestion));
+            let written = self.reporter.text(head.span).trim_matches('"');
+            self.reporter.report(errors::column_of_no_input(&self.tree.name.text, written, head.span, &suggestion));
             return false;
         }
         if !self.check_override_name(Settable::Column, &path, head.span, inputs, |full| full == path) {
@@ -139,7 +135,7 @@ impl Checker<'_> {
         }
         let twice = self.options.given.formulas.iter().find(|(full, _)| override_matches(&path, full));
         if let Some((_, formula)) = twice {
-            self.report(errors::duplicate_override(&path, [head.span, formula.span]));
+            self.reporter.report(errors::duplicate_override(&path, [head.span, formula.span]));
         }
         twice.is_none()
     }
@@ -204,7 +200,7 @@ impl Checker<'_> {
         if let Some([expected, found]) = expected.other_than(given.dim).filter(|_| self.is_dimensional(formula)) {
             let part = Part { span: formula.span, dimension: found };
             let place = format!("the input `{}{}`", self.address.path, name.text);
-            self.report(errors::wrong_dimension(&place, expected, part, self.sources.text(formula.span)));
+            self.reporter.report(errors::wrong_dimension(&place, expected, part, self.reporter.text(formula.span)));
             return None;
         }
         Some(Value { dim: expected, ..given })
@@ -216,7 +212,7 @@ impl Checker<'_> {
         if let Some([expected, found]) = unlike {
             let part = Part { span: column.span, dimension: found };
             let place = format!("the input `{}`", column.name);
-            self.report(errors::wrong_dimension(&place, expected, part, self.sources.text(column.span)));
+            self.reporter.report(errors::wrong_dimension(&place, expected, part, self.reporter.text(column.span)));
             return None;
         }
         let graph = &mut self.model.graph;
@@ -236,12 +232,6 @@ impl Checker<'_> {
         }
         Some(Value { id, dim: expected })
     }
-
-    /// Reports an input where inputs are not allowed.
-    pub(super) fn input_in(&mut self, name: &Name, context: &Context<'_>) {
-        let diagnostic = errors::input_in(context.place, name, context.time);
-        self.report(diagnostic);
-    }
 }
 
 /// The things that can be overridden.
@@ -260,4 +250,9 @@ impl Settable {
             Settable::Input | Settable::Column => "input",
         }
     }
+}
+
+/// Returns a value, or reports the faults.
+fn report_faults<T>(reporter: &mut Reporter<'_>, found: Result<T, Vec<Diagnostic>>) -> Option<T> {
+    found.map_err(|faults| faults.into_iter().for_each(|fault| reporter.report(fault))).ok()
 }

@@ -100,7 +100,7 @@ impl<'t> Builder<'t, '_> {
         checker.collect(&definitions);
         checker.definitions();
         // The whole mechanism is reported with the same diagnostics.
-        checker.diagnostics = Diagnostics::default();
+        checker.reporter.diagnostics = Diagnostics::default();
         let mut writer = Expander::new(tree, checker);
         let copies = writer.all_copies(tree);
         self.is_too_large |= writer.is_too_large();

@@ -37,9 +37,9 @@ impl Checker<'_> {
 
     fn joint(&mut self, name: &Name, kind: &Name, arguments: &[Expr], span: Span) -> Option<Joint> {
         let Some(spec) = JointSpec::named(&kind.text) else {
-            let texts: Vec<&str> = arguments.iter().map(|e| self.sources.text(e.span)).collect();
+            let texts: Vec<&str> = arguments.iter().map(|e| self.reporter.text(e.span)).collect();
             let diagnostic = errors::unknown_joint(kind, &texts);
-            self.report(diagnostic);
+            self.reporter.report(diagnostic);
             return None;
         };
         if self.refuses_arguments(kind, spec, arguments) {
@@ -63,14 +63,14 @@ impl Checker<'_> {
         let frames = joint.frames(&self.model);
         if self.model.carrier(frames[0]) == self.model.carrier(frames[1]) {
             let frame = self.frame_name(frames[0]).to_owned();
-            self.report(errors::joint_with_itself(name, &frame, [first.span, second.span]));
+            self.reporter.report(errors::joint_with_itself(name, &frame, [first.span, second.span]));
             return None;
         }
         self.is_drawn_apart(&joint, [first.span, second.span]).then_some(joint)
     }
 
     fn wrong_count(&mut self, spec: &JointSpec, span: Span, found: usize) -> Option<Joint> {
-        self.report(errors::argument_count(spec.name(), Some(&spec.word), span, spec.takes, found));
+        self.reporter.report(errors::argument_count(spec.name(), Some(&spec.word), span, spec.takes, found));
         None
     }
 
@@ -94,7 +94,7 @@ impl Checker<'_> {
             ArgumentSpec::Word(words, what) => {
                 let word = words.iter().find(|word| matches!(&e.kind, ExprKind::Name(name) if name.text == **word));
                 if word.is_none() {
-                    self.report(errors::no_word(words, what, e.span));
+                    self.reporter.report(errors::no_word(words, what, e.span));
                 }
                 Argument::Word(word?)
             }
@@ -104,7 +104,7 @@ impl Checker<'_> {
     fn positive_length(&mut self, e: &Expr, what: &str) -> Option<ExprId> {
         let (id, value) = self.constant_by(e, what, Dimension::LENGTH, GuardKind::Sign)?;
         if value <= 0.0 {
-            self.report(errors::not_positive_length(what, e.span, value));
+            self.reporter.report(errors::not_positive_length(what, e.span, value));
             return None;
         }
         Some(id)
@@ -120,7 +120,7 @@ impl Checker<'_> {
             && ["left", "right"].contains(&name.text.as_str())
             && self.entity(name).is_none()
         {
-            self.report(errors::side_without_phase(&name.text, e.span));
+            self.reporter.report(errors::side_without_phase(&name.text, e.span));
             return None;
         }
         self.constant_by(e, "the phase", Dimension::LENGTH, GuardKind::Finite).map(|(id, _)| id)
@@ -143,7 +143,7 @@ impl Checker<'_> {
                     _ => true,
                 };
                 if !apart {
-                    self.report(errors::center_on_the_rack(spans));
+                    self.reporter.report(errors::center_on_the_rack(spans));
                 }
                 apart
             }
@@ -151,7 +151,7 @@ impl Checker<'_> {
                 let (c, d) = (self.drawn_point(first), self.drawn_point(second));
                 let apart = c.zip(d).is_none_or(|(c, d)| (c[0] - d[0]).abs() + (c[1] - d[1]).abs() > 0.0);
                 if !apart {
-                    self.report(errors::centers_coincide(spans));
+                    self.reporter.report(errors::centers_coincide(spans));
                     // A body without a pose is marked, so that it is reported once and not for each of its gears.
                     let without: Vec<Frame> = frames.into_iter().filter(|frame| self.has_no_pose(*frame)).collect();
                     self.common.broken_poses.extend(without);

@@ -74,12 +74,13 @@ use branches::Branch;
 use calls::Calls;
 use elements::MeasureState;
 use entity::Entity;
+use errors::Reporter;
 use formula_scope::FormulaScope;
 use functions::Function;
 use imports::Import;
 use inputs::InputState;
 use mechc_syntax::ast::{self, Item, ItemKind};
-use mechc_text::diag::{Diagnostic, Diagnostics};
+use mechc_text::diag::Diagnostics;
 use mechc_text::source::Sources;
 use names::Space;
 use params::ParamState;
@@ -91,9 +92,6 @@ use std::rc::Rc;
 use suggest::missing_unit::RecordedLengths;
 use tables::TableState;
 use variables::Variables;
-
-/// Largest number of diagnostics of one mechanism or part with which names are still suggested; beyond it the search takes long.
-const MOST_SUGGESTIONS: usize = 100;
 
 /// Checks that the mechanisms of a file have different names.
 #[must_use]
@@ -118,7 +116,7 @@ pub fn check(tree: &ast::Mechanism, options: &CheckOptions, sources: &Sources) -
     checker.common.variables = Variables::new(&options.by);
     checker.collect_variables();
     checker.run();
-    let Checker { mut diagnostics, mut model, .. } = checker;
+    let Checker { reporter: Reporter { mut diagnostics, .. }, mut model, .. } = checker;
     diagnostics.extend(reported);
     model.slopes = options.slopes.map(|is_of_text| {
         let formula = |end: usize| model.analysis.map(|analysis| analysis.formulas[end]).filter(|_| is_of_text[end]);
@@ -155,8 +153,7 @@ fn has_broken(tree: &ast::Mechanism) -> bool {
 struct Checker<'a> {
     tree: &'a ast::Mechanism,
     options: &'a CheckOptions,
-    sources: &'a Sources,
-    diagnostics: Diagnostics,
+    reporter: Reporter<'a>,
     model: Mechanism,
     common: SharedState,
     space: Space<Entity>,
@@ -210,8 +207,7 @@ impl<'a> Checker<'a> {
         Checker {
             tree,
             options,
-            sources,
-            diagnostics: Diagnostics::default(),
+            reporter: Reporter::new(sources),
             model: Mechanism::new(Declared { name: tree.name.text.clone(), span: tree.name.span }, tree.docs.clone()),
             common: SharedState::default(),
             space: Space::new(),
@@ -274,28 +270,13 @@ impl<'a> Checker<'a> {
         self.reject_derivatives_of_forces();
         self.warn_of_plain_lengths();
         if self.model.bodies.is_empty() && !self.holds_broken() {
-            self.report(errors::empty(&self.tree.name));
+            self.reporter.report(errors::empty(&self.tree.name));
         }
     }
 
-    /// Adds a diagnostic, with the locations of the call and of the parts through which it arises.
-    fn report(&mut self, diagnostic: Diagnostic) {
-        let diagnostic = match self.calls.caller {
-            // A formula is judged where it is called.
-            Some(caller) => diagnostic.caused_by(caller, "brought in here"),
-            None => diagnostic,
-        };
-        let parts = self.address.used_at.iter();
-        self.diagnostics.push(parts.fold(diagnostic, |diagnostic, (part, span)| diagnostic.in_part(part, *span)));
-    }
-
-    /// Returns the names to suggest from; none after many errors, when the search would take long.
+    /// Returns the names to suggest from; none after many errors.
     fn suggestions(&self, expected: impl Fn(Entity) -> bool) -> Vec<&str> {
-        self.suggestions_in(&self.space, expected)
-    }
-
-    fn suggestions_in<'s, T: Copy>(&self, space: &'s Space<T>, expected: impl Fn(T) -> bool) -> Vec<&'s str> {
-        if self.diagnostics.len() > MOST_SUGGESTIONS { Vec::new() } else { space.names(expected).collect() }
+        self.space.suggestions(&self.reporter, expected)
     }
 
     fn items(&self) -> &'a [Item] {

@@ -1,8 +1,9 @@
 //! The names of a mechanism: declarations, duplicates, and cycles of definitions.
 
+use super::Checker;
 use super::entity::Entity;
+use super::errors::{self, Reporter};
 use super::free_names::{uses_in, uses_of_argument};
-use super::{Checker, MOST_SUGGESTIONS, errors};
 use mechc_syntax::ast::{Expr, ExprKind, FeatureKind, ItemKind, Mechanism, Name};
 use mechc_text::source::Span;
 use mechc_text::vocabulary::{Dimension, SubstituteKind, Unit, gives_way, is_called, is_taken, substitute_name};
@@ -85,6 +86,11 @@ impl<T: Copy> Space<T> {
         self.entries.get(name).map(|&(_, span)| span)
     }
 
+    /// Returns the names to suggest from; none after many errors, when the search would take long.
+    pub fn suggestions(&self, reporter: &Reporter<'_>, expected: impl Fn(T) -> bool) -> Vec<&str> {
+        if reporter.suggests_names() { self.names(expected).collect() } else { Vec::new() }
+    }
+
     /// Returns the names of the entities that `expected` accepts, in order of declaration.
     pub fn names(&self, expected: impl Fn(T) -> bool) -> impl Iterator<Item = &str> {
         self.order.iter().filter(move |name| self.get(name).is_some_and(&expected)).map(String::as_str)
@@ -139,7 +145,7 @@ impl Checker<'_> {
             if let Err(first) = self.space.declare(name, entity)
                 && !is_reserved
             {
-                self.report(errors::declared_twice(name, first));
+                self.reporter.report(errors::declared_twice(name, first));
             }
         }
         self.count = count;
@@ -161,10 +167,9 @@ impl Checker<'_> {
 
     /// Reports a name of the language, with a suggestion of a free name.
     fn report_reserved(&mut self, name: &Name, kind: SubstituteKind, uses: &[Span]) {
-        let is_worth_it = self.diagnostics.len() <= MOST_SUGGESTIONS;
-        let words = is_worth_it.then(|| words_of(self.sources.text(self.tree.span)));
+        let words = self.reporter.suggests_names().then(|| words_of(self.reporter.text(self.tree.span)));
         let instead = words.and_then(|words| substitute_name(&name.text, kind, |name| !words.contains(name)));
-        self.report(errors::reserved(name, instead, uses));
+        self.reporter.report(errors::reserved(name, instead, uses));
     }
 
     /// Returns whether a name of the language is declared, which has been reported. It may mean either.
@@ -214,7 +219,7 @@ impl Checker<'_> {
         } else if let Some(declared) = self.space.span(&argument.text) {
             let is_unique_index = |name: &&str| !is_taken(name) && self.space.get(name).is_none();
             let free = ["u", "v", "w", "x", "y", "z"].into_iter().find(is_unique_index);
-            self.report(errors::hidden_name(argument, declared, free, &uses()));
+            self.reporter.report(errors::hidden_name(argument, declared, free, &uses()));
         }
     }
 
@@ -229,65 +234,9 @@ impl Checker<'_> {
             };
             match *first {
                 None => *first = Some(item.span),
-                Some(span) => self.report(errors::second(word, item.span, span)),
+                Some(span) => self.reporter.report(errors::second(word, item.span, span)),
             }
         }
-    }
-
-    /// Returns definitions in order of dependence, and reports cycles.
-    ///
-    /// `uses` lists for each definition the positions of those that it uses, with the locations of their names.
-    pub(super) fn ordered(&mut self, definitions: &[(&Name, Vec<(usize, Span)>)]) -> DefinitionOrder {
-        #[derive(Clone, Copy, PartialEq)]
-        enum Mark {
-            New,
-            Open,
-            Done,
-            Broken,
-        }
-        let mut marks = vec![Mark::New; definitions.len()];
-        let mut order = Vec::new();
-        for start in 0..definitions.len() {
-            if marks[start] != Mark::New {
-                continue;
-            }
-            // An explicit stack: a chain of definitions may be long.
-            let mut path = vec![(start, 0)];
-            marks[start] = Mark::Open;
-            while let Some((at, next)) = path.last_mut() {
-                let at = *at;
-                let Some(&(used, _)) = definitions[at].1.get(*next) else {
-                    if marks[at] == Mark::Open {
-                        marks[at] = Mark::Done;
-                        order.push(at);
-                    }
-                    path.pop();
-                    continue;
-                };
-                *next += 1;
-                match marks[used] {
-                    Mark::New => {
-                        marks[used] = Mark::Open;
-                        path.push((used, 0));
-                    }
-                    Mark::Open => {
-                        let from = path.iter().position(|&(k, _)| k == used).unwrap_or(0);
-                        let mut circle: Vec<usize> = path[from..].iter().map(|&(k, _)| k).collect();
-                        // The cycle is reported at the definition that comes first in the text.
-                        let first = (0..circle.len()).min_by_key(|&k| definitions[circle[k]].0.span).unwrap_or(0);
-                        circle.rotate_left(first);
-                        let names: Vec<&Name> = circle.iter().map(|&k| definitions[k].0).collect();
-                        self.report(errors::circle(&names));
-                        for k in circle {
-                            marks[k] = Mark::Broken;
-                        }
-                    }
-                    Mark::Done | Mark::Broken => {}
-                }
-            }
-        }
-        let on_cycles = (0..definitions.len()).filter(|&k| marks[k] == Mark::Broken).collect();
-        DefinitionOrder { order, on_cycles }
     }
 }
 
@@ -303,4 +252,60 @@ fn dimension_written(e: &Expr) -> Option<Dimension> {
         }
         _ => None,
     }
+}
+
+/// Returns definitions in order of dependence, and reports cycles.
+///
+/// `uses` lists for each definition the positions of those that it uses, with the locations of their names.
+pub(super) fn ordered(reporter: &mut Reporter<'_>, definitions: &[(&Name, Vec<(usize, Span)>)]) -> DefinitionOrder {
+    #[derive(Clone, Copy, PartialEq)]
+    enum Mark {
+        New,
+        Open,
+        Done,
+        Broken,
+    }
+    let mut marks = vec![Mark::New; definitions.len()];
+    let mut order = Vec::new();
+    for start in 0..definitions.len() {
+        if marks[start] != Mark::New {
+            continue;
+        }
+        // An explicit stack: a chain of definitions may be long.
+        let mut path = vec![(start, 0)];
+        marks[start] = Mark::Open;
+        while let Some((at, next)) = path.last_mut() {
+            let at = *at;
+            let Some(&(used, _)) = definitions[at].1.get(*next) else {
+                if marks[at] == Mark::Open {
+                    marks[at] = Mark::Done;
+                    order.push(at);
+                }
+                path.pop();
+                continue;
+            };
+            *next += 1;
+            match marks[used] {
+                Mark::New => {
+                    marks[used] = Mark::Open;
+                    path.push((used, 0));
+                }
+                Mark::Open => {
+                    let from = path.iter().position(|&(k, _)| k == used).unwrap_or(0);
+                    let mut circle: Vec<usize> = path[from..].iter().map(|&(k, _)| k).collect();
+                    // The cycle is reported at the definition that comes first in the text.
+                    let first = (0..circle.len()).min_by_key(|&k| definitions[circle[k]].0.span).unwrap_or(0);
+                    circle.rotate_left(first);
+                    let names: Vec<&Name> = circle.iter().map(|&k| definitions[k].0).collect();
+                    reporter.report(errors::circle(&names));
+                    for k in circle {
+                        marks[k] = Mark::Broken;
+                    }
+                }
+                Mark::Done | Mark::Broken => {}
+            }
+        }
+    }
+    let on_cycles = (0..definitions.len()).filter(|&k| marks[k] == Mark::Broken).collect();
+    DefinitionOrder { order, on_cycles }
 }

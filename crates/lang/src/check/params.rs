@@ -1,10 +1,11 @@
 //! Params: the numbers and points of a text, with their overrides.
 
+use super::dimensions::require_dimension;
 use super::formula::{Context, Dim, Value};
 use super::formula_scope::InitialPoint;
 use super::overrides::override_matches;
+use super::suggest::lost_rate;
 use super::{Checker, ParamOverride, errors};
-use crate::check::suggest::lost_rate;
 use crate::model::{ContinuedParam, Declared, Dimension, GuardKind, Param};
 use mechc_expr::Symbol;
 use mechc_syntax::ast::{Expr, Name};
@@ -43,7 +44,7 @@ impl<'a> Checker<'a> {
         let value = match setting {
             None => in_file,
             Some((Some(k), setting)) => {
-                self.report(errors::coordinate_of_number(name, k, setting.value.span));
+                self.reporter.report(errors::coordinate_of_number(name, k, setting.value.span));
                 return None;
             }
             Some((None, setting)) => {
@@ -51,8 +52,8 @@ impl<'a> Checker<'a> {
                 if let Some([expected, found]) = in_file.dim.other_than(given.dim) {
                     let place = format!("the parameter `{}{}`", self.address.path, name.text);
                     let part = lost_rate::Part { span: setting.value.span, dimension: found };
-                    let text = self.sources.text(setting.value.span);
-                    self.report(errors::wrong_dimension(&place, expected, part, text));
+                    let text = self.reporter.text(setting.value.span);
+                    self.reporter.report(errors::wrong_dimension(&place, expected, part, text));
                     return None;
                 }
                 // A zero fits any dimension, and what replaces it has its own.
@@ -150,7 +151,7 @@ impl<'a> Checker<'a> {
         let context = Context { names: false, judged, ..Context::constant("a parameter") };
         let Some(k) = coordinate else {
             if !self.is_point(&setting.value) {
-                self.report(errors::point_set_to_number(name, setting.value.span));
+                self.reporter.report(errors::point_set_to_number(name, setting.value.span));
                 return None;
             }
             return self.point_formula(&setting.value, &context);
@@ -158,7 +159,8 @@ impl<'a> Checker<'a> {
         let judged = judged || self.is_dimensional(&setting.value);
         let value = self.formula(&setting.value, &Context { judged, ..context })?;
         let place = format!("the coordinate `{}.{}`", name.text, ["x", "y"][k]);
-        self.require_dimension(
+        require_dimension(
+            &mut self.reporter,
             &place,
             Dimension::LENGTH,
             setting.value.span,

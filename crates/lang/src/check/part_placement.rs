@@ -1,6 +1,7 @@
 //! Placement of parts: the mount of each part, and the pose of its ground on the mount.
 
 use super::formula_scope::{FormulaSite, Position};
+use super::quantities::describe;
 use super::{Checker, errors};
 use crate::model::{Frame, Placement};
 use mechc_expr::{ExprId, Graph};
@@ -33,7 +34,7 @@ impl Checker<'_> {
         if let ExprKind::Name(name) = &on.kind {
             return self.body(name);
         }
-        self.wrong_kind(on.span, "a body", Self::describe(on));
+        self.reporter.report(errors::wrong_kind(on.span, "a body", describe(on)));
         None
     }
 
@@ -51,7 +52,7 @@ impl Checker<'_> {
                     (&part.name, on, matches!(self.mount_of(k), Some(Frame::Part(_))))
                 })
                 .collect();
-            self.report(errors::carries_itself(&parts));
+            self.reporter.report(errors::carries_itself(&parts));
             for k in cycle {
                 let Some(id) = self.parts[k].address.part else { continue };
                 self.model.parts[id.index()].mount = self.address.ground;

@@ -40,14 +40,12 @@ pub(super) struct Address {
     pub part: Option<PartId>,
     /// The frame of its ground.
     pub ground: Frame,
-    /// The names of the part and of those that enclose it, with their locations.
-    pub used_at: Vec<(String, Span)>,
 }
 
 impl Default for Address {
     /// Returns the address of the outermost mechanism.
     fn default() -> Address {
-        Address { path: String::new(), part: None, ground: Frame::Ground, used_at: Vec::new() }
+        Address { path: String::new(), part: None, ground: Frame::Ground }
     }
 }
 
@@ -63,7 +61,7 @@ impl<'a> Checker<'a> {
         let mut checker = Checker::new(instance.tree(), options, sources);
         checker.deciding = instance.deciding.clone();
         path.clone_into(&mut checker.address.path);
-        checker.address.used_at = used_at.to_vec();
+        checker.reporter.used_at = used_at.to_vec();
         checker.collect(instance.tree());
         let mut parts = instance.parts.iter();
         for item in &instance.tree().items {
@@ -75,7 +73,7 @@ impl<'a> Checker<'a> {
             let mut child = Checker::from_instance(inner, options, sources, &format!("{name}."), &used_at);
             child.bound.inputs = part.bindings.iter().map(|binding| binding.name.text.as_str()).collect();
             // The shared state is that of the outermost checker from here on.
-            checker.diagnostics.extend(std::mem::take(&mut child.diagnostics));
+            checker.reporter.diagnostics.extend(std::mem::take(&mut child.reporter.diagnostics));
             checker.parts.push(child);
             checker.imports.push(Vec::new());
             checker.part_declarations.push(part);
@@ -98,7 +96,7 @@ impl<'a> Checker<'a> {
 
     /// Swaps the shared state with another checker.
     fn share_with(&mut self, other: &mut Checker<'a>) {
-        std::mem::swap(&mut self.diagnostics, &mut other.diagnostics);
+        std::mem::swap(&mut self.reporter.diagnostics, &mut other.reporter.diagnostics);
         std::mem::swap(&mut self.model, &mut other.model);
         std::mem::swap(&mut self.common, &mut other.common);
     }

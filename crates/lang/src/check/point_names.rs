@@ -63,7 +63,7 @@ impl<'a> Checker<'a> {
         match (site, of_body, of_mechanism) {
             (FormulaSite::Inside(frame), Some(inner), Some(other)) if self.is_placed(frame) => {
                 let body = self.frame_name(frame).to_owned();
-                self.report(errors::two_frames(&body, inner, other));
+                self.reporter.report(errors::two_frames(&body, inner, other));
                 None
             }
             _ => value,
@@ -214,7 +214,7 @@ impl<'a> Checker<'a> {
         let Ok(entity) = self.non_point_entity(name) else { return };
         let candidates = self.point_param_names();
         let diagnostic = errors::no_point_to_take(name, entity.map(Entity::noun), &candidates);
-        self.report(diagnostic);
+        self.reporter.report(diagnostic);
     }
 
     /// Reports a name in a formula of points that is not a point.
@@ -239,16 +239,16 @@ impl<'a> Checker<'a> {
         let Some(found) = found else {
             let is_other = |name: &&str| self.scope.defined != Some(*name);
             let mut candidates = space_of_body.map_or_else(Vec::new, |space| {
-                self.suggestions_in(space, |feature| matches!(feature, Feature::Point(_)))
+                space.suggestions(&self.reporter, |feature| matches!(feature, Feature::Point(_)))
             });
             candidates.retain(is_other);
             candidates.extend(self.point_param_names());
             let diagnostic = errors::unknown_point(name, &candidates);
-            self.report(diagnostic);
+            self.reporter.report(diagnostic);
             return;
         };
         let diagnostic = errors::wrong_kind(name.span, "a point", found);
-        self.report(match entity {
+        self.reporter.report(match entity {
             Some(Entity::Body(_)) if feature.is_none() && self.scope.site.takes_drawn_points() => {
                 diagnostic.help(format!("name one of its points: `{}.…`", name.text))
             }

@@ -3,12 +3,16 @@
 //! A point is two lengths. In a body its own points take precedence over those of the mechanism. After `at` points of other bodies are
 //! allowed, at their drawn positions.
 
+use super::Checker;
+use super::dimensions::require_dimension;
+use super::errors::{self, Reporter};
 use super::formula::{Context, Dim, Value};
 use super::formula_scope::{FormulaSite, InitialPoint, Position};
 use super::point_kinds::{Expected, coordinate};
 use super::point_names::PointLookup;
-use super::{Checker, errors};
-use crate::check::suggest::edits;
+use super::quantities::describe;
+use super::results::reject_window;
+use super::suggest::edits;
 use crate::model::{Dimension, Frame, GuardKind};
 use mechc_expr::{Binary, Comparison, ExprId, Graph, Node, Unary};
 use mechc_syntax::ast::{Expr, ExprKind, Factor, Name, Sign, Window};
@@ -59,32 +63,17 @@ impl Checker<'_> {
                 self.called_point(e, (name, window.as_deref()), arguments, context)
             }
             _ => {
-                self.no_point(e);
+                no_point(&mut self.reporter, e);
                 None
             }
         }
-    }
-
-    /// Reports a formula that is not a point.
-    fn no_point(&mut self, e: &Expr) {
-        let found = match &e.kind {
-            ExprKind::If { .. } => "an `if`",
-            ExprKind::Call { .. } => "a number",
-            _ => Self::describe(e),
-        };
-        let diagnostic = errors::wrong_kind(e.span, "a point", found);
-        self.report(match &e.kind {
-            ExprKind::If { .. } => diagnostic.help("choose the coordinates: `(if … then … else …, …)`"),
-            ExprKind::Literal { .. } | ExprKind::Call { .. } => diagnostic.help("a point is written `(x, y)`"),
-            _ => diagnostic,
-        });
     }
 
     fn literal_point(&mut self, e: &Expr, parts: &[Expr], context: &Context<'_>) -> Option<Position> {
         let [x, y] = parts else {
             let word = Keyword::named("point").map(|keyword| &keyword.word);
             let diagnostic = errors::argument_count("point", word, e.span, "two lengths", parts.len());
-            self.report(edits::with_preferred_fix(diagnostic, self.suggest_decimal_point(parts, 2)));
+            self.reporter.report(edits::with_preferred_fix(diagnostic, self.suggest_decimal_point(parts, 2)));
             return None;
         };
         let values = [x, y].map(|part| self.number(part, context));
@@ -93,7 +82,7 @@ impl Checker<'_> {
 
     fn named_point(&mut self, name: &Name, context: &Context<'_>) -> Option<Position> {
         if !context.names {
-            self.report(errors::names_in_option(name));
+            self.reporter.report(errors::names_in_option(name));
             return None;
         }
         match self.lookup_point(name, Expected::Point) {
@@ -110,7 +99,7 @@ impl Checker<'_> {
     fn feature_point(&mut self, e: &Expr, owner: &Name, feature: &Name) -> Option<Position> {
         if self.is_named_point(owner) || self.is_body(owner) && !self.scope.site.takes_drawn_points() {
             let diagnostic = self.no_place(e.span, owner, feature);
-            self.report(diagnostic);
+            self.reporter.report(diagnostic);
             return None;
         }
         let frame = self.body(owner)?;
@@ -171,11 +160,19 @@ impl Checker<'_> {
         }
         match product? {
             Scaled::Point(at, dim) => {
-                self.require_dimension("what a point is multiplied by", Dimension::PURE, e.span, dim, context)?;
+                require_dimension(
+                    &mut self.reporter,
+                    "what a point is multiplied by",
+                    Dimension::PURE,
+                    e.span,
+                    dim,
+                    context,
+                )?;
                 self.finite_point(e.span, at)
             }
             Scaled::Number(_) => {
-                self.report(errors::wrong_kind(e.span, "a point", "a number").help("a point is written `(x, y)`"));
+                self.reporter
+                    .report(errors::wrong_kind(e.span, "a point", "a number").help("a point is written `(x, y)`"));
                 None
             }
         }
@@ -209,7 +206,7 @@ impl Checker<'_> {
                 Scaled::Point(at.map(|id| graph.div(id, b.id)), of(Dimension::over, dim, b.dim))
             }
             (Scaled::Point(..), Factor::Times, Scaled::Point(..)) | (_, Factor::Divide, Scaled::Point(..)) => {
-                self.report(errors::product_of_points(span, factor == Factor::Divide));
+                self.reporter.report(errors::product_of_points(span, factor == Factor::Divide));
                 return None;
             }
         })
@@ -233,11 +230,11 @@ impl Checker<'_> {
         if self.hidden.contains(name.text.as_str()) || !matches!(name.text.as_str(), "polar" | "mid") {
             // A fault of the call itself explains more.
             self.number(e, context)?;
-            self.no_point(e);
+            no_point(&mut self.reporter, e);
             return None;
         }
-        self.reject_window(name, window)?;
-        let [first, second] = self.two_arguments(e, name, arguments)?;
+        reject_window(&mut self.reporter, name, window)?;
+        let [first, second] = two_arguments(&mut self.reporter, e, name, arguments)?;
         if name.text == "polar" {
             return self.polar(first, second, context);
         }
@@ -258,8 +255,15 @@ impl Checker<'_> {
         if !context.judged && self.reject_angle("the first argument of `polar`", radius) {
             return None;
         }
-        self.require_dimension("the first argument of `polar`", Dimension::LENGTH, radius.span, r.dim, context)?;
-        self.require_dimension("the angle of `polar`", Dimension::PURE, angle.span, a.dim, context)?;
+        require_dimension(
+            &mut self.reporter,
+            "the first argument of `polar`",
+            Dimension::LENGTH,
+            radius.span,
+            r.dim,
+            context,
+        )?;
+        require_dimension(&mut self.reporter, "the angle of `polar`", Dimension::PURE, angle.span, a.dim, context)?;
         self.record_length_term(radius, r.id, context.judged);
         let graph = &mut self.model.graph;
         let (sin, cos) = (graph.unary(Unary::Sin, a.id), graph.unary(Unary::Cos, a.id));
@@ -277,13 +281,13 @@ impl Checker<'_> {
         context: &Context<'_>,
     ) -> Option<Value> {
         if matches!(name.text.as_str(), "polar" | "mid") {
-            self.report(errors::wrong_kind(e.span, "a number", "a point"));
+            self.reporter.report(errors::wrong_kind(e.span, "a number", "a point"));
             return None;
         }
-        let [first, second] = self.two_arguments(e, name, arguments)?;
+        let [first, second] = two_arguments(&mut self.reporter, e, name, arguments)?;
         if let Some(member) = self.moving_among([first, second]).filter(|_| name.text == "length") {
-            let texts = [first, second].map(|e| self.sources.text(e.span));
-            self.report(errors::length_of_moving(name, member, texts));
+            let texts = [first, second].map(|e| self.reporter.text(e.span));
+            self.reporter.report(errors::length_of_moving(name, member, texts));
             return None;
         }
         let argument = context.argument.map(|(name, _)| name);
@@ -320,7 +324,7 @@ impl Checker<'_> {
     pub(super) fn direction_of_vector(&mut self, offset: Position, what: &str, span: Span) -> Option<ExprId> {
         let [dx, dy] = offset.map(|id| self.decided(id, GuardKind::Sign));
         if dx == Some(0.0) && dy == Some(0.0) && !self.branch.is_untaken {
-            self.report(errors::points_coincide(what, span));
+            self.reporter.report(errors::points_coincide(what, span));
             return None;
         }
         let graph = &mut self.model.graph;
@@ -335,22 +339,12 @@ impl Checker<'_> {
         Some(graph.select(is_lowest, other, angle))
     }
 
-    fn two_arguments<'e>(&mut self, e: &Expr, name: &Name, arguments: &'e [Expr]) -> Option<[&'e Expr; 2]> {
-        if let [first, second] = arguments {
-            return Some([first, second]);
-        }
-        let function = Function::named(&name.text)?;
-        let found = arguments.len();
-        self.report(errors::argument_count(&name.text, Some(&function.word), e.span, &function.takes(), found));
-        None
-    }
-
     /// Evaluates `P.x`, a coordinate of a point; `None` if it is broken, which has been reported.
     pub(super) fn coordinate_of(&mut self, e: &Expr, context: &Context<'_>) -> Result<Option<Value>, NotAPoint> {
         let ExprKind::Member { owner, feature } = &e.kind else { return Err(NotAPoint) };
         if !context.names {
             self.point_param(owner).ok_or(NotAPoint)?;
-            self.report(errors::names_in_option(owner));
+            self.reporter.report(errors::names_in_option(owner));
             return Ok(None);
         }
         let drawn = match self.lookup_point(owner, Expected::Point) {
@@ -359,7 +353,7 @@ impl Checker<'_> {
             PointLookup::Point(drawn) => drawn,
         };
         let Some(k) = coordinate(feature) else {
-            self.report(errors::no_coordinate(owner, feature));
+            self.reporter.report(errors::no_coordinate(owner, feature));
             return Ok(None);
         };
         Ok(Some(Value { id: drawn.at[k], dim: Dim::LENGTH }))
@@ -385,4 +379,34 @@ fn may_be_negative_zero(graph: &Graph, id: ExprId) -> bool {
         }
     }
     false
+}
+
+fn two_arguments<'e>(
+    reporter: &mut Reporter<'_>,
+    e: &Expr,
+    name: &Name,
+    arguments: &'e [Expr],
+) -> Option<[&'e Expr; 2]> {
+    if let [first, second] = arguments {
+        return Some([first, second]);
+    }
+    let function = Function::named(&name.text)?;
+    let found = arguments.len();
+    reporter.report(errors::argument_count(&name.text, Some(&function.word), e.span, &function.takes(), found));
+    None
+}
+
+/// Reports a formula that is not a point.
+fn no_point(reporter: &mut Reporter<'_>, e: &Expr) {
+    let found = match &e.kind {
+        ExprKind::If { .. } => "an `if`",
+        ExprKind::Call { .. } => "a number",
+        _ => describe(e),
+    };
+    let diagnostic = errors::wrong_kind(e.span, "a point", found);
+    reporter.report(match &e.kind {
+        ExprKind::If { .. } => diagnostic.help("choose the coordinates: `(if … then … else …, …)`"),
+        ExprKind::Literal { .. } | ExprKind::Call { .. } => diagnostic.help("a point is written `(x, y)`"),
+        _ => diagnostic,
+    });
 }

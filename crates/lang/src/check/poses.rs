@@ -2,9 +2,9 @@
 
 use super::formula::Context;
 use super::formula_scope::{FormulaSite, Position};
-use super::names::DefinitionOrder;
+use super::names::{DefinitionOrder, ordered};
+use super::suggest::edits;
 use super::{Checker, errors};
-use crate::check::suggest::edits;
 use crate::model::Frame;
 use mechc_expr::ExprId;
 use mechc_syntax::ast::{DrawnPose, Expr, ExprKind, Item, ItemKind, Name};
@@ -29,7 +29,7 @@ impl<'a> Checker<'a> {
         }
         let uses = self.uses_of_poses(&poses);
         let mut is_sound = vec![false; poses.len()];
-        let DefinitionOrder { order, on_cycles } = self.ordered(&uses);
+        let DefinitionOrder { order, on_cycles } = ordered(&mut self.reporter, &uses);
         self.break_places_of_parts(on_cycles.iter().filter_map(|k| k.checked_sub(poses.len())));
         for k in order {
             // Parts follow the bodies.
@@ -109,7 +109,7 @@ impl<'a> Checker<'a> {
 
     /// Returns whether a body has a pose that does not follow the grammar, which has been reported.
     fn has_unread_pose(&self, item: &Item) -> bool {
-        let head = self.sources.text(item.span).split('{').next().unwrap_or_default();
+        let head = self.reporter.text(item.span).split('{').next().unwrap_or_default();
         keywords_in(head).any(|(_, keyword)| keyword.word.name == "at")
     }
 
@@ -178,13 +178,13 @@ impl<'a> Checker<'a> {
 
     fn wrong_pose(&mut self, e: &Expr, parts: &[Expr]) {
         if parts.is_empty() && self.is_point(e) {
-            self.report(errors::no_angle_of_pose(e.span, self.sources.text(e.span)));
+            self.reporter.report(errors::no_angle_of_pose(e.span, self.reporter.text(e.span)));
             return;
         }
         let found = if parts.is_empty() { 1 } else { parts.len() };
         let word = Keyword::named("at").map(|keyword| &keyword.word);
         let diagnostic = errors::argument_count("at", word, e.span, "two lengths and an angle", found);
         let fix = self.suggest_decimal_point(parts, 3).or_else(|| edits::suggest_pose_angle(parts));
-        self.report(edits::with_preferred_fix(diagnostic, fix));
+        self.reporter.report(edits::with_preferred_fix(diagnostic, fix));
     }
 }

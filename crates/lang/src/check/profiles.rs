@@ -3,8 +3,9 @@
 use super::features::Feature;
 use super::formula::{Context, Dim, Value};
 use super::formula_scope::{FormulaSite, InitialPoint};
+use super::quantities::describe;
+use super::suggest::edits;
 use super::{Checker, errors};
-use crate::check::suggest::edits;
 use crate::model::{Circle, CircleId, Curve, CurveId, Frame, Named, Profile};
 use mechc_expr::Dependence;
 use mechc_syntax::ast::{self, Expr, ExprKind, FeatureKind, Name};
@@ -61,7 +62,7 @@ impl<'a> Checker<'a> {
         };
         let pair = pair?.at;
         if !pair.iter().any(|&id| self.model.graph.dependence(id).on(Dependence::NAMED)) {
-            self.report(errors::curve_is_a_point(name, &argument.text, at.span));
+            self.reporter.report(errors::curve_is_a_point(name, &argument.text, at.span));
             return None;
         }
         let curve = Curve {
@@ -83,7 +84,7 @@ impl<'a> Checker<'a> {
             (Feature::Circle(circle), _) => circle,
             (other, span) => {
                 let diagnostic = errors::wrong_kind(span, "a circle", other.noun());
-                self.report(diagnostic.fix_if(self.suggest_profile(e, is_circle)));
+                self.reporter.report(diagnostic.fix_if(self.suggest_profile(e, is_circle)));
                 None
             }
         }
@@ -97,7 +98,7 @@ impl<'a> Checker<'a> {
             (Feature::Curve(curve), _) => curve.map(Profile::Curve),
             (other, span) => {
                 let diagnostic = errors::wrong_kind(span, "a curve or a circle", other.noun());
-                self.report(diagnostic.fix_if(self.suggest_profile(e, is_profile)));
+                self.reporter.report(diagnostic.fix_if(self.suggest_profile(e, is_profile)));
                 None
             }
         }
@@ -116,7 +117,7 @@ impl<'a> Checker<'a> {
             }
             _ => {
                 let expected = format!("a {what}");
-                self.wrong_kind(e.span, &expected, Self::describe(e));
+                self.reporter.report(errors::wrong_kind(e.span, &expected, describe(e)));
                 None
             }
         }
@@ -140,7 +141,7 @@ impl<'a> Checker<'a> {
                 } else {
                     let word = Keyword::named(what).map(|keyword| &keyword.word);
                     let diagnostic = errors::argument_count(what, word, e.span, "two lengths", parts.len());
-                    self.report(edits::with_preferred_fix(diagnostic, self.suggest_decimal_point(parts, 2)));
+                    self.reporter.report(edits::with_preferred_fix(diagnostic, self.suggest_decimal_point(parts, 2)));
                     None
                 }
             }
@@ -151,11 +152,11 @@ impl<'a> Checker<'a> {
             }
             ExprKind::Member { owner, feature } => {
                 let diagnostic = self.no_place(e.span, owner, feature);
-                self.report(diagnostic);
+                self.reporter.report(diagnostic);
                 None
             }
             ExprKind::Paren(_) => {
-                self.report(errors::argument_count(
+                self.reporter.report(errors::argument_count(
                     what,
                     Keyword::named(what).map(|keyword| &keyword.word),
                     e.span,
@@ -165,7 +166,7 @@ impl<'a> Checker<'a> {
                 None
             }
             _ => {
-                self.wrong_kind(e.span, "a point `(x, y)`", Self::describe(e));
+                self.reporter.report(errors::wrong_kind(e.span, "a point `(x, y)`", describe(e)));
                 None
             }
         }

@@ -35,15 +35,15 @@ impl Checker<'_> {
     fn quantity_may_stand(&mut self, e: &Expr, name: &Name, arguments: &[Expr], context: &Context<'_>) -> bool {
         if !context.quantities && context.results {
             let what = format!("the kinematic quantity `{}`", name.text);
-            let text = self.sources.text(e.span);
-            self.report(errors::outside_reduction(&what, e.span, text));
+            let text = self.reporter.text(e.span);
+            self.reporter.report(errors::outside_reduction(&what, e.span, text));
             return false;
         }
         // Computed forces report themselves where they are not allowed.
         let word = QuantityWord::named(&name.text).filter(|word| !word.is_force);
         let Some(word) = word else { return true };
         if !context.quantities {
-            self.report(errors::quantity_in(context.place, &name.text, e.span));
+            self.reporter.report(errors::quantity_in(context.place, &name.text, e.span));
             return false;
         }
         if !context.measures && (word.gives_way || name.text == "angle" && arguments.len() == 3) {
@@ -52,7 +52,7 @@ impl Checker<'_> {
                 Some(fix) => diagnostic.instead(fix),
                 None => diagnostic,
             };
-            self.report(diagnostic);
+            self.reporter.report(diagnostic);
             return false;
         }
         true
@@ -106,7 +106,7 @@ impl Checker<'_> {
             (what, _) => {
                 let quantity = QuantityWord::named(what)?;
                 let found = arguments.len();
-                self.report(errors::argument_count(what, Some(&quantity.word), e.span, quantity.takes, found));
+                self.reporter.report(errors::argument_count(what, Some(&quantity.word), e.span, quantity.takes, found));
                 return None;
             }
         })
@@ -132,7 +132,7 @@ impl Checker<'_> {
         if let ExprKind::Name(name) = &e.bare().kind {
             return self.body(name);
         }
-        self.wrong_kind(e.span, "a body", Self::describe(e));
+        self.reporter.report(errors::wrong_kind(e.span, "a body", describe(e)));
         None
     }
 
@@ -148,8 +148,8 @@ impl Checker<'_> {
             ExprKind::Name(name) => self.body(name).map(Direction::Frame),
             ExprKind::Member { .. } => self.axis(e).map(Direction::Axis),
             _ => {
-                let found = Self::describe(e);
-                self.report(errors::wrong_kind(e.span, "a body or an axis", found));
+                let found = describe(e);
+                self.reporter.report(errors::wrong_kind(e.span, "a body or an axis", found));
                 None
             }
         }
@@ -164,7 +164,7 @@ impl Checker<'_> {
             if self.model[axis].frame != frame {
                 let expected = self.frame_name(frame).to_owned();
                 let (joint, axis) = (self.model[joint].declared.name.clone(), self.model[axis].name.clone());
-                self.report(errors::axes_elsewhere(&joint, &axis, e.span, &expected));
+                self.reporter.report(errors::axes_elsewhere(&joint, &axis, e.span, &expected));
                 return None;
             }
         }
@@ -179,28 +179,28 @@ impl Checker<'_> {
             return Some(joint);
         }
         let diagnostic = errors::joint_without(quantity, &declared.name, spec, name.span, declared.span);
-        self.report(diagnostic);
+        self.reporter.report(diagnostic);
         None
     }
 
     /// Returns the joint that an argument names, of any kind.
     pub(super) fn joint_named<'e>(&mut self, quantity: &str, e: &'e Expr) -> Option<(JointId, &'e Name)> {
         let ExprKind::Name(name) = &e.bare().kind else {
-            let found = Self::describe(e);
-            self.report(errors::wrong_kind(e.span, "a joint", found));
+            let found = describe(e);
+            self.reporter.report(errors::wrong_kind(e.span, "a joint", found));
             return None;
         };
         let joint = match self.resolve(name).ok()? {
             Some(Entity::Joint(k)) => self.joints.get(k).copied().flatten()?,
             Some(entity) => {
                 let diagnostic = errors::wrong_kind(name.span, "a joint", entity.noun());
-                self.report(self.suggest_joint(quantity, name, diagnostic));
+                self.reporter.report(self.suggest_joint(quantity, name, diagnostic));
                 return None;
             }
             None => {
                 let candidates = self.suggestions(|entity| matches!(entity, Entity::Joint(_)));
                 let diagnostic = errors::unknown("joint", name, &candidates);
-                self.report(diagnostic);
+                self.reporter.report(diagnostic);
                 return None;
             }
         };
@@ -215,27 +215,13 @@ impl Checker<'_> {
         match self.resolve(name).ok()? {
             Some(Entity::Body(k)) => self.bodies.get(k).copied(),
             Some(entity) => {
-                self.report(errors::wrong_kind(name.span, "a body", entity.noun()));
+                self.reporter.report(errors::wrong_kind(name.span, "a body", entity.noun()));
                 None
             }
             None => {
                 self.unknown_body(name);
                 None
             }
-        }
-    }
-
-    /// Describes a formula for a message.
-    pub(super) fn describe(e: &Expr) -> &'static str {
-        match &e.bare().kind {
-            ExprKind::Literal { .. } => "a number",
-            ExprKind::Tuple(_) => "a literal point",
-            ExprKind::Member { .. } => "a feature of a body",
-            ExprKind::Name(_) => "a name",
-            ExprKind::Path(segments) if segments.iter().any(|one| !one.indices.is_empty()) => "a path with brackets",
-            ExprKind::Path(_) => "a path that goes on",
-            ExprKind::Not(_) | ExprKind::Compare(..) | ExprKind::And(_) | ExprKind::Or(_) => "a condition",
-            _ => "a formula",
         }
     }
 
@@ -265,14 +251,23 @@ impl Checker<'_> {
             }
         }
     }
-
-    /// Reports a formula of the wrong kind.
-    pub(super) fn wrong_kind(&mut self, span: Span, expected: &str, found: &str) {
-        self.report(errors::wrong_kind(span, expected, found));
-    }
 }
 
 /// Returns the coordinate that a pole's word selects.
 fn part_of(name: &Name) -> u32 {
     u32::from(name.text.ends_with('y'))
+}
+
+/// Describes a formula for a message.
+pub(super) fn describe(e: &Expr) -> &'static str {
+    match &e.bare().kind {
+        ExprKind::Literal { .. } => "a number",
+        ExprKind::Tuple(_) => "a literal point",
+        ExprKind::Member { .. } => "a feature of a body",
+        ExprKind::Name(_) => "a name",
+        ExprKind::Path(segments) if segments.iter().any(|one| !one.indices.is_empty()) => "a path with brackets",
+        ExprKind::Path(_) => "a path that goes on",
+        ExprKind::Not(_) | ExprKind::Compare(..) | ExprKind::And(_) | ExprKind::Or(_) => "a condition",
+        _ => "a formula",
+    }
 }

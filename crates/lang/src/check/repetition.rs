@@ -84,7 +84,7 @@ impl<'t, 'c> Expander<'t, 'c> {
 
     /// Returns the diagnostics so far.
     pub fn into_diagnostics(self) -> Diagnostics {
-        self.checker.diagnostics
+        self.checker.reporter.diagnostics
     }
 
     /// Returns whether there are too many declarations.
@@ -110,7 +110,7 @@ impl<'t, 'c> Expander<'t, 'c> {
     /// could report it do not exist.
     pub fn number(&mut self, e: &Expr, numbers: &Numbers<'_>) -> Option<f64> {
         let formula = self.formula(e, numbers).ok()?;
-        let before = self.checker.diagnostics.len();
+        let before = self.checker.reporter.diagnostics.len();
         let value = self.checker.any_constant(&formula);
         if value.is_none() {
             self.report_part_dependence(e, "a binding that decides a range", before);
@@ -136,13 +136,13 @@ impl<'t, 'c> Expander<'t, 'c> {
         let written = Mechanism { items, docs: tree.docs.clone(), name: tree.name.clone(), span: tree.span };
         let mut paths: Vec<String> = self.paths.into_iter().collect();
         paths.sort_unstable();
-        ((written, self.checker.diagnostics), self.copies, paths)
+        ((written, self.checker.reporter.diagnostics), self.copies, paths)
     }
 
     fn report_once(&mut self, diagnostic: Diagnostic) {
         let span = diagnostic.labels.first().map(|label| label.span);
         if span.is_none_or(|span| self.reported.insert(span)) {
-            self.checker.report(diagnostic);
+            self.checker.reporter.report(diagnostic);
         }
     }
 
@@ -229,7 +229,7 @@ impl<'t, 'c> Expander<'t, 'c> {
             value
         } else {
             let formula = self.formula(e, numbers)?;
-            let before = self.checker.diagnostics.len();
+            let before = self.checker.reporter.diagnostics.len();
             match self.checker.constant(&formula, place, Dimension::PURE) {
                 Some((_, value)) => value,
                 None => return Err(self.report_part_dependence(e, place, before)),
@@ -246,8 +246,8 @@ impl<'t, 'c> Expander<'t, 'c> {
     /// Reports that a number depends on a declaration in a part, in place of the diagnostics from `before` on, if it does.
     pub fn report_part_dependence(&mut self, e: &Expr, place: &str, before: usize) -> NotExpandable {
         if let Some(path) = path_into_part(self.tree, e) {
-            self.checker.diagnostics.truncate(before);
-            let text = self.checker.sources.text(path);
+            self.checker.reporter.diagnostics.truncate(before);
+            let text = self.checker.reporter.text(path);
             let diagnostic = errors::decided_by_a_part(place, text, e.span, path);
             self.report_once(diagnostic);
         }

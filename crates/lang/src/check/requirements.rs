@@ -71,13 +71,13 @@ impl Checker<'_> {
         let reduced = sides.iter().find(|(_, value)| self.holds_reduction(value.id));
         if let Some((reduced, _)) = reduced.filter(|_| !is_one_number) {
             let moving = sides.iter().find(|(_, value)| !self.is_of_whole_analysis(value.id));
-            self.report(errors::requirement_of_both(moving.map_or(span, |(e, _)| e.span), reduced.span));
+            self.reporter.report(errors::requirement_of_both(moving.map_or(span, |(e, _)| e.span), reduced.span));
             return None;
         }
         let Bounded { value: (formula, value), bounds } = self.bounded(requirement, &sides)?;
         let dimension = sides.iter().map(|(_, value)| value.dim.settled()).reduce(Dimension::marked_by)?;
         let units = units_of_sides(&sides, dimension);
-        let text = self.sources.text(requirement_text(requirement));
+        let text = self.reporter.text(requirement_text(requirement));
         let named = requirement.name.as_ref().map(|name| format!("{}{}", self.address.path, name.text));
         let declared = Declared { name: named.unwrap_or_else(|| text.to_owned()), span };
         let bounds = bounds.into_iter().map(|(is_upper, bound)| {
@@ -101,7 +101,7 @@ impl Checker<'_> {
             Bound { is_upper, excess: largest, value, bound, times: Some(RequirementTimes { first, worst }) }
         });
         let bounds = bounds.collect();
-        let formula = self.sources.text(formula.span).to_owned();
+        let formula = self.reporter.text(formula.span).to_owned();
         self.model.requirements.push(Requirement { declared, formula, bounds, units });
         Some(())
     }
@@ -114,7 +114,7 @@ impl Checker<'_> {
         match (signs.as_slice(), within) {
             ([Equal], Some((written, within))) => {
                 if self.decided(within.id, GuardKind::Sign).is_some_and(|within| within < 0.0) {
-                    self.report(errors::negative_tolerance(written.span));
+                    self.reporter.report(errors::negative_tolerance(written.span));
                     return None;
                 }
                 let graph = &mut self.model.graph;
@@ -123,8 +123,12 @@ impl Checker<'_> {
                 Some(Bounded { value: sides[0], bounds: vec![(false, least), (true, most)] })
             }
             ([Equal], None) => {
-                let wanted = self.sources.text(sides[1].0.span).to_owned();
-                self.report(errors::equal_without_tolerance(requirement.rest[0].span, sides[1].0.span, &wanted));
+                let wanted = self.reporter.text(sides[1].0.span).to_owned();
+                self.reporter.report(errors::equal_without_tolerance(
+                    requirement.rest[0].span,
+                    sides[1].0.span,
+                    &wanted,
+                ));
                 None
             }
             ([sign @ (LessEqual | GreaterEqual)], None) => {
@@ -141,13 +145,13 @@ impl Checker<'_> {
                 Some(Bounded { value: sides[1], bounds: vec![(true, sides[0].1.id), (false, sides[2].1.id)] })
             }
             (_, Some((written, _))) if !signs.contains(&Equal) => {
-                self.report(errors::tolerance_of_no_equality(written.span));
+                self.reporter.report(errors::tolerance_of_no_equality(written.span));
                 None
             }
             _ => {
                 let is_bound = |side: &&ast::ComparedSide| matches!(side.sign, LessEqual | GreaterEqual);
                 let wrong = requirement.rest.iter().find(|side| !is_bound(side)).or(requirement.rest.last())?;
-                self.report(errors::no_bound(wrong.sign, wrong.span));
+                self.reporter.report(errors::no_bound(wrong.sign, wrong.span));
                 None
             }
         }

@@ -1,9 +1,11 @@
 //! Results: formulas of reductions, each of which takes a formula as in a measure to one number for the whole analysis.
 
+use super::Checker;
+use super::dimensions::require_dimension;
 use super::elements::measure_context;
 use super::entity::Entity;
+use super::errors::{self, Reporter};
 use super::formula::{Context, Dim, Value};
-use super::{Checker, errors};
 use crate::model::{Condition, Dimension, GuardKind, Named, Outcome, Reduction, ReductionKind, Units};
 use mechc_expr::{ExprId, Symbol};
 use mechc_syntax::ast::{Expr, ItemKind, Name, Window, WrittenUnit};
@@ -47,7 +49,7 @@ impl Checker<'_> {
         for k in std::mem::take(&mut self.result_order) {
             let formula = self.results[k].formula;
             let context = result_context(self.results[k].dimensional);
-            let source = self.sources.get(formula.span.file);
+            let source = self.reporter.sources.get(formula.span.file);
             // A search condition decides nothing about a variant. Where it is not finite, it does not hold.
             self.branch.is_untaken = source.is_option && source.name == UNTIL;
             let value = self.formula(formula, &context);
@@ -110,7 +112,7 @@ impl Checker<'_> {
         if compares || !means_itself {
             return Err(NotAReduction);
         }
-        self.report(errors::reduction_in(context.place, word, e.span));
+        self.reporter.report(errors::reduction_in(context.place, word, e.span));
         Ok(None)
     }
 
@@ -124,10 +126,10 @@ impl Checker<'_> {
     ) -> Option<Value> {
         if arguments.len() != word.arguments {
             let name = word.word.name;
-            self.report(errors::argument_count(name, Some(&word.word), e.span, word.takes, arguments.len()));
+            self.reporter.report(errors::argument_count(name, Some(&word.word), e.span, word.takes, arguments.len()));
             return None;
         }
-        self.reject_window(written, window.filter(|_| word.takes_time()))?;
+        reject_window(&mut self.reporter, written, window.filter(|_| word.takes_time()))?;
         let conditions = self.model.conditions.len();
         let inner = Context { place: "a reduction", results: true, ..measure_context(context.judged) };
         let of = self.number(&arguments[0], &inner);
@@ -191,13 +193,6 @@ impl Checker<'_> {
         self.holds_named(id, |named| matches!(named, Named::Reduction(_)))
     }
 
-    /// Reports the window of a call that takes none.
-    pub(super) fn reject_window(&mut self, called: &Name, window: Option<&Window>) -> Option<()> {
-        let Some(window) = window else { return Some(()) };
-        self.report(errors::window_of_no_reduction(called, window.span));
-        None
-    }
-
     /// Evaluates the bounds of a reduction's window.
     fn window(&mut self, word: &'static ReductionWord, window: &Window) -> Option<[Option<ExprId>; 2]> {
         let mut read = |bound: &Option<Expr>, place: &str| match bound {
@@ -212,7 +207,7 @@ impl Checker<'_> {
             let is_negative = self.decided(length, GuardKind::Sign).is_some_and(|length| length < 0.0);
             let times = [self.number_of(from), self.number_of(to)];
             if let ([Some(from), Some(to)], true, false) = (times, is_negative, self.branch.is_untaken) {
-                self.report(errors::window_ends_early(word, window.span, [from, to]));
+                self.reporter.report(errors::window_ends_early(word, window.span, [from, to]));
                 return None;
             }
         }
@@ -227,7 +222,14 @@ impl Checker<'_> {
         let value = self.number(time, &context)?;
         // Reductions have dimensions in plain formulas too.
         let judged = self.counts(value, &context);
-        self.require_dimension(place, Dimension::TIME, time.span, value.dim, &Context { judged, ..context })?;
+        require_dimension(
+            &mut self.reporter,
+            place,
+            Dimension::TIME,
+            time.span,
+            value.dim,
+            &Context { judged, ..context },
+        )?;
         Some(value.id)
     }
 }
@@ -250,4 +252,11 @@ fn kind(word: &str, at: Option<ExprId>) -> Option<ReductionKind> {
 /// Returns the context in which the formula of a result is read.
 fn result_context(judged: bool) -> Context<'static> {
     Context { judged, results: true, ..Context::constant("a result") }
+}
+
+/// Reports the window of a call that takes none.
+pub(super) fn reject_window(reporter: &mut Reporter<'_>, called: &Name, window: Option<&Window>) -> Option<()> {
+    let Some(window) = window else { return Some(()) };
+    reporter.report(errors::window_of_no_reduction(called, window.span));
+    None
 }

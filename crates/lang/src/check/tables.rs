@@ -1,8 +1,12 @@
 //! Tables: their rows from a list or a file, and their calls.
 
+use super::Checker;
+use super::dimensions::require_dimension;
+use super::display_units::compound;
+use super::errors::{self, Reporter};
 use super::formula::{Context, Dim, Value};
+use super::quantities::describe;
 use super::table_file::{self, Picked};
-use super::{Checker, errors};
 use crate::model::{Condition, ConditionKind, Dimension};
 use mechc_expr::{ExprId, TableId};
 use mechc_syntax::ast::{ColumnName, ColumnWord, Expr, ExprKind, Name, TableRows, WrittenUnit};
@@ -85,9 +89,9 @@ impl<'a> Checker<'a> {
             match &row.kind {
                 ExprKind::Tuple(parts) if parts.len() == 2 => pairs.push([&parts[0], &parts[1]]),
                 ExprKind::Tuple(parts) => {
-                    self.report(errors::row_of(row.span, parts.len()));
+                    self.reporter.report(errors::row_of(row.span, parts.len()));
                 }
-                _ => self.wrong_kind(row.span, "a row `(argument, value)`", Self::describe(row)),
+                _ => self.reporter.report(errors::wrong_kind(row.span, "a row `(argument, value)`", describe(row))),
             }
         }
         if pairs.len() < rows.len() {
@@ -141,19 +145,19 @@ impl<'a> Checker<'a> {
             None => [None, None],
             Some(written) => {
                 let [first, second] =
-                    written.each_ref().map(|unit| self.compound(unit, errors::not_a_unit_of_a_column));
+                    written.each_ref().map(|unit| compound(&mut self.reporter, unit, errors::not_a_unit_of_a_column));
                 [Some(first?), Some(second?)]
             }
         };
         let file = self.file_of_table(path)?;
         let picked = match columns {
             None => Picked::Both,
-            Some(columns) => self.picked(path, columns, file)?,
+            Some(columns) => picked(&mut self.reporter, path, columns, file)?,
         };
-        let (rows, faults) = table_file::read(self.sources.get(file), file, picked);
+        let (rows, faults) = table_file::read(self.reporter.sources.get(file), file, picked);
         if !faults.is_empty() {
             for fault in faults {
-                self.report(fault.also(path.span, "named here"));
+                self.reporter.report(fault.also(path.span, "named here"));
             }
             return None;
         }
@@ -169,25 +173,11 @@ impl<'a> Checker<'a> {
             })
             .collect();
         if rows.is_empty() {
-            self.report(errors::empty_table_file(path));
+            self.reporter.report(errors::empty_table_file(path));
             return None;
         }
         let dims = units.map(|unit| unit.map_or(Dim::PLAIN, |unit| Dim::Of(unit.dimension())));
         Some((rows, dims))
-    }
-
-    /// Returns the numbers of the two columns that a text names.
-    fn picked(&mut self, path: &Name, columns: &[ColumnName; 2], file: FileId) -> Option<Picked> {
-        let header = table_file::first_line(self.sources.get(file));
-        let cells = columns.each_ref().map(|column| match position_of(path, column, &header) {
-            Ok(at) => Some(at),
-            Err(diagnostic) => {
-                self.report(*diagnostic);
-                None
-            }
-        });
-        let by_name = columns.iter().any(|column| matches!(column.kind, ColumnWord::Named(_)));
-        Some(Picked::Two { cells: [cells[0]?, cells[1]?], by_name })
     }
 
     /// Returns the file's text that a table names, if it could be read.
@@ -197,7 +187,7 @@ impl<'a> Checker<'a> {
             Some(Err(diagnostic)) => {
                 let named = "named here";
                 let diagnostic = diagnostic.as_ref().clone();
-                self.report(if diagnostic.labels.is_empty() {
+                self.reporter.report(if diagnostic.labels.is_empty() {
                     diagnostic.at(path.span, named)
                 } else {
                     diagnostic.also(path.span, named)
@@ -205,7 +195,7 @@ impl<'a> Checker<'a> {
                 None
             }
             None => {
-                self.report(errors::no_table_file(path));
+                self.reporter.report(errors::no_table_file(path));
                 None
             }
         }
@@ -220,7 +210,7 @@ impl<'a> Checker<'a> {
         };
         let least = if periodic { 3 } else { 2 };
         if rows.len() < least {
-            self.report(errors::too_few_rows(name, periodic, least, rows.len()));
+            self.reporter.report(errors::too_few_rows(name, periodic, least, rows.len()));
             return false;
         }
         let values: Vec<[f64; 2]> =
@@ -229,7 +219,7 @@ impl<'a> Checker<'a> {
             let (before, here) = (values[k - 1][0], values[k][0]);
             if here.is_nan() || here <= before {
                 let reported = [rows[k].written.unwrap_or(here), rows[k - 1].written.unwrap_or(before)];
-                self.report(named(errors::not_rising(name, reported, [rows[k].span, rows[k - 1].span])));
+                self.reporter.report(named(errors::not_rising(name, reported, [rows[k].span, rows[k - 1].span])));
                 return false;
             }
         }
@@ -237,7 +227,7 @@ impl<'a> Checker<'a> {
         let largest = values.iter().fold(0.0, |m: f64, v| m.max(v[1].abs()));
         if periodic && (last - first).abs() > SAME * largest {
             let ends = [rows[rows.len() - 1].span, rows[0].span];
-            self.report(named(errors::ends_differ(name, ends, [last, first], dimension)));
+            self.reporter.report(named(errors::ends_differ(name, ends, [last, first], dimension)));
             return false;
         }
         true
@@ -253,13 +243,14 @@ impl<'a> Checker<'a> {
     ) -> Option<Value> {
         let name = self.tables[k].name;
         let [written] = arguments else {
-            self.report(errors::argument_count(&name.text, None, e.span, "one argument", arguments.len()));
+            self.reporter.report(errors::argument_count(&name.text, None, e.span, "one argument", arguments.len()));
             return None;
         };
         let argument = self.number(written, context)?;
         let made = self.tables[k].made?;
         let expected = made.columns[0].settled();
-        self.require_dimension(
+        require_dimension(
+            &mut self.reporter,
             &format!("the argument of `{}`", name.text),
             expected,
             written.span,
@@ -279,7 +270,7 @@ impl<'a> Checker<'a> {
         if let Some(value) = self.constant_value(x) {
             let slack = AT_THE_END * (ends[1] - ends[0]);
             if !self.branch.is_untaken && (value < ends[0] - slack || value > ends[1] + slack) {
-                self.report(errors::out_of_table(name, value, ends, made.columns[0].settled(), span));
+                self.reporter.report(errors::out_of_table(name, value, ends, made.columns[0].settled(), span));
                 return None;
             }
         }
@@ -316,4 +307,18 @@ fn position_of(path: &Name, column: &ColumnName, header: &[&str]) -> Result<usiz
         }
     };
     at.ok_or_else(|| Box::new(errors::no_column(path, column, header)))
+}
+
+/// Returns the numbers of the two columns that a text names.
+fn picked(reporter: &mut Reporter<'_>, path: &Name, columns: &[ColumnName; 2], file: FileId) -> Option<Picked> {
+    let header = table_file::first_line(reporter.sources.get(file));
+    let cells = columns.each_ref().map(|column| match position_of(path, column, &header) {
+        Ok(at) => Some(at),
+        Err(diagnostic) => {
+            reporter.report(*diagnostic);
+            None
+        }
+    });
+    let by_name = columns.iter().any(|column| matches!(column.kind, ColumnWord::Named(_)));
+    Some(Picked::Two { cells: [cells[0]?, cells[1]?], by_name })
 }

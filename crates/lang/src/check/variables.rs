@@ -110,27 +110,27 @@ impl Checker<'_> {
     /// Evaluates `der(e, NAME)`.
     pub(super) fn derivative_by(&mut self, e: &Expr, [of, by]: [&Expr; 2], context: &Context<'_>) -> Option<Value> {
         if context.results && !context.measures {
-            self.report(errors::variation_of_result(e.span));
+            self.reporter.report(errors::variation_of_result(e.span));
             return None;
         }
         if !context.measures {
-            self.report(errors::derivative_by_in(context.place, e.span));
+            self.reporter.report(errors::derivative_by_in(context.place, e.span));
             return None;
         }
         let (inner, variable) = (self.number(of, context), self.variable(by));
         let (inner, variable) = (inner?, variable?);
         if self.holds_reduction(inner.id) {
-            self.report(errors::variation_of_result(e.span));
+            self.reporter.report(errors::variation_of_result(e.span));
             return None;
         }
         let (times, _) = self.variation_orders(inner.id);
         let rates = self.derivative_order(inner.id);
         if times + 1 > MOST_VARIABLES {
-            self.report(errors::derivative_by_too_many(e.span));
+            self.reporter.report(errors::derivative_by_too_many(e.span));
             return None;
         }
         if rates > MOST_RATES {
-            self.report(errors::derivative_of_jerk(e.span));
+            self.reporter.report(errors::derivative_of_jerk(e.span));
             return None;
         }
         let by = self.common.variables.dims[variable as usize];
@@ -200,7 +200,7 @@ impl Checker<'_> {
         let holds_jerk = |load: &&Load| self.model.graph.symbols(load.force).iter().any(is_jerk);
         let Some(load) = self.model.loads.iter().find(holds_jerk).map(|load| load.declared.clone()) else { return };
         for span in std::mem::take(&mut self.common.variables.of_forces) {
-            self.report(errors::derivative_through_a_jerk(span, &load));
+            self.reporter.report(errors::derivative_through_a_jerk(span, &load));
         }
     }
 
@@ -211,7 +211,7 @@ impl Checker<'_> {
         if let Some(bound) = self.binding_of(&format!("{}{path}", self.address.path)) {
             let local = |name: &String| name.strip_prefix(self.address.path.as_str()).unwrap_or(name).to_owned();
             let made_of: Vec<String> = bound.made_of.iter().map(local).collect();
-            self.report(errors::by_bound(by.span, &path, bound.span, &made_of));
+            self.reporter.report(errors::by_bound(by.span, &path, bound.span, &made_of));
             return None;
         }
         let number = full.and_then(|name| self.common.variables.numbers.get(&name).copied());
@@ -233,7 +233,7 @@ impl Checker<'_> {
             }
             _ => errors::not_a_variable(by.span, "a formula"),
         };
-        self.report(diagnostic);
+        self.reporter.report(diagnostic);
         None
     }
 

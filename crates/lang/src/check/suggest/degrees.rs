@@ -28,7 +28,7 @@ impl Checker<'_> {
         if let Some(value) = e.bare_number()
             && value.abs() > TAU
         {
-            self.report(errors::degrees(e.span, value, self.sources.text(e.span)));
+            self.reporter.report(errors::degrees(e.span, value, self.reporter.text(e.span)));
         }
     }
 
@@ -50,7 +50,7 @@ impl Checker<'_> {
         let ExprKind::Sum(first, rest) = &formula.bare().kind else { return };
         let terms = std::iter::once(&**first).chain(rest.iter().map(|(_, term)| term));
         if is_of_degrees(written) && !terms.clone().all(|term| self.is_bare(term, LEVELS)) {
-            let unit = self.sources.text(written.span);
+            let unit = self.reporter.text(written.span);
             self.warn_of_bare_numbers(terms, written.span, unit);
         }
     }
@@ -60,8 +60,8 @@ impl Checker<'_> {
             if self.is_bare(term, LEVELS) && self.common.reported_radians.insert(term.span) {
                 let root = self.plain_root(term).filter(|root| root.is_number);
                 let number = root.map_or(term.span, |root| root.span);
-                let texts = [term.span, number].map(|span| self.sources.text(span));
-                self.report(errors::number_as_radians([term.span, number], texts, printed, unit));
+                let texts = [term.span, number].map(|span| self.reporter.text(span));
+                self.reporter.report(errors::number_as_radians([term.span, number], texts, printed, unit));
             }
         }
     }
@@ -99,10 +99,10 @@ impl Checker<'_> {
                 let unit = match argument {
                     Some(_) => context.printed?,
                     // Formulas that are expanded are examined where they are declared.
-                    None if self.calls.caller.is_none() => self.unit_of(name)?,
+                    None if self.reporter.caller.is_none() => self.unit_of(name)?,
                     None => return None,
                 };
-                Some((name.span, self.sources.text(unit).to_owned()))
+                Some((name.span, self.reporter.text(unit).to_owned()))
             }
             ExprKind::Sum(first, rest) => {
                 let mut terms = std::iter::once(&**first).chain(rest.iter().map(|(_, term)| term));

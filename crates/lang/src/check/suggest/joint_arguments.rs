@@ -24,12 +24,12 @@ impl Checker<'_> {
         } else {
             return false;
         };
-        self.report(errors::wrong_kind(first.span, Feature::with_article(one), a.noun()).fix(fix));
+        self.reporter.report(errors::wrong_kind(first.span, Feature::with_article(one), a.noun()).fix(fix));
         true
     }
 
     fn swapped(&self, first: &Expr, second: &Expr) -> Fix {
-        let [one, other] = [first, second].map(|e| self.sources.text(e.span).to_owned());
+        let [one, other] = [first, second].map(|e| self.reporter.text(e.span).to_owned());
         let message = format!("the other way round: `{other}, {one}`");
         let edits = vec![Edit { span: first.span, text: other }, Edit { span: second.span, text: one }];
         Fix { message, edits, applies: Applicability::Probably }

@@ -28,7 +28,7 @@ impl Checker<'_> {
         });
         let feature = features.flatten().find(|feature| feature.name.span == declared)?.span;
         let axis = format!("axis {name} = {} along (1, 0)", point.text);
-        let source = self.sources.get(feature.file);
+        let source = self.reporter.sources.get(feature.file);
         let line = source.text[..feature.start as usize].rsplit('\n').next().unwrap_or_default();
         // On a line of its own, or within the line of the body.
         let gap = if line.trim().is_empty() { format!("\n{line}") } else { " ".to_owned() };
@@ -101,7 +101,7 @@ impl Checker<'_> {
         })?;
         let is_quantity =
             matches!(&left.bare().kind, ExprKind::Call { name, .. } if self.quantity_word(name).is_some());
-        is_quantity.then(|| self.sources.text(left.span))
+        is_quantity.then(|| self.reporter.text(left.span))
     }
 
     /// Suggests a quantity for `crank.phi`, `crank.x` or a point where a number is expected.
@@ -141,11 +141,11 @@ impl Checker<'_> {
     pub(in crate::check) fn suggest_decimal_point(&self, parts: &[Expr], expected: usize) -> Option<Fix> {
         let (mut edits, mut number, mut k) = (Vec::new(), None, 0);
         while k + 1 < parts.len() {
-            let (whole, digits) = (self.sources.text(parts[k].span), self.sources.text(parts[k + 1].span));
+            let (whole, digits) = (self.reporter.text(parts[k].span), self.reporter.text(parts[k + 1].span));
             let gap = Span { start: parts[k].span.end, end: parts[k + 1].span.start, ..parts[k].span };
             let is_number = whole.trim_start_matches('-').chars().all(|c| c.is_ascii_digit());
             let is_split =
-                is_number && digits.starts_with(|c: char| c.is_ascii_digit()) && self.sources.text(gap) == ",";
+                is_number && digits.starts_with(|c: char| c.is_ascii_digit()) && self.reporter.text(gap) == ",";
             if is_split {
                 number.get_or_insert_with(|| format!("{whole}.{digits}"));
                 edits.push(Edit { span: gap, text: ".".to_owned() });
@@ -166,7 +166,7 @@ impl Checker<'_> {
             Some(declared) => diagnostic.also(declared, format!("`{name}` is given in a unit of angle")),
             None => diagnostic,
         };
-        self.report(diagnostic.help(match declared {
+        self.reporter.report(diagnostic.help(match declared {
             Some(_) => format!("give `{name}` a unit of length: `mm`, `m`"),
             None => "units of length: `mm`, `m`".to_owned(),
         }));
@@ -216,7 +216,7 @@ impl Checker<'_> {
         let message = "the angle of two coordinates is `atan2(y, x)`";
         let fix = is_atan2.then(|| Fix::replace(name.span, "atan2", message, Applicability::Probably));
         let fix = fix.or_else(|| self.suggest_decimal_point(arguments, most));
-        self.report(with_preferred_fix(diagnostic, fix));
+        self.reporter.report(with_preferred_fix(diagnostic, fix));
     }
 }
 

@@ -118,7 +118,7 @@ impl<'a> Checker<'a> {
         let mut plain = std::mem::take(&mut self.lengths.plain);
         plain.sort_by_key(|length| length.span);
         plain.dedup_by_key(|length| length.span);
-        self.report(errors::no_unit_of_length(&plain, most, unit.word.name));
+        self.reporter.report(errors::no_unit_of_length(&plain, most, unit.word.name));
     }
 }
 

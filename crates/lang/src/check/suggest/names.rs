@@ -64,7 +64,7 @@ impl Checker<'_> {
             let form = if other.is_some() { format!(": `{quantity} = …`") } else { format!(" `{quantity}`") };
             return Fix::replace(span, quantity, format!("{message}{form}"), Applicability::Probably);
         };
-        let law = format!("{} * t", self.sources.text(rate.span));
+        let law = format!("{} * t", self.reporter.text(rate.span));
         let edits = vec![Edit { span, text: quantity.to_owned() }, Edit { span: rate.span, text: law.clone() }];
         Fix {
             message: format!("a driver gives the motion over time: `{quantity} = {law}`"),
@@ -96,14 +96,14 @@ impl Checker<'_> {
         let diagnostic = errors::unknown("body", name, &candidates);
         let is_ground = diagnostic.help.is_empty() && is_ground(&name.text);
         let ground = is_ground.then(|| Fix::suggest(name.span, "ground"));
-        self.report(diagnostic.fix_if(ground));
+        self.reporter.report(diagnostic.fix_if(ground));
     }
 
     /// Returns the features of a body that `expected` accepts, as they are written outside the body.
     pub(in crate::check) fn features_of(&self, body: &Name, expected: impl Fn(Feature) -> bool) -> Vec<String> {
         let Some(Entity::Body(k)) = self.entity(body) else { return Vec::new() };
         let space = self.bodies.get(k).and_then(|id| self.common.features.get(id));
-        let names = space.into_iter().flat_map(|space| self.suggestions_in(space, &expected));
+        let names = space.into_iter().flat_map(|space| space.suggestions(&self.reporter, &expected));
         names.take(MOST_PLACES).map(|name| format!("`{}.{name}`", body.text)).collect()
     }
 
@@ -121,7 +121,7 @@ impl Checker<'_> {
             _ => None,
         });
         let owner = |e: &Expr| match &e.kind {
-            ExprKind::Member { owner, .. } => Some(self.sources.text(owner.span)),
+            ExprKind::Member { owner, .. } => Some(self.reporter.text(owner.span)),
             _ => None,
         };
         arguments.map(|arguments| arguments.iter().filter_map(owner).collect()).unwrap_or_default()
