@@ -62,7 +62,7 @@ impl<'a> Checker<'a> {
 
     /// Returns whether a binding is one of a param, which must be evaluated before the part. Others follow after all parts.
     pub(super) fn binds_definition(&self, part: usize, binding: &Binding) -> bool {
-        let bound = self.parts.get(part).and_then(|child| child.space.get(&binding.name.text));
+        let bound = self.parts.get(part).and_then(|child| child.scope.get(&binding.name.text));
         !matches!(bound, Some(Entity::Input(_)))
     }
 
@@ -71,7 +71,7 @@ impl<'a> Checker<'a> {
         let of_part = self.part_declarations[part];
         let mut bound: Vec<BoundParam<'a>> = Vec::new();
         for binding in &of_part.bindings {
-            let entity = self.parts[part].space.get(&binding.name.text);
+            let entity = self.parts[part].scope.get(&binding.name.text);
             let before = of_part.bindings.iter().take_while(|other| other.span != binding.span);
             if let Some(first) = before.into_iter().find(|other| is_twice(other, binding)) {
                 self.reporter.report(errors::bound_twice(binding, first.span));
@@ -79,7 +79,7 @@ impl<'a> Checker<'a> {
             }
             match entity {
                 Some(Entity::Param(_)) => {
-                    let is_point = self.parts[part].point_params.contains(binding.name.text.as_str());
+                    let is_point = self.parts[part].scope.is_point_name(&binding.name.text);
                     if let Some(value) = self.param_bound(binding, is_point) {
                         bound.push(BoundParam { name: &binding.name.text, bound: value, span: Some(binding.span) });
                     }
@@ -94,9 +94,9 @@ impl<'a> Checker<'a> {
 
     fn no_name_to_bind(&mut self, part: usize, binding: &Binding, found: Option<Entity>) {
         let child = &self.parts[part];
-        let candidates: Vec<&str> = child.space.names(|e| matches!(e, Entity::Param(_) | Entity::Input(_))).collect();
+        let candidates: Vec<&str> = child.scope.names(|e| matches!(e, Entity::Param(_) | Entity::Input(_))).collect();
         let suggestion = nearest(&binding.name.text, candidates.iter().copied());
-        let mechanism = &child.tree.name.text;
+        let mechanism = &child.scope.tree.name.text;
         let diagnostic = errors::no_name_to_bind(mechanism, binding, found.map(Entity::noun), &candidates, suggestion);
         self.reporter.report(diagnostic);
     }
@@ -148,12 +148,12 @@ impl<'a> Checker<'a> {
             return Some(None);
         }
         let dim = if in_file.dim == Dim::Any { value.dim } else { in_file.dim };
-        if self.deciding.contains(&name.text)
+        if self.scope.deciding.contains(&name.text)
             && let Some(number) = self.constant_value(value.id)
         {
             return Some(Some(Value { id: self.model.graph.constant(number), dim }));
         }
-        let declared = self.declared(name);
+        let declared = self.scope.declared(name);
         Some(Some(self.with_shift(&declared, Value { id: value.id, dim })))
     }
 

@@ -63,7 +63,7 @@ impl Checker<'_> {
     fn report_count_of(&mut self, e: &Expr, name: &Name, function: &Function, arguments: &[Expr]) {
         let (expected, found) = (function.takes(), arguments.len());
         let diagnostic = errors::argument_count(&name.text, Some(&function.word), e.span, &expected, found);
-        let reduces = self.reduction_word(name, found).is_some();
+        let reduces = self.scope.reduction_word(name, found).is_some();
         let diagnostic = if reduces { diagnostic.help(errors::REDUCES) } else { diagnostic };
         self.report_argument_count(name, diagnostic, arguments, function.most);
     }

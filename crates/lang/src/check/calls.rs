@@ -82,21 +82,21 @@ impl<'a> Checker<'a> {
             return reduced;
         }
         reject_window(&mut self.reporter, name, window)?;
-        if self.is_of_language(&name.text) {
-            if self.is_reserved_but_declared(name) {
+        if self.scope.is_of_language(&name.text) {
+            if self.scope.is_reserved_but_declared(name) {
                 return None;
             }
             return self.builtin(e, name, arguments, context);
         }
-        if matches!(self.space.get(&name.text), Some(Entity::Broken)) {
+        if matches!(self.scope.get(&name.text), Some(Entity::Broken)) {
             return None;
         }
         // A parameter of that name is intended if quantities are not allowed.
-        let is_quantity = context.rates || self.space.get(&name.text).is_none();
-        if is_quantity && self.quantity_word(name).is_some() {
+        let is_quantity = context.rates || self.scope.get(&name.text).is_none();
+        if is_quantity && self.scope.quantity_word(name).is_some() {
             return self.quantity(e, name, arguments, context);
         }
-        match self.resolve(name).ok()?.filter(|_| context.names) {
+        match self.scope.resolve(name).ok()?.filter(|_| context.names) {
             Some(Entity::Function(k)) => {
                 let [argument] = arguments else {
                     self.reporter.report(errors::argument_count(
@@ -130,7 +130,9 @@ impl<'a> Checker<'a> {
                     self.reporter.report(errors::unknown_function(name, &[], &[]).instead(fix));
                     return None;
                 }
-                let candidates = self.suggestions(|entity| matches!(entity, Entity::Function(_) | Entity::Table(_)));
+                let candidates = self
+                    .scope
+                    .suggestions(&self.reporter, |entity| matches!(entity, Entity::Function(_) | Entity::Table(_)));
                 let texts: Vec<&str> = arguments.iter().map(|e| self.reporter.text(e.span)).collect();
                 let diagnostic = errors::unknown_function(name, &candidates, &texts);
                 self.reporter.report(diagnostic);
@@ -170,7 +172,7 @@ impl<'a> Checker<'a> {
 
     /// Expands the formula of another measure in its place.
     pub(super) fn measure_value(&mut self, at: usize, span: Span, context: &Context<'_>) -> Option<Value> {
-        if let Some(&(part, Entity::Measure(inside))) = self.imported.get(&Entity::Measure(at)) {
+        if let Some((part, Entity::Measure(inside))) = self.scope.origin(Entity::Measure(at)) {
             let (branch, caller) = (self.branch, self.reporter.caller.or(Some(span)));
             return self.in_part(part, |child| {
                 (child.branch, child.reporter.caller) = (branch, caller);
@@ -225,11 +227,11 @@ impl<'a> Checker<'a> {
     fn expansion(&mut self, call: Call, formula: &Expr, context: &Context<'_>) -> Option<Value> {
         let outer = std::mem::replace(&mut self.calls.is_abandoned, false);
         // The called formula does not belong to the body in which it is called.
-        let scope = std::mem::take(&mut self.scope);
+        let scope = std::mem::take(&mut self.current);
         let (complete, visited) = (self.calls.complete, self.calls.visited);
         let first = self.model.conditions.len();
         let value = self.number(formula, context);
-        self.scope = scope;
+        self.current = scope;
         if self.calls.is_abandoned {
             self.calls.abandoned.insert(call);
         } else {

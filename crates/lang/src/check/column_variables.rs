@@ -1,10 +1,8 @@
 //! The names of `--by`, and the params and inputs of parts that have no derivatives because they are bound.
 
-use super::entity::Entity;
-use super::free_names::visit_free_names;
 use super::overrides::override_matches;
 use super::{Checker, errors};
-use mechc_syntax::ast::{Expr, ItemKind, Name};
+use mechc_syntax::ast::{ItemKind, Name};
 use mechc_text::diag::nearest;
 use mechc_text::source::Span;
 
@@ -66,18 +64,18 @@ impl Checker<'_> {
         let is_settable = |path: &str| settable_names.iter().any(|(name, _)| override_matches(name, path));
         let names = settable_names.iter().map(|(name, _)| name.as_str());
         let free: Vec<&str> =
-            names.filter(|name| !self.deciding.contains(*name) && self.binding_of(name).is_none()).collect();
+            names.filter(|name| !self.scope.deciding.contains(*name) && self.binding_of(name).is_none()).collect();
         let whole = path.rsplit_once('.').map(|(point, _)| point).filter(|point| is_settable(point));
-        let mechanism = &self.tree.name.text;
+        let mechanism = &self.scope.tree.name.text;
         let diagnostic = if is_settable(path) {
-            if self.reporter.diagnostics.has_errors() && !self.deciding.contains(path) {
+            if self.reporter.diagnostics.has_errors() && !self.scope.deciding.contains(path) {
                 return;
             }
             // All other names have variables.
             errors::column_by_deciding(path)
         } else if whole.is_some() {
             errors::no_column_by(mechanism, path, None, whole, &free)
-        } else if let Some(entity) = self.space.get(path) {
+        } else if let Some(entity) = self.scope.get(path) {
             errors::no_column_by(mechanism, path, Some(entity.noun()), None, &free)
         } else {
             let meant = nearest(path, free.iter().copied());
@@ -89,11 +87,11 @@ impl Checker<'_> {
     /// Returns the part that a name refers to, alone or with all copies, and its params and inputs that have derivatives.
     fn part_named(&self, query: &str) -> Option<(String, Vec<String>)> {
         for child in &self.parts {
-            let path = child.address.path.strip_suffix('.')?;
+            let path = child.scope.path.strip_suffix('.')?;
             if override_matches(path, query) {
                 let settable_names = child.settable_names(settable).into_iter().map(|(name, _)| name);
-                let numbers = settable_names.filter(|name| !child.deciding.contains(name));
-                let free = numbers.flat_map(|name| self.unbound_names(format!("{}{name}", child.address.path)));
+                let numbers = settable_names.filter(|name| !child.scope.deciding.contains(name));
+                let free = numbers.flat_map(|name| self.unbound_names(format!("{}{name}", child.scope.path)));
                 return Some((path.to_owned(), free.collect()));
             }
             if let Some(found) = child.part_named(query) {
@@ -119,14 +117,14 @@ impl Checker<'_> {
     pub(super) fn binding_of(&self, path: &str) -> Option<PathBinding> {
         for (child, part) in self.parts.iter().zip(&self.part_declarations) {
             for binding in &part.bindings {
-                let name = format!("{}{}", child.address.path, binding.name.text);
+                let name = format!("{}{}", child.scope.path, binding.name.text);
                 let axes = ["x", "y"]
                     .into_iter()
                     .filter(|axis| binding.coordinate.as_ref().is_none_or(|bound| bound.text == *axis));
                 let mut coordinates = axes.map(|axis| format!("{name}.{axis}"));
-                let is_point = child.is_point_name(&binding.name.text);
+                let is_point = child.scope.is_point_name(&binding.name.text);
                 if override_matches(&name, path) || is_point && coordinates.any(|name| override_matches(&name, path)) {
-                    let made_of = self.free_names_in(&binding.value);
+                    let made_of = self.scope.free_names_in(&binding.value);
                     return Some(PathBinding {
                         span: binding.span,
                         is_of_coordinate: binding.coordinate.is_some(),
@@ -139,22 +137,6 @@ impl Checker<'_> {
             }
         }
         None
-    }
-
-    /// Returns the paths of the params and inputs that a formula uses.
-    fn free_names_in(&self, formula: &Expr) -> Vec<String> {
-        let mut found: Vec<String> = Vec::new();
-        visit_free_names(
-            formula,
-            |name| self.hidden.contains(name),
-            |name, _| {
-                let path = format!("{}{}", self.address.path, name.text);
-                if matches!(self.entity(name), Some(Entity::Param(_) | Entity::Input(_))) && !found.contains(&path) {
-                    found.push(path);
-                }
-            },
-        );
-        found
     }
 }
 

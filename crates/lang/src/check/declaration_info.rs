@@ -99,7 +99,7 @@ pub fn known(tree: &Mechanism, options: &CheckOptions, sources: &Sources) -> Dec
     let counts = tree.items.iter().filter_map(|item| count(item, copies.get(&item.span)?)).collect();
     let definitions = definitions_of(tree);
     let mut checker = Checker::new(&definitions, options, sources);
-    checker.collect(&definitions);
+    checker.scope.collect(&mut checker.reporter);
     checker.definitions();
     let mut values = checker.param_values();
     values.extend(tree.items.iter().filter_map(|item| checker.angle_of_pose(item)));
@@ -220,7 +220,7 @@ impl Checker<'_> {
         let value = param.value?;
         let dimension = value.dim.settled();
         let si = self.constant_value(value.id)?;
-        let unit = unit_in(formula, dimension, |name| self.entity_named(name).is_some());
+        let unit = unit_in(formula, dimension, |name| self.scope.get(name).is_some());
         si.is_finite().then_some(Amount::Number { si, dimension, unit })
     }
 
@@ -239,10 +239,6 @@ impl Checker<'_> {
         let si = self.any_constant(phi).filter(|si| si.is_finite())?;
         let amount = Amount::Number { si, dimension: Dimension::ANGLE, unit: None };
         Some(Value { name: None, formula: phi.span, is_number: is_number(phi), amount })
-    }
-
-    fn entity_named(&self, name: &str) -> Option<Entity> {
-        self.space.get(name)
     }
 }
 
@@ -289,9 +285,9 @@ fn unit_in(formula: &Expr, expected: Dimension, is_declared: impl Fn(&str) -> bo
 pub fn slopes(tree: &Mechanism, function: &str, options: &CheckOptions, sources: &Sources) -> Option<[String; 2]> {
     let definitions = definitions_of(tree);
     let mut checker = Checker::new(&definitions, options, sources);
-    checker.collect(&definitions);
+    checker.scope.collect(&mut checker.reporter);
     checker.definitions();
-    let Some(Entity::Function(k)) = checker.space.get(function) else { return None };
+    let Some(Entity::Function(k)) = checker.scope.get(function) else { return None };
     let (argument, formula, judged) = {
         let function = &checker.functions[k];
         (function.argument, function.value, function.dimensional)

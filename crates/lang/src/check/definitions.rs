@@ -19,7 +19,7 @@ impl<'a> Checker<'a> {
     /// Evaluates params and tables and checks functions in order of dependence, and records the order of measures and of results.
     pub(super) fn definitions(&mut self) {
         let (mut definitions, mut docs, mut entities) = (Vec::new(), Vec::new(), Vec::new());
-        for item in self.items() {
+        for item in self.scope.items() {
             if let Some((entity, name, formulas)) = self.definition(item, &entities) {
                 entities.push(entity);
                 definitions.push((name, formulas));
@@ -66,7 +66,7 @@ impl<'a> Checker<'a> {
             }
             ItemKind::Input { name, value } => {
                 let given = self.options.given.formulas.iter();
-                let path = format!("{}{}", self.address.path, name.text);
+                let path = format!("{}{}", self.scope.path, name.text);
                 let override_formula =
                     given.filter(|(full, _)| override_matches(&path, full)).map(|(_, formula)| formula);
                 let formulas = std::iter::once(value).chain(override_formula).collect();
@@ -132,19 +132,19 @@ impl<'a> Checker<'a> {
                 for formula in formulas {
                     visit_free_names(
                         formula,
-                        |name| self.hidden.contains(name),
+                        |name| self.scope.hides(name),
                         |used, is_called| {
                             // `speed(P)` is a quantity, whatever else is called `speed`.
-                            let is_of_motion =
-                                self.quantity_word(used).is_some() || self.reduction_word(used, 1).is_some();
+                            let is_of_motion = self.scope.quantity_word(used).is_some()
+                                || self.scope.reduction_word(used, 1).is_some();
                             if is_called && is_of_motion {
                                 return;
                             }
                             let hidden = arguments.get(&k) == Some(&used.text.as_str());
-                            let is_user_name = !hidden && !self.is_reserved_but_declared(used);
-                            let entity = self.entity(used).filter(|_| is_user_name);
+                            let is_user_name = !hidden && !self.scope.is_reserved_but_declared(used);
+                            let entity = self.scope.entity(used).filter(|_| is_user_name);
                             // A name in a part depends on the part, unless no number of it is used here.
-                            let part = used.text.split_once('.').and_then(|(part, _)| self.space.get(part));
+                            let part = used.text.split_once('.').and_then(|(part, _)| self.scope.get(part));
                             let entity = match entity {
                                 Some(Entity::Body(_) | Entity::Joint(_) | Entity::Equation(_) | Entity::Ground) => None,
                                 entity => part.or(entity),

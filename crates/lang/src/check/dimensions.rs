@@ -39,9 +39,13 @@ impl Checker<'_> {
                 ExprKind::Member { owner, feature } if coordinate(feature).is_some() => {
                     self.is_dimensional_point(owner, Expected::Point)
                 }
-                ExprKind::Call { name, arguments, .. } if self.reduction_word(name, arguments.len()).is_some() => false,
+                ExprKind::Call { name, arguments, .. }
+                    if self.scope.reduction_word(name, arguments.len()).is_some() =>
+                {
+                    false
+                }
                 ExprKind::Call { name, .. }
-                    if !self.is_of_language(&name.text) && self.quantity_word(name).is_none() =>
+                    if !self.scope.is_of_language(&name.text) && self.scope.quantity_word(name).is_none() =>
                 {
                     self.is_dimensional_name(name)
                 }
@@ -54,24 +58,24 @@ impl Checker<'_> {
             }
             // The dimension of points matters for `length`, and not for `direction`.
             let with_points = match &e.kind {
-                ExprKind::Call { name, .. } if self.is_of_language(&name.text) => match name.text.as_str() {
+                ExprKind::Call { name, .. } if self.scope.is_of_language(&name.text) => match name.text.as_str() {
                     "length" => true,
                     "direction" => false,
                     _ => with_points,
                 },
                 _ => with_points,
             };
-            let inside = point_kinds::inside(e, expected, |name| self.hidden.contains(name));
+            let inside = point_kinds::inside(e, expected, |name| self.scope.hides(name));
             open.extend(inside.into_iter().map(|(e, expected)| (e, expected, with_points)));
         }
         false
     }
 
     fn is_dimensional_name(&self, name: &Name) -> bool {
-        if let Some(unit) = self.unit_alone(name) {
+        if let Some(unit) = self.scope.unit_alone(name) {
             return !unit.dimension.is(Dimension::PURE);
         }
-        match self.entity(name) {
+        match self.scope.entity(name) {
             Some(Entity::Param(k)) => {
                 self.params[k].value.is_some_and(Value::has_a_dimension)
                     || self.params[k].drawn.is_some_and(|drawn| drawn.dimensional)
@@ -85,17 +89,12 @@ impl Checker<'_> {
         }
     }
 
-    /// Returns the unit of a name without a number before it.
-    fn unit_alone(&self, name: &Name) -> Option<&'static Unit> {
-        Unit::named(&name.text).filter(|_| self.space.get(&name.text).is_none())
-    }
-
     /// Returns whether a formula is a literal zero with an optional sign, also through params.
     pub(super) fn is_zero(&self, formula: &Expr) -> bool {
         match &formula.bare().kind {
             ExprKind::Literal { value, unit: None } => *value == 0.0,
             ExprKind::Negate(e) => self.is_zero(e),
-            ExprKind::Name(name) => match self.entity(name) {
+            ExprKind::Name(name) => match self.scope.entity(name) {
                 Some(Entity::Param(k)) => {
                     matches!(self.params[k].value, Some(Value { dim: Dim::Any, .. }))
                 }

@@ -39,7 +39,7 @@ impl Checker<'_> {
             let conditions = self.model.conditions.len();
             let formula = self.measures[k].value;
             let value = self.formula(formula, &measure_context(self.measures[k].dimensional));
-            let owner = self.declared(self.measures[k].name).name;
+            let owner = self.scope.declared(self.measures[k].name).name;
             let conditions = self.conditions_in_time(conditions, &owner);
             self.measures[k].made = value.map(|value| (value, conditions));
             self.measures[k].sound = value.is_some();
@@ -50,13 +50,13 @@ impl Checker<'_> {
     pub(super) fn list_measures(&mut self) {
         let mut measures = 0..self.measures.len();
         let mut parts = 0..self.parts.len();
-        for item in self.items() {
+        for item in self.scope.items() {
             match &item.kind {
                 ItemKind::Measure { name, .. } => {
                     let Some(k) = measures.next() else { continue };
                     let Some((value, conditions)) = self.measures[k].made.take() else { continue };
                     if let Some(units) = self.units_of_measure(k, value) {
-                        let declared = self.declared(name);
+                        let declared = self.scope.declared(name);
                         self.model.measures.push(Measure { declared, value: value.id, conditions, units });
                     }
                 }
@@ -98,10 +98,10 @@ impl Checker<'_> {
         let conditions_of_both = self.conditions_in_time(conditions, &name.text);
         let units = self.units(point, Dim::LENGTH, unit);
         if let (Some(coordinates), Some(units)) = (coordinates, units) {
-            let (declared, measure) = (self.declared(name), self.model.measures.len());
+            let (declared, measure) = (self.scope.declared(name), self.model.measures.len());
             self.model.traces.push(Trace { declared, part: self.address.part, point: fixed, measure });
             for (part, value) in ["x", "y"].into_iter().zip(coordinates) {
-                let declared = Declared { name: format!("{}{}.{part}", self.address.path, name.text), span: name.span };
+                let declared = Declared { name: format!("{}{}.{part}", self.scope.path, name.text), span: name.span };
                 let (conditions, units) = (conditions_of_both.clone(), units.clone());
                 self.model.measures.push(Measure { declared, value, conditions, units });
             }
@@ -151,13 +151,13 @@ impl Checker<'_> {
 
     pub(super) fn equations(&mut self) {
         let (mut parts, mut numbers) = (0..self.parts.len(), 0..);
-        self.equations.resize(self.count.equations, None);
-        for item in self.items() {
+        self.equations.resize(self.scope.count.equations, None);
+        for item in self.scope.items() {
             match &item.kind {
                 ItemKind::Equation { driver, name, left, right } => {
                     let k = numbers.next().unwrap_or_default();
                     if let Some((form, dim)) = self.equation(*driver, name, [left, right]) {
-                        let (declared, written) = (self.declared(name), left.span.to(right.span));
+                        let (declared, written) = (self.scope.declared(name), left.span.to(right.span));
                         let driver = *driver && self.drives(form);
                         let dimension = dim.settled();
                         let equation = Equation { declared, driver, form, dimension, written };
@@ -191,7 +191,7 @@ impl Checker<'_> {
     /// Evaluates an equation. Returns its form and the dimension of its sides.
     fn equation(&mut self, driver: bool, name: &Name, sides: [&Expr; 2]) -> Option<(EquationForm, Dim)> {
         let [left, right] = sides;
-        if !sides.iter().any(|side| self.holds_quantity(side)) {
+        if !sides.iter().any(|side| self.scope.holds_quantity(side)) {
             // A wrong name explains more than a missing quantity.
             let context = self.equation_context(driver, sides);
             let (a, b) = (self.formula(left, &context), self.formula(right, &context));
@@ -212,7 +212,7 @@ impl Checker<'_> {
         let conditions = self.model.conditions.len();
         let (a, b) = (self.formula(left, &context), self.formula(right, &context));
         for condition in &mut self.model.conditions[conditions..] {
-            condition.owner = format!("{}{}", self.address.path, name.text);
+            condition.owner = format!("{}{}", self.scope.path, name.text);
         }
         let (a, b) = match (a, b) {
             (Some(a), Some(b)) => (a, b),
@@ -244,7 +244,7 @@ impl Checker<'_> {
         }
         // `distance` alone on the left, and no quantity on the right.
         if let Some(ends) = self.as_distance(left, a.id)
-            && !self.holds_quantity(right)
+            && !self.scope.holds_quantity(right)
         {
             return self.distance_equation(name, ends, right, b.id);
         }
@@ -290,7 +290,7 @@ impl Checker<'_> {
                 positive: distance,
                 kind: ConditionKind::Distance,
                 span: right.span,
-                owner: format!("{}{}", self.address.path, name.text),
+                owner: format!("{}{}", self.scope.path, name.text),
             }),
         }
         Some((EquationForm::Distance(p, q, distance), Dim::LENGTH))
@@ -298,7 +298,7 @@ impl Checker<'_> {
 
     /// Returns the dimension of a plain equation: that of a side with quantities. A side of numbers and time fits any dimension.
     fn plain_dimension(&self, sides: [(&Expr, Value); 2]) -> Dim {
-        let telling = sides.into_iter().filter(|(side, _)| self.holds_quantity(side)).map(|(_, value)| value);
+        let telling = sides.into_iter().filter(|(side, _)| self.scope.holds_quantity(side)).map(|(_, value)| value);
         let telling: Vec<Value> = telling.collect();
         let determined = telling.iter().find_map(|&value| determined_dimension(value.dim));
         // If numbers hide it on both sides, the first dimension that is not a pure number.
@@ -359,7 +359,7 @@ impl Checker<'_> {
     }
 
     pub(super) fn analysis(&mut self) {
-        let found = self.items().iter().find_map(|item| match &item.kind {
+        let found = self.scope.items().iter().find_map(|item| match &item.kind {
             ItemKind::Analysis { from, to, every } => Some((item.span, from, to, every)),
             _ => None,
         });

@@ -73,7 +73,7 @@ impl<'a> Checker<'a> {
     pub(super) fn add_frames(&mut self) {
         self.common.features.insert(self.address.ground, Space::new());
         let mut parts = 0..;
-        for item in self.items() {
+        for item in self.scope.items() {
             match &item.kind {
                 ItemKind::Ground { features } => self.frames.push((self.address.ground, features)),
                 ItemKind::Body { name, features, .. } => {
@@ -114,7 +114,7 @@ impl<'a> Checker<'a> {
             ItemKind::Body { pose, .. } => pose.as_ref().map(DrawnPose::span),
             _ => None,
         };
-        let (declared, part) = (self.declared(name), self.address.part);
+        let (declared, part) = (self.scope.declared(name), self.address.part);
         let id = self.model.add_body(Body { part, declared, docs: item.docs.clone(), pose: [zero; 3], pose_span });
         self.bodies.push(Frame::Body(id));
         self.common.features.insert(Frame::Body(id), Space::new());
@@ -181,11 +181,11 @@ impl<'a> Checker<'a> {
         for (k, (name, _)) in points.iter().enumerate() {
             positions.entry(name.text.as_str()).or_insert(k);
         }
-        let outer = std::mem::replace(&mut self.scope.site, FormulaSite::Inside(frame));
+        let outer = std::mem::replace(&mut self.current.site, FormulaSite::Inside(frame));
         let uses = points.iter().map(|&(name, formula)| {
             let mut uses = Vec::new();
             if let Some(formula) = formula {
-                let hidden = |name: &str| self.hidden.contains(name);
+                let hidden = |name: &str| self.scope.hides(name);
                 point_kinds::names_in(formula, Expected::Point, hidden, |used, expected| {
                     let is_local = used.text != name.text && self.body_point(used, expected).is_some();
                     uses.extend(positions.get(used.text.as_str()).filter(|_| is_local).map(|&k| (k, used.span)));
@@ -194,7 +194,7 @@ impl<'a> Checker<'a> {
             (name, uses)
         });
         let uses = uses.collect();
-        self.scope.site = outer;
+        self.current.site = outer;
         uses
     }
 
@@ -323,7 +323,7 @@ impl<'a> Checker<'a> {
     pub(super) fn place(&mut self, frame: Frame, e: &Expr) -> Option<PointId> {
         match &e.kind {
             ExprKind::Name(name)
-                if self.body_point(name, Expected::Point).is_some() || self.point_param(name).is_none() =>
+                if self.body_point(name, Expected::Point).is_some() || self.scope.point_param(name).is_none() =>
             {
                 self.record_body_point(name);
                 self.point_named(frame, name)
@@ -352,7 +352,7 @@ impl<'a> Checker<'a> {
         match &e.kind {
             ExprKind::Tuple(_) => self.unnamed_point(self.address.ground, e),
             ExprKind::Member { owner, feature }
-                if coordinate(feature).is_some() && self.point_param(owner).is_some() =>
+                if coordinate(feature).is_some() && self.scope.point_param(owner).is_some() =>
             {
                 self.reporter.report(errors::coordinate_as_point(e.span, owner));
                 None
@@ -414,9 +414,9 @@ impl<'a> Checker<'a> {
 
     /// Reports a name alone where `body.feature` is expected.
     pub(super) fn bare_name(&mut self, name: &Name, what: &str) {
-        let Ok(entity) = self.resolve(name) else { return };
+        let Ok(entity) = self.scope.resolve(name) else { return };
         if entity == Some(Entity::Trace) && what == "point" {
-            self.trace_in_a_formula(name.span, "a point", name);
+            self.scope.trace_in_a_formula(&mut self.reporter, name.span, "a point", name);
             return;
         }
         let expected = if what == "axis" { "an axis".to_owned() } else { format!("a {what}") };
@@ -435,7 +435,7 @@ impl<'a> Checker<'a> {
             },
             _ => format!("outside a body {expected} is written `body.{}`", name.text),
         };
-        let found = match self.describe_name(name) {
+        let found = match self.scope.describe_name(name) {
             "a name" => format!("the name `{}`", name.text),
             noun => noun.to_owned(),
         };
@@ -466,7 +466,7 @@ impl<'a> Checker<'a> {
     pub(super) fn describe_member(&self, owner: &Name, feature: &Name) -> String {
         let space = self.frame_of(owner).and_then(|frame| self.common.features.get(&frame));
         let found = space.and_then(|space| space.get(&feature.text));
-        if let (None, Some(Entity::Joint(_))) = (space, self.entity(owner)) {
+        if let (None, Some(Entity::Joint(_))) = (space, self.scope.entity(owner)) {
             return "a coordinate of a joint, which is a column of the table and stands in no formula".to_owned();
         }
         found.map_or("a feature of a body", Feature::noun).to_owned()

@@ -75,7 +75,7 @@ impl<'a> Checker<'a> {
     }
 
     fn declared_gravity(&self) -> Option<&'a Expr> {
-        self.items().iter().find_map(|item| match &item.kind {
+        self.scope.items().iter().find_map(|item| match &item.kind {
             ItemKind::Gravity { acceleration } => Some(acceleration),
             _ => None,
         })
@@ -128,7 +128,7 @@ impl<'a> Checker<'a> {
 
     /// Returns the mechanism that declares gravity, this one or one of its parts, and where.
     fn gravity_inside(&self) -> Option<(&'a str, Span)> {
-        let declared = self.declared_gravity().map(|gravity| (self.tree.name.text.as_str(), gravity.span));
+        let declared = self.declared_gravity().map(|gravity| (self.scope.tree.name.text.as_str(), gravity.span));
         declared.or_else(|| self.parts.iter().find_map(Checker::gravity_inside))
     }
 }
@@ -139,7 +139,7 @@ impl Checker<'_> {
     /// Adds the loads in the order of the text, those of a part where it is declared.
     pub(super) fn loads(&mut self) {
         let mut parts = 0..self.parts.len();
-        for item in self.items() {
+        for item in self.scope.items() {
             match &item.kind {
                 ItemKind::Load { name, force, on } => {
                     let load = self.load(name, force, on);
@@ -164,7 +164,7 @@ impl Checker<'_> {
         let context = Context { rates: true, ..driven("a load", judged) };
         let conditions = self.model.conditions.len();
         let value = self.formula(force, &context);
-        let declared = self.declared(name);
+        let declared = self.scope.declared(name);
         let conditions = self.conditions_in_time(conditions, &declared.name);
         let quantity = self.quantity_of_load(name, on);
         let (value, quantity) = (value?, quantity?);
@@ -185,7 +185,7 @@ impl Checker<'_> {
             self.reporter.report(errors::load_on_no_quantity(name, on.span, &fault));
             return None;
         };
-        let Some(word) = self.quantity_word(called) else {
+        let Some(word) = self.scope.quantity_word(called) else {
             let fault = if called.text == "der" { LoadTargetError::Rate } else { LoadTargetError::Other };
             self.reporter.report(errors::load_on_no_quantity(name, on.span, &fault));
             return None;
@@ -214,7 +214,7 @@ impl Checker<'_> {
     /// Returns the quantities that suit a joint, body or point.
     fn quantities_of(&self, moved: &ExprKind) -> Option<Vec<String>> {
         match moved {
-            ExprKind::Name(name) => match self.entity(name)? {
+            ExprKind::Name(name) => match self.scope.entity(name)? {
                 Entity::Body(_) => Some(vec![format!("angle({})", name.text)]),
                 Entity::Joint(k) => {
                     let motion = self.model[self.joints.get(k).copied().flatten()?].spec.motion?;
@@ -223,7 +223,7 @@ impl Checker<'_> {
                 _ => None,
             },
             ExprKind::Member { owner, feature } => {
-                let Some(Entity::Body(k)) = self.entity(owner) else { return None };
+                let Some(Entity::Body(k)) = self.scope.entity(owner) else { return None };
                 let space = self.common.features.get(self.bodies.get(k)?)?;
                 let is_point = matches!(space.get(&feature.text), Some(Feature::Point(_)));
                 let both = || ["x", "y"].map(|axis| format!("{axis}({}.{})", owner.text, feature.text)).to_vec();
@@ -305,16 +305,16 @@ impl Checker<'_> {
             self.reporter.report(errors::wrong_kind(e.span, "a driver or constraint", describe(e)));
             return None;
         };
-        match self.resolve(name).ok()? {
+        match self.scope.resolve(name).ok()? {
             Some(Entity::Equation(k)) => self.equations.get(k).copied().flatten(),
             Some(entity) => {
                 let joint = matches!(entity, Entity::Joint(_)).then_some(name.text.as_str());
-                let driver = joint.and_then(|joint| self.driver_of(joint));
+                let driver = joint.and_then(|joint| self.scope.driver_of(joint));
                 self.reporter.report(errors::effort_of_no_equation(name, entity.noun(), joint, driver.as_deref()));
                 None
             }
             None => {
-                let candidates = self.suggestions(|entity| matches!(entity, Entity::Equation(_)));
+                let candidates = self.scope.suggestions(&self.reporter, |entity| matches!(entity, Entity::Equation(_)));
                 let diagnostic = errors::unknown("driver or constraint", name, &candidates);
                 self.reporter.report(diagnostic);
                 None
@@ -331,25 +331,13 @@ impl Checker<'_> {
         }
         let Declared { name: joint_name, span } = self.model[joint].declared.clone();
         let diagnostic = if kind.has_force() {
-            let driver = self.driver_of(&name.text);
+            let driver = self.scope.driver_of(&name.text);
             errors::no_torque(&joint_name, kind.name(), name.span, span, driver.as_deref())
         } else {
             errors::no_force(&joint_name, kind.name(), name.span, span)
         };
         self.reporter.report(diagnostic);
         None
-    }
-
-    /// Returns the driver that refers to a joint.
-    pub(super) fn driver_of(&self, joint: &str) -> Option<String> {
-        let is_it = |e: &Expr| matches!(&e.kind, ExprKind::Name(name) if name.text == joint);
-        let speaks_of_it = |e: &Expr| e.parts().any(is_it);
-        self.items().iter().find_map(|item| match &item.kind {
-            ItemKind::Equation { driver: true, name, left, right } if [left, right].into_iter().any(speaks_of_it) => {
-                Some(name.text.clone())
-            }
-            _ => None,
-        })
     }
 
     /// Returns whether a formula holds a force, also within derivatives.
@@ -377,7 +365,7 @@ impl Checker<'_> {
     pub(super) fn uses_efforts(&self) -> bool {
         let is_effort = |e: &Expr| matches!(&e.kind, ExprKind::Call { name, .. } if name.text == "effort");
         let asks = |e: &Expr| e.parts().any(is_effort);
-        let in_text = self.items().iter().any(|item| match &item.kind {
+        let in_text = self.scope.items().iter().any(|item| match &item.kind {
             ItemKind::Measure { value, .. } | ItemKind::Result { value, .. } | ItemKind::Trace { point: value, .. } => {
                 asks(value)
             }
@@ -390,7 +378,9 @@ impl Checker<'_> {
     pub(super) fn is_torque(&self, e: &Expr) -> bool {
         match &e.kind {
             ExprKind::Paren(inner) | ExprKind::Negate(inner) => self.is_torque(inner),
-            ExprKind::Call { name, arguments, .. } if self.quantity_word(name).is_some_and(|word| word.is_force) => {
+            ExprKind::Call { name, arguments, .. }
+                if self.scope.quantity_word(name).is_some_and(|word| word.is_force) =>
+            {
                 name.text == "torque" || name.text == "effort" && arguments.first().is_some_and(|of| self.turns(of))
             }
             ExprKind::Call { name, arguments, .. } => {
@@ -404,7 +394,7 @@ impl Checker<'_> {
                 let others = factors().filter(|(_, e)| e.bare_number().is_some()).count();
                 torques == 1 && torques + others == rest.len() + 1
             }
-            ExprKind::Name(name) => match self.entity(name) {
+            ExprKind::Name(name) => match self.scope.entity(name) {
                 Some(Entity::Measure(k)) => match self.home_of(Entity::Measure(k)) {
                     (home, Entity::Measure(k)) => home.measures.get(k).is_some_and(|of| home.is_torque(of.value)),
                     _ => false,
@@ -418,7 +408,7 @@ impl Checker<'_> {
     /// Returns whether a driver or constraint works on an angle.
     fn turns(&self, e: &Expr) -> bool {
         let ExprKind::Name(name) = &e.bare().kind else { return false };
-        let Some(Entity::Equation(k)) = self.entity(name) else { return false };
+        let Some(Entity::Equation(k)) = self.scope.entity(name) else { return false };
         let equation = self.equations.get(k).copied().flatten();
         equation.is_some_and(|equation| self.model[equation].dimension.is_angular())
     }

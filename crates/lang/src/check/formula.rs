@@ -12,7 +12,7 @@ use super::suggest::lost_rate::Part;
 use super::{Checker, errors};
 use crate::model::{Dimension, GuardKind, Named};
 use mechc_expr::{Dependence, ExprId, Symbol};
-use mechc_syntax::ast::{Expr, ExprKind, Factor, ItemKind, Name, PathSegment, Sign};
+use mechc_syntax::ast::{Expr, ExprKind, Factor, Name, PathSegment, Sign};
 use mechc_text::source::Span;
 use mechc_text::vocabulary::{Constant, NamedConstant, QuantityWord, Unit, is_called};
 
@@ -260,7 +260,7 @@ impl Checker<'_> {
             // `1 t` is not a time if time is not allowed.
             let is_time = name.text == "t" && !context.time;
             let is_number = matches!(
-                self.entity(name),
+                self.scope.entity(name),
                 Some(Entity::Param(_) | Entity::Input(_) | Entity::Measure(_) | Entity::Result(_))
             );
             let is_a_name = is_argument || !is_time && Constant::named(&name.text).is_some() || is_number;
@@ -280,7 +280,7 @@ impl Checker<'_> {
 
     fn name(&mut self, name: &Name, context: &Context<'_>) -> Option<Value> {
         let argument = context.argument.map(|(argument, _)| argument);
-        match resolve_bare_name(&name.text, argument, self.space.get(&name.text)) {
+        match resolve_bare_name(&name.text, argument, self.scope.get(&name.text)) {
             BareName::Argument => return context.argument.map(|(_, value)| value),
             BareName::Constant(constant) => match constant.stands_for {
                 NamedConstant::Time => return self.time_named(name, context),
@@ -292,7 +292,7 @@ impl Checker<'_> {
                 NamedConstant::Ground => {}
             },
             // `10 mm/s` in a text with `param s`.
-            BareName::Declared(_) if self.is_reserved_but_declared(name) => return None,
+            BareName::Declared(_) if self.scope.is_reserved_but_declared(name) => return None,
             BareName::Unit(unit) => {
                 let id = self.model.graph.constant(unit.to_si(1.0, 1));
                 return Some(Value { id, dim: Dim::Of(unit.dimension) });
@@ -310,7 +310,7 @@ impl Checker<'_> {
             return Some(Value { id, dim: Dim::Plain { read: Dimension::TIME, fits: true } });
         }
         // Otherwise a parameter was intended.
-        if !self.is_reserved_but_declared(name) {
+        if !self.scope.is_reserved_but_declared(name) {
             self.reporter.report(if context.results {
                 errors::outside_reduction("time `t`", name.span, "t")
             } else {
@@ -322,8 +322,8 @@ impl Checker<'_> {
 
     /// Returns the value of a declared name, if it is a number.
     fn declared_number(&mut self, name: &Name, context: &Context<'_>) -> Option<Value> {
-        match self.resolve(name).ok()?.filter(|_| context.names) {
-            Some(Entity::Param(_)) if self.point_param(name).is_some() => {
+        match self.scope.resolve(name).ok()?.filter(|_| context.names) {
+            Some(Entity::Param(_)) if self.scope.point_param(name).is_some() => {
                 self.reporter.report(errors::point_as_number(name));
                 None
             }
@@ -363,7 +363,7 @@ impl Checker<'_> {
                 None
             }
             Some(Entity::Trace) => {
-                self.trace_in_a_formula(name.span, "a number", name);
+                self.scope.trace_in_a_formula(&mut self.reporter, name.span, "a number", name);
                 None
             }
             Some(entity @ (Entity::Function(_) | Entity::Table(_))) => {
@@ -387,8 +387,8 @@ impl Checker<'_> {
 
     /// Reports a feature, or another meaning of `owner.feature`, where a number is expected.
     fn member_as_number(&mut self, span: Span, owner: &Name, feature: &Name) {
-        if let Some(Entity::Trace) = self.entity(owner) {
-            self.trace_in_a_formula(span, "a number", owner);
+        if let Some(Entity::Trace) = self.scope.entity(owner) {
+            self.scope.trace_in_a_formula(&mut self.reporter, span, "a number", owner);
             return;
         }
         let what = self.describe_member(owner, feature);
@@ -401,28 +401,16 @@ impl Checker<'_> {
         let text: String = self.reporter.text(span).chars().filter(|c| !c.is_whitespace()).collect();
         // Paths of the text have been expanded; this one comes from outside.
         let owner = text.split_once("].").map_or(text.clone(), |(owner, _)| format!("{owner}]"));
-        let unknown = segments.first().filter(|first| matches!(self.resolve(&first.name), Ok(None)));
+        let unknown = segments.first().filter(|first| matches!(self.scope.resolve(&first.name), Ok(None)));
         let unknown = unknown.filter(|first| first.name.text != "ground" && segments.len() > 2);
-        self.reporter.report(match (self.space.get(&owner), unknown) {
+        self.reporter.report(match (self.scope.get(&owner), unknown) {
             (Some(entity), _) => errors::path_from_outside(span, &owner, entity.noun(), owner == text),
-            (None, Some(first)) => errors::unknown_owner(&first.name, self.tree),
+            (None, Some(first)) => errors::unknown_owner(&first.name, self.scope.tree),
             (None, None) => {
-                let is_declared = segments.first().is_some_and(|first| self.entity(&first.name).is_some());
+                let is_declared = segments.first().is_some_and(|first| self.scope.entity(&first.name).is_some());
                 errors::invalid_path(span, segments, is_declared)
             }
         });
-    }
-
-    /// Reports a trace where a number or point is expected.
-    pub(super) fn trace_in_a_formula(&mut self, span: Span, expected: &str, name: &Name) {
-        let point = self.items().iter().find_map(|item| match &item.kind {
-            ItemKind::Trace { name: trace, point, .. } if trace.text == name.text => {
-                Some(self.reporter.text(point.span))
-            }
-            _ => None,
-        });
-        let diagnostic = errors::trace_in_a_formula(span, expected, name, point);
-        self.reporter.report(diagnostic);
     }
 
     fn unknown_number(&mut self, name: &Name, context: &Context<'_>) {
@@ -448,7 +436,7 @@ impl Checker<'_> {
             self.reporter.report(errors::wrong_kind(name.span, "a number", "a function").help(help));
             return;
         }
-        let mut candidates = self.suggestions(|entity| match entity {
+        let mut candidates = self.scope.suggestions(&self.reporter, |entity| match entity {
             Entity::Param(_) => true,
             Entity::Input(_) => context.inputs,
             Entity::Measure(_) => context.measures,
@@ -588,13 +576,6 @@ impl Checker<'_> {
             return None;
         }
         Some(Value { id, dim })
-    }
-
-    /// Returns whether a formula of the tree holds a kinematic quantity.
-    pub(super) fn holds_quantity(&self, formula: &Expr) -> bool {
-        let is_quantity =
-            |e: &Expr| matches!(&e.kind, ExprKind::Call { name, .. } if self.quantity_word(name).is_some());
-        formula.parts().any(is_quantity)
     }
 
     /// Returns the value of a constant formula of any dimension.

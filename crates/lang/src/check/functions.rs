@@ -47,9 +47,9 @@ impl Checker<'_> {
         let mut time = None;
         visit_free_names(
             formula,
-            |name| self.hidden.contains(name),
+            |name| self.scope.hides(name),
             |name, _| {
-                let through_a_name = match self.entity(name) {
+                let through_a_name = match self.scope.entity(name) {
                     Some(Entity::Function(k)) => self.functions[k].time.is_some(),
                     Some(Entity::Input(_)) => true,
                     _ => false,

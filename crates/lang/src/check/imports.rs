@@ -6,59 +6,29 @@ use super::entity::Entity;
 use super::formula::Value;
 use super::params::ParamState;
 use super::results::ResultState;
-use crate::model::{Declared, Frame};
-use mechc_syntax::ast::Name;
-
-/// An entity of a part that the enclosing mechanism names by a path.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Import {
-    /// The entity in the enclosing mechanism.
-    entity: Entity,
-    /// The entity in the part.
-    inside: Entity,
-}
+use crate::model::Frame;
 
 impl<'a> Checker<'a> {
-    /// Returns a name with the prefix of its part.
-    pub(super) fn declared(&self, name: &Name) -> Declared {
-        Declared { name: format!("{}{}", self.address.path, name.text), span: name.span }
-    }
-
     /// Returns a frame's name as this text uses it.
     pub(super) fn frame_name(&self, frame: Frame) -> &str {
         let name = self.model.frame_name(frame);
-        name.strip_prefix(self.address.path.as_str()).unwrap_or(name)
+        name.strip_prefix(self.scope.path.as_str()).unwrap_or(name)
     }
 
     /// Returns the entity of a path such as `leg[0].foot`, and declares its name here.
     pub(super) fn entity_inside(&mut self, path: &str) -> Option<Entity> {
-        if let Some(entity) = self.space.get(path) {
+        if let Some(entity) = self.scope.get(path) {
             return Some(entity);
         }
         let (part, rest) = path.split_once('.')?;
-        let Some(Entity::Part(k)) = self.space.get(part) else { return None };
+        let Some(Entity::Part(k)) = self.scope.get(part) else { return None };
         let child = self.parts.get_mut(k)?;
         let (inside, span) = match rest {
-            "ground" => (Entity::Ground, child.tree.span),
-            _ => (child.entity_inside(rest)?, child.space.span(rest)?),
+            "ground" => (Entity::Ground, child.scope.tree.span),
+            _ => (child.entity_inside(rest)?, child.scope.span(rest)?),
         };
-        let entity = match inside {
-            Entity::Param(_) => Entity::Param(next(&mut self.count.params)),
-            Entity::Input(_) => Entity::Input(next(&mut self.count.inputs)),
-            Entity::Body(_) | Entity::Ground => Entity::Body(next(&mut self.count.bodies)),
-            Entity::Joint(_) => Entity::Joint(next(&mut self.count.joints)),
-            Entity::Equation(_) => Entity::Equation(next(&mut self.count.equations)),
-            Entity::Measure(_) => Entity::Measure(next(&mut self.count.measures)),
-            Entity::Result(_) => Entity::Result(next(&mut self.count.results)),
-            other => other,
-        };
-        if child.is_point_name(rest) {
-            self.point_paths.insert(path.to_owned());
-        }
-        let _ = self.space.declare(&Name { text: path.to_owned(), span }, entity);
-        self.imports[k].push(Import { entity, inside });
-        self.imported.insert(entity, (k, inside));
-        Some(entity)
+        let is_point = child.scope.is_point_name(rest);
+        Some(self.scope.import(k, path, span, inside, is_point))
     }
 
     /// Imports the values of the params of parts that are named here.
@@ -70,7 +40,7 @@ impl<'a> Checker<'a> {
 
     pub(super) fn import_params_of(&mut self, part: usize) {
         let child = &self.parts[part];
-        for import in &self.imports[part] {
+        for import in &self.scope.imports[part] {
             let (Entity::Param(k), Entity::Param(m)) = (import.entity, import.inside) else { continue };
             set(&mut self.params, k, child.params.get(m).copied(), ParamState::default());
         }
@@ -78,7 +48,7 @@ impl<'a> Checker<'a> {
 
     /// Imports the bodies of parts, after those of this text.
     pub(super) fn import_frames(&mut self) {
-        for (imports, child) in self.imports.iter().zip(&self.parts) {
+        for (imports, child) in self.scope.imports.iter().zip(&self.parts) {
             for import in imports {
                 let (Entity::Body(k), inside) = (import.entity, import.inside) else { continue };
                 let frame = match inside {
@@ -92,7 +62,7 @@ impl<'a> Checker<'a> {
 
     /// Imports the joints of parts.
     pub(super) fn import_joints(&mut self) {
-        for (imports, child) in self.imports.iter().zip(&self.parts) {
+        for (imports, child) in self.scope.imports.iter().zip(&self.parts) {
             for import in imports {
                 let (Entity::Joint(k), Entity::Joint(m)) = (import.entity, import.inside) else { continue };
                 set(&mut self.joints, k, child.joints.get(m).copied(), None);
@@ -102,7 +72,7 @@ impl<'a> Checker<'a> {
 
     /// Imports the constraints and drivers of parts.
     pub(super) fn import_equations(&mut self) {
-        for (imports, child) in self.imports.iter().zip(&self.parts) {
+        for (imports, child) in self.scope.imports.iter().zip(&self.parts) {
             for import in imports {
                 let (Entity::Equation(k), Entity::Equation(m)) = (import.entity, import.inside) else { continue };
                 set(&mut self.equations, k, child.equations.get(m).copied(), None);
@@ -110,15 +80,10 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Returns whether a name is that of a param that is a point.
-    pub(super) fn is_point_name(&self, name: &str) -> bool {
-        self.point_params.contains(name) || self.point_paths.contains(name)
-    }
-
     /// Returns the checker that declares an entity, with the entity there.
     pub(super) fn home_of(&self, entity: Entity) -> (&Checker<'a>, Entity) {
-        match self.imported.get(&entity) {
-            Some(&(part, inside)) => self.parts[part].home_of(inside),
+        match self.scope.origin(entity) {
+            Some((part, inside)) => self.parts[part].home_of(inside),
             None => (self, entity),
         }
     }
@@ -146,11 +111,6 @@ impl<'a> Checker<'a> {
             _ => None,
         }
     }
-}
-
-fn next(count: &mut usize) -> usize {
-    *count += 1;
-    *count - 1
 }
 
 /// Sets an element of a list, extending the list if necessary.

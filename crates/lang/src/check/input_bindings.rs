@@ -46,9 +46,8 @@ impl<'a> Checker<'a> {
     fn add_bound_inputs(&self, around: &mut Vec<usize>, bound: &mut Vec<BoundInput<'a>>) {
         for (part, child) in self.parts.iter().enumerate() {
             for binding in &self.part_declarations[part].bindings {
-                let Some(Entity::Input(input)) = child.space.get(&binding.name.text) else { continue };
-                let name =
-                    Name { text: format!("{}{}", child.address.path, binding.name.text), span: binding.name.span };
+                let Some(Entity::Input(input)) = child.scope.get(&binding.name.text) else { continue };
+                let name = Name { text: format!("{}{}", child.scope.path, binding.name.text), span: binding.name.span };
                 bound.push(BoundInput { around: around.clone(), part, input, binding, name });
             }
             around.push(part);
@@ -80,10 +79,10 @@ impl<'a> Checker<'a> {
         while let Some((formula, argument)) = open.pop() {
             visit_free_names(
                 formula,
-                |name| self.hidden.contains(name),
-                |name, _| match self.entity(name) {
+                |name| self.scope.hides(name),
+                |name, _| match self.scope.entity(name) {
                     _ if argument == Some(name.text.as_str()) => {}
-                    Some(Entity::Input(_)) => found.push((format!("{}{}", self.address.path, name.text), name.span)),
+                    Some(Entity::Input(_)) => found.push((format!("{}{}", self.scope.path, name.text), name.span)),
                     Some(Entity::Function(k)) if visited.insert(k) => {
                         let function = self.functions.get(k).filter(|function| function.time.is_some());
                         open.extend(function.map(|function| (function.value, Some(function.argument.text.as_str()))));
@@ -110,7 +109,7 @@ impl<'a> Checker<'a> {
     fn bind_input(&mut self, part: usize, input: usize, binding: &'a Binding) {
         let value = self.input_bound(part, input, binding);
         self.in_part(part, |child| {
-            let declared = child.declared(&binding.name);
+            let declared = child.scope.declared(&binding.name);
             let value = value.map(|value| child.with_shift(&declared, value));
             if let Some(state) = child.inputs.get_mut(input) {
                 state.value = value;
@@ -134,7 +133,7 @@ impl<'a> Checker<'a> {
         let mut inputs: Vec<_> = local.collect();
         let graph = &mut self.model.graph;
         let deeper = self.model.inputs.iter().zip(0..).filter_map(|(input, index)| {
-            let name = input.declared.name.strip_prefix(child.address.path.as_str())?;
+            let name = input.declared.name.strip_prefix(child.scope.path.as_str())?;
             name.contains('.').then(|| (name.to_owned(), graph.symbol(Symbol::Signal { index, order: 0 })))
         });
         inputs.extend(deeper);
@@ -153,7 +152,7 @@ impl<'a> Checker<'a> {
         };
         let conditions = self.model.conditions.len();
         let value = self.formula(&binding.value, &context)?;
-        let owner = format!("{}{}", self.address.path, self.part_declarations[part].name.text);
+        let owner = format!("{}{}", self.scope.path, self.part_declarations[part].name.text);
         for condition in &mut self.model.conditions[conditions..] {
             condition.owner.clone_from(&owner);
         }

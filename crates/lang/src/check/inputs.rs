@@ -97,7 +97,7 @@ impl Checker<'_> {
         if found.peek().is_none() {
             let names: Vec<&str> = settable.iter().map(|(full, _)| full.as_str()).collect();
             let suggestion = nearest(path, names.iter().copied());
-            let diagnostic = errors::no_such_name(what.noun(), &self.tree.name.text, path, &names, suggestion);
+            let diagnostic = errors::no_such_name(what.noun(), &self.scope.tree.name.text, path, &names, suggestion);
             self.reporter.report(diagnostic.at(span, format!("for `{path}`")));
             return false;
         }
@@ -127,7 +127,12 @@ impl Checker<'_> {
         let path = head.path();
         if let Some(suggestion) = head.suggestion().filter(|_| !inputs.iter().any(|(full, _)| *full == path)) {
             let written = self.reporter.text(head.span).trim_matches('"');
-            self.reporter.report(errors::column_of_no_input(&self.tree.name.text, written, head.span, &suggestion));
+            self.reporter.report(errors::column_of_no_input(
+                &self.scope.tree.name.text,
+                written,
+                head.span,
+                &suggestion,
+            ));
             return false;
         }
         if !self.check_override_name(Settable::Column, &path, head.span, inputs, |full| full == path) {
@@ -157,7 +162,7 @@ impl Checker<'_> {
             Some(None) => return,
             Some(Some(value)) => TimeFormula { value: value.id, conditions: self.model.conditions.split_off(before) },
         };
-        let (declared, dimension) = (self.declared(name), in_file.dim.settled());
+        let (declared, dimension) = (self.scope.declared(name), in_file.dim.settled());
         let index = self.model.inputs.len() as u32;
         self.model.inputs.push(Input { declared: declared.clone(), formula, nominal, dimension });
         let id = self.model.graph.symbol(Symbol::Signal { index, order: 0 });
@@ -167,7 +172,7 @@ impl Checker<'_> {
     /// Evaluates what an option gives in place of the formula of an input; `None` if no option does, `Some(None)` if it is broken.
     #[allow(clippy::option_option)] // a broken override is not the absence of one
     fn overridden_input(&mut self, name: &Name, expected: Dim) -> Option<Option<Value>> {
-        let full = format!("{}{}", self.address.path, name.text);
+        let full = format!("{}{}", self.scope.path, name.text);
         let samples = self.samples.clone();
         let column = samples.as_ref().and_then(|samples| samples.columns.iter().find(|column| column.name == full));
         if let Some((samples, column)) = samples.as_ref().zip(column) {
@@ -183,7 +188,7 @@ impl Checker<'_> {
         let context = Context { judged, time: true, ..Context::constant("an input") };
         let conditions = self.model.conditions.len();
         let value = self.formula(formula, &context)?;
-        let owner = self.declared(name).name;
+        let owner = self.scope.declared(name).name;
         for condition in &mut self.model.conditions[conditions..] {
             condition.owner.clone_from(&owner);
         }
@@ -199,7 +204,7 @@ impl Checker<'_> {
         let given = self.input_value(name, formula)?;
         if let Some([expected, found]) = expected.other_than(given.dim).filter(|_| self.is_dimensional(formula)) {
             let part = Part { span: formula.span, dimension: found };
-            let place = format!("the input `{}{}`", self.address.path, name.text);
+            let place = format!("the input `{}{}`", self.scope.path, name.text);
             self.reporter.report(errors::wrong_dimension(&place, expected, part, self.reporter.text(formula.span)));
             return None;
         }

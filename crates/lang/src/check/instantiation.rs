@@ -92,12 +92,12 @@ impl<'t> Builder<'t, '_> {
         let deciding = self.deciding(tree);
         let definitions = definitions_of(tree);
         let mut checker = Checker::new(&definitions, self.options, self.sources);
-        path.clone_into(&mut checker.address.path);
+        path.clone_into(&mut checker.scope.path);
         checker.bound.params = bound
             .iter()
             .map(|(name, value)| BoundParam { name, bound: checker.number_bound(*value), span: None })
             .collect();
-        checker.collect(&definitions);
+        checker.scope.collect(&mut checker.reporter);
         checker.definitions();
         // The whole mechanism is reported with the same diagnostics.
         checker.reporter.diagnostics = Diagnostics::default();

@@ -10,7 +10,7 @@ use mechc_text::vocabulary::{ArgumentSpec, FeatureWord, JointSpec};
 impl Checker<'_> {
     pub(super) fn joints(&mut self) {
         let (mut parts, mut numbers) = (0..self.parts.len(), 0..);
-        for item in self.items() {
+        for item in self.scope.items() {
             match &item.kind {
                 ItemKind::Joint { name, kind, arguments, call_span } => {
                     let joint = self.joint(name, kind, arguments, *call_span);
@@ -59,7 +59,7 @@ impl Checker<'_> {
         if let Some(ArgumentSpec::Angle(_) | ArgumentSpec::Offset(_)) = spec.arguments.get(arguments.len()) {
             arguments.push(Argument::Value(self.model.graph.constant(0.0)));
         }
-        let joint = Joint { part: self.address.part, declared: self.declared(name), spec, features, arguments };
+        let joint = Joint { part: self.address.part, declared: self.scope.declared(name), spec, features, arguments };
         let frames = joint.frames(&self.model);
         if self.model.carrier(frames[0]) == self.model.carrier(frames[1]) {
             let frame = self.frame_name(frames[0]).to_owned();
@@ -118,7 +118,7 @@ impl Checker<'_> {
     fn phase(&mut self, e: &Expr) -> Option<ExprId> {
         if let ExprKind::Name(name) = &e.bare().kind
             && ["left", "right"].contains(&name.text.as_str())
-            && self.entity(name).is_none()
+            && self.scope.entity(name).is_none()
         {
             self.reporter.report(errors::side_without_phase(&name.text, e.span));
             return None;

@@ -48,6 +48,7 @@ mod repetition;
 mod requirements;
 mod results;
 mod samples;
+mod scope;
 mod suggest;
 mod symbols;
 mod table_file;
@@ -73,21 +74,19 @@ use bindings::ExternalBindings;
 use branches::Branch;
 use calls::Calls;
 use elements::MeasureState;
-use entity::Entity;
 use errors::Reporter;
 use formula_scope::FormulaScope;
 use functions::Function;
-use imports::Import;
 use inputs::InputState;
-use mechc_syntax::ast::{self, Item, ItemKind};
+use mechc_syntax::ast::{self, ItemKind};
 use mechc_text::diag::Diagnostics;
 use mechc_text::source::Sources;
 use names::Space;
 use params::ParamState;
 use parts::{Address, SharedState};
 use results::ResultState;
-use rustc_hash::{FxHashMap, FxHashSet};
 use samples::Samples;
+use scope::Scope;
 use std::rc::Rc;
 use suggest::missing_unit::RecordedLengths;
 use tables::TableState;
@@ -134,7 +133,7 @@ pub fn check(tree: &ast::Mechanism, options: &CheckOptions, sources: &Sources) -
 impl Checker<'_> {
     /// Returns whether the mechanism or one of its parts has a declaration that could not be parsed.
     fn holds_broken(&self) -> bool {
-        has_broken(self.tree) || self.parts.iter().any(Checker::holds_broken)
+        has_broken(self.scope.tree) || self.parts.iter().any(Checker::holds_broken)
     }
 }
 
@@ -151,31 +150,17 @@ fn has_broken(tree: &ast::Mechanism) -> bool {
 
 /// Checks one mechanism, or one part of it.
 struct Checker<'a> {
-    tree: &'a ast::Mechanism,
     options: &'a CheckOptions,
     reporter: Reporter<'a>,
     model: Mechanism,
     common: SharedState,
-    space: Space<Entity>,
-    /// The number of named declarations of each kind.
-    count: names::Count,
+    scope: Scope<'a>,
     address: Address,
     bound: ExternalBindings<'a>,
     /// The checked parts.
     parts: Vec<Checker<'a>>,
     /// The declaration of each part.
     part_declarations: Vec<&'a ast::Part>,
-    /// The entities of each part that are used here.
-    imports: Vec<Vec<Import>>,
-    imported: FxHashMap<Entity, (usize, Entity)>,
-    /// The paths of params of parts that are points.
-    point_paths: FxHashSet<String>,
-    /// The params that determine repetitions.
-    deciding: Rc<FxHashSet<String>>,
-    /// The params that are points.
-    point_params: FxHashSet<&'a str>,
-    /// The functions and tables that hide functions of the language.
-    hidden: FxHashSet<&'a str>,
     params: Vec<ParamState<'a>>,
     functions: Vec<Function<'a>>,
     tables: Vec<TableState<'a>>,
@@ -197,7 +182,7 @@ struct Checker<'a> {
     /// The constant lengths met so far.
     lengths: RecordedLengths<'a>,
     /// The site, the calls and the branch of the current formula.
-    scope: FormulaScope<'a>,
+    current: FormulaScope<'a>,
     calls: Calls<'a>,
     branch: Branch,
 }
@@ -205,23 +190,15 @@ struct Checker<'a> {
 impl<'a> Checker<'a> {
     fn new(tree: &'a ast::Mechanism, options: &'a CheckOptions, sources: &'a Sources) -> Checker<'a> {
         Checker {
-            tree,
             options,
             reporter: Reporter::new(sources),
             model: Mechanism::new(Declared { name: tree.name.text.clone(), span: tree.name.span }, tree.docs.clone()),
             common: SharedState::default(),
-            space: Space::new(),
-            count: names::Count::default(),
+            scope: Scope::new(tree),
             address: Address::default(),
             bound: ExternalBindings::default(),
             parts: Vec::new(),
             part_declarations: Vec::new(),
-            imports: Vec::new(),
-            imported: FxHashMap::default(),
-            point_paths: FxHashSet::default(),
-            deciding: Rc::default(),
-            point_params: point_kinds::point_params(tree),
-            hidden: point_kinds::hiding_functions(tree),
             params: Vec::new(),
             functions: Vec::new(),
             tables: Vec::new(),
@@ -236,7 +213,7 @@ impl<'a> Checker<'a> {
             joints: Vec::new(),
             equations: Vec::new(),
             lengths: RecordedLengths::default(),
-            scope: FormulaScope::default(),
+            current: FormulaScope::default(),
             calls: Calls::default(),
             branch: Branch::default(),
         }
@@ -270,16 +247,7 @@ impl<'a> Checker<'a> {
         self.reject_derivatives_of_forces();
         self.warn_of_plain_lengths();
         if self.model.bodies.is_empty() && !self.holds_broken() {
-            self.reporter.report(errors::empty(&self.tree.name));
+            self.reporter.report(errors::empty(&self.scope.tree.name));
         }
-    }
-
-    /// Returns the names to suggest from; none after many errors.
-    fn suggestions(&self, expected: impl Fn(Entity) -> bool) -> Vec<&str> {
-        self.space.suggestions(&self.reporter, expected)
-    }
-
-    fn items(&self) -> &'a [Item] {
-        &self.tree.items
     }
 }

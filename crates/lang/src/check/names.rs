@@ -1,9 +1,9 @@
 //! The names of a mechanism: declarations, duplicates, and cycles of definitions.
 
-use super::Checker;
 use super::entity::Entity;
 use super::errors::{self, Reporter};
 use super::free_names::{uses_in, uses_of_argument};
+use super::scope::Scope;
 use mechc_syntax::ast::{Expr, ExprKind, FeatureKind, ItemKind, Mechanism, Name};
 use mechc_text::source::Span;
 use mechc_text::vocabulary::{Dimension, SubstituteKind, Unit, gives_way, is_called, is_taken, substitute_name};
@@ -97,9 +97,10 @@ impl<T: Copy> Space<T> {
     }
 }
 
-impl Checker<'_> {
-    /// Declares the names of a mechanism. A duplicate keeps its first meaning.
-    pub(super) fn collect(&mut self, mechanism: &Mechanism) {
+impl Scope<'_> {
+    /// Declares the names of the mechanism. A duplicate keeps its first meaning.
+    pub fn collect(&mut self, reporter: &mut Reporter<'_>) {
+        let mechanism = self.tree;
         let mut count = Count::default();
         let next = |count: &mut usize| {
             *count += 1;
@@ -139,49 +140,37 @@ impl Checker<'_> {
                     }
                     _ => entity.kind_of_name(),
                 };
-                self.report_reserved(name, kind, &uses);
+                self.report_reserved(reporter, name, kind, &uses);
             }
             // The name is declared all the same, so that its uses are not reported too.
             if let Err(first) = self.space.declare(name, entity)
                 && !is_reserved
             {
-                self.reporter.report(errors::declared_twice(name, first));
+                reporter.report(errors::declared_twice(name, first));
             }
         }
         self.count = count;
         for item in &mechanism.items {
             match &item.kind {
-                ItemKind::Function { argument, value, .. } => self.argument_name(argument, value),
+                ItemKind::Function { argument, value, .. } => self.argument_name(reporter, argument, value),
                 ItemKind::Ground { features } | ItemKind::Body { features, .. } => {
                     for feature in features {
                         if let FeatureKind::Curve { argument, at, .. } = &feature.kind {
-                            self.argument_name(argument, at);
+                            self.argument_name(reporter, argument, at);
                         }
                     }
                 }
                 _ => {}
             }
         }
-        self.only_once(mechanism);
+        only_once(reporter, mechanism);
     }
 
     /// Reports a name of the language, with a suggestion of a free name.
-    fn report_reserved(&mut self, name: &Name, kind: SubstituteKind, uses: &[Span]) {
-        let words = self.reporter.suggests_names().then(|| words_of(self.reporter.text(self.tree.span)));
+    fn report_reserved(&self, reporter: &mut Reporter<'_>, name: &Name, kind: SubstituteKind, uses: &[Span]) {
+        let words = reporter.suggests_names().then(|| words_of(reporter.text(self.tree.span)));
         let instead = words.and_then(|words| substitute_name(&name.text, kind, |name| !words.contains(name)));
-        self.reporter.report(errors::reserved(name, instead, uses));
-    }
-
-    /// Returns whether a name of the language is declared, which has been reported. It may mean either.
-    pub(super) fn is_reserved_but_declared(&self, name: &Name) -> bool {
-        let is_callable = |entity| matches!(entity, Entity::Function(_) | Entity::Table(_));
-        let is_function = is_called(&name.text) && !gives_way(&name.text);
-        self.space.get(&name.text).is_some_and(|entity| is_taken(&name.text) || is_function && is_callable(entity))
-    }
-
-    /// Returns whether a call is one of the language's own functions or quantities.
-    pub(super) fn is_of_language(&self, name: &str) -> bool {
-        is_called(name) && !self.hidden.contains(name)
+        reporter.report(errors::reserved(name, instead, uses));
     }
 
     /// Declares the names of a broken declaration, so that their uses are not reported.
@@ -195,47 +184,31 @@ impl Checker<'_> {
         }
     }
 
-    /// Returns the entity of a name; `None` if it is not declared. `Err` if its declaration is broken, which has been reported.
-    ///
-    /// Every name of a formula or reference that can be reported is resolved here.
-    pub(super) fn resolve(&self, name: &Name) -> Result<Option<Entity>, BrokenName> {
-        match self.space.get(&name.text) {
-            Some(Entity::Broken) => Err(BrokenName),
-            None if self.space.is_incomplete() => Err(BrokenName),
-            entity => Ok(entity),
-        }
-    }
-
-    /// Returns the entity of a name, where undeclared names are not reported.
-    pub(super) fn entity(&self, name: &Name) -> Option<Entity> {
-        self.resolve(name).ok().flatten()
-    }
-
     /// Reports an argument of a function or curve that has the name of a declaration.
-    fn argument_name(&mut self, argument: &Name, formula: &Expr) {
+    fn argument_name(&self, reporter: &mut Reporter<'_>, argument: &Name, formula: &Expr) {
         let uses = || uses_of_argument(argument, formula);
         if is_taken(&argument.text) {
-            self.report_reserved(argument, SubstituteKind::Argument, &uses());
-        } else if let Some(declared) = self.space.span(&argument.text) {
-            let is_unique_index = |name: &&str| !is_taken(name) && self.space.get(name).is_none();
+            self.report_reserved(reporter, argument, SubstituteKind::Argument, &uses());
+        } else if let Some(declared) = self.span(&argument.text) {
+            let is_unique_index = |name: &&str| !is_taken(name) && self.get(name).is_none();
             let free = ["u", "v", "w", "x", "y", "z"].into_iter().find(is_unique_index);
-            self.reporter.report(errors::hidden_name(argument, declared, free, &uses()));
+            reporter.report(errors::hidden_name(argument, declared, free, &uses()));
         }
     }
+}
 
-    fn only_once(&mut self, mechanism: &Mechanism) {
-        let (mut ground, mut gravity, mut analysis) = (None, None, None);
-        for item in &mechanism.items {
-            let (first, word) = match item.kind {
-                ItemKind::Ground { .. } => (&mut ground, "ground"),
-                ItemKind::Gravity { .. } => (&mut gravity, "gravity"),
-                ItemKind::Analysis { .. } => (&mut analysis, "analysis"),
-                _ => continue,
-            };
-            match *first {
-                None => *first = Some(item.span),
-                Some(span) => self.reporter.report(errors::second(word, item.span, span)),
-            }
+fn only_once(reporter: &mut Reporter<'_>, mechanism: &Mechanism) {
+    let (mut ground, mut gravity, mut analysis) = (None, None, None);
+    for item in &mechanism.items {
+        let (first, word) = match item.kind {
+            ItemKind::Ground { .. } => (&mut ground, "ground"),
+            ItemKind::Gravity { .. } => (&mut gravity, "gravity"),
+            ItemKind::Analysis { .. } => (&mut analysis, "analysis"),
+            _ => continue,
+        };
+        match *first {
+            None => *first = Some(item.span),
+            Some(span) => reporter.report(errors::second(word, item.span, span)),
         }
     }
 }

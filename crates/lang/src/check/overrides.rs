@@ -20,7 +20,7 @@ impl Checker<'_> {
         of: fn(&ItemKind) -> Option<&Name>,
         found: &mut Vec<(String, Option<Span>)>,
     ) {
-        for name in self.items().iter().filter_map(|item| of(&item.kind)) {
+        for name in self.scope.items().iter().filter_map(|item| of(&item.kind)) {
             let binding =
                 bindings.iter().find(|binding| binding.name.text == name.text && binding.coordinate.is_none());
             found.push((format!("{path}{}", name.text), binding.map(|binding| binding.span)));

@@ -26,7 +26,7 @@ pub(super) struct ParamState<'a> {
 impl<'a> Checker<'a> {
     pub(super) fn define_param(&mut self, k: usize, name: &Name, docs: &[String], value: &Expr) {
         self.record_angle(name, value);
-        if self.point_param(name) == Some(k) {
+        if self.scope.point_param(name) == Some(k) {
             self.params[k].drawn = self.point_of_param(name, docs, value);
         } else {
             self.params[k].value = self.param(name, docs, value);
@@ -50,7 +50,7 @@ impl<'a> Checker<'a> {
             Some((None, setting)) => {
                 let given = self.param_value(&setting.value, Context { names: false, ..context })?;
                 if let Some([expected, found]) = in_file.dim.other_than(given.dim) {
-                    let place = format!("the parameter `{}{}`", self.address.path, name.text);
+                    let place = format!("the parameter `{}{}`", self.scope.path, name.text);
                     let part = lost_rate::Part { span: setting.value.span, dimension: found };
                     let text = self.reporter.text(setting.value.span);
                     self.reporter.report(errors::wrong_dimension(&place, expected, part, text));
@@ -60,7 +60,7 @@ impl<'a> Checker<'a> {
                 Value { dim: if in_file.dim == Dim::Any { given.dim } else { in_file.dim }, ..given }
             }
         };
-        self.settable(self.declared(name), &name.text, docs, value)
+        self.settable(self.scope.declared(name), &name.text, docs, value)
     }
 
     /// Returns the value of a numeric parameter, which becomes a parameter of the model if it is independent.
@@ -71,7 +71,7 @@ impl<'a> Checker<'a> {
         }
         let number = self.number_of(value.id)?;
         // A param that determines the number of declarations cannot change afterwards.
-        if self.deciding.contains(name) {
+        if self.scope.deciding.contains(name) {
             self.constant_value(value.id);
             return Some(Value { id: self.model.graph.constant(number), dim: value.dim });
         }
@@ -96,7 +96,7 @@ impl<'a> Checker<'a> {
         if self.options.open.is_empty() {
             return false;
         }
-        let full = format!("{}{name}", self.address.path);
+        let full = format!("{}{name}", self.scope.path);
         self.options.open.iter().any(|path| override_matches(&full, path) || override_matches(&declared.name, path))
     }
 
@@ -112,7 +112,7 @@ impl<'a> Checker<'a> {
             (at, dimensional) = (given.at, given.dimensional);
         }
         let mut coordinate = |k: usize, axis: &str| {
-            let declared = Declared { name: format!("{}{}.{axis}", self.address.path, name.text), span: name.span };
+            let declared = Declared { name: format!("{}{}.{axis}", self.scope.path, name.text), span: name.span };
             // A zero loses its sign, which would count in a direction.
             let is_zero = self.decided(at[k], GuardKind::Sign) == Some(0.0);
             let id = if is_zero && !self.follows(at[k]) { self.model.graph.constant(0.0) } else { at[k] };
@@ -127,8 +127,8 @@ impl<'a> Checker<'a> {
         if self.options.settings.is_empty() {
             return Vec::new();
         }
-        let full = format!("{}{}", self.address.path, name.text);
-        let is_point = self.is_point_name(&name.text);
+        let full = format!("{}{}", self.scope.path, name.text);
+        let is_point = self.scope.is_point_name(&name.text);
         let of = |setting: &'a ParamOverride| {
             if override_matches(&full, &setting.path) {
                 return Some((None, setting));

@@ -75,7 +75,7 @@ impl Checker<'_> {
     /// Returns whether the pose of a part uses points of bodies.
     pub(super) fn is_placed_by_features(&self, part: usize) -> bool {
         let is_feature =
-            |e: &Expr| matches!(&e.kind, ExprKind::Member { owner, .. } if self.point_param(owner).is_none());
+            |e: &Expr| matches!(&e.kind, ExprKind::Member { owner, .. } if self.scope.point_param(owner).is_none());
         self.part_declarations[part].at.iter().flat_map(Expr::parts).any(is_feature)
     }
 

@@ -34,8 +34,6 @@ pub(super) struct SharedState {
 
 /// The position of a text in the whole mechanism.
 pub(super) struct Address {
-    /// The prefix of its names, such as `leg[2].`, or an empty string.
-    pub path: String,
     /// The part in the model; `None` for the outermost mechanism.
     pub part: Option<PartId>,
     /// The frame of its ground.
@@ -45,7 +43,7 @@ pub(super) struct Address {
 impl Default for Address {
     /// Returns the address of the outermost mechanism.
     fn default() -> Address {
-        Address { path: String::new(), part: None, ground: Frame::Ground }
+        Address { part: None, ground: Frame::Ground }
     }
 }
 
@@ -59,10 +57,10 @@ impl<'a> Checker<'a> {
         used_at: &[(String, Span)],
     ) -> Checker<'a> {
         let mut checker = Checker::new(instance.tree(), options, sources);
-        checker.deciding = instance.deciding.clone();
-        path.clone_into(&mut checker.address.path);
+        checker.scope.deciding = instance.deciding.clone();
+        path.clone_into(&mut checker.scope.path);
         checker.reporter.used_at = used_at.to_vec();
-        checker.collect(instance.tree());
+        checker.scope.collect(&mut checker.reporter);
         let mut parts = instance.parts.iter();
         for item in &instance.tree().items {
             let ItemKind::Part(part) = &item.kind else { continue };
@@ -75,7 +73,7 @@ impl<'a> Checker<'a> {
             // The shared state is that of the outermost checker from here on.
             checker.reporter.diagnostics.extend(std::mem::take(&mut child.reporter.diagnostics));
             checker.parts.push(child);
-            checker.imports.push(Vec::new());
+            checker.scope.imports.push(Vec::new());
             checker.part_declarations.push(part);
         }
         for path in &instance.paths {
@@ -103,7 +101,7 @@ impl<'a> Checker<'a> {
 
     /// Collects the variables of derivatives in the formulas of all texts.
     pub(super) fn collect_variables(&mut self) {
-        self.common.variables.add(self.tree, &self.address.path);
+        self.common.variables.add(self.scope.tree, &self.scope.path);
         self.in_parts(Checker::collect_variables);
     }
 
@@ -120,9 +118,9 @@ impl<'a> Checker<'a> {
             return;
         }
         let zero = self.model.graph.constant(0.0);
-        let declared = self.declared(&written.name);
+        let declared = self.scope.declared(&written.name);
         let is_mirrored_in_parent = written.mirrored.is_some();
-        let text = self.parts[part].tree.name.span;
+        let text = self.parts[part].scope.tree.name.span;
         let id = self.model.add_part(Part {
             text,
             params: self.parts[part].bound_numbers(),

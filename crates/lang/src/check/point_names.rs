@@ -10,7 +10,6 @@ use crate::model::{Frame, PointId};
 use mechc_syntax::ast::{Expr, ExprKind, Name};
 use mechc_text::diag::Diagnostic;
 use mechc_text::source::Span;
-use mechc_text::vocabulary::{Constant, Unit};
 
 /// A point of the body around a formula.
 #[derive(Clone, Copy, Debug)]
@@ -57,9 +56,9 @@ impl<'a> Checker<'a> {
 
     fn in_scope<T>(&mut self, scope: FormulaScope<'a>, read: impl FnOnce(&mut Self) -> Option<T>) -> Option<T> {
         let site = scope.site;
-        let outer = std::mem::replace(&mut self.scope, scope);
+        let outer = std::mem::replace(&mut self.current, scope);
         let value = read(self);
-        let FormulaScope { of_body, of_mechanism, .. } = std::mem::replace(&mut self.scope, outer);
+        let FormulaScope { of_body, of_mechanism, .. } = std::mem::replace(&mut self.current, outer);
         match (site, of_body, of_mechanism) {
             (FormulaSite::Inside(frame), Some(inner), Some(other)) if self.is_placed(frame) => {
                 let body = self.frame_name(frame).to_owned();
@@ -77,22 +76,13 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Returns whether a name of the mechanism is a number in every formula.
-    pub(super) fn is_number_name(&self, name: &Name) -> bool {
-        let declared = self.space.get(&name.text);
-        match declared {
-            Some(Entity::Param(_)) => !self.is_point_name(&name.text),
-            Some(_) => false,
-            None => Constant::named(&name.text).is_some() || Unit::named(&name.text).is_some(),
-        }
-    }
-
     /// Returns the point of the body around a formula that a name stands for.
     pub(super) fn body_point(&self, name: &Name, expected: Expected) -> Option<BodyPoint> {
-        let FormulaSite::Inside(frame) = self.scope.site else { return None };
-        if self.scope.defined == Some(name.text.as_str())
+        let FormulaSite::Inside(frame) = self.current.site else { return None };
+        if self.current.defined == Some(name.text.as_str())
             || expected == Expected::Number
-            || expected == Expected::Either && (self.scope.argument == Some(&name.text) || self.is_number_name(name))
+            || expected == Expected::Either
+                && (self.current.argument == Some(&name.text) || self.scope.is_number_name(name))
         {
             return None;
         }
@@ -103,22 +93,14 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Returns the param of a name, if it is a point.
-    pub(super) fn point_param(&self, name: &Name) -> Option<usize> {
-        match self.entity(name) {
-            Some(Entity::Param(k)) if self.is_point_name(&name.text) => Some(k),
-            _ => None,
-        }
-    }
-
     /// Returns whether a formula is a point, by its form and names.
     pub(super) fn is_point(&self, e: &Expr) -> bool {
         point_kinds::is_point(
             e,
-            |name| self.hidden.contains(name),
+            |name| self.scope.hides(name),
             |e| match &e.kind {
                 ExprKind::Name(name) => {
-                    self.body_point(name, Expected::Either).is_some() || self.point_param(name).is_some()
+                    self.body_point(name, Expected::Either).is_some() || self.scope.point_param(name).is_some()
                 }
                 ExprKind::Member { owner, feature } => self.is_drawn_feature(owner, feature),
                 _ => false,
@@ -131,7 +113,7 @@ impl<'a> Checker<'a> {
         if self.body_point(owner, Expected::Point).is_some() {
             return false;
         }
-        let frame = match self.entity(owner) {
+        let frame = match self.scope.entity(owner) {
             _ if owner.text == "ground" => self.address.ground,
             Some(Entity::Body(k)) => match self.bodies.get(k) {
                 Some(&frame) => frame,
@@ -146,7 +128,7 @@ impl<'a> Checker<'a> {
     /// Records that the current formula uses a point of its body.
     pub(super) fn record_body_point(&mut self, name: &Name) {
         if self.body_point(name, Expected::Point).is_some() {
-            self.scope.of_body.get_or_insert(name.span);
+            self.current.of_body.get_or_insert(name.span);
         }
     }
 
@@ -169,14 +151,16 @@ impl<'a> Checker<'a> {
         match self.body_point(name, expected) {
             Some(BodyPoint::Point(point)) => self.common.dimensional_points.contains(&point),
             Some(BodyPoint::Broken) => false,
-            None => self.point_param(name).and_then(|k| self.params[k].drawn).is_some_and(|drawn| drawn.dimensional),
+            None => {
+                self.scope.point_param(name).and_then(|k| self.params[k].drawn).is_some_and(|drawn| drawn.dimensional)
+            }
         }
     }
 
     /// Looks up a name where a point is expected.
     pub(super) fn lookup_point(&mut self, name: &Name, expected: Expected) -> PointLookup {
         if let Some(point) = self.body_point(name, expected) {
-            self.scope.of_body.get_or_insert(name.span);
+            self.current.of_body.get_or_insert(name.span);
             return match point {
                 BodyPoint::Broken => PointLookup::Broken,
                 BodyPoint::Point(point) => {
@@ -185,9 +169,9 @@ impl<'a> Checker<'a> {
                 }
             };
         }
-        match self.point_param(name) {
+        match self.scope.point_param(name) {
             Some(k) => {
-                self.scope.of_mechanism.get_or_insert(name.span);
+                self.current.of_mechanism.get_or_insert(name.span);
                 self.params[k].drawn.map_or(PointLookup::Broken, PointLookup::Point)
             }
             None => PointLookup::NotAPoint,
@@ -196,23 +180,16 @@ impl<'a> Checker<'a> {
 
     /// Returns the entity of a name that is not a point. `Err` if it is broken, which has been reported.
     fn non_point_entity(&self, name: &Name) -> Result<Option<Entity>, BrokenName> {
-        match self.resolve(name)? {
+        match self.scope.resolve(name)? {
             Some(Entity::Param(k)) if self.params[k].value.is_none() => Err(BrokenName),
             entity => Ok(entity),
         }
     }
 
-    /// Returns the names of points to suggest from.
-    fn point_param_names(&self) -> Vec<&str> {
-        let mut candidates = self.suggestions(|entity| matches!(entity, Entity::Param(_)));
-        candidates.retain(|name| self.is_point_name(name));
-        candidates
-    }
-
     /// Reports that the mechanism has no point for a lone `point A`.
     fn no_point_to_take(&mut self, name: &Name) {
         let Ok(entity) = self.non_point_entity(name) else { return };
-        let candidates = self.point_param_names();
+        let candidates = self.scope.point_param_names(&self.reporter);
         let diagnostic = errors::no_point_to_take(name, entity.map(Entity::noun), &candidates);
         self.reporter.report(diagnostic);
     }
@@ -220,7 +197,7 @@ impl<'a> Checker<'a> {
     /// Reports a name in a formula of points that is not a point.
     pub(super) fn no_point_named(&mut self, name: &Name) {
         let Ok(entity) = self.non_point_entity(name) else { return };
-        let space_of_body = match self.scope.site {
+        let space_of_body = match self.current.site {
             FormulaSite::Inside(frame) => self.common.features.get(&frame),
             _ => None,
         };
@@ -228,28 +205,28 @@ impl<'a> Checker<'a> {
             return;
         }
         let feature =
-            space_of_body.and_then(|space| space.get(&name.text)).filter(|_| self.scope.defined != Some(&name.text));
+            space_of_body.and_then(|space| space.get(&name.text)).filter(|_| self.current.defined != Some(&name.text));
         let found = match (feature, entity) {
             (Some(feature), _) => Some(feature.noun()),
             (None, Some(Entity::Param(_))) => Some("a number"),
             (None, Some(entity)) => Some(entity.noun()),
-            (None, None) if self.is_number_name(name) => Some("a number"),
+            (None, None) if self.scope.is_number_name(name) => Some("a number"),
             (None, None) => None,
         };
         let Some(found) = found else {
-            let is_other = |name: &&str| self.scope.defined != Some(*name);
+            let is_other = |name: &&str| self.current.defined != Some(*name);
             let mut candidates = space_of_body.map_or_else(Vec::new, |space| {
                 space.suggestions(&self.reporter, |feature| matches!(feature, Feature::Point(_)))
             });
             candidates.retain(is_other);
-            candidates.extend(self.point_param_names());
+            candidates.extend(self.scope.point_param_names(&self.reporter));
             let diagnostic = errors::unknown_point(name, &candidates);
             self.reporter.report(diagnostic);
             return;
         };
         let diagnostic = errors::wrong_kind(name.span, "a point", found);
         self.reporter.report(match entity {
-            Some(Entity::Body(_)) if feature.is_none() && self.scope.site.takes_drawn_points() => {
+            Some(Entity::Body(_)) if feature.is_none() && self.current.site.takes_drawn_points() => {
                 diagnostic.help(format!("name one of its points: `{}.…`", name.text))
             }
             Some(Entity::Param(_)) => {
@@ -260,11 +237,7 @@ impl<'a> Checker<'a> {
     }
 
     pub(super) fn is_named_point(&self, name: &Name) -> bool {
-        self.body_point(name, Expected::Point).is_some() || self.point_param(name).is_some()
-    }
-
-    pub(super) fn is_body(&self, name: &Name) -> bool {
-        name.text == "ground" || matches!(self.entity(name), Some(Entity::Body(_)))
+        self.body_point(name, Expected::Point).is_some() || self.scope.point_param(name).is_some()
     }
 
     /// Returns the diagnostic of `owner.feature` where a point of the drawing is expected.
@@ -272,7 +245,7 @@ impl<'a> Checker<'a> {
         match coordinate(feature) {
             Some(_) if self.is_named_point(owner) => errors::coordinate_as_point(span, owner),
             None if self.is_named_point(owner) => errors::no_coordinate(owner, feature),
-            _ if self.is_body(owner) => errors::moving_point(span, &owner.text, &feature.text),
+            _ if self.scope.is_body(owner) => errors::moving_point(span, &owner.text, &feature.text),
             _ => errors::wrong_kind(span, "a point", &self.describe_member(owner, feature)),
         }
     }

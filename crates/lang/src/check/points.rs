@@ -97,7 +97,7 @@ impl Checker<'_> {
 
     /// Evaluates `crank.pin` at its drawn position.
     fn feature_point(&mut self, e: &Expr, owner: &Name, feature: &Name) -> Option<Position> {
-        if self.is_named_point(owner) || self.is_body(owner) && !self.scope.site.takes_drawn_points() {
+        if self.is_named_point(owner) || self.scope.is_body(owner) && !self.current.site.takes_drawn_points() {
             let diagnostic = self.no_place(e.span, owner, feature);
             self.reporter.report(diagnostic);
             return None;
@@ -105,7 +105,7 @@ impl Checker<'_> {
         let frame = self.body(owner)?;
         let point = self.point_named(frame, feature)?;
         let at = self.model[point].at;
-        match self.scope.site {
+        match self.current.site {
             FormulaSite::Mount(mount) => self.drawn_from(mount, frame, at),
             _ => self.drawn_place(frame, at),
         }
@@ -227,7 +227,7 @@ impl Checker<'_> {
         arguments: &[Expr],
         context: &Context<'_>,
     ) -> Option<Position> {
-        if self.hidden.contains(name.text.as_str()) || !matches!(name.text.as_str(), "polar" | "mid") {
+        if self.scope.hides(&name.text) || !matches!(name.text.as_str(), "polar" | "mid") {
             // A fault of the call itself explains more.
             self.number(e, context)?;
             no_point(&mut self.reporter, e);
@@ -314,10 +314,10 @@ impl Checker<'_> {
     /// Returns the location of a body's point among two points, if the site allows no drawn points.
     fn moving_among(&self, points: [&Expr; 2]) -> Option<Span> {
         let is_moving = |e: &&Expr| match &e.bare().kind {
-            ExprKind::Member { owner, .. } => self.is_body(owner) && !self.is_named_point(owner),
+            ExprKind::Member { owner, .. } => self.scope.is_body(owner) && !self.is_named_point(owner),
             _ => false,
         };
-        points.into_iter().find(is_moving).map(|e| e.span).filter(|_| !self.scope.site.takes_drawn_points())
+        points.into_iter().find(is_moving).map(|e| e.span).filter(|_| !self.current.site.takes_drawn_points())
     }
 
     /// Returns the angle of the vector between two points, in (−π, π].
@@ -343,7 +343,7 @@ impl Checker<'_> {
     pub(super) fn coordinate_of(&mut self, e: &Expr, context: &Context<'_>) -> Result<Option<Value>, NotAPoint> {
         let ExprKind::Member { owner, feature } = &e.kind else { return Err(NotAPoint) };
         if !context.names {
-            self.point_param(owner).ok_or(NotAPoint)?;
+            self.scope.point_param(owner).ok_or(NotAPoint)?;
             self.reporter.report(errors::names_in_option(owner));
             return Ok(None);
         }

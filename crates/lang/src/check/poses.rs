@@ -22,7 +22,7 @@ impl<'a> Checker<'a> {
         // In their own frames they depend on nothing outside.
         self.in_parts(Checker::poses);
         let mut poses = Vec::new();
-        for item in self.items() {
+        for item in self.scope.items() {
             if let ItemKind::Body { name, pose, .. } = &item.kind {
                 poses.push((item, name, pose.as_ref()));
             }
@@ -91,7 +91,7 @@ impl<'a> Checker<'a> {
         let mut uses = Vec::new();
         while let Some(e) = open.pop() {
             if let ExprKind::Member { owner, .. } = &e.kind
-                && self.point_param(owner).is_none()
+                && self.scope.point_param(owner).is_none()
             {
                 uses.extend(position(owner).map(|k| (k, owner.span)));
             }
@@ -170,8 +170,8 @@ impl<'a> Checker<'a> {
     fn is_intended_as_point(&self, e: &Expr) -> bool {
         self.is_point(e)
             || match &e.kind {
-                ExprKind::Name(name) => !self.is_number_name(name),
-                ExprKind::Member { owner, .. } => self.point_param(owner).is_none(),
+                ExprKind::Name(name) => !self.scope.is_number_name(name),
+                ExprKind::Member { owner, .. } => self.scope.point_param(owner).is_none(),
                 _ => false,
             }
     }

@@ -121,12 +121,6 @@ impl Checker<'_> {
         self.model.conditions.push(Condition { positive, kind, span, owner: String::new() });
     }
 
-    /// Returns a quantity of the language, unless a function or table of the mechanism hides it.
-    pub(super) fn quantity_word(&self, name: &Name) -> Option<&'static QuantityWord> {
-        let is_hidden = || matches!(self.entity(name), Some(Entity::Function(_) | Entity::Table(_)));
-        QuantityWord::named(&name.text).filter(|quantity| !quantity.gives_way || !is_hidden())
-    }
-
     /// Returns a body or the ground.
     fn body_of(&mut self, e: &Expr) -> Option<Frame> {
         if let ExprKind::Name(name) = &e.bare().kind {
@@ -190,7 +184,7 @@ impl Checker<'_> {
             self.reporter.report(errors::wrong_kind(e.span, "a joint", found));
             return None;
         };
-        let joint = match self.resolve(name).ok()? {
+        let joint = match self.scope.resolve(name).ok()? {
             Some(Entity::Joint(k)) => self.joints.get(k).copied().flatten()?,
             Some(entity) => {
                 let diagnostic = errors::wrong_kind(name.span, "a joint", entity.noun());
@@ -198,7 +192,7 @@ impl Checker<'_> {
                 return None;
             }
             None => {
-                let candidates = self.suggestions(|entity| matches!(entity, Entity::Joint(_)));
+                let candidates = self.scope.suggestions(&self.reporter, |entity| matches!(entity, Entity::Joint(_)));
                 let diagnostic = errors::unknown("joint", name, &candidates);
                 self.reporter.report(diagnostic);
                 return None;
@@ -212,7 +206,7 @@ impl Checker<'_> {
         if name.text == "ground" {
             return Some(self.address.ground);
         }
-        match self.resolve(name).ok()? {
+        match self.scope.resolve(name).ok()? {
             Some(Entity::Body(k)) => self.bodies.get(k).copied(),
             Some(entity) => {
                 self.reporter.report(errors::wrong_kind(name.span, "a body", entity.noun()));
@@ -223,11 +217,6 @@ impl Checker<'_> {
                 None
             }
         }
-    }
-
-    /// Describes a name that stands in the place of a feature.
-    pub(super) fn describe_name(&self, name: &Name) -> &'static str {
-        self.entity(name).map_or("a name", Entity::noun)
     }
 
     /// Returns every frame on which a quantity depends.

@@ -40,7 +40,7 @@ impl Checker<'_> {
 
     fn list_requirements(&mut self) {
         let mut parts = 0..self.parts.len();
-        for item in self.items() {
+        for item in self.scope.items() {
             match &item.kind {
                 ItemKind::Requirement(requirement) => {
                     self.requirement(item.span, requirement);
@@ -78,7 +78,7 @@ impl Checker<'_> {
         let dimension = sides.iter().map(|(_, value)| value.dim.settled()).reduce(Dimension::marked_by)?;
         let units = units_of_sides(&sides, dimension);
         let text = self.reporter.text(requirement_text(requirement));
-        let named = requirement.name.as_ref().map(|name| format!("{}{}", self.address.path, name.text));
+        let named = requirement.name.as_ref().map(|name| format!("{}{}", self.scope.path, name.text));
         let declared = Declared { name: named.unwrap_or_else(|| text.to_owned()), span };
         let bounds = bounds.into_iter().map(|(is_upper, bound)| {
             let graph = &mut self.model.graph;

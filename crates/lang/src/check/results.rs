@@ -61,13 +61,13 @@ impl Checker<'_> {
     /// Lists the results in the order of the text, those of a part where it is declared.
     fn list_results(&mut self) {
         let (mut numbers, mut parts) = (0..self.results.len(), 0..self.parts.len());
-        for item in self.items() {
+        for item in self.scope.items() {
             match &item.kind {
                 ItemKind::Result { name, .. } => {
                     let Some(k) = numbers.next() else { continue };
                     let Some(value) = self.results[k].value else { continue };
                     if let Some(units) = self.units_of_result(k, value) {
-                        let declared = self.declared(name);
+                        let declared = self.scope.declared(name);
                         self.model.outcomes.push(Outcome { declared, value: value.id, units });
                     }
                 }
@@ -86,14 +86,6 @@ impl Checker<'_> {
         self.units(formula, value.dim, unit)
     }
 
-    /// Returns the reduction of a call. A function or table of the mechanism takes precedence.
-    pub(super) fn reduction_word(&self, name: &Name, arguments: usize) -> Option<&'static ReductionWord> {
-        let is_hidden = || matches!(self.entity(name), Some(Entity::Function(_) | Entity::Table(_)));
-        let compares = ["max", "min"].contains(&name.text.as_str());
-        let word = ReductionWord::named(&name.text).filter(|_| !compares || arguments == 1)?;
-        (compares || !is_hidden()).then_some(word)
-    }
-
     /// Evaluates a call if it is a reduction. (A separate function, as nested formulas have no stack for its locals.)
     pub(super) fn call_of_reduction(
         &mut self,
@@ -102,13 +94,13 @@ impl Checker<'_> {
         arguments: &[Expr],
         context: &Context<'_>,
     ) -> Result<Option<Value>, NotAReduction> {
-        let word = self.reduction_word(name, arguments.len()).ok_or(NotAReduction)?;
+        let word = self.scope.reduction_word(name, arguments.len()).ok_or(NotAReduction)?;
         if context.results {
             return Ok(self.reduction(e, (word, name), (arguments, window), context));
         }
         // With one argument too few it compares values.
-        let compares = self.is_of_language(&name.text) && window.is_none();
-        let means_itself = matches!(self.space.get(&name.text), None | Some(Entity::Param(_) | Entity::Measure(_)));
+        let compares = self.scope.is_of_language(&name.text) && window.is_none();
+        let means_itself = matches!(self.scope.get(&name.text), None | Some(Entity::Param(_) | Entity::Measure(_)));
         if compares || !means_itself {
             return Err(NotAReduction);
         }

@@ -150,13 +150,13 @@ impl Checker<'_> {
     /// Returns a formula of calls and names of this text as the outermost mechanism writes it; `None` for other formulas, and if a name is
     /// bound, so that nothing outside can be differentiated by it.
     fn text_from_outside(&self, e: &Expr) -> Option<String> {
-        let path = &self.address.path;
+        let path = &self.scope.path;
         match &e.kind {
-            ExprKind::Call { name, arguments, window: None } if self.entity(name).is_none() => {
+            ExprKind::Call { name, arguments, window: None } if self.scope.entity(name).is_none() => {
                 let arguments: Option<Vec<String>> = arguments.iter().map(|e| self.text_from_outside(e)).collect();
                 Some(format!("{}({})", name.text, arguments?.join(", ")))
             }
-            ExprKind::Name(name) if self.entity(name).is_none() => Some(name.text.clone()),
+            ExprKind::Name(name) if self.scope.entity(name).is_none() => Some(name.text.clone()),
             _ => named(e).filter(|name| !self.is_bound(name)).map(|name| format!("{path}{name}")),
         }
     }
@@ -206,10 +206,10 @@ impl Checker<'_> {
 
     /// Returns the number of a derivative's variable.
     fn variable(&mut self, by: &Expr) -> Option<u32> {
-        let full = named(by).map(|name| format!("{}{name}", self.address.path));
+        let full = named(by).map(|name| format!("{}{name}", self.scope.path));
         let path = named(by).unwrap_or_default();
-        if let Some(bound) = self.binding_of(&format!("{}{path}", self.address.path)) {
-            let local = |name: &String| name.strip_prefix(self.address.path.as_str()).unwrap_or(name).to_owned();
+        if let Some(bound) = self.binding_of(&format!("{}{path}", self.scope.path)) {
+            let local = |name: &String| name.strip_prefix(self.scope.path.as_str()).unwrap_or(name).to_owned();
             let made_of: Vec<String> = bound.made_of.iter().map(local).collect();
             self.reporter.report(errors::by_bound(by.span, &path, bound.span, &made_of));
             return None;
@@ -220,7 +220,7 @@ impl Checker<'_> {
         }
         let diagnostic = match &by.bare().kind {
             ExprKind::Name(name) => self.non_variable_diagnostic(name)?,
-            ExprKind::Member { owner, feature } if self.point_param(owner).is_some() => {
+            ExprKind::Member { owner, feature } if self.scope.point_param(owner).is_some() => {
                 // A broken one has been reported.
                 if matches!(feature.text.as_str(), "x" | "y") {
                     return None;
@@ -239,14 +239,16 @@ impl Checker<'_> {
 
     /// Returns the diagnostic of a name that is not a variable; `None` if it is broken, which has been reported.
     fn non_variable_diagnostic(&self, name: &Name) -> Option<mechc_text::diag::Diagnostic> {
-        match self.resolve(name).ok()? {
-            Some(Entity::Param(_)) if self.point_param(name).is_some() => Some(errors::by_point(name, name.span)),
-            Some(Entity::Param(_)) if self.deciding.contains(&name.text) => Some(errors::by_deciding(name)),
+        match self.scope.resolve(name).ok()? {
+            Some(Entity::Param(_)) if self.scope.point_param(name).is_some() => Some(errors::by_point(name, name.span)),
+            Some(Entity::Param(_)) if self.scope.deciding.contains(&name.text) => Some(errors::by_deciding(name)),
             Some(Entity::Param(_) | Entity::Input(_)) => None,
             Some(entity) => Some(errors::not_a_variable(name.span, entity.noun())),
             None if name.text == "t" => Some(errors::by_time(name)),
             None => {
-                let candidates = self.suggestions(|entity| matches!(entity, Entity::Param(_) | Entity::Input(_)));
+                let candidates = self
+                    .scope
+                    .suggestions(&self.reporter, |entity| matches!(entity, Entity::Param(_) | Entity::Input(_)));
                 Some(errors::unknown("input or parameter", name, &candidates))
             }
         }

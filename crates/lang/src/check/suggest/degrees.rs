@@ -78,7 +78,7 @@ impl Checker<'_> {
             ExprKind::Product(first, rest) => {
                 self.is_bare(first, levels) && rest.iter().all(|(_, term)| self.is_bare(term, levels))
             }
-            ExprKind::Name(name) => match self.entity(name) {
+            ExprKind::Name(name) => match self.scope.entity(name) {
                 Some(Entity::Param(k)) => self.params.get(k).is_some_and(|param| {
                     let is_plain = |dim| matches!(dim, Dim::Plain { read, .. } if read.is_without_angles());
                     param.value.is_some_and(|value| is_plain(value.dim))
@@ -136,7 +136,7 @@ impl Checker<'_> {
 
     /// Returns the unit of angle in which a measure or result is printed, unless it is the radian.
     fn unit_of(&self, name: &Name) -> Option<Span> {
-        let written = match self.entity(name)? {
+        let written = match self.scope.entity(name)? {
             Entity::Measure(k) => self.measure_state(k)?.unit,
             Entity::Result(k) => self.result_state(k)?.unit,
             _ => None,

@@ -43,7 +43,7 @@ impl Checker<'_> {
 
     /// Returns the body of a name, or the ground, without diagnostics.
     pub(in crate::check) fn frame_of(&self, owner: &Name) -> Option<Frame> {
-        match self.entity(owner) {
+        match self.scope.entity(owner) {
             _ if owner.text == "ground" => Some(self.address.ground),
             Some(Entity::Body(k)) => Some(*self.bodies.get(k)?),
             _ => None,

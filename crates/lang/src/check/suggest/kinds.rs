@@ -22,7 +22,7 @@ impl Checker<'_> {
         }
         let name = ["way", "line", "slideway"].into_iter().find(|name| space.get(name).is_none())?;
         let declared = space.span(&point.text)?;
-        let features = self.items().iter().filter_map(|item| match &item.kind {
+        let features = self.scope.items().iter().filter_map(|item| match &item.kind {
             ItemKind::Ground { features } | ItemKind::Body { features, .. } => Some(features),
             _ => None,
         });
@@ -44,10 +44,10 @@ impl Checker<'_> {
 
     /// Adds suggestions to a diagnostic of a body where a joint is expected: the joints of that body, and the body's angle.
     pub(in crate::check) fn suggest_joint(&self, quantity: &str, name: &Name, diagnostic: Diagnostic) -> Diagnostic {
-        if let (true, Some(Entity::Equation(_))) = (is_force(quantity), self.entity(name)) {
+        if let (true, Some(Entity::Equation(_))) = (is_force(quantity), self.scope.entity(name)) {
             return diagnostic.help(format!("what it supplies is `effort({})`", name.text));
         }
-        let body = match self.entity(name) {
+        let body = match self.scope.entity(name) {
             _ if name.text == "ground" => self.address.ground,
             Some(Entity::Body(k)) => self.bodies[k],
             _ => return diagnostic,
@@ -73,7 +73,7 @@ impl Checker<'_> {
         let [argument] = arguments else { return None };
         let ExprKind::Name(name) = &argument.bare().kind else { return None };
         let means = Synonym::of(Position::Call, &called.text)?.means;
-        let (what, text) = match self.entity(name)? {
+        let (what, text) = match self.scope.entity(name)? {
             Entity::Equation(_) if called.text == "power" => {
                 let moved = self.moved_by(&name.text)?;
                 ("the power of a driver is".to_owned(), format!("effort({}) * der({moved})", name.text))
@@ -84,7 +84,7 @@ impl Checker<'_> {
             Entity::Joint(k) if means == ["torque"] || means == ["effort"] => {
                 let joint = self.joints.get(k).copied().flatten()?;
                 let is_driven = means == ["effort"] || !self.model[joint].spec.has_torque();
-                let driver = self.driver_of(&name.text).filter(|_| is_driven)?;
+                let driver = self.scope.driver_of(&name.text).filter(|_| is_driven)?;
                 (format!("what drives `{}` supplies", name.text), format!("effort({driver})"))
             }
             _ => return None,
@@ -95,18 +95,18 @@ impl Checker<'_> {
 
     /// Returns the text of the quantity that a driver moves, if its left side is one.
     fn moved_by(&self, driver: &str) -> Option<&str> {
-        let left = self.items().iter().find_map(|item| match &item.kind {
+        let left = self.scope.items().iter().find_map(|item| match &item.kind {
             ItemKind::Equation { driver: true, name, left, .. } if name.text == driver => Some(left),
             _ => None,
         })?;
         let is_quantity =
-            matches!(&left.bare().kind, ExprKind::Call { name, .. } if self.quantity_word(name).is_some());
+            matches!(&left.bare().kind, ExprKind::Call { name, .. } if self.scope.quantity_word(name).is_some());
         is_quantity.then(|| self.reporter.text(left.span))
     }
 
     /// Suggests a quantity for `crank.phi`, `crank.x` or a point where a number is expected.
     pub(in crate::check) fn suggest_number(&self, span: Span, owner: &Name, feature: &Name) -> Option<Fix> {
-        let frame = match self.entity(owner)? {
+        let frame = match self.scope.entity(owner)? {
             Entity::Body(k) => *self.bodies.get(k)?,
             _ => return None,
         };
@@ -179,7 +179,7 @@ impl Checker<'_> {
             ExprKind::Literal { unit: Some((unit, 1)), .. } => is_unit_of_angle(&unit.text).then_some(("", None)),
             ExprKind::Negate(inner) => self.angle_in(inner),
             ExprKind::Name(name) => {
-                let Some(Entity::Param(k)) = self.entity(name) else { return None };
+                let Some(Entity::Param(k)) = self.scope.entity(name) else { return None };
                 let written = self.params.get(k).filter(|param| param.is_in_angles)?.written?;
                 Some((name.text.as_str(), Some(written.0.span)))
             }
@@ -199,7 +199,7 @@ impl Checker<'_> {
 
     /// Records a parameter that is given in a unit of angle.
     pub(in crate::check) fn record_angle(&mut self, name: &Name, value: &Expr) {
-        if let (Some(Entity::Param(k)), Some(_)) = (self.entity(name), self.angle_in(value)) {
+        if let (Some(Entity::Param(k)), Some(_)) = (self.scope.entity(name), self.angle_in(value)) {
             self.params[k].is_in_angles = true;
         }
     }

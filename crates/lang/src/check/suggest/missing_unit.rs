@@ -82,7 +82,7 @@ impl<'a> Checker<'a> {
                     return Some(PlainLength { value: value.abs(), span: e.span, name, is_number });
                 }
                 ExprKind::Name(name) => {
-                    let Some(Entity::Param(k)) = self.entity(name) else { return found };
+                    let Some(Entity::Param(k)) = self.scope.entity(name) else { return found };
                     let (name, formula, is_in_the_text) = self.effective_formula(k)?;
                     let value = self.params[k].value.and_then(|value| self.number_of(value.id))?.abs();
                     let is_number = is_in_the_text && found.is_none_or(|plain| plain.is_number);
@@ -109,7 +109,7 @@ impl<'a> Checker<'a> {
         if !dwarfs || plain.iter().any(|length| length.value < IN_METRES) {
             return;
         }
-        let unit = usual_unit_of_length(self.items()).unwrap_or(&UNITS[0]);
+        let unit = usual_unit_of_length(self.scope.items()).unwrap_or(&UNITS[0]);
         let is_off = |value: f64| math::ln((value / most).max(least / value).max(1.0));
         let is_off_with = |factor: f64| plain.iter().map(|length| is_off(factor * length.value)).sum::<f64>();
         if is_off_with(unit.to_si(1.0, 1)) >= is_off_with(1.0) {

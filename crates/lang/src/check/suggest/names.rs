@@ -15,14 +15,14 @@ use std::collections::hash_map::Entry;
 impl Checker<'_> {
     /// Returns the quantity of a joint that a driver can prescribe.
     fn quantity_of(&self, name: &Name) -> Option<String> {
-        let Some(Entity::Joint(k)) = self.entity(name) else { return None };
+        let Some(Entity::Joint(k)) = self.scope.entity(name) else { return None };
         let motion = self.model[self.joints.get(k).copied().flatten()?].spec.motion?;
         Some(format!("{}({})", motion.quantity(), name.text))
     }
 
     /// Adds a suggestion to a diagnostic of a joint or body where a number is expected.
     pub(in crate::check) fn suggest_quantity(&self, name: &Name, diagnostic: Diagnostic) -> Diagnostic {
-        if let Some(Entity::Body(_)) = self.entity(name) {
+        if let Some(Entity::Body(_)) = self.scope.entity(name) {
             return diagnostic.help(format!("the angle of a body is `angle({})`", name.text));
         }
         let quantity = self.quantity_of(name);
@@ -54,7 +54,7 @@ impl Checker<'_> {
 
     /// Replaces a formula by a quantity. If the other side of its driver is a rate, that is multiplied with the time.
     fn replace_in_equation(&self, span: Span, quantity: &str) -> Fix {
-        let other = self.items().iter().find_map(|item| match &item.kind {
+        let other = self.scope.items().iter().find_map(|item| match &item.kind {
             ItemKind::Equation { driver: true, left, right, .. } if left.span == span => Some(right),
             ItemKind::Equation { driver: true, left, right, .. } if right.span == span => Some(left),
             _ => None,
@@ -79,7 +79,7 @@ impl Checker<'_> {
             ExprKind::Literal { unit: Some((unit, 1)), .. } => {
                 Unit::named(&unit.text).is_some_and(|unit| unit.dimension.is(Dimension::RATE))
             }
-            ExprKind::Name(name) => match self.entity(name) {
+            ExprKind::Name(name) => match self.scope.entity(name) {
                 Some(Entity::Param(k)) => {
                     matches!(self.params[k].value, Some(value) if matches!(value.dim, Dim::Of(d) if d.is(Dimension::RATE)))
                 }
@@ -91,7 +91,7 @@ impl Checker<'_> {
 
     /// Reports an unknown body. Other words for the ground are suggestions for it.
     pub(in crate::check) fn unknown_body(&mut self, name: &Name) {
-        let mut candidates = self.suggestions(|entity| matches!(entity, Entity::Body(_)));
+        let mut candidates = self.scope.suggestions(&self.reporter, |entity| matches!(entity, Entity::Body(_)));
         candidates.push("ground");
         let diagnostic = errors::unknown("body", name, &candidates);
         let is_ground = diagnostic.help.is_empty() && is_ground(&name.text);
@@ -101,7 +101,7 @@ impl Checker<'_> {
 
     /// Returns the features of a body that `expected` accepts, as they are written outside the body.
     pub(in crate::check) fn features_of(&self, body: &Name, expected: impl Fn(Feature) -> bool) -> Vec<String> {
-        let Some(Entity::Body(k)) = self.entity(body) else { return Vec::new() };
+        let Some(Entity::Body(k)) = self.scope.entity(body) else { return Vec::new() };
         let space = self.bodies.get(k).and_then(|id| self.common.features.get(id));
         let names = space.into_iter().flat_map(|space| space.suggestions(&self.reporter, &expected));
         names.take(MOST_PLACES).map(|name| format!("`{}.{name}`", body.text)).collect()
@@ -116,7 +116,7 @@ impl Checker<'_> {
 
     /// Returns the bodies named in the other arguments of a joint, which cannot own the name.
     pub(in crate::check) fn owners_in_arguments(&self, name: Span) -> Vec<&str> {
-        let arguments = self.items().iter().find_map(|item| match &item.kind {
+        let arguments = self.scope.items().iter().find_map(|item| match &item.kind {
             ItemKind::Joint { arguments, .. } if arguments.iter().any(|e| e.span == name) => Some(arguments),
             _ => None,
         });
