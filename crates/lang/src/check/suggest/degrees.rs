@@ -1,8 +1,8 @@
 //! Warnings of bare numbers that were probably intended in degrees, or in another unit of angle than radians.
 
-use crate::check::entity::Entity;
-use crate::check::formula::{Context, Dim};
-use crate::check::{Checker, errors};
+use crate::check::errors;
+use crate::check::formulas::{Context, Dim, Formulas};
+use crate::check::scope::Entity;
 use mechc_syntax::ast::{Expr, ExprKind, Factor, Name, WrittenUnit};
 use mechc_text::source::Span;
 use mechc_text::vocabulary::Unit;
@@ -11,7 +11,7 @@ use std::f64::consts::TAU;
 /// The depth to which a term is examined: formulas nest deeper than a second recursion has stack for.
 const LEVELS: usize = 8;
 
-impl Checker<'_> {
+impl Formulas<'_> {
     /// Warns of bare numbers beyond one turn among the terms of an angle.
     pub(in crate::check) fn warn_of_degrees_in(&mut self, e: &Expr) {
         match &e.bare().kind {

@@ -1,14 +1,14 @@
 //! Suggestions for joint arguments in another order, or for another kind of joint.
 
-use crate::check::entity::Entity;
-use crate::check::features::Feature;
-use crate::check::{Checker, errors};
+use crate::check::errors;
+use crate::check::formulas::{Feature, Formulas};
+use crate::check::scope::Entity;
 use crate::model::Frame;
 use mechc_syntax::ast::{Expr, ExprKind, Name};
 use mechc_text::diag::{Applicability, Edit, Fix};
 use mechc_text::vocabulary::{FeatureWord, JointSpec};
 
-impl Checker<'_> {
+impl Formulas<'_> {
     /// Reports a joint whose first two arguments are swapped or belong to another kind of joint.
     pub(in crate::check) fn refuses_arguments(&mut self, kind: &Name, spec: &JointSpec, arguments: &[Expr]) -> bool {
         let [first, second, ..] = arguments else { return false };

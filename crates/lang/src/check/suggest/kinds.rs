@@ -1,17 +1,16 @@
 //! Suggestions for arguments of the wrong kind, from the declarations of the mechanism.
 
 use super::edits::with_preferred_fix;
-use crate::check::Checker;
-use crate::check::entity::Entity;
 use crate::check::errors::list;
-use crate::check::features::Feature;
+use crate::check::formulas::{Feature, Formulas};
+use crate::check::scope::Entity;
 use crate::model::{Dimension, Frame};
 use mechc_syntax::ast::{Expr, ExprKind, Factor, ItemKind, Name};
 use mechc_text::diag::{Applicability, Code, Diagnostic, Edit, Fix};
 use mechc_text::source::Span;
 use mechc_text::vocabulary::{Position, QuantityWord, Synonym, Unit};
 
-impl Checker<'_> {
+impl Formulas<'_> {
     /// Suggests an axis instead of a point: an axis of the body, or a new one through the point.
     pub(in crate::check) fn suggest_axis(&self, frame: Frame, point: &Name) -> Option<Fix> {
         let space = self.common.features.get(&frame)?;

@@ -3,10 +3,9 @@
 //! A plain formula is in metres, which is intended if all lengths are plain. Plain lengths that are much larger than those with a unit, and
 //! would have a similar size with that unit, probably lack it.
 
-use crate::check::Checker;
-use crate::check::entity::Entity;
 use crate::check::errors::{self, PlainLength};
-use crate::check::formula::{Context, Value};
+use crate::check::formulas::{Context, Formulas, Value};
+use crate::check::scope::Entity;
 use mechc_expr::ExprId;
 use mechc_expr::math;
 use mechc_syntax::ast::{Expr, ExprKind, Item};
@@ -26,7 +25,7 @@ pub(in crate::check) struct RecordedLengths<'a> {
     plain: Vec<PlainLength<'a>>,
 }
 
-impl<'a> Checker<'a> {
+impl<'a> Formulas<'a> {
     /// Records a length; `judged` says whether its formula holds a unit.
     pub(in crate::check) fn record_length_term(&mut self, e: &Expr, id: ExprId, judged: bool) {
         if judged {

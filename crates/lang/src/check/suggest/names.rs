@@ -1,9 +1,8 @@
 //! Suggestions for names: the declaration or quantity that a wrong name probably stands for.
 
-use crate::check::entity::Entity;
-use crate::check::features::Feature;
-use crate::check::formula::{Context, Dim};
-use crate::check::{Checker, errors};
+use crate::check::errors;
+use crate::check::formulas::{Context, Dim, Feature, Formulas};
+use crate::check::scope::Entity;
 use crate::model::Dimension;
 use mechc_syntax::ast::{Expr, ExprKind, ItemKind, Name};
 use mechc_text::diag::{Applicability, Code, Diagnostic, Diagnostics, Edit, Fix};
@@ -12,7 +11,7 @@ use mechc_text::vocabulary::{Position, Synonym, Unit, is_ground};
 use rustc_hash::FxHashMap;
 use std::collections::hash_map::Entry;
 
-impl Checker<'_> {
+impl Formulas<'_> {
     /// Returns the quantity of a joint that a driver can prescribe.
     fn quantity_of(&self, name: &Name) -> Option<String> {
         let Some(Entity::Joint(k)) = self.scope.entity(name) else { return None };
