@@ -97,8 +97,8 @@ pub fn known(tree: &Mechanism, options: &CheckOptions, sources: &Sources) -> Dec
     let mut formulas = Formulas::new(&definitions, options, sources);
     formulas.scope.collect(&mut formulas.reporter);
     formulas.definitions();
-    let mut values = formulas.param_values();
-    values.extend(tree.items.iter().filter_map(|item| formulas.angle_of_pose(item)));
+    let mut values = param_values(&mut formulas);
+    values.extend(tree.items.iter().filter_map(|item| angle_of_pose(&mut formulas, item)));
     values.sort_by_key(|value| value.formula);
     let indices = tree.items.iter().flat_map(|item| indices(item, &instance)).collect();
     DeclarationInfo { freedom, counts, indices, values }
@@ -198,44 +198,42 @@ fn indices(item: &Item, instance: &Instance<'_>) -> Vec<Index> {
     item.ranges.iter().enumerate().filter_map(of_range).collect()
 }
 
-impl Formulas<'_> {
-    fn param_values(&mut self) -> Vec<Value> {
-        let values = (0..self.params.len()).filter_map(|k| {
-            let param = self.params[k];
-            let (name, formula) = param.written?;
-            let amount = self.amount_of_param(&param, formula)?;
-            Some(Value { name: Some(name.span), formula: formula.span, is_number: is_number(formula), amount })
-        });
-        values.collect()
-    }
+fn param_values(formulas: &mut Formulas<'_>) -> Vec<Value> {
+    let values = (0..formulas.params.len()).filter_map(|k| {
+        let param = formulas.params[k];
+        let (name, formula) = param.written?;
+        let amount = amount_of_param(formulas, &param, formula)?;
+        Some(Value { name: Some(name.span), formula: formula.span, is_number: is_number(formula), amount })
+    });
+    values.collect()
+}
 
-    fn amount_of_param(&mut self, param: &ParamState<'_>, formula: &Expr) -> Option<Amount> {
-        if let Some(InitialPoint { at: [x, y], .. }) = param.drawn {
-            return Some(Amount::Point([self.constant_value(x)?, self.constant_value(y)?]));
-        }
-        let value = param.value?;
-        let dimension = value.dim.settled();
-        let si = self.constant_value(value.id)?;
-        let unit = unit_in(formula, dimension, |name| self.scope.get(name).is_some());
-        si.is_finite().then_some(Amount::Number { si, dimension, unit })
+fn amount_of_param(formulas: &mut Formulas<'_>, param: &ParamState<'_>, formula: &Expr) -> Option<Amount> {
+    if let Some(InitialPoint { at: [x, y], .. }) = param.drawn {
+        return Some(Amount::Point([formulas.constant_value(x)?, formulas.constant_value(y)?]));
     }
+    let value = param.value?;
+    let dimension = value.dim.settled();
+    let si = formulas.constant_value(value.id)?;
+    let unit = unit_in(formula, dimension, |name| formulas.scope.get(name).is_some());
+    si.is_finite().then_some(Amount::Number { si, dimension, unit })
+}
 
-    /// Returns the angle of a pose, unless it is given in degrees.
-    fn angle_of_pose(&mut self, item: &Item) -> Option<Value> {
-        let at = match &item.kind {
-            ItemKind::Body { pose, .. } if item.ranges.is_empty() => &pose.as_ref()?.at,
-            ItemKind::Part(part) if item.ranges.is_empty() => part.at.as_ref()?,
-            _ => return None,
-        };
-        let ExprKind::Tuple(parts) = &at.bare().kind else { return None };
-        let phi = parts.last()?;
-        if phi.bare_number() == Some(0.0) || is_degrees(phi) {
-            return None;
-        }
-        let si = self.any_constant(phi).filter(|si| si.is_finite())?;
-        let amount = Amount::Number { si, dimension: Dimension::ANGLE, unit: None };
-        Some(Value { name: None, formula: phi.span, is_number: is_number(phi), amount })
+/// Returns the angle of a pose, unless it is given in degrees.
+fn angle_of_pose(formulas: &mut Formulas<'_>, item: &Item) -> Option<Value> {
+    let at = match &item.kind {
+        ItemKind::Body { pose, .. } if item.ranges.is_empty() => &pose.as_ref()?.at,
+        ItemKind::Part(part) if item.ranges.is_empty() => part.at.as_ref()?,
+        _ => return None,
+    };
+    let ExprKind::Tuple(parts) = &at.bare().kind else { return None };
+    let phi = parts.last()?;
+    if phi.bare_number() == Some(0.0) || is_degrees(phi) {
+        return None;
     }
+    let si = formulas.any_constant(phi).filter(|si| si.is_finite())?;
+    let amount = Amount::Number { si, dimension: Dimension::ANGLE, unit: None };
+    Some(Value { name: None, formula: phi.span, is_number: is_number(phi), amount })
 }
 
 /// Returns whether a formula is a number with or without a unit and sign, or a point of such numbers.

@@ -25,7 +25,7 @@ pub use suggest::missing_unit::usual_unit_of_length;
 pub use symbols::{DeclaredName, Meaning, NameId, NameKind, Symbols, Use};
 
 use crate::model::Mechanism;
-use build::{Builder, formulas_of_instance, has_broken};
+use build::{build, formulas_of_instance, has_broken};
 use errors::Reporter;
 use expansion::instance_of;
 use formulas::{Formulas, Variables};
@@ -56,7 +56,7 @@ pub fn check(tree: &ast::Mechanism, options: &CheckOptions, sources: &Sources) -
     formulas.bind_numbers(&options.bound);
     formulas.common.variables = Variables::new(&options.by);
     formulas.collect_variables();
-    Builder { formulas: &mut formulas }.run();
+    build(&mut formulas);
     let Formulas { reporter: Reporter { mut diagnostics, .. }, mut model, .. } = formulas;
     diagnostics.extend(reported);
     model.slopes = options.slopes.map(|is_of_text| {

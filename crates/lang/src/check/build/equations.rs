@@ -206,7 +206,7 @@ impl Builder<'_, '_> {
             .collect()
     }
 
-    pub(in crate::check) fn has_moving_body(&self, ids: [ExprId; 2]) -> bool {
+    pub(super) fn has_moving_body(&self, ids: [ExprId; 2]) -> bool {
         self.quantities_in(ids)
             .into_iter()
             .any(|quantity| self.formulas.frames_of(quantity).iter().any(|&frame| self.moves(frame)))

@@ -3,11 +3,9 @@
 use super::Builder;
 use crate::check::errors;
 use crate::check::formulas::{Feature, FormulaSite, InitialPoint};
-use crate::check::scope::{Expected, Space, ordered, point_kinds};
+use crate::check::scope::{Space, ordered};
 use crate::model::{Axis, Body, Frame, Point};
-use mechc_syntax::ast::{self, DrawnPose, Expr, FeatureKind, Item, ItemKind, Name};
-use mechc_text::source::Span;
-use rustc_hash::FxHashMap;
+use mechc_syntax::ast::{self, DrawnPose, FeatureKind, Item, ItemKind, Name};
 
 impl<'a> Builder<'_, 'a> {
     /// Evaluates bodies, features and poses.
@@ -20,7 +18,7 @@ impl<'a> Builder<'_, 'a> {
     }
 
     /// Declares bodies and the grounds of parts, in the order of the text.
-    pub(in crate::check) fn add_frames(&mut self) {
+    pub(super) fn add_frames(&mut self) {
         self.formulas.common.features.insert(self.formulas.address.ground, Space::new());
         let mut parts = 0..;
         for item in self.formulas.scope.items() {
@@ -44,7 +42,7 @@ impl<'a> Builder<'_, 'a> {
         self.formulas.scope.items().iter().filter_map(frame).collect()
     }
 
-    pub(in crate::check) fn collect_all_features(&mut self) {
+    pub(super) fn collect_all_features(&mut self) {
         for (frame, features) in self.frames() {
             self.collect_features(frame, features);
         }
@@ -52,7 +50,7 @@ impl<'a> Builder<'_, 'a> {
     }
 
     /// Evaluates points first, then the features that use them, so that points may be used before their declaration.
-    pub(in crate::check) fn read_features(&mut self) {
+    pub(super) fn read_features(&mut self) {
         let frames = self.frames();
         for &(frame, features) in &frames {
             self.points_of(frame, features);
@@ -114,7 +112,7 @@ impl<'a> Builder<'_, 'a> {
                 points.push((&feature.name, at.as_ref()));
             }
         }
-        let uses = self.uses_of_points(frame, &points);
+        let uses = self.formulas.uses_of_points(frame, &points);
         for k in ordered(&mut self.formulas.reporter, &uses).order {
             let (name, at) = points[k];
             let drawn = self.formulas.at_site(FormulaSite::Inside(frame), Some(&name.text), |formulas| match at {
@@ -129,34 +127,6 @@ impl<'a> Builder<'_, 'a> {
             });
             self.settle(frame, name, Feature::Point(point));
         }
-    }
-
-    /// Returns the points of a body that the formula of each one uses.
-    fn uses_of_points<'n>(
-        &mut self,
-        frame: Frame,
-        points: &[(&'n Name, Option<&'a Expr>)],
-    ) -> Vec<(&'n Name, Vec<(usize, Span)>)> {
-        // A duplicate name keeps its first meaning.
-        let mut positions = FxHashMap::default();
-        for (k, (name, _)) in points.iter().enumerate() {
-            positions.entry(name.text.as_str()).or_insert(k);
-        }
-        let outer = std::mem::replace(&mut self.formulas.current.site, FormulaSite::Inside(frame));
-        let uses = points.iter().map(|&(name, formula)| {
-            let mut uses = Vec::new();
-            if let Some(formula) = formula {
-                let hidden = |name: &str| self.formulas.scope.hides(name);
-                point_kinds::names_in(formula, Expected::Point, hidden, |used, expected| {
-                    let is_local = used.text != name.text && self.formulas.body_point(used, expected).is_some();
-                    uses.extend(positions.get(used.text.as_str()).filter(|_| is_local).map(|&k| (k, used.span)));
-                });
-            }
-            (name, uses)
-        });
-        let uses = uses.collect();
-        self.formulas.current.site = outer;
-        uses
     }
 
     fn axes_of(&mut self, frame: Frame, features: &'a [ast::Feature]) {
@@ -190,7 +160,7 @@ impl<'a> Builder<'_, 'a> {
     }
 
     /// Sets the feature of a name, unless the name is a duplicate.
-    pub(in crate::check) fn settle(&mut self, frame: Frame, name: &Name, feature: Feature) {
+    pub(super) fn settle(&mut self, frame: Frame, name: &Name, feature: Feature) {
         if let Some(space) = self.formulas.common.features.get_mut(&frame)
             && space.span(&name.text) == Some(name.span)
         {

@@ -16,7 +16,7 @@ use mechc_text::source::Span;
 
 impl<'a> Builder<'_, 'a> {
     /// Adds the masses of a body.
-    pub(in crate::check) fn masses_of(&mut self, frame: Frame, features: &'a [ast::Feature]) {
+    pub(super) fn masses_of(&mut self, frame: Frame, features: &'a [ast::Feature]) {
         for feature in features {
             let FeatureKind::Mass { mass, at, inertia } = &feature.kind else { continue };
             let Frame::Body(body) = frame else {

@@ -8,22 +8,8 @@ use mechc_expr::ExprId;
 use mechc_syntax::ast::{Expr, ExprKind, ItemKind, Name, WrittenUnit};
 
 impl<'a> Builder<'_, 'a> {
-    /// Evaluates measures: those of parts first, then in order of dependence.
-    pub(in crate::check) fn measure_values(&mut self) {
-        self.in_parts(|part| part.measure_values());
-        for k in std::mem::take(&mut self.formulas.measure_order) {
-            let conditions = self.formulas.model.conditions.len();
-            let formula = self.formulas.measures[k].value;
-            let value = self.formulas.formula(formula, &measure_context(self.formulas.measures[k].dimensional));
-            let owner = self.formulas.scope.declared(self.formulas.measures[k].name).name;
-            let conditions = self.formulas.conditions_in_time(conditions, &owner);
-            self.formulas.measures[k].made = value.map(|value| (value, conditions));
-            self.formulas.measures[k].sound = value.is_some();
-        }
-    }
-
     /// Lists the measures and traces in the order of the text, those of a part where it is declared.
-    pub(in crate::check) fn list_measures(&mut self) {
+    pub(super) fn list_measures(&mut self) {
         let mut measures = 0..self.formulas.measures.len();
         let mut parts = 0..self.formulas.parts.len();
         for item in self.formulas.scope.items() {

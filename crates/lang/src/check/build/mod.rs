@@ -21,9 +21,14 @@ use super::formulas::Formulas;
 use mechc_syntax::ast::{self, Expr, ExprKind, ItemKind};
 use std::rc::Rc;
 
+/// Adds everything that a mechanism and its parts declare to the model of its formulas.
+pub(in crate::check) fn build(formulas: &mut Formulas<'_>) {
+    Builder { formulas }.run();
+}
+
 /// Adds the declarations of a mechanism or part to the model.
-pub(in crate::check) struct Builder<'b, 'a> {
-    pub formulas: &'b mut Formulas<'a>,
+struct Builder<'b, 'a> {
+    formulas: &'b mut Formulas<'a>,
 }
 
 impl<'a> Builder<'_, 'a> {
@@ -36,10 +41,8 @@ impl<'a> Builder<'_, 'a> {
     fn in_parts(&mut self, work: impl Fn(&mut Builder<'_, 'a>)) {
         self.formulas.in_parts(|formulas| work(&mut Builder { formulas }));
     }
-}
 
-impl<'a> Builder<'_, 'a> {
-    pub fn run(&mut self) {
+    fn run(&mut self) {
         self.formulas.check_param_overrides();
         self.formulas.check_input_overrides();
         self.formulas.samples = self.formulas.read_samples().map(Rc::new);
@@ -54,7 +57,7 @@ impl<'a> Builder<'_, 'a> {
         if uses_efforts {
             self.equations();
         }
-        self.measure_values();
+        self.formulas.measure_values();
         self.list_measures();
         if !uses_efforts {
             self.equations();

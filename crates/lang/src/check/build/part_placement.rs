@@ -8,7 +8,7 @@ use mechc_syntax::ast::{Expr, ExprKind};
 
 impl Builder<'_, '_> {
     /// Sets the mounts of parts, and their poses as far as these use no points of bodies, which do not exist yet.
-    pub(in crate::check) fn mount_parts(&mut self) {
+    pub(super) fn mount_parts(&mut self) {
         for k in 0..self.formulas.parts.len() {
             let written = self.formulas.part_declarations[k];
             let Some(id) = self.formulas.parts[k].address.part else { continue };
@@ -65,7 +65,7 @@ impl Builder<'_, '_> {
     }
 
     /// Returns the part of this text to which a frame belongs.
-    pub(in crate::check) fn part_holding(&self, frame: Frame) -> Option<usize> {
+    pub(super) fn part_holding(&self, frame: Frame) -> Option<usize> {
         let outwards =
             std::iter::successors(self.formulas.model.part_of(frame), |part| self.formulas.model[*part].within);
         let part = outwards.into_iter().find(|part| self.formulas.model[*part].within == self.formulas.address.part)?;
@@ -73,13 +73,13 @@ impl Builder<'_, '_> {
     }
 
     /// Returns whether the pose of a part uses points of bodies.
-    pub(in crate::check) fn is_placed_by_features(&self, part: usize) -> bool {
+    pub(super) fn is_placed_by_features(&self, part: usize) -> bool {
         let is_feature = |e: &Expr| matches!(&e.kind, ExprKind::Member { owner, .. } if self.formulas.scope.point_param(owner).is_none());
         self.formulas.part_declarations[part].at.iter().flat_map(Expr::parts).any(is_feature)
     }
 
     /// Sets the pose of a part on its mount, or marks the pose as broken.
-    pub(in crate::check) fn place_part(&mut self, part: usize) {
+    pub(super) fn place_part(&mut self, part: usize) {
         let (Some(at), Some(id)) = (&self.formulas.part_declarations[part].at, self.formulas.parts[part].address.part)
         else {
             return;

@@ -10,7 +10,7 @@ use mechc_text::source::{Sources, Span};
 
 impl<'a> Builder<'_, 'a> {
     /// Adds a part to the model, with its ground.
-    pub(in crate::check) fn add_part(&mut self, part: usize, written: &ast::Part) {
+    pub(super) fn add_part(&mut self, part: usize, written: &ast::Part) {
         if part >= self.formulas.parts.len() {
             return;
         }

@@ -9,7 +9,7 @@ use mechc_syntax::ast::{self, Expr, ExprKind, FeatureKind, Name};
 use mechc_text::source::Span;
 
 impl<'a> Builder<'_, 'a> {
-    pub(in crate::check) fn profiles_of(&mut self, frame: Frame, features: &'a [ast::Feature]) {
+    pub(super) fn profiles_of(&mut self, frame: Frame, features: &'a [ast::Feature]) {
         for feature in features {
             let settled = match &feature.kind {
                 FeatureKind::Circle { center, radius } => {
@@ -89,7 +89,7 @@ impl<'a> Builder<'_, 'a> {
     }
 
     /// Returns a curve of a body or of the ground, or a circle in its place.
-    pub(in crate::check) fn profile(&mut self, e: &Expr) -> Option<Profile> {
+    pub(super) fn profile(&mut self, e: &Expr) -> Option<Profile> {
         let is_profile = |feature| matches!(feature, Feature::Circle(_) | Feature::Curve(_));
         match self.feature_at(e, "curve", is_profile)? {
             (Feature::Circle(circle), _) => circle.map(Profile::Circle),

@@ -26,7 +26,7 @@ struct Bounded<'e> {
 
 impl Builder<'_, '_> {
     /// Checks the requirements, and lists them if they are to be judged: those of a part where it is declared. They follow the results.
-    pub(in crate::check) fn requirements(&mut self) {
+    pub(super) fn requirements(&mut self) {
         let (named, reductions, conditions) = (
             self.formulas.model.named.len(),
             self.formulas.model.reductions.len(),

@@ -1,7 +1,7 @@
 //! Results, which follow all that rows need.
 
 use super::Builder;
-use crate::check::formulas::{UNTIL, Value, result_context};
+use crate::check::formulas::Value;
 use crate::model::{Outcome, Units};
 use mechc_syntax::ast::ItemKind;
 
@@ -9,23 +9,8 @@ impl<'a> Builder<'_, 'a> {
     /// Evaluates and lists the results. They follow all that rows need.
     pub(in crate::check) fn results(&mut self) {
         self.formulas.model.named_before_results = self.formulas.model.named.len();
-        self.result_values();
+        self.formulas.result_values();
         self.list_results();
-    }
-
-    /// Evaluates results: those of parts first, then in order of dependence.
-    fn result_values(&mut self) {
-        self.in_parts(|part| part.result_values());
-        for k in std::mem::take(&mut self.formulas.result_order) {
-            let formula = self.formulas.results[k].formula;
-            let context = result_context(self.formulas.results[k].dimensional);
-            let source = self.formulas.reporter.sources.get(formula.span.file);
-            // A search condition decides nothing about a variant. Where it is not finite, it does not hold.
-            self.formulas.branch.is_untaken = source.is_option && source.name == UNTIL;
-            let value = self.formulas.formula(formula, &context);
-            self.formulas.branch.is_untaken = false;
-            self.formulas.results[k].value = value;
-        }
     }
 
     /// Lists the results in the order of the text, those of a part where it is declared.

@@ -2,8 +2,8 @@
 
 use super::Formulas;
 use super::dimensions::require_dimension;
-use super::formula::{Context, Dim, Value};
 use super::formula_scope::{FormulaSite, InitialPoint};
+use super::value::{Context, Dim, Value};
 use crate::check::errors;
 use crate::check::scope::{Entity, point_kinds};
 use crate::check::suggest::lost_rate;
@@ -41,7 +41,7 @@ pub(in crate::check) struct ExternalBindings<'a> {
 
 impl<'a> Formulas<'a> {
     /// Evaluates the definitions of a part with its bindings.
-    pub(in crate::check) fn definitions_of_part(&mut self, part: usize) {
+    pub(super) fn definitions_of_part(&mut self, part: usize) {
         let bound = self.params_bound(part);
         let samples = self.samples.clone();
         self.in_part(part, |child| {
@@ -53,7 +53,7 @@ impl<'a> Formulas<'a> {
     }
 
     /// Evaluates the definitions of a part without bindings, as these form a cycle, which is reported.
-    pub(in crate::check) fn definitions_of_unbound_part(&mut self, part: usize) {
+    pub(super) fn definitions_of_unbound_part(&mut self, part: usize) {
         let samples = self.samples.clone();
         self.in_part(part, |child| {
             child.samples = samples;
@@ -62,7 +62,7 @@ impl<'a> Formulas<'a> {
     }
 
     /// Returns whether a binding is one of a param, which must be evaluated before the part. Others follow after all parts.
-    pub(in crate::check) fn binds_definition(&self, part: usize, binding: &Binding) -> bool {
+    pub(super) fn binds_definition(&self, part: usize, binding: &Binding) -> bool {
         let bound = self.parts.get(part).and_then(|child| child.scope.get(&binding.name.text));
         !matches!(bound, Some(Entity::Input(_)))
     }
@@ -136,7 +136,7 @@ impl<'a> Formulas<'a> {
 
     /// Returns the value of a param with its binding. The outer `None` stands for no binding, the inner one for a broken one.
     #[allow(clippy::option_option)] // not bound, or broken
-    pub(in crate::check) fn value_with_binding(&mut self, name: &Name, in_file: Value) -> Option<Option<Value>> {
+    pub(super) fn value_with_binding(&mut self, name: &Name, in_file: Value) -> Option<Option<Value>> {
         let BoundParam { bound: BoundValue::Number(value, judged), span, .. } = *self.bound_param(name)? else {
             return None;
         };
@@ -159,16 +159,12 @@ impl<'a> Formulas<'a> {
     }
 
     /// Returns the binding of a param.
-    pub(in crate::check) fn bound_param(&self, name: &Name) -> Option<&BoundParam<'a>> {
+    pub(super) fn bound_param(&self, name: &Name) -> Option<&BoundParam<'a>> {
         self.bound.params.iter().find(|bound| bound.name == name.text)
     }
 
     /// Returns a point with the bindings of it or of its coordinates.
-    pub(in crate::check) fn point_with_binding(
-        &mut self,
-        name: &Name,
-        mut point: InitialPoint,
-    ) -> Option<InitialPoint> {
+    pub(super) fn point_with_binding(&mut self, name: &Name, mut point: InitialPoint) -> Option<InitialPoint> {
         for k in 0..self.bound.params.len() {
             let BoundParam { name: bound_name, bound, span } = self.bound.params[k];
             if bound_name != name.text {

@@ -1,14 +1,14 @@
 //! Branches of `if`, and the conditions under which formulas in them count.
 
 use super::Formulas;
-use super::formula::{Context, Value};
+use super::value::{Context, Value};
 use crate::check::errors;
 use mechc_expr::{Comparison, ExprId};
 use mechc_syntax::ast::{ComparisonSign, Expr, ExprKind};
 
 /// The branch of the current formula.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Default)]
-pub(in crate::check) struct Branch {
+pub(super) struct Branch {
     /// True if it is never taken, so that values give no diagnostics.
     pub is_untaken: bool,
     /// The condition under which it counts.
@@ -16,12 +16,7 @@ pub(in crate::check) struct Branch {
 }
 
 impl Formulas<'_> {
-    pub(in crate::check) fn choice(
-        &mut self,
-        arms: &[(Expr, Expr)],
-        otherwise: &Expr,
-        context: &Context<'_>,
-    ) -> Option<Value> {
+    pub(super) fn choice(&mut self, arms: &[(Expr, Expr)], otherwise: &Expr, context: &Context<'_>) -> Option<Value> {
         let values = arms.iter().map(|(_, value)| value).chain(std::iter::once(otherwise));
         self.warn_of_numbers_as_radians(values, context);
         let outer = self.branch;

@@ -2,7 +2,7 @@
 
 use super::Formulas;
 use super::dimensions::require_dimension;
-use super::formula::{Context, Dim, Value};
+use super::value::{Context, Dim, Value};
 use crate::check::errors;
 use crate::model::{Condition, ConditionKind, Dimension};
 use mechc_expr::{Binary, ExprId, MotionLaw, Unary};
@@ -15,7 +15,7 @@ type Argument = (Span, Value);
 
 impl Formulas<'_> {
     /// Evaluates a call of a function or kinematic quantity of the language.
-    pub(in crate::check) fn builtin(
+    pub(super) fn builtin(
         &mut self,
         e: &Expr,
         name: &Name,

@@ -6,8 +6,8 @@
 
 use super::Formulas;
 use super::branches::Branch;
-use super::formula::{Context, DimKey, Value};
 use super::reductions::reject_window;
+use super::value::{Context, DimKey, Value};
 use crate::check::errors;
 use crate::check::scope::Entity;
 use crate::model::Condition;
@@ -47,7 +47,7 @@ struct DeferredCall<'a> {
 
 /// The cached expansions, and the state of the current formula.
 #[derive(Default)]
-pub(in crate::check) struct Calls<'a> {
+pub(super) struct Calls<'a> {
     /// The expansions.
     pub expansions: FxHashMap<Call, Option<Value>>,
     /// The conditions of expansions that have any.
@@ -172,7 +172,7 @@ impl<'a> Formulas<'a> {
     }
 
     /// Expands the formula of another measure in its place.
-    pub(in crate::check) fn measure_value(&mut self, at: usize, span: Span, context: &Context<'_>) -> Option<Value> {
+    pub(super) fn measure_value(&mut self, at: usize, span: Span, context: &Context<'_>) -> Option<Value> {
         if let Some((part, Entity::Measure(inside))) = self.scope.origin(Entity::Measure(at)) {
             let (branch, caller) = (self.branch, self.reporter.caller.or(Some(span)));
             return self.in_part(part, |child| {
@@ -256,7 +256,7 @@ impl<'a> Formulas<'a> {
     }
 
     /// Reads one level of a formula. At the lowest level, deferred calls are expanded and the formula is read again.
-    pub(in crate::check) fn level<T>(
+    pub(super) fn level<T>(
         &mut self,
         context: &Context<'_>,
         mut read: impl FnMut(&mut Self) -> Option<T>,
@@ -282,14 +282,14 @@ impl<'a> Formulas<'a> {
     }
 
     /// Counts the parts of a formula from zero, unless another formula is open, whose count goes on.
-    pub(in crate::check) fn start_count(&mut self) {
+    pub(super) fn start_count(&mut self) {
         if self.calls.levels == 0 {
             self.calls.visited = 0;
         }
     }
 
     /// Counts a part of a formula, and rejects the formula if it has too many.
-    pub(in crate::check) fn count_part(&mut self, span: Span) -> Option<()> {
+    pub(super) fn count_part(&mut self, span: Span) -> Option<()> {
         self.calls.visited += 1;
         if self.calls.is_too_large || self.calls.visited <= LARGEST && self.calls.read <= MOST_READ * LARGEST {
             return (!self.calls.is_too_large).then_some(());
@@ -300,7 +300,7 @@ impl<'a> Formulas<'a> {
     }
 
     /// Returns whether a deferred call makes the value of the current formula unavailable.
-    pub(in crate::check) fn is_deferred(&self) -> bool {
+    pub(super) fn is_deferred(&self) -> bool {
         self.calls.is_abandoned
     }
 

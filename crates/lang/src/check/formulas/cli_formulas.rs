@@ -1,7 +1,7 @@
 //! Formulas of the command line, which name nothing of a file.
 
 use super::Formulas;
-use super::formula::Context;
+use super::value::Context;
 use crate::check::errors::Reporter;
 use crate::check::options::CheckOptions;
 use crate::model::{Condition, Dimension, GuardKind};

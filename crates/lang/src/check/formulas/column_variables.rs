@@ -8,7 +8,7 @@ use mechc_text::diag::nearest;
 use mechc_text::source::Span;
 
 /// The binding of a param or input, and the full names that its formula uses.
-pub(in crate::check) struct PathBinding {
+pub(super) struct PathBinding {
     pub span: Span,
     /// True if it binds one coordinate of a point only.
     is_of_coordinate: bool,
@@ -115,7 +115,7 @@ impl Formulas<'_> {
     }
 
     /// Returns the binding of a path into a part.
-    pub(in crate::check) fn binding_of(&self, path: &str) -> Option<PathBinding> {
+    pub(super) fn binding_of(&self, path: &str) -> Option<PathBinding> {
         for (child, part) in self.parts.iter().zip(&self.part_declarations) {
             for binding in &part.bindings {
                 let name = format!("{}{}", child.scope.path, binding.name.text);

@@ -1,8 +1,17 @@
-//! Values of constant formulas, and the graph's named symbols.
+//! Values of constant formulas, the lengths among them, and the graph's named symbols.
 
 use super::Formulas;
+use crate::check::errors::PlainLength;
 use crate::model::{GuardKind, Named};
 use mechc_expr::{Dependence, ExprId, Symbol};
+
+/// The constant lengths of a mechanism, recorded as formulas are read.
+#[derive(Default)]
+pub(in crate::check) struct RecordedLengths<'a> {
+    /// The smallest and the largest length with a unit (m).
+    pub with_unit: Option<[f64; 2]>,
+    pub plain: Vec<PlainLength<'a>>,
+}
 
 impl Formulas<'_> {
     /// Returns whether a formula depends on parameters.

@@ -1,7 +1,7 @@
 //! Decides which formulas are judged by their dimensions, and compares these.
 
 use super::Formulas;
-use super::formula::{Context, Dim, Value};
+use super::value::{Context, Dim, Value};
 use crate::check::errors::{self, Reporter};
 use crate::check::scope::{Entity, Expected, coordinate, point_kinds};
 use crate::check::suggest::lost_rate::Part;
@@ -18,12 +18,12 @@ impl Formulas<'_> {
     }
 
     /// Returns whether the formula of a function or curve holds such a unit.
-    pub(in crate::check) fn is_dimensional_with(&self, argument: Option<&str>, formula: &Expr) -> bool {
+    pub(super) fn is_dimensional_with(&self, argument: Option<&str>, formula: &Expr) -> bool {
         self.holds_dimension(argument, formula, Expected::Number)
     }
 
     /// Returns whether a formula of numbers or of points holds such a unit.
-    pub(in crate::check) fn holds_dimension(&self, argument: Option<&str>, formula: &Expr, expected: Expected) -> bool {
+    pub(super) fn holds_dimension(&self, argument: Option<&str>, formula: &Expr, expected: Expected) -> bool {
         let mut open = vec![(formula, expected, expected != Expected::Number)];
         while let Some((e, expected, with_points)) = open.pop() {
             let holds = match &e.kind {
@@ -144,13 +144,13 @@ impl Formulas<'_> {
     }
 
     /// Returns whether a formula depends on kinematic quantities or on other named symbols.
-    pub(in crate::check) fn is_of_quantities(&self, id: ExprId) -> bool {
+    pub(super) fn is_of_quantities(&self, id: ExprId) -> bool {
         self.model.graph.dependence(id).on(Dependence::NAMED)
     }
 
     /// Returns the dimension of a function whose value is a pure number: unfit if an argument is, plain if an argument depends on no
     /// quantities, else pure.
-    pub(in crate::check) fn pure_number_dim(&self, arguments: &[(Span, Value)]) -> Dim {
+    pub(super) fn pure_number_dim(&self, arguments: &[(Span, Value)]) -> Dim {
         let is_plain = |value: &Value| !self.is_of_quantities(value.id);
         if arguments.iter().any(|(_, value)| !value.dim.fits()) {
             Dim::UNFIT

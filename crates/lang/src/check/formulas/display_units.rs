@@ -1,7 +1,7 @@
 //! Compound units, and the units in which measures and traces are printed.
 
 use super::Formulas;
-use super::formula::Dim;
+use super::value::Dim;
 use crate::check::errors::{self, Reporter};
 use crate::model::{Dimension, Units};
 use mechc_syntax::ast::{Expr, Factor, Name, WrittenUnit};

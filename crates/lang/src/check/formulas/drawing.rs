@@ -7,7 +7,7 @@ use mechc_expr::Graph;
 
 impl<'a> Formulas<'a> {
     /// Returns the position of a drawn point of a frame relative to another frame; `None` if a pose is broken.
-    pub(in crate::check) fn drawn_from(&mut self, seer: Frame, frame: Frame, [x, y]: Position) -> Option<Position> {
+    pub(super) fn drawn_from(&mut self, seer: Frame, frame: Frame, [x, y]: Position) -> Option<Position> {
         if frame == seer {
             // The text of a mirrored part uses its own handedness.
             let is_mirrored_in_parent =

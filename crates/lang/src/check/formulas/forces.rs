@@ -1,8 +1,8 @@
 //! Efforts and reactions that outputs use.
 
 use super::Formulas;
-use super::formula::{Context, Dim, Value};
 use super::quantities::describe;
+use super::value::{Context, Dim, Value};
 use crate::check::errors;
 use crate::check::scope::Entity;
 use crate::model::{Declared, EquationId, Force, JointId, Named};
@@ -95,7 +95,7 @@ impl<'a> Formulas<'a> {
     }
 
     /// Returns whether a formula holds a named symbol of some kind, also within derivatives and held inputs.
-    pub(in crate::check) fn holds_named(&self, id: ExprId, accepts: impl Fn(&Named) -> bool) -> bool {
+    pub(super) fn holds_named(&self, id: ExprId, accepts: impl Fn(&Named) -> bool) -> bool {
         let mut open = vec![id];
         while let Some(id) = open.pop() {
             for symbol in self.model.graph.symbols(id) {
@@ -111,7 +111,7 @@ impl<'a> Formulas<'a> {
     }
 
     /// Returns whether a formula is a torque, as far as it shows; joules are not a unit of torque.
-    pub(in crate::check) fn is_torque(&self, e: &Expr) -> bool {
+    pub(super) fn is_torque(&self, e: &Expr) -> bool {
         match &e.kind {
             ExprKind::Paren(inner) | ExprKind::Negate(inner) => self.is_torque(inner),
             ExprKind::Call { name, arguments, .. }

@@ -38,7 +38,7 @@ impl FormulaSite {
 
 /// The points that the current formula may name, and those that it has named.
 #[derive(Default)]
-pub(in crate::check) struct FormulaScope<'a> {
+pub(super) struct FormulaScope<'a> {
     pub site: FormulaSite,
     /// The point that the formula defines.
     pub defined: Option<&'a str>,

@@ -1,7 +1,7 @@
 //! The user's functions.
 
 use super::Formulas;
-use super::formula::{Context, Dim, Value};
+use super::value::{Context, Dim, Value};
 use crate::check::scope::{Entity, visit_free_names};
 use crate::model::Named;
 use mechc_syntax::ast::{Expr, Name};

@@ -1,10 +1,10 @@
 //! Names of parts in the mechanism that uses them: entities that its formulas name by paths are imported when they are available.
 
 use super::Formulas;
-use super::formula::Value;
 use super::measures::MeasureState;
 use super::params::ParamState;
 use super::reductions::ResultState;
+use super::value::Value;
 use crate::check::scope::Entity;
 use crate::model::Frame;
 
@@ -32,13 +32,13 @@ impl<'a> Formulas<'a> {
     }
 
     /// Imports the values of the params of parts that are named here.
-    pub(in crate::check) fn import_params(&mut self) {
+    pub(super) fn import_params(&mut self) {
         for part in 0..self.parts.len() {
             self.import_params_of(part);
         }
     }
 
-    pub(in crate::check) fn import_params_of(&mut self, part: usize) {
+    pub(super) fn import_params_of(&mut self, part: usize) {
         let child = &self.parts[part];
         for import in &self.scope.imports[part] {
             let (Entity::Param(k), Entity::Param(m)) = (import.entity, import.inside) else { continue };
@@ -81,7 +81,7 @@ impl<'a> Formulas<'a> {
     }
 
     /// Returns the formulas that declares an entity, with the entity there.
-    pub(in crate::check) fn home_of(&self, entity: Entity) -> (&Formulas<'a>, Entity) {
+    pub(super) fn home_of(&self, entity: Entity) -> (&Formulas<'a>, Entity) {
         match self.scope.origin(entity) {
             Some((part, inside)) => self.parts[part].home_of(inside),
             None => (self, entity),
@@ -105,7 +105,7 @@ impl<'a> Formulas<'a> {
     }
 
     /// Returns the value of an input of this text or of a part.
-    pub(in crate::check) fn value_of_input(&self, k: usize) -> Option<Value> {
+    pub(super) fn value_of_input(&self, k: usize) -> Option<Value> {
         match self.home_of(Entity::Input(k)) {
             (home, Entity::Input(k)) => home.inputs.get(k)?.value,
             _ => None,

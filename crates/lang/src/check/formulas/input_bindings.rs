@@ -2,7 +2,7 @@
 //! across all parts.
 
 use super::Formulas;
-use super::formula::{Context, Dim, Value};
+use super::value::{Context, Dim, Value};
 use crate::check::errors;
 use crate::check::scope::{DefinitionOrder, Entity, ordered, visit_free_names};
 use crate::check::suggest::lost_rate;

@@ -1,9 +1,9 @@
 //! Inputs: their formulas in the text, and their overrides.
 
 use super::Formulas;
-use super::formula::{Context, Dim, Value};
 use super::overrides::override_matches;
 use super::samples::{self, Column, ColumnHeader, Samples};
+use super::value::{Context, Dim, Value};
 use crate::check::errors::{self, Reporter};
 use crate::check::suggest::lost_rate::Part;
 use crate::model::{Condition, ConditionKind, Dimension, Input, TimeFormula};
@@ -13,7 +13,7 @@ use mechc_text::diag::{Diagnostic, nearest};
 use mechc_text::source::Span;
 
 /// The state of an input.
-pub(in crate::check) struct InputState<'a> {
+pub(super) struct InputState<'a> {
     pub name: &'a Name,
     pub formula: &'a Expr,
     /// `None` before evaluation, and if it is broken.

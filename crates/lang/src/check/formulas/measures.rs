@@ -1,7 +1,7 @@
 //! The state of measures, and how their formulas are read.
 
 use super::Formulas;
-use super::formula::{Context, Value};
+use super::value::{Context, Value};
 use crate::model::Condition;
 use mechc_syntax::ast::{Expr, Name, WrittenUnit};
 
@@ -24,6 +24,20 @@ impl<'a> MeasureState<'a> {
 }
 
 impl<'a> Formulas<'a> {
+    /// Evaluates measures: those of parts first, then in order of dependence.
+    pub(in crate::check) fn measure_values(&mut self) {
+        self.in_parts(Formulas::measure_values);
+        for k in std::mem::take(&mut self.measure_order) {
+            let conditions = self.model.conditions.len();
+            let formula = self.measures[k].value;
+            let value = self.formula(formula, &measure_context(self.measures[k].dimensional));
+            let owner = self.scope.declared(self.measures[k].name).name;
+            let conditions = self.conditions_in_time(conditions, &owner);
+            self.measures[k].made = value.map(|value| (value, conditions));
+            self.measures[k].sound = value.is_some();
+        }
+    }
+
     /// Returns the conditions from index `from` on, which belong to a measure or trace. Those of parameters alone hold always or never, and
     /// are checked at once.
     pub(in crate::check) fn conditions_in_time(&mut self, from: usize, owner: &str) -> Vec<Condition> {

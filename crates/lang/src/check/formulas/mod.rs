@@ -36,32 +36,33 @@ mod references;
 mod samples;
 mod table_file;
 mod tables;
+mod value;
 mod variables;
 
 pub(in crate::check) use bindings::BoundParam;
 pub use cli_formulas::{FormulaOfTime, amount, constant, formula_of_time};
 pub(in crate::check) use dimensions::require_dimension;
 pub(in crate::check) use display_units::determined_dimension;
-pub(in crate::check) use formula::{Context, Dim, Value};
 pub(in crate::check) use formula_scope::{FormulaSite, InitialPoint};
 pub(in crate::check) use measures::measure_context;
 pub use overrides::override_matches;
 pub(in crate::check) use params::ParamState;
 pub(in crate::check) use quantities::describe;
 pub use reductions::UNTIL;
-pub(in crate::check) use reductions::{reject_window, result_context};
+pub(in crate::check) use reductions::reject_window;
 pub(in crate::check) use references::Feature;
 pub use samples::{Column, variants};
+pub(in crate::check) use value::{Context, Dim, Value};
 pub(in crate::check) use variables::Variables;
 
 use super::errors::Reporter;
 use super::options::CheckOptions;
 use super::scope::Scope;
-use super::suggest::missing_unit::RecordedLengths;
 use crate::model::{Declared, EquationId, Frame, JointId, Mechanism};
 use bindings::ExternalBindings;
 use branches::Branch;
 use calls::Calls;
+use constants::RecordedLengths;
 use formula_scope::FormulaScope;
 use functions::Function;
 use inputs::InputState;
@@ -89,13 +90,13 @@ pub(in crate::check) struct Formulas<'a> {
     pub part_declarations: Vec<&'a ast::Part>,
     pub params: Vec<ParamState<'a>>,
     pub functions: Vec<Function<'a>>,
-    pub tables: Vec<TableState<'a>>,
-    pub inputs: Vec<InputState<'a>>,
+    tables: Vec<TableState<'a>>,
+    inputs: Vec<InputState<'a>>,
     pub measures: Vec<MeasureState<'a>>,
     pub results: Vec<ResultState<'a>>,
     /// The orders of dependence of measures and of results.
-    pub measure_order: Vec<usize>,
-    pub result_order: Vec<usize>,
+    measure_order: Vec<usize>,
+    result_order: Vec<usize>,
     /// The samples of inputs.
     pub samples: Option<Rc<Samples>>,
     /// The frames of bodies, then those of the grounds of parts that are named.
@@ -106,9 +107,9 @@ pub(in crate::check) struct Formulas<'a> {
     /// The constant lengths met so far.
     pub lengths: RecordedLengths<'a>,
     /// The site, the calls and the branch of the current formula.
-    pub current: FormulaScope<'a>,
-    pub calls: Calls<'a>,
-    pub branch: Branch,
+    current: FormulaScope<'a>,
+    calls: Calls<'a>,
+    branch: Branch,
 }
 
 impl<'a> Formulas<'a> {

@@ -7,7 +7,7 @@ use mechc_text::source::Span;
 
 impl Formulas<'_> {
     /// Returns the paths of all params or inputs, each with the location of its binding if it is bound.
-    pub(in crate::check) fn settable_names(&self, of: fn(&ItemKind) -> Option<&Name>) -> Vec<(String, Option<Span>)> {
+    pub(super) fn settable_names(&self, of: fn(&ItemKind) -> Option<&Name>) -> Vec<(String, Option<Span>)> {
         let mut found = Vec::new();
         self.add_settable("", &[], of, &mut found);
         found

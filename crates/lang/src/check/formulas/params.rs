@@ -2,9 +2,9 @@
 
 use super::Formulas;
 use super::dimensions::require_dimension;
-use super::formula::{Context, Dim, Value};
 use super::formula_scope::InitialPoint;
 use super::overrides::override_matches;
+use super::value::{Context, Dim, Value};
 use crate::check::errors;
 use crate::check::options::ParamOverride;
 use crate::check::suggest::lost_rate;
@@ -26,7 +26,7 @@ pub(in crate::check) struct ParamState<'a> {
 }
 
 impl<'a> Formulas<'a> {
-    pub(in crate::check) fn define_param(&mut self, k: usize, name: &Name, docs: &[String], value: &Expr) {
+    pub(super) fn define_param(&mut self, k: usize, name: &Name, docs: &[String], value: &Expr) {
         self.record_angle(name, value);
         if self.scope.point_param(name) == Some(k) {
             self.params[k].drawn = self.point_of_param(name, docs, value);

@@ -2,9 +2,9 @@
 
 use super::Formulas;
 use super::dimensions::require_dimension;
-use super::formula::{Context, Value};
 use super::formula_scope::InitialPoint;
 use super::quantities::describe;
+use super::value::{Context, Value};
 use crate::check::errors;
 use crate::check::scope::Expected;
 use crate::check::suggest::edits;
@@ -87,18 +87,18 @@ impl<'a> Formulas<'a> {
         self.frame_name(frame) == owner.text && is_there()
     }
 
-    pub(in crate::check) fn unnamed_point(&mut self, frame: Frame, e: &Expr) -> Option<PointId> {
+    pub(super) fn unnamed_point(&mut self, frame: Frame, e: &Expr) -> Option<PointId> {
         let at = self.place_of(e, "point", "a point", None)?.at;
         Some(self.model.add_point(Point { frame, name: None, span: e.span, at }))
     }
 
-    pub(in crate::check) fn lengths_in(&mut self, parts: [&Expr; 2], context: &Context<'_>) -> Option<[ExprId; 2]> {
+    pub(super) fn lengths_in(&mut self, parts: [&Expr; 2], context: &Context<'_>) -> Option<[ExprId; 2]> {
         let values = parts.map(|part| self.formula(part, context));
         self.two_lengths(parts, values, context)
     }
 
     /// Evaluates the two coordinates of a point, whose dimensions are judged together.
-    pub(in crate::check) fn two_lengths(
+    pub(super) fn two_lengths(
         &mut self,
         parts: [&Expr; 2],
         [x, y]: [Option<Value>; 2],

@@ -9,6 +9,7 @@ use crate::model::{Frame, PointId};
 use mechc_syntax::ast::{Expr, ExprKind, Name};
 use mechc_text::diag::Diagnostic;
 use mechc_text::source::Span;
+use rustc_hash::FxHashMap;
 
 /// A point of the body around a formula.
 #[derive(Clone, Copy, Debug)]
@@ -19,7 +20,7 @@ pub(in crate::check) enum BodyPoint {
 }
 
 /// The entity of a name or `body.feature` where a point is expected.
-pub(in crate::check) enum PointLookup {
+pub(super) enum PointLookup {
     Point(InitialPoint),
     /// A broken declaration, which has been reported.
     Broken,
@@ -28,6 +29,34 @@ pub(in crate::check) enum PointLookup {
 }
 
 impl<'a> Formulas<'a> {
+    /// Returns the points of a body that the formula of each one uses.
+    pub(in crate::check) fn uses_of_points<'n>(
+        &mut self,
+        frame: Frame,
+        points: &[(&'n Name, Option<&'a Expr>)],
+    ) -> Vec<(&'n Name, Vec<(usize, Span)>)> {
+        // A duplicate name keeps its first meaning.
+        let mut positions = FxHashMap::default();
+        for (k, (name, _)) in points.iter().enumerate() {
+            positions.entry(name.text.as_str()).or_insert(k);
+        }
+        let outer = std::mem::replace(&mut self.current.site, FormulaSite::Inside(frame));
+        let uses = points.iter().map(|&(name, formula)| {
+            let mut uses = Vec::new();
+            if let Some(formula) = formula {
+                let hidden = |name: &str| self.scope.hides(name);
+                point_kinds::names_in(formula, Expected::Point, hidden, |used, expected| {
+                    let is_local = used.text != name.text && self.body_point(used, expected).is_some();
+                    uses.extend(positions.get(used.text.as_str()).filter(|_| is_local).map(|&k| (k, used.span)));
+                });
+            }
+            (name, uses)
+        });
+        let uses = uses.collect();
+        self.current.site = outer;
+        uses
+    }
+
     // ---- sites of formulas
 
     /// Runs `read` at a site. A formula that mixes points of two frames is reported.
@@ -125,7 +154,7 @@ impl<'a> Formulas<'a> {
     }
 
     /// Records that the current formula uses a point of its body.
-    pub(in crate::check) fn record_body_point(&mut self, name: &Name) {
+    pub(super) fn record_body_point(&mut self, name: &Name) {
         if self.body_point(name, Expected::Point).is_some() {
             self.current.of_body.get_or_insert(name.span);
         }
@@ -146,7 +175,7 @@ impl<'a> Formulas<'a> {
     // ---- dimensions
 
     /// Returns whether the name of a point makes a formula dimensional.
-    pub(in crate::check) fn is_dimensional_point(&self, name: &Name, expected: Expected) -> bool {
+    pub(super) fn is_dimensional_point(&self, name: &Name, expected: Expected) -> bool {
         match self.body_point(name, expected) {
             Some(BodyPoint::Point(point)) => self.common.dimensional_points.contains(&point),
             Some(BodyPoint::Broken) => false,
@@ -157,7 +186,7 @@ impl<'a> Formulas<'a> {
     }
 
     /// Looks up a name where a point is expected.
-    pub(in crate::check) fn lookup_point(&mut self, name: &Name, expected: Expected) -> PointLookup {
+    pub(super) fn lookup_point(&mut self, name: &Name, expected: Expected) -> PointLookup {
         if let Some(point) = self.body_point(name, expected) {
             self.current.of_body.get_or_insert(name.span);
             return match point {
@@ -194,7 +223,7 @@ impl<'a> Formulas<'a> {
     }
 
     /// Reports a name in a formula of points that is not a point.
-    pub(in crate::check) fn no_point_named(&mut self, name: &Name) {
+    pub(super) fn no_point_named(&mut self, name: &Name) {
         let Ok(entity) = self.non_point_entity(name) else { return };
         let space_of_body = match self.current.site {
             FormulaSite::Inside(frame) => self.common.features.get(&frame),
@@ -235,12 +264,12 @@ impl<'a> Formulas<'a> {
         });
     }
 
-    pub(in crate::check) fn is_named_point(&self, name: &Name) -> bool {
+    pub(super) fn is_named_point(&self, name: &Name) -> bool {
         self.body_point(name, Expected::Point).is_some() || self.scope.point_param(name).is_some()
     }
 
     /// Returns the diagnostic of `owner.feature` where a point of the drawing is expected.
-    pub(in crate::check) fn no_place(&self, span: Span, owner: &Name, feature: &Name) -> Diagnostic {
+    pub(super) fn no_place(&self, span: Span, owner: &Name, feature: &Name) -> Diagnostic {
         match coordinate(feature) {
             Some(_) if self.is_named_point(owner) => errors::coordinate_as_point(span, owner),
             None if self.is_named_point(owner) => errors::no_coordinate(owner, feature),

@@ -5,11 +5,11 @@
 
 use super::Formulas;
 use super::dimensions::require_dimension;
-use super::formula::{Context, Dim, Value};
 use super::formula_scope::{FormulaSite, InitialPoint, Position};
 use super::point_names::PointLookup;
 use super::quantities::describe;
 use super::reductions::reject_window;
+use super::value::{Context, Dim, Value};
 use crate::check::errors::{self, Reporter};
 use crate::check::scope::{Expected, coordinate};
 use crate::check::suggest::edits;
@@ -22,7 +22,7 @@ use rustc_hash::FxHashSet;
 
 /// The formula is not a coordinate of a point.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::check) struct NotAPoint;
+pub(super) struct NotAPoint;
 
 /// A product up to some factor.
 enum Scaled {
@@ -33,7 +33,7 @@ enum Scaled {
 
 impl Formulas<'_> {
     /// Evaluates a whole formula of points, judged on its own.
-    pub(in crate::check) fn point_formula(&mut self, e: &Expr, context: &Context<'_>) -> Option<InitialPoint> {
+    pub(super) fn point_formula(&mut self, e: &Expr, context: &Context<'_>) -> Option<InitialPoint> {
         let argument = context.argument.map(|(name, _)| name);
         let dimensional = context.judged || self.holds_dimension(argument, e, Expected::Point);
         self.start_count();
@@ -112,7 +112,7 @@ impl Formulas<'_> {
     }
 
     /// Returns the drawn position of a frame's point in this text's frame; `None` if a pose is broken.
-    pub(in crate::check) fn drawn_place(&mut self, frame: Frame, [x, y]: Position) -> Option<Position> {
+    pub(super) fn drawn_place(&mut self, frame: Frame, [x, y]: Position) -> Option<Position> {
         if frame == self.address.ground {
             return Some([x, y]);
         }
@@ -273,7 +273,7 @@ impl Formulas<'_> {
     // ---- numbers of points
 
     /// Evaluates `length(P, Q)` or `direction(P, Q)`.
-    pub(in crate::check) fn number_of_points(
+    pub(super) fn number_of_points(
         &mut self,
         e: &Expr,
         name: &Name,
@@ -321,7 +321,7 @@ impl Formulas<'_> {
     }
 
     /// Returns the angle of the vector between two points, in (−π, π].
-    pub(in crate::check) fn direction_of_vector(&mut self, offset: Position, what: &str, span: Span) -> Option<ExprId> {
+    pub(super) fn direction_of_vector(&mut self, offset: Position, what: &str, span: Span) -> Option<ExprId> {
         let [dx, dy] = offset.map(|id| self.decided(id, GuardKind::Sign));
         if dx == Some(0.0) && dy == Some(0.0) && !self.branch.is_untaken {
             self.reporter.report(errors::points_coincide(what, span));
@@ -340,11 +340,7 @@ impl Formulas<'_> {
     }
 
     /// Evaluates `P.x`, a coordinate of a point; `None` if it is broken, which has been reported.
-    pub(in crate::check) fn coordinate_of(
-        &mut self,
-        e: &Expr,
-        context: &Context<'_>,
-    ) -> Result<Option<Value>, NotAPoint> {
+    pub(super) fn coordinate_of(&mut self, e: &Expr, context: &Context<'_>) -> Result<Option<Value>, NotAPoint> {
         let ExprKind::Member { owner, feature } = &e.kind else { return Err(NotAPoint) };
         if !context.names {
             self.scope.point_param(owner).ok_or(NotAPoint)?;

@@ -1,8 +1,8 @@
 //! Formulas of drawn poses: what stands after `at`.
 
 use super::Formulas;
-use super::formula::Context;
 use super::formula_scope::Position;
+use super::value::Context;
 use crate::check::errors;
 use crate::check::suggest::edits;
 use mechc_expr::ExprId;
@@ -30,7 +30,7 @@ impl<'a> Formulas<'a> {
     }
 
     /// Evaluates `(x, y, phi)` or `(P, phi)`.
-    pub(in crate::check) fn place_and_angle(&mut self, at: &Expr) -> Option<(Option<Position>, Option<ExprId>)> {
+    pub(super) fn place_and_angle(&mut self, at: &Expr) -> Option<(Option<Position>, Option<ExprId>)> {
         let ExprKind::Tuple(parts) = &at.kind else {
             self.wrong_pose(at, &[]);
             return None;

@@ -1,7 +1,7 @@
 //! Calls of kinematic quantities, and the references to features in them.
 
 use super::Formulas;
-use super::formula::{Context, Dim, Value};
+use super::value::{Context, Dim, Value};
 use crate::check::errors;
 use crate::check::scope::Entity;
 use crate::model::{AxisId, Condition, ConditionKind, Direction, Frame, Joint, JointId, Named, PointId, Quantity};
@@ -131,7 +131,7 @@ impl Formulas<'_> {
         None
     }
 
-    pub(in crate::check) fn two_points(&mut self, p: &Expr, q: &Expr) -> Option<(PointId, PointId)> {
+    pub(super) fn two_points(&mut self, p: &Expr, q: &Expr) -> Option<(PointId, PointId)> {
         let (p, q) = (self.point(p), self.point(q));
         Some((p?, q?))
     }
@@ -179,7 +179,7 @@ impl Formulas<'_> {
     }
 
     /// Returns the joint that an argument names, of any kind.
-    pub(in crate::check) fn joint_named<'e>(&mut self, quantity: &str, e: &'e Expr) -> Option<(JointId, &'e Name)> {
+    pub(super) fn joint_named<'e>(&mut self, quantity: &str, e: &'e Expr) -> Option<(JointId, &'e Name)> {
         let ExprKind::Name(name) = &e.bare().kind else {
             let found = describe(e);
             self.reporter.report(errors::wrong_kind(e.span, "a joint", found));

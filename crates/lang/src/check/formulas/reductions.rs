@@ -2,8 +2,8 @@
 
 use super::Formulas;
 use super::dimensions::require_dimension;
-use super::formula::{Context, Dim, Value};
 use super::measures::measure_context;
+use super::value::{Context, Dim, Value};
 use crate::check::errors::{self, Reporter};
 use crate::check::scope::Entity;
 use crate::model::{Condition, Dimension, GuardKind, Named, Reduction, ReductionKind};
@@ -24,7 +24,7 @@ pub(in crate::check) struct ResultState<'a> {
 }
 
 /// A call that is not a reduction.
-pub(in crate::check) struct NotAReduction;
+pub(super) struct NotAReduction;
 
 /// The option whose condition becomes a further result, and that result's name.
 pub const UNTIL: &str = "--until";
@@ -36,8 +36,23 @@ impl<'a> ResultState<'a> {
 }
 
 impl Formulas<'_> {
+    /// Evaluates results: those of parts first, then in order of dependence.
+    pub(in crate::check) fn result_values(&mut self) {
+        self.in_parts(Formulas::result_values);
+        for k in std::mem::take(&mut self.result_order) {
+            let formula = self.results[k].formula;
+            let context = result_context(self.results[k].dimensional);
+            let source = self.reporter.sources.get(formula.span.file);
+            // A search condition decides nothing about a variant. Where it is not finite, it does not hold.
+            self.branch.is_untaken = source.is_option && source.name == UNTIL;
+            let value = self.formula(formula, &context);
+            self.branch.is_untaken = false;
+            self.results[k].value = value;
+        }
+    }
+
     /// Evaluates a call if it is a reduction. (A separate function, as nested formulas have no stack for its locals.)
-    pub(in crate::check) fn call_of_reduction(
+    pub(super) fn call_of_reduction(
         &mut self,
         e: &Expr,
         (name, window): (&Name, Option<&Window>),
@@ -192,7 +207,7 @@ fn kind(word: &str, at: Option<ExprId>) -> Option<ReductionKind> {
 }
 
 /// Returns the context in which the formula of a result is read.
-pub(in crate::check) fn result_context(judged: bool) -> Context<'static> {
+fn result_context(judged: bool) -> Context<'static> {
     Context { judged, results: true, ..Context::constant("a result") }
 }
 

@@ -78,7 +78,7 @@ impl<'a> Formulas<'a> {
         }
     }
 
-    pub(in crate::check) fn point_named(&mut self, frame: Frame, name: &Name) -> Option<PointId> {
+    pub(super) fn point_named(&mut self, frame: Frame, name: &Name) -> Option<PointId> {
         match self.feature(frame, name, "point", |feature| matches!(feature, Feature::Point(_)))? {
             Feature::Point(point) => point,
             other => {
@@ -168,7 +168,7 @@ impl<'a> Formulas<'a> {
     }
 
     /// Describes `owner.feature` for a message.
-    pub(in crate::check) fn describe_member(&self, owner: &Name, feature: &Name) -> String {
+    pub(super) fn describe_member(&self, owner: &Name, feature: &Name) -> String {
         let space = self.frame_of(owner).and_then(|frame| self.common.features.get(&frame));
         let found = space.and_then(|space| space.get(&feature.text));
         if let (None, Some(Entity::Joint(_))) = (space, self.scope.entity(owner)) {

@@ -60,7 +60,7 @@ struct Cell<'a> {
 }
 
 /// The header of a column.
-pub(in crate::check) struct ColumnHeader<'a> {
+pub(super) struct ColumnHeader<'a> {
     /// The name as it is written.
     pub name: &'a str,
     /// The location of its cell.
@@ -89,7 +89,7 @@ fn unit_named(text: &str) -> Option<CompoundUnit> {
 }
 
 /// The header line of samples, with the file behind it.
-pub(in crate::check) struct SampleFile<'a> {
+pub(super) struct SampleFile<'a> {
     source: &'a Source,
     file: FileId,
     heads: Vec<ColumnHeader<'a>>,

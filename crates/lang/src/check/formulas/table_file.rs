@@ -5,7 +5,7 @@ use mechc_text::source::{FileId, Source, Span};
 
 /// The cells of a row that a table takes.
 #[derive(Clone, Copy)]
-pub(in crate::check) enum Picked {
+pub(super) enum Picked {
     /// Both cells of a row of two.
     Both,
     /// Two cells by their numbers, from 0.
@@ -18,13 +18,13 @@ pub(in crate::check) enum Picked {
 }
 
 /// Returns the cells of the first line that is not blank, as names.
-pub(in crate::check) fn first_line(source: &Source) -> Vec<&str> {
+pub(super) fn first_line(source: &Source) -> Vec<&str> {
     let line = source.text.split('\n').find(|line| !line.trim().is_empty()).unwrap_or_default();
     cells(line).collect()
 }
 
 /// Splits a line at commas, except within quotes.
-pub(in crate::check) fn between_commas(line: &str) -> impl Iterator<Item = &str> {
+pub(super) fn between_commas(line: &str) -> impl Iterator<Item = &str> {
     let mut is_quoted = false;
     line.split(move |c| {
         is_quoted ^= c == '"';

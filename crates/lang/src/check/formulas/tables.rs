@@ -3,9 +3,9 @@
 use super::Formulas;
 use super::dimensions::require_dimension;
 use super::display_units::compound;
-use super::formula::{Context, Dim, Value};
 use super::quantities::describe;
 use super::table_file::{self, Picked};
+use super::value::{Context, Dim, Value};
 use crate::check::errors::{self, Reporter};
 use crate::model::{Condition, ConditionKind, Dimension};
 use mechc_expr::{ExprId, TableId};
@@ -22,7 +22,7 @@ const AT_THE_END: f64 = 1e-12;
 const SAME: f64 = 1e-12;
 
 /// The state of a table.
-pub(in crate::check) struct TableState<'a> {
+pub(super) struct TableState<'a> {
     pub name: &'a Name,
     pub periodic: bool,
     pub rows: &'a TableRows,
@@ -34,7 +34,7 @@ pub(in crate::check) struct TableState<'a> {
 
 /// A table in the graph.
 #[derive(Clone, Copy)]
-pub(in crate::check) struct Made {
+pub(super) struct Made {
     id: TableId,
     /// The dimensions of the argument and of the value.
     columns: [Dim; 2],
@@ -230,7 +230,7 @@ impl<'a> Formulas<'a> {
     }
 
     /// Evaluates a call such as `lift(e)`.
-    pub(in crate::check) fn table_call(
+    pub(super) fn table_call(
         &mut self,
         k: usize,
         e: &Expr,

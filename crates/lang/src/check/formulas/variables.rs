@@ -4,8 +4,8 @@
 //! it is requested, so that nothing else changes.
 
 use super::Formulas;
-use super::formula::{Context, Dim, Value};
 use super::overrides::override_matches;
+use super::value::{Context, Dim, Value};
 use crate::check::errors;
 use crate::check::scope::Entity;
 use crate::model::{Declared, Dimension, Load, Named, PartDerivative, Variable};
@@ -61,7 +61,7 @@ impl Variables {
 }
 
 /// Returns the arguments of `der(e, NAME)`.
-pub(in crate::check) fn as_derivative(e: &Expr) -> Option<(&Expr, &Expr)> {
+pub(super) fn as_derivative(e: &Expr) -> Option<(&Expr, &Expr)> {
     match &e.kind {
         ExprKind::Call { name, arguments, window: None } if name.text == "der" => match arguments.as_slice() {
             [of, by] => Some((of, by)),
@@ -82,7 +82,7 @@ fn named(e: &Expr) -> Option<String> {
 
 impl Formulas<'_> {
     /// Registers an independent number, if it is a requested variable.
-    pub(in crate::check) fn register_param(&mut self, declared: &Declared, symbol: Symbol, dim: Dim) {
+    pub(super) fn register_param(&mut self, declared: &Declared, symbol: Symbol, dim: Dim) {
         if self.common.variables.is_requested(&declared.name) {
             let id = self.model.graph.symbol(symbol);
             self.add_variable(declared.clone(), symbol, Value { id, dim });
@@ -90,7 +90,7 @@ impl Formulas<'_> {
     }
 
     /// Returns a value with a formula, with a shift if it is a requested variable.
-    pub(in crate::check) fn with_shift(&mut self, declared: &Declared, value: Value) -> Value {
+    pub(super) fn with_shift(&mut self, declared: &Declared, value: Value) -> Value {
         if !self.common.variables.is_requested(&declared.name) {
             return value;
         }
@@ -109,12 +109,7 @@ impl Formulas<'_> {
     }
 
     /// Evaluates `der(e, NAME)`.
-    pub(in crate::check) fn derivative_by(
-        &mut self,
-        e: &Expr,
-        [of, by]: [&Expr; 2],
-        context: &Context<'_>,
-    ) -> Option<Value> {
+    pub(super) fn derivative_by(&mut self, e: &Expr, [of, by]: [&Expr; 2], context: &Context<'_>) -> Option<Value> {
         if context.results && !context.measures {
             self.reporter.report(errors::variation_of_result(e.span));
             return None;
@@ -172,7 +167,7 @@ impl Formulas<'_> {
     }
 
     /// Registers a formula as the time derivative of another one. Returns whether its order is allowed.
-    pub(in crate::check) fn register_rate(&mut self, of: ExprId, rate: ExprId) -> bool {
+    pub(super) fn register_rate(&mut self, of: ExprId, rate: ExprId) -> bool {
         let (times, rates) = self.variation_orders(of);
         if times > 0 {
             self.common.variables.orders.insert(rate, (times, rates + 1));

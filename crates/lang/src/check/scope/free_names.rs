@@ -6,7 +6,7 @@ use mechc_text::source::Span;
 use mechc_text::vocabulary::{Constant, NamedConstant, Unit, gives_way, is_called};
 
 /// Returns the uses of a function's or curve's argument in its formula.
-pub(in crate::check) fn uses_of_argument(argument: &Name, formula: &Expr) -> Vec<Span> {
+pub(super) fn uses_of_argument(argument: &Name, formula: &Expr) -> Vec<Span> {
     let mut uses = Vec::new();
     visit_free_names(formula, gives_way, |name, _| {
         if name.text == argument.text {

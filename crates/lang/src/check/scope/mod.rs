@@ -47,7 +47,7 @@ pub(in crate::check) struct Scope<'a> {
 
 /// An entity of a part that the enclosing mechanism names by a path.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::check) struct Import {
+pub(super) struct Import {
     /// The entity in the enclosing mechanism.
     pub entity: Entity,
     /// The entity in the part.

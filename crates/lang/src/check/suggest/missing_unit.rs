@@ -17,14 +17,6 @@ const DWARFS: f64 = 10.0;
 /// Numbers below this are written in metres, not in millimetres or inches.
 const IN_METRES: f64 = 1.0;
 
-/// The constant lengths of a mechanism, recorded as formulas are read.
-#[derive(Default)]
-pub(in crate::check) struct RecordedLengths<'a> {
-    /// The smallest and the largest length with a unit (m).
-    with_unit: Option<[f64; 2]>,
-    plain: Vec<PlainLength<'a>>,
-}
-
 impl<'a> Formulas<'a> {
     /// Records a length; `judged` says whether its formula holds a unit.
     pub(in crate::check) fn record_length_term(&mut self, e: &Expr, id: ExprId, judged: bool) {
