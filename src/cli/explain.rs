@@ -32,10 +32,10 @@ fn list() -> String {
 
 fn unknown(name: &str) -> Diagnostic {
     let diagnostic = unusable(format!("there is no code and no word `{name}`"));
-    let mut synonyms = Synonym::all_of(name).map(|synonym| (synonym.message(&[]), synonym.means)).peekable();
+    let mut synonyms = Synonym::all_of(name).map(|synonym| (synonym.message(&[]), synonym.means())).peekable();
     if synonyms.peek().is_some() {
         return synonyms.fold(diagnostic, |diagnostic, (message, means)| {
-            let pages: Vec<String> = means.iter().map(|word| format!("`mechc explain {word}`")).collect();
+            let pages: Vec<String> = means.map(|word| format!("`mechc explain {word}`")).collect();
             let end = if message.ends_with('?') { "" } else { ";" };
             diagnostic.help(if pages.is_empty() {
                 message

@@ -268,12 +268,15 @@ mod tests {
         insta::assert_snapshot!(crank("crank_length"), @"`crank` cannot be called `crank_length`: `crank_length` is declared twice");
         insta::assert_snapshot!(crank("body"), @"`body` is not a name: letters, digits and `_`, no digit first, and no keyword");
         insta::assert_snapshot!(crank("3x"), @"`3x` is not a name: letters, digits and `_`, no digit first, and no keyword");
-        insta::assert_snapshot!(crank("mm"), @"`crank` cannot be called `mm`: `mm` cannot be declared: it is a unit");
         insta::assert_snapshot!(crank("t"), @"`crank` cannot be called `t`: `t` cannot be declared: it is time");
         insta::assert_snapshot!(renamed(FOUR_BAR, "point B = (c", "point $0B = (c", "A"), @"`B` cannot be called `A`: `A` is declared twice");
         insta::assert_snapshot!(renamed(TWO_FILES, "point O = (0, 0)\n    }\n    part", "point $0O = (0, 0)\n    }\n    part", "A"), @"`O` cannot be called `A`: `A` is declared twice");
         let hides = "mechanism m {\n fn f(u) = u^2\n param k = 2\n body b { point P = (1 m, 0) }\n driver d: angle(b) = k * t / (1 s)\n measure s1 = speed(b.P) + f(2) * 1 m/s\n}";
         insta::assert_snapshot!(renamed(hides, "fn f", "fn $0f", "speed"), @"`f` cannot be called `speed`: expected a number, found a point");
+        let unit =
+            "mechanism m {\n param k = 2\n body b { point P = (k * mm, 0) }\n driver d: angle(b) = 2 rad/s * t\n}";
+        insta::assert_snapshot!(renamed(unit, "param k", "param $0k", "mm"), @"`k` cannot be called `mm`: `mm` would mean something else somewhere");
+        insta::assert_snapshot!(renamed(unit, "param k", "param $0k", "s"), @"`k` cannot be called `s`: `s` in `2 rad/s` is both a unit and the name of a parameter");
         insta::assert_snapshot!(renamed(hides, "param k", "param $0k", "u"), @"`k` cannot be called `u`: the argument `u` hides a name of the mechanism");
     }
 

@@ -1,9 +1,8 @@
 //! Diagnostics for a text that does not follow the grammar.
 
-use super::fixits::{Fault, FixIt};
-use super::foreign_syntax::{Correction, Foreign};
 use super::grammar::{Rule, keyword_of};
 use super::lexer::{LexemeKind, Lexer, is_word_char, tokens, tokens_in};
+use super::suggest::{Fault, Suggestion};
 use mechc_text::diag::{Applicability, Code, Diagnostic, Edit, Fix};
 use mechc_text::source::{FileId, Source, Span};
 use mechc_text::vocabulary::Role;
@@ -72,13 +71,13 @@ fn incomplete(what: &str, end: Span, expected: &str) -> Diagnostic {
     misplaced(end, &format!("{what} is not complete: expected {expected}"), &format!("{expected} goes behind this"))
 }
 
-/// Adds a correction to a diagnostic.
-fn with_correction(diagnostic: Diagnostic, correction: Correction) -> Diagnostic {
-    match correction {
-        Correction::Words(words) => diagnostic.help(words),
-        Correction::Change(fix) => diagnostic.fix(fix),
-        Correction::Incomplete { what, end, expected, correction } => {
-            with_correction(incomplete(&what, end, expected), *correction)
+/// Adds a suggestion to a diagnostic.
+fn with_suggestion(diagnostic: Diagnostic, suggestion: Suggestion) -> Diagnostic {
+    match suggestion {
+        Suggestion::Words(words) => diagnostic.help(words),
+        Suggestion::Fix(fix) => diagnostic.fix(fix),
+        Suggestion::Incomplete { what, end, expected, suggestion } => {
+            with_suggestion(incomplete(&what, end, expected), *suggestion)
         }
     }
 }
@@ -134,7 +133,7 @@ pub fn from_pest(error: &Error<Rule>, source: &Source, file: FileId, base: usize
     let offset = match error.location {
         pest::error::InputLocation::Pos(at) | pest::error::InputLocation::Span((at, _)) => base + at,
     };
-    if with_fix_it && let Some(other) = comparison_for_equation(error, text, offset, file) {
+    if with_fix_it && let Some(other) = comparison_for_equation(error, text, base..offset, file) {
         return other;
     }
     let found = found_at(text, offset);
@@ -154,12 +153,20 @@ pub fn from_pest(error: &Error<Rule>, source: &Source, file: FileId, base: usize
     if !with_fix_it {
         return diagnostic;
     }
-    with_suggestions(
-        diagnostic,
-        &Fault { text, file, at: found.start, found: &text[found], expected: rules },
-        source,
-        &expected,
-    )
+    let fault = Fault::new(text, file, found.start, &text[found], rules);
+    let diagnostic = match fault.reason() {
+        Some((at, text)) => diagnostic.also(Span { file, start: at as u32, end: at as u32 + 1 }, text),
+        None => diagnostic,
+    };
+    // of an option's value the declaration is not there
+    if source.is_option && fault.found == "," && source.name.starts_with("--") {
+        let option = source.name.split(' ').next().unwrap_or_default();
+        return diagnostic.help(format!("give `{option}` once for each"));
+    }
+    match fault.suggestion() {
+        Some(suggestion) => with_suggestion(diagnostic, suggestion),
+        None => diagnostic,
+    }
 }
 
 /// Returns the rules that the parser expected.
@@ -199,31 +206,6 @@ fn unexpected(text: &str, file: FileId, found: Range<usize>, expected: &str, end
         "not expected here".to_owned()
     };
     Diagnostic::new(Code::E0101, format!("expected {expected}, found {shown}")).at(span, label)
-}
-
-/// Adds suggestions to a diagnostic, from the words around the fault.
-fn with_suggestions(diagnostic: Diagnostic, fault: &Fault<'_>, source: &Source, expected: &str) -> Diagnostic {
-    let diagnostic = match fault.reason() {
-        Some((at, text)) => diagnostic.also(Span { file: fault.file, start: at as u32, end: at as u32 + 1 }, text),
-        None => diagnostic,
-    };
-    let foreign = Foreign::new(fault.text, fault.file, fault.at, fault.found, fault.expected);
-    if let Some(correction) = foreign.correction() {
-        return with_correction(diagnostic, correction);
-    }
-    // of an option's value the declaration is not there
-    if source.is_option && fault.found == "," && source.name.starts_with("--") {
-        let option = source.name.split(' ').next().unwrap_or_default();
-        return diagnostic.help(format!("give `{option}` once for each"));
-    }
-    match fault.fix_it(expected) {
-        Some(FixIt::Words(words)) => diagnostic.help(words),
-        Some(FixIt::Fix(fix)) => diagnostic.fix(fix),
-        None => match foreign.form_as_words() {
-            Some(form) => with_correction(diagnostic, form),
-            None => diagnostic,
-        },
-    }
 }
 
 /// Returns where `/*` begins, if the fault is in one of its characters.
@@ -291,11 +273,11 @@ fn partner(text: &str, at: usize) -> Option<usize> {
 }
 
 /// Reports an equation with `==`, or an inequality: the grammar takes both for a comparison.
-fn comparison_for_equation(error: &Error<Rule>, text: &str, offset: usize, file: FileId) -> Option<Diagnostic> {
+fn comparison_for_equation(error: &Error<Rule>, text: &str, before: Range<usize>, file: FileId) -> Option<Diagnostic> {
     if !expects(error, Rule::equals) {
         return None;
     }
-    let before = tokens(&text[..offset]);
+    let before = tokens_in(text, before);
     let start = before.iter().rposition(|token| ["driver", "constraint"].contains(&token.text))?;
     // behind an `if` it may be its comparison
     let at = before[start..]

@@ -109,6 +109,22 @@ pub fn is_word_char(c: char) -> bool {
     c.is_ascii_alphanumeric() || c == '_' || !c.is_ascii() && XID_CONTINUE(c)
 }
 
+/// Returns whether a character is a hyphen or a dash that editors and keyboards write for it.
+pub(super) fn is_dash(c: char) -> bool {
+    ['-', '‐', '‑', '–', '—', '−'].contains(&c)
+}
+
+/// Returns the hyphenated name that begins at a byte.
+pub(super) fn hyphenated_at(text: &str, start: usize) -> Option<&str> {
+    let rest = &text[start..];
+    let mut end = rest.find(|c| !is_word_char(c)).unwrap_or(rest.len());
+    let first = end;
+    while let Some(next) = rest[end..].strip_prefix(is_dash).filter(|next| next.starts_with(is_word_char)) {
+        end = rest.len() - next.len() + next.find(|c| !is_word_char(c)).unwrap_or(next.len());
+    }
+    (rest.starts_with(|c: char| c.is_alphabetic() || c == '_') && end > first).then(|| &rest[..end])
+}
+
 /// Returns the kind and length of the token that a text begins with.
 fn first_token(text: &str) -> Option<(LexemeKind, usize)> {
     let first = text.chars().next()?;

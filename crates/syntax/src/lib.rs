@@ -10,8 +10,6 @@ pub mod ast;
 mod build;
 mod depth;
 mod errors;
-mod fixits;
-mod foreign_syntax;
 pub mod format;
 mod formula;
 mod grammar;
@@ -22,6 +20,7 @@ mod parse;
 mod reader;
 mod reuse;
 mod shift_spans;
+mod suggest;
 mod sync_points;
 mod trivia;
 

@@ -506,7 +506,7 @@ impl<'a> Reader<'a> {
         } else if let Some((word, keyword)) = self.sync.word_as_name(at) {
             let is_free = |name: &str| !self.sync.has_word(name);
             let instead =
-                if self.may_suggest() { substitute_name(word, SubstituteKind::behind(keyword), is_free) } else { None };
+                if self.may_suggest() { substitute_name(SubstituteKind::behind(keyword), is_free) } else { None };
             *fault = errors::keyword_as_name(*fault, word, instead);
         }
         // a word that ends one declaration and begins none is met twice

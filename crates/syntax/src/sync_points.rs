@@ -1,9 +1,10 @@
 //! Synchronization points: where declarations begin, judging by words and braces alone. Parsing resumes there after a fault.
 
-use super::foreign_syntax::hyphenated_at;
-use super::lexer::{LexemeKind, Token, is_word_char};
+use super::lexer::{LexemeKind, Token, hyphenated_at, is_word_char};
 use mechc_text::diag::nearest;
-use mechc_text::vocabulary::{JointSpec, Keyword, Position, Role, Synonym, declares_name, is_ground};
+use mechc_text::vocabulary::{
+    JointSpec, Keyword, Position, Role, Synonym, continues_declaration, declares_name, is_ground,
+};
 use rustc_hash::FxHashSet;
 use std::ops::Range;
 
@@ -208,20 +209,9 @@ impl<'a> SyncPoints<'a> {
         if self.is_first_on_its_line(k) {
             return is_argument;
         }
-        let goes_on = match self.word(k) {
-            "ground" => next == "{",
-            "analysis" => next == "from",
-            "fn" | "curve" => second == "(",
-            "joint" | "driver" | "constraint" | "part" | "load" => second == ":",
-            // `role` recognizes these by adjacent tokens
-            "gravity" | "mass" | "require" => true,
-            "mechanism" => second == "{",
-            "body" => second == "{" || second == "at",
-            _ => second == "=" && next != ")",
-        };
         // after a bracket or an operator a formula goes on
         let is_operand = ["on", "(", ",", "=", "+", "-", "*", "/", "^", ".", "<", ">"].contains(&before);
-        self.is_name_of(k) || is_operand && !goes_on
+        self.is_name_of(k) || is_operand && !continues_declaration(self.word(k), next, second)
     }
 
     fn is_first_on_its_line(&self, k: usize) -> bool {

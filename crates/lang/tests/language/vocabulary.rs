@@ -208,19 +208,9 @@ const VALUES: &[(&str, &[&str], f64)] = &[
     ("asind", &["0.5"], 30.0),
     ("acosd", &["0.5"], 60.0),
     ("atand", &["-1"], -45.0),
-    ("atan2d", &["-1", "-1"], -135.0),
     ("cot", &["0.3"], 3.2327281437658275),
     ("sec", &["0.3"], 1.0467516015380856),
     ("csc", &["0.3"], 3.383863361824123),
-    ("cotd", &["30"], 1.7320508075688774),
-    ("secd", &["30"], 1.1547005383792515),
-    ("cscd", &["30"], 2.0),
-    ("acot", &["-2"], 2.677945044588987),
-    ("asec", &["1 + 2"], 1.2309594173407747),
-    ("acsc", &["1 + 2"], 0.3398369094541219),
-    ("coth", &["0.3"], 3.4327384303217414),
-    ("sech", &["0.3"], 0.9566279119002483),
-    ("csch", &["0.3"], 3.283853396698424),
     ("asinh", &["1 - 0.3"], 0.6526665660823557),
     ("acosh", &["1 + 0.3"], 0.7564329108569596),
     ("atanh", &["1 - 1.5"], -0.5493061443340548),
@@ -230,10 +220,6 @@ const VALUES: &[(&str, &[&str], f64)] = &[
     ("cbrt", &["3 * 9"], 3.0),
     ("root", &["32", "2 + 3"], 2.0),
     ("log2", &["4 + 4"], 3.0),
-    ("log1p", &["0.5"], 0.4054651081081644),
-    ("expm1", &["0.5"], 0.6487212707001282),
-    ("exp10", &["1 + 1"], 100.0),
-    ("exp2", &["-1"], 0.5),
     ("lg", &["1000"], 3.0),
     ("loge", &["2"], 0.6931471805599453),
     ("radians", &["90"], 1.5707963267948966),
@@ -340,16 +326,20 @@ fn only_existing_names_are_suggested() {
         [&["0.4", "0.3", "0.6"], &["1.4"], &["b.P", "ground.Q"], &["b", "b"], &["joint_b"], &["guide"], &["motor"]];
     let checks = |measure: &str| run("said", &with(measure), Span::default()).succeeded();
     for synonym in SYNONYMS {
-        for word in synonym.means {
-            assert!(vocabulary::page(word).is_some(), "{:?} mean `{word}`, which is no word", synonym.names);
+        for word in synonym.means() {
+            assert!(
+                vocabulary::page(word).is_some(),
+                "{:?} mean `{word}`, which is no word",
+                synonym.names().collect::<Vec<_>>()
+            );
         }
         let messages = synonym.message(&[]);
         assert!(!messages.ends_with('.') && !messages.contains(['{', '}']), "{messages}");
         assert_eq!(code_in(&messages).len() * 2, messages.matches('`').count(), "{messages}");
-        for name in synonym.names {
-            assert_eq!(*name, name.to_lowercase(), "they are compared in small letters");
+        for name in synonym.names() {
+            assert_eq!(name, name.to_lowercase(), "they are compared in small letters");
             let is_one = vocabulary::words().any(|word| {
-                word.name == *name
+                word.name == name
                     && match synonym.position {
                         Position::Joint => word.category == Category::Joint,
                         Position::Call => vocabulary::is_called(name),
@@ -383,7 +373,7 @@ fn only_existing_names_are_suggested() {
                         .replace("joint)", "joint_b)")
                         .replace("(u, u0, v0, u1, v1)", "(t, 0, 0, 1, 1)");
                     let code = code.replace("(u, u0, c0, c1)", "(t, 0, 0, 1)");
-                    let is_word = vocabulary::page(&code).is_some() || synonym.names.contains(&code.as_str());
+                    let is_word = vocabulary::page(&code).is_some() || synonym.names().any(|name| name == code);
                     let measure = if code.contains("table ") { code } else { format!("measure v = {code}") };
                     let result = measure.replace("measure", "result");
                     is_word || checks(&measure) || checks(&measure.replace("< 1 s", "< 1")) || checks(&result)
@@ -398,7 +388,7 @@ fn only_existing_names_are_suggested() {
 fn synonyms_are_unique() {
     let mut seen = BTreeSet::new();
     for synonym in SYNONYMS {
-        for name in synonym.names {
+        for name in synonym.names() {
             assert!(seen.insert((format!("{:?}", synonym.position), name)), "`{name}` stands twice");
         }
     }
@@ -412,9 +402,10 @@ fn units_are_listed_in_their_page() {
     assert!(missing.is_empty(), "{missing:?}");
 }
 
-// ---- units that give way
+// ---- names that are units
 
-/// Formulas of a pure number NAME and an argument `u`, numbers with units of angle and rate among them.
+/// Formulas of a pure number NAME and an argument `u`, numbers with units of angle and rate among them. No product begins with a number
+/// and its unit: NAME could be the unit there.
 fn formula() -> impl Strategy<Value = String> {
     let leaf = prop_oneof![
         4 => Just("NAME".to_owned()),
@@ -426,7 +417,7 @@ fn formula() -> impl Strategy<Value = String> {
     leaf.prop_recursive(3, 12, 3, |inner| {
         prop_oneof![
             (inner.clone(), prop_oneof![Just("+"), Just("-"), Just("*")], inner.clone())
-                .prop_map(|(a, operator, b)| format!("({a} {operator} {b})")),
+                .prop_map(|(a, operator, b)| format!("(({a}) {operator} {b})")),
             inner.clone().prop_map(|a| format!("sin({a})")),
             (inner.clone(), inner.clone(), inner).prop_map(|(a, b, c)| format!("(if {a} < {b} then {c} else NAME)")),
         ]
@@ -443,7 +434,7 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(48))]
 
     #[test]
-    fn names_shadow_yielding_units(formula in formula(), of_curve in formula(), unit in prop_oneof![Just("Hz"), Just("mrad")]) {
+    fn names_win_over_units(formula in formula(), of_curve in formula(), unit in prop_oneof![Just("Hz"), Just("mrad"), Just("m")]) {
         let over = |argument: &str| formula.replace('u', argument);
         let declarations = [
             // a parameter, plain and with a dimension

@@ -98,7 +98,7 @@ fn why_not(name: &str) -> Option<&'static str> {
         Some("the name is empty")
     } else if Constant::named(name).is_some() {
         Some("this name has a meaning in the language")
-    } else if Unit::named(name).is_some_and(|unit| !unit.gives_way) {
+    } else if Unit::named(name).is_some() {
         Some("this is a unit")
     } else if syntax::is_name(name) {
         None

@@ -66,6 +66,7 @@ catalogue! {
         E0207 Error "an argument that hides a name"
         E0208 Error "a repetition, or one of its copies, that cannot be"
         E0209 Error "a part, or one of its bindings, that cannot be"
+        E0210 Error "a factor that is both a name and a unit"
     }
     "kinds and arguments" {
         E0301 Error "a wrong number of arguments"

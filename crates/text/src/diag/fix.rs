@@ -61,10 +61,16 @@ impl Fix {
         Fix::replace(Span { start: after.end, ..after }, text, message, applies)
     }
 
+    /// Creates a fix that replaces a span and is probably what was intended.
+    #[must_use]
+    pub fn probably(span: Span, text: impl Into<String>, message: impl Into<String>) -> Fix {
+        Fix::replace(span, text, message, Applicability::Probably)
+    }
+
     /// Creates the fix "was `NAME` meant?", which replaces a span.
     #[must_use]
     pub fn suggest(span: Span, name: &str) -> Fix {
-        Fix::replace(span, name, format!("was `{name}` meant?"), Applicability::Probably)
+        Fix::probably(span, name, format!("was `{name}` meant?"))
     }
 }
 

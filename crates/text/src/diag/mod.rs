@@ -177,6 +177,15 @@ impl Diagnostic {
         self.fix(fix)
     }
 
+    /// Replaces all suggestions and fixes by one fix if there is one.
+    #[must_use]
+    pub fn instead_if(self, fix: Option<Fix>) -> Diagnostic {
+        match fix {
+            Some(fix) => self.instead(fix),
+            None => self,
+        }
+    }
+
     /// Adds a value for other programs.
     #[must_use]
     pub fn datum(mut self, name: &str, value: impl Into<Value>) -> Diagnostic {

@@ -1,6 +1,6 @@
 //! Suggestions of free names in place of names that are words of the language.
 
-use super::{Dimension, is_called, is_taken};
+use super::Dimension;
 
 /// Kind of what a name is for.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -65,76 +65,22 @@ impl SubstituteKind {
     }
 }
 
-/// Substitutes for words of the language: as the name of a body, of a joint or equation, and of a feature or value.
-const SUBSTITUTES: &[(&str, [&str; 3])] = &[
-    // ---- units and constants
-    ("s", ["slide", "guide", "stroke"]),
-    ("m", ["arm", "mount", "module"]),
-    ("mm", ["arm", "mount", "span"]),
-    ("cm", ["arm", "mount", "span"]),
-    ("in", ["input_arm", "entry", "entry"]),
-    ("ft", ["foot", "foot_pin", "height"]),
-    ("ms", ["slide", "guide", "delay"]),
-    ("deg", ["arm", "hinge", "tilt"]),
-    ("rad", ["wheel", "bearing", "r"]),
-    ("rev", ["wheel", "bearing", "turns"]),
-    ("rpm", ["rotor", "spindle", "speed"]),
-    ("t", ["top", "top_pin", "thickness"]),
-    ("pi", ["shaft", "pin", "ratio"]),
-    ("tau", ["arm", "hinge", "delay"]),
-    // ---- keywords
-    ("analysis", ["sample", "probe", "study"]),
-    ("axis", ["shaft", "shaft_bearing", "line"]),
-    ("body", ["housing", "mount", "center"]),
-    ("circle", ["wheel", "hub", "rim"]),
-    ("constraint", ["stop", "coupling", "limit"]),
-    ("curve", ["cam", "contact", "profile"]),
-    ("driver", ["crank", "motor", "drive"]),
-    ("ground", ["base", "base_pin", "base"]),
-    ("joint", ["knuckle", "hinge", "pivot"]),
-    ("measure", ["gauge", "gauge_pin", "reading"]),
-    ("mechanism", ["machine", "hinge", "machine"]),
-    ("param", ["arm", "hinge", "value"]),
-    ("point", ["pointer", "tip_pin", "tip"]),
-    ("table", ["plate", "plate_pin", "top"]),
-    // ---- what is called
-    ("x", ["arm", "hinge", "across"]),
-    ("y", ["arm", "hinge", "height"]),
-    ("angle", ["arm", "hinge", "tilt"]),
-    ("distance", ["arm", "hinge", "reach"]),
-    ("rotation", ["arm", "hinge", "turn"]),
-    ("displacement", ["arm", "hinge", "travel"]),
-];
-
 /// Returns a free name in place of a word of the language.
-pub fn substitute_name(word: &str, kind: SubstituteKind, is_free: impl Fn(&str) -> bool) -> Option<&'static str> {
-    let substitute = SUBSTITUTES.iter().find(|(other, _)| *other == word).and_then(|(_, names)| match kind {
-        SubstituteKind::Body => Some(names[0]),
-        SubstituteKind::Joint | SubstituteKind::Equation => Some(names[1]),
-        SubstituteKind::Feature | SubstituteKind::Value | SubstituteKind::Function => Some(names[2]),
-        SubstituteKind::Argument => Some("u"),
-        // the substitutes for values are mostly lengths
-        SubstituteKind::Mass | SubstituteKind::Time => None,
-    });
-    substitute
-        .into_iter()
-        .chain(kind.names().iter().copied())
-        .find(|name| !is_taken(name) && !is_called(name) && is_free(name))
+pub fn substitute_name(kind: SubstituteKind, is_free: impl Fn(&str) -> bool) -> Option<&'static str> {
+    kind.names().iter().copied().find(|name| is_free(name))
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{SUBSTITUTES, SubstituteKind, substitute_name};
-    use crate::vocabulary::{Keyword, Unit, is_called, is_taken};
+    use super::{SubstituteKind, substitute_name};
+    use crate::vocabulary::{Constant, Keyword, Unit, is_called};
 
     #[test]
     fn every_proposed_name_can_be_declared() {
         let general = ["body", "joint", "driver", "point", "param", "fn"].map(SubstituteKind::behind);
         let values = [SubstituteKind::Mass, SubstituteKind::Time];
-        let kinds = general.iter().chain(&values).flat_map(|kind| kind.names());
-        let names = SUBSTITUTES.iter().flat_map(|(_, names)| names).chain(kinds);
-        for name in names {
-            let is_word = is_taken(name) || is_called(name) || Unit::named(name).is_some();
+        for name in general.iter().chain(&values).flat_map(|kind| kind.names()) {
+            let is_word = Constant::named(name).is_some() || Unit::named(name).is_some() || is_called(name);
             assert!(!is_word && Keyword::named(name).is_none(), "`{name}` is a word of the language");
         }
     }
@@ -142,10 +88,9 @@ mod tests {
     #[test]
     fn proposed_names_are_unused() {
         let kind = SubstituteKind::behind("body");
-        assert_eq!(substitute_name("s", kind, |_| true), Some("slide"));
-        assert_eq!(substitute_name("s", kind, |name| name != "slide"), Some("arm"));
-        assert_eq!(substitute_name("cosh", kind, |name| !["arm", "slide"].contains(&name)), Some("link"));
-        assert_eq!(substitute_name("s", kind, |_| false), None);
-        assert_eq!(substitute_name("m", SubstituteKind::Mass, |_| true), Some("m1"));
+        assert_eq!(substitute_name(kind, |_| true), Some("arm"));
+        assert_eq!(substitute_name(kind, |name| !["arm", "slide"].contains(&name)), Some("link"));
+        assert_eq!(substitute_name(kind, |_| false), None);
+        assert_eq!(substitute_name(SubstituteKind::Argument, |name| !"uvwxy".contains(name)), Some("z"));
     }
 }

@@ -97,6 +97,21 @@ pub fn declares_name(keyword: &str) -> bool {
     !matches!(keyword, "ground" | "analysis" | "gravity" | "mass" | "require")
 }
 
+/// Returns whether the two tokens behind the keyword of a declaration are those of such a declaration, where the word could also be a name.
+#[must_use]
+pub fn continues_declaration(keyword: &str, next: &str, second: &str) -> bool {
+    match keyword {
+        "ground" => next == "{",
+        "analysis" => next == "from",
+        "fn" | "curve" => second == "(",
+        "joint" | "driver" | "constraint" | "part" | "load" => second == ":",
+        "mechanism" => second == "{",
+        "body" => second == "{" || second == "at",
+        // openers without a name are recognized by what stands beside them
+        _ => !declares_name(keyword) || second == "=" && next != ")",
+    }
+}
+
 const fn keyword(
     role: Role,
     name: &'static str,

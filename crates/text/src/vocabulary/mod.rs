@@ -21,7 +21,7 @@ pub use dimension::Dimension;
 pub use free_names::{SubstituteKind, substitute_name};
 pub use functions::{FUNCTIONS, Function, Group};
 pub use joints::{ArgumentSpec, FeatureWord, JOINTS, JointMotion, JointSpec, JointSymbol, ReactionKind, Spacing};
-pub use keywords::{KEYWORDS, Keyword, Role, declares_name, is_declaration, is_feature};
+pub use keywords::{KEYWORDS, Keyword, Role, continues_declaration, declares_name, is_declaration, is_feature};
 pub use page::{OVERVIEWS, page};
 pub use quantities::{QUANTITIES, QuantityWord};
 pub use reductions::{REDUCTIONS, ReductionWord};
@@ -119,12 +119,6 @@ pub fn is_called(name: &str) -> bool {
 #[must_use]
 pub fn gives_way(name: &str) -> bool {
     Function::named(name).is_some_and(|function| function.gives_way)
-}
-
-/// Returns whether a name is reserved for a constant, the ground or a unit. Some units give way to declarations of the user.
-#[must_use]
-pub fn is_taken(name: &str) -> bool {
-    Constant::named(name).is_some() || Unit::named(name).is_some_and(|unit| !unit.gives_way)
 }
 
 /// Returns whether a name of more than one letter is that of a function or quantity with one argument. A single letter may be anything.

@@ -103,13 +103,11 @@ fn details(word: &Word) -> Vec<String> {
     }
     if let Some(unit) = Unit::named(word.name).filter(|_| word.category == Category::Unit) {
         details.push(format!("`1 {}` is `{}` in SI.", word.name, in_si(unit)));
-        if unit.gives_way {
-            details.push(
-                "A name of the mechanism or the argument of a `fn` or curve that is called so wins over it, but for a literal number's \
-                 unit."
-                    .to_owned(),
-            );
-        }
+        details.push(
+            "A name of the mechanism that is called so wins over it, except behind a number and in lists of units. Where both could be \
+             meant, as in `2 rad/s` beside `param s`, `check` asks which."
+                .to_owned(),
+        );
     }
     if !word.more.is_empty() {
         details.push(word.more.to_owned());

@@ -13,8 +13,6 @@ pub struct Unit {
     factor: f64,
     /// Dimension of quantities in this unit.
     pub dimension: Dimension,
-    /// True if a name of the mechanism or an argument with this name replaces it: older texts keep their meaning.
-    pub gives_way: bool,
 }
 
 const fn word(name: &'static str, form: &'static [&'static str], meaning: &'static str, example: &'static str) -> Word {
@@ -30,7 +28,7 @@ const fn length(
     example: &'static str,
 ) -> Unit {
     let dimension = Dimension::LENGTH;
-    Unit { word: word(name, form, meaning, example), numerator, denominator, factor: 1.0, dimension, gives_way: false }
+    Unit { word: word(name, form, meaning, example), numerator, denominator, factor: 1.0, dimension }
 }
 
 const fn time(
@@ -41,19 +39,12 @@ const fn time(
     example: &'static str,
 ) -> Unit {
     let dimension = Dimension::TIME;
-    Unit {
-        word: word(name, form, meaning, example),
-        numerator: 1.0,
-        denominator,
-        factor: 1.0,
-        dimension,
-        gives_way: false,
-    }
+    Unit { word: word(name, form, meaning, example), numerator: 1.0, denominator, factor: 1.0, dimension }
 }
 
 /// Creates a unit of angle or rate, `factor / denominator` in SI.
 const fn angular(word: Word, factor: f64, denominator: f64, dimension: Dimension) -> Unit {
-    Unit { word, numerator: 1.0, denominator, factor, dimension, gives_way: false }
+    Unit { word, numerator: 1.0, denominator, factor, dimension }
 }
 
 /// Creates a unit of a quantity with mass.
@@ -66,7 +57,7 @@ const fn dynamic(
     example: &'static str,
 ) -> Unit {
     let word = Word { example: Example::Whole(example), ..word(name, form, meaning, "") };
-    Unit { word, numerator, denominator, factor: 1.0, dimension, gives_way: true }
+    Unit { word, numerator, denominator, factor: 1.0, dimension }
 }
 
 /// Example of an arm with a mass, and a measure.
@@ -134,20 +125,17 @@ pub static UNITS: &[Unit] = &[
         1.0,
         Dimension::ANGLE,
     ),
-    Unit {
-        gives_way: true,
-        ..angular(
-            word(
-                "mrad",
-                &["5 mrad"],
-                "the milliradian, which is the pure number 0.001",
-                "driver motor: rotation(main) = 5 mrad * sin(2 rad/s * t)",
-            ),
-            1.0,
-            1e3,
-            Dimension::ANGLE,
-        )
-    },
+    angular(
+        word(
+            "mrad",
+            &["5 mrad"],
+            "the milliradian, which is the pure number 0.001",
+            "driver motor: rotation(main) = 5 mrad * sin(2 rad/s * t)",
+        ),
+        1.0,
+        1e3,
+        Dimension::ANGLE,
+    ),
     angular(
         word(
             "deg",
@@ -180,20 +168,17 @@ pub static UNITS: &[Unit] = &[
         1e6,
         "analysis from 0 s to 2 s every 200 µs",
     ),
-    Unit {
-        gives_way: true,
-        ..angular(
-            word(
-                "Hz",
-                &["5 Hz"],
-                "the hertz, 1 per second; a turning speed is in `rpm` or `rev/s`",
-                "driver motor: rotation(main) = 30 deg * sin(2 * pi * 5 Hz * t)",
-            ),
-            1.0,
-            1.0,
-            Dimension::RATE,
-        )
-    },
+    angular(
+        word(
+            "Hz",
+            &["5 Hz"],
+            "the hertz, 1 per second; a turning speed is in `rpm` or `rev/s`",
+            "driver motor: rotation(main) = 30 deg * sin(2 * pi * 5 Hz * t)",
+        ),
+        1.0,
+        1.0,
+        Dimension::RATE,
+    ),
     angular(
         word(
             "rpm",

@@ -82,7 +82,7 @@ impl<'a> Builder<'_, 'a> {
             (Feature::Circle(circle), _) => circle,
             (other, span) => {
                 let diagnostic = errors::wrong_kind(span, "a circle", other.noun());
-                self.formulas.reporter.report(diagnostic.fix_if(self.formulas.suggest_profile(e, is_circle)));
+                self.formulas.reporter.report(diagnostic.fix_if(self.formulas.suggest_feature(e, is_circle)));
                 None
             }
         }
@@ -96,7 +96,7 @@ impl<'a> Builder<'_, 'a> {
             (Feature::Curve(curve), _) => curve.map(Profile::Curve),
             (other, span) => {
                 let diagnostic = errors::wrong_kind(span, "a curve or a circle", other.noun());
-                self.formulas.reporter.report(diagnostic.fix_if(self.formulas.suggest_profile(e, is_profile)));
+                self.formulas.reporter.report(diagnostic.fix_if(self.formulas.suggest_feature(e, is_profile)));
                 None
             }
         }

@@ -3,7 +3,7 @@
 use super::{list, nearest_name, wrong_kind};
 use crate::check::suggest::edits::suggest_rename;
 use mechc_syntax::ast::Name;
-use mechc_text::diag::{Applicability, Code, Diagnostic, Fix};
+use mechc_text::diag::{Applicability, Code, Diagnostic, Edit, Fix};
 use mechc_text::source::Span;
 use mechc_text::vocabulary::{
     Constant, FUNCTIONS, JOINTS, JointSpec, Position, QUANTITIES, QuantityWord, Synonym, Unit,
@@ -31,16 +31,16 @@ pub fn unknown_number(what: &str, name: &Name, candidates: &[&str]) -> Diagnosti
         return diagnostic.instead(Fix::suggest(name.span, &power));
     }
     if let Some(synonym) = Synonym::of(Position::Number, &name.text) {
-        return match synonym.means {
-            [only] if synonym.is_same => diagnostic.instead(Fix::suggest(name.span, only)),
-            _ => diagnostic.help(synonym.message(&[])),
+        return match synonym.equivalent() {
+            Some(word) => diagnostic.instead(Fix::suggest(name.span, word)),
+            None => diagnostic.help(synonym.message(&[])),
         };
     }
     match Synonym::of(Position::Unit, &name.text).filter(|_| name.text.len() > 1 && diagnostic.help.is_empty()) {
-        Some(synonym) => match synonym.means {
+        Some(synonym) => match synonym.equivalent() {
             // `turn` is more likely an undeclared input than a unit.
-            [unit @ "rev"] => diagnostic
-                .help(format!("the unit is `{unit}`; a number of that name is declared: `param {} = …`", name.text)),
+            Some("rev") => diagnostic
+                .help(format!("the unit is `rev`; a number of that name is declared: `param {} = …`", name.text)),
             _ => diagnostic.help(synonym.message(&[])),
         },
         None => diagnostic,
@@ -147,6 +147,29 @@ pub fn not_a_unit(name: &Name, [number, power]: [&str; 2], is_a_name: bool) -> D
         };
     }
     suggest_unit(diagnostic, name)
+}
+
+/// A factor of a product that begins with a number and its unit, where `declared` is what its name stands for in the mechanism.
+pub fn name_or_unit(
+    name: &Name,
+    (number, written): (Span, &str),
+    product: &str,
+    declared: &str,
+    is_number: bool,
+) -> Diagnostic {
+    let unit = format!("(1 {})", name.text);
+    let message = format!("the unit is meant: `{unit}`");
+    let unit = Fix::replace(name.span, unit, message, Applicability::Probably);
+    let around = |at: u32, text: &str| Edit { span: Span { start: at, end: at, ..number }, text: text.to_owned() };
+    let declaration = Fix {
+        message: format!("the name is meant: `({written})`"),
+        edits: vec![around(number.start, "("), around(number.end, ")")],
+        applies: Applicability::Probably,
+    };
+    Diagnostic::new(Code::E0210, format!("`{}` in `{product}` is both a unit and the name of {declared}", name.text))
+        .at(name.span, "which of the two is meant?")
+        .fix(unit)
+        .fix_if(is_number.then_some(declaration))
 }
 
 /// Returns the power that is intended by `mm2`, such as `mm^2`.

@@ -123,11 +123,8 @@ impl<'a> Formulas<'a> {
                 None
             }
             None => {
-                if let Some(fix) = self.suggest_joint_rate(e, name, arguments, context) {
-                    self.reporter.report(errors::unknown_function(name, &[], &[]).instead(fix));
-                    return None;
-                }
-                if let Some(fix) = self.suggest_effort(e, name, arguments) {
+                let rate = self.suggest_joint_rate(e, name, arguments, context);
+                if let Some(fix) = rate.or_else(|| self.suggest_effort(e, name, arguments)) {
                     self.reporter.report(errors::unknown_function(name, &[], &[]).instead(fix));
                     return None;
                 }

@@ -116,6 +116,8 @@ impl Formulas<'_> {
             BareName::Argument => return context.argument.map(|(_, value)| value),
             BareName::Constant(constant) => match constant.stands_for {
                 NamedConstant::Time => return self.time_named(name, context),
+                // A declaration of its name has been reported.
+                NamedConstant::Number(_) if self.scope.is_reserved_but_declared(name) => return None,
                 // A multiple of π is an angle.
                 NamedConstant::Number(number) => {
                     let id = self.model.graph.constant(number);
@@ -123,8 +125,7 @@ impl Formulas<'_> {
                 }
                 NamedConstant::Ground => {}
             },
-            // `10 mm/s` in a text with `param s`.
-            BareName::Declared(_) if self.scope.is_reserved_but_declared(name) => return None,
+
             BareName::Unit(unit) => {
                 let id = self.model.graph.constant(unit.to_si(1.0, 1));
                 return Some(Value { id, dim: Dim::Of(unit.dimension) });
@@ -312,6 +313,7 @@ impl Formulas<'_> {
     }
 
     fn product(&mut self, first: &Expr, rest: &[(Factor, Expr)], context: &Context<'_>) -> Option<Value> {
+        self.reject_names_of_units(first, rest, context)?;
         let mut product = self.number(first, context);
         let mut span = first.span;
         for (factor, term) in rest {
@@ -332,6 +334,36 @@ impl Formulas<'_> {
             product = self.finite(span, value);
         }
         product
+    }
+
+    /// Reports factors behind a number and its unit that are units and names too: `2 rad/s` beside `param s`.
+    fn reject_names_of_units(&mut self, first: &Expr, rest: &[(Factor, Expr)], context: &Context<'_>) -> Option<()> {
+        let number = match &first.kind {
+            ExprKind::Negate(inner) => inner,
+            _ => first,
+        };
+        let ExprKind::Literal { unit: Some(_), .. } = &number.kind else { return Some(()) };
+        let mut is_clear = true;
+        for (_, factor) in rest {
+            let base = match &factor.kind {
+                ExprKind::Power(base, _) => base,
+                _ => factor,
+            };
+            let ExprKind::Name(name) = &base.kind else { continue };
+            if Unit::named(&name.text).is_none() {
+                continue;
+            }
+            let (declared, is_number) = match self.scope.get(&name.text) {
+                _ if context.argument.is_some_and(|(argument, _)| argument == name.text) => ("an argument", true),
+                Some(entity) => (entity.noun(), entity.is_number()),
+                None => continue,
+            };
+            let product = self.reporter.text(first.span.to(factor.span));
+            let number = (number.span, self.reporter.text(number.span));
+            self.reporter.report(errors::name_or_unit(name, number, product, declared, is_number));
+            is_clear = false;
+        }
+        is_clear.then_some(())
     }
 
     fn power(&mut self, base: &Expr, exponent: &Expr, context: &Context<'_>) -> Option<Value> {

@@ -7,7 +7,6 @@ use super::quantities::describe;
 use super::value::{Context, Value};
 use crate::check::errors;
 use crate::check::scope::Expected;
-use crate::check::suggest::edits;
 use crate::model::{Dimension, Frame, GuardKind, Point, PointId};
 use mechc_expr::ExprId;
 use mechc_syntax::ast::{Expr, ExprKind, Name};
@@ -33,7 +32,7 @@ impl<'a> Formulas<'a> {
                 } else {
                     let word = Keyword::named(what).map(|keyword| &keyword.word);
                     let diagnostic = errors::argument_count(what, word, e.span, "two lengths", parts.len());
-                    self.reporter.report(edits::with_preferred_fix(diagnostic, self.suggest_decimal_point(parts, 2)));
+                    self.reporter.report(diagnostic.instead_if(self.suggest_decimal_point(parts, 2)));
                     None
                 }
             }

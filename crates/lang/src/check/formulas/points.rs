@@ -12,7 +12,7 @@ use super::reductions::reject_window;
 use super::value::{Context, Dim, Value};
 use crate::check::errors::{self, Reporter};
 use crate::check::scope::{Expected, coordinate};
-use crate::check::suggest::edits;
+
 use crate::model::{Dimension, Frame, GuardKind};
 use mechc_expr::{Binary, Comparison, ExprId, Graph, Node, Unary};
 use mechc_syntax::ast::{Expr, ExprKind, Factor, Name, Sign, Window};
@@ -73,7 +73,7 @@ impl Formulas<'_> {
         let [x, y] = parts else {
             let word = Keyword::named("point").map(|keyword| &keyword.word);
             let diagnostic = errors::argument_count("point", word, e.span, "two lengths", parts.len());
-            self.reporter.report(edits::with_preferred_fix(diagnostic, self.suggest_decimal_point(parts, 2)));
+            self.reporter.report(diagnostic.instead_if(self.suggest_decimal_point(parts, 2)));
             return None;
         };
         let values = [x, y].map(|part| self.number(part, context));

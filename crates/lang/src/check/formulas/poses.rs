@@ -89,6 +89,6 @@ impl<'a> Formulas<'a> {
         let word = Keyword::named("at").map(|keyword| &keyword.word);
         let diagnostic = errors::argument_count("at", word, e.span, "two lengths and an angle", found);
         let fix = self.suggest_decimal_point(parts, 3).or_else(|| edits::suggest_pose_angle(parts));
-        self.reporter.report(edits::with_preferred_fix(diagnostic, fix));
+        self.reporter.report(diagnostic.instead_if(fix));
     }
 }

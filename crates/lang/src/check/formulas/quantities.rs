@@ -49,11 +49,8 @@ impl Formulas<'_> {
         }
         if !context.measures && (word.gives_way || name.text == "angle" && arguments.len() == 3) {
             let diagnostic = errors::quantity_of_measures(context.place, &name.text, e.span);
-            let diagnostic = match self.suggest_joint_rate(e, name, arguments, context) {
-                Some(fix) => diagnostic.instead(fix),
-                None => diagnostic,
-            };
-            self.reporter.report(diagnostic);
+            let fix = self.suggest_joint_rate(e, name, arguments, context);
+            self.reporter.report(diagnostic.instead_if(fix));
             return false;
         }
         true

@@ -97,7 +97,15 @@ impl<'a> Formulas<'a> {
                     Feature::Axis(axis) => axis,
                     Feature::Point(_) => {
                         let diagnostic = errors::wrong_kind(feature.span, "an axis", "a point");
-                        self.reporter.report(diagnostic.fix_if(self.suggest_axis(frame, feature)));
+                        let fix = self.suggest_feature(e, |feature| matches!(feature, Feature::Axis(_)));
+                        let owner = self.frame_name(frame);
+                        let help =
+                            format!("an axis is declared in `{owner}`: `axis way = {} along (1, 0)`", feature.text);
+                        self.reporter.report(if fix.is_some() {
+                            diagnostic.fix_if(fix)
+                        } else {
+                            diagnostic.help(help)
+                        });
                         None
                     }
                     other => {

@@ -46,6 +46,11 @@ impl Entity {
         }
     }
 
+    /// Returns whether it is a number in a formula.
+    pub fn is_number(self) -> bool {
+        matches!(self, Entity::Param(_) | Entity::Input(_) | Entity::Measure(_) | Entity::Result(_))
+    }
+
     /// Returns the kind for which another name is suggested.
     pub fn kind_of_name(self) -> SubstituteKind {
         match self {

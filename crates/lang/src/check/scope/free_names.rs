@@ -3,7 +3,7 @@
 use super::point_kinds::coordinate;
 use mechc_syntax::ast::{Expr, ExprKind, Item, ItemKind, Mechanism, Name};
 use mechc_text::source::Span;
-use mechc_text::vocabulary::{Constant, NamedConstant, Unit, gives_way, is_called};
+use mechc_text::vocabulary::{Constant, NamedConstant, gives_way, is_called};
 
 /// Returns the uses of a function's or curve's argument in its formula.
 pub(super) fn uses_of_argument(argument: &Name, formula: &Expr) -> Vec<Span> {
@@ -22,7 +22,7 @@ pub(in crate::check) fn uses_in(mechanism: &Mechanism, declared: &Name, is_calle
     let is_time =
         Constant::named(&declared.text).is_some_and(|constant| matches!(constant.stands_for, NamedConstant::Time));
     let mut open: Vec<&Expr> = mechanism.items.iter().flat_map(Item::formulas).collect();
-    let (mut uses, mut units) = (Vec::new(), Vec::new());
+    let mut uses = Vec::new();
     while let Some(e) = open.pop() {
         let used = match &e.kind {
             ExprKind::Call { name, .. } if is_called => Some(name),
@@ -31,28 +31,9 @@ pub(in crate::check) fn uses_in(mechanism: &Mechanism, declared: &Name, is_calle
             _ => None,
         };
         uses.extend(used.filter(|name| name.text == declared.text).map(|name| name.span));
-        units.extend(units_in(e));
         open.extend(e.children());
     }
-    uses.retain(|span| !units.contains(span));
     uses
-}
-
-/// Returns the factors that follow a unit in a product. These are units too, even if a declaration has their name: `10 mm/s * t`.
-fn units_in(e: &Expr) -> Vec<Span> {
-    let is_unit = |factor: &Expr| match &factor.kind {
-        ExprKind::Literal { unit, .. } => unit.is_some(),
-        ExprKind::Name(name) => Unit::named(&name.text).is_some(),
-        _ => false,
-    };
-    let ExprKind::Product(first, rest) = &e.kind else { return Vec::new() };
-    let before = std::iter::once(&**first).chain(rest.iter().map(|(_, factor)| factor));
-    let behind = rest.iter().map(|(_, factor)| factor);
-    before
-        .zip(behind)
-        .filter(|(before, factor)| is_unit(before) && is_unit(factor))
-        .map(|(_, factor)| factor.span)
-        .collect()
 }
 
 /// Returns the indices of all paths in a formula.

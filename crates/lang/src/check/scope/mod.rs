@@ -12,14 +12,14 @@ pub(in crate::check) use bare_names::{BareName, resolve_bare_name};
 pub(in crate::check) use entity::Entity;
 pub use free_names::name_of;
 pub(in crate::check) use free_names::{indices, visit_free_names};
-pub(in crate::check) use names::{BrokenName, DefinitionOrder, Space, ordered};
+pub(in crate::check) use names::{BrokenName, DefinitionOrder, Space, is_constant, ordered};
 pub(in crate::check) use point_kinds::{Expected, coordinate};
 
 use super::errors::{self, Reporter};
 use crate::model::Declared;
 use mechc_syntax::ast::{Expr, ExprKind, Item, ItemKind, Mechanism, Name};
 use mechc_text::source::Span;
-use mechc_text::vocabulary::{Constant, QuantityWord, ReductionWord, Unit, gives_way, is_called, is_taken};
+use mechc_text::vocabulary::{Constant, QuantityWord, ReductionWord, Unit, gives_way, is_called};
 use names::Count;
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::rc::Rc;
@@ -156,7 +156,7 @@ impl<'a> Scope<'a> {
     pub fn is_reserved_but_declared(&self, name: &Name) -> bool {
         let is_callable = |entity| matches!(entity, Entity::Function(_) | Entity::Table(_));
         let is_function = is_called(&name.text) && !gives_way(&name.text);
-        self.get(&name.text).is_some_and(|entity| is_taken(&name.text) || is_function && is_callable(entity))
+        self.get(&name.text).is_some_and(|entity| is_constant(name) || is_function && is_callable(entity))
     }
 
     /// Returns whether a call is one of the language's own functions or quantities.

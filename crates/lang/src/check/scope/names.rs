@@ -6,7 +6,7 @@ use super::free_names::{uses_in, uses_of_argument};
 use crate::check::errors::{self, Reporter};
 use mechc_syntax::ast::{Expr, ExprKind, FeatureKind, ItemKind, Mechanism, Name};
 use mechc_text::source::Span;
-use mechc_text::vocabulary::{Dimension, SubstituteKind, Unit, gives_way, is_called, is_taken, substitute_name};
+use mechc_text::vocabulary::{Constant, Dimension, SubstituteKind, Unit, gives_way, is_called, substitute_name};
 use rustc_hash::{FxHashMap, FxHashSet};
 
 /// The number of named declarations of each kind.
@@ -131,7 +131,7 @@ impl Scope<'_> {
                 ItemKind::Ground { .. } | ItemKind::Gravity { .. } | ItemKind::Analysis { .. } => continue,
             };
             let callable = matches!(entity, Entity::Function(_) | Entity::Table(_));
-            let is_reserved = is_taken(&name.text) || callable && is_called(&name.text) && !gives_way(&name.text);
+            let is_reserved = is_constant(name) || callable && is_called(&name.text) && !gives_way(&name.text);
             if is_reserved {
                 let uses = uses_in(mechanism, name, callable);
                 let kind = match &item.kind {
@@ -169,7 +169,7 @@ impl Scope<'_> {
     /// Reports a name of the language, with a suggestion of a free name.
     fn report_reserved(&self, reporter: &mut Reporter<'_>, name: &Name, kind: SubstituteKind, uses: &[Span]) {
         let words = reporter.suggests_names().then(|| words_of(reporter.text(self.tree.span)));
-        let instead = words.and_then(|words| substitute_name(&name.text, kind, |name| !words.contains(name)));
+        let instead = words.and_then(|words| substitute_name(kind, |name| !words.contains(name)));
         reporter.report(errors::reserved(name, instead, uses));
     }
 
@@ -187,11 +187,11 @@ impl Scope<'_> {
     /// Reports an argument of a function or curve that has the name of a declaration.
     fn argument_name(&self, reporter: &mut Reporter<'_>, argument: &Name, formula: &Expr) {
         let uses = || uses_of_argument(argument, formula);
-        if is_taken(&argument.text) {
+        if is_constant(argument) {
             self.report_reserved(reporter, argument, SubstituteKind::Argument, &uses());
         } else if let Some(declared) = self.span(&argument.text) {
-            let is_unique_index = |name: &&str| !is_taken(name) && self.get(name).is_none();
-            let free = ["u", "v", "w", "x", "y", "z"].into_iter().find(is_unique_index);
+            let is_free = |name: &&str| self.get(name).is_none();
+            let free = ["u", "v", "w", "x", "y", "z"].into_iter().find(is_free);
             reporter.report(errors::hidden_name(argument, declared, free, &uses()));
         }
     }
@@ -211,6 +211,11 @@ fn only_once(reporter: &mut Reporter<'_>, mechanism: &Mechanism) {
             Some(span) => reporter.report(errors::second(word, item.span, span)),
         }
     }
+}
+
+/// Returns whether a name is that of a constant of the language, of the time or of the ground.
+pub(in crate::check) fn is_constant(name: &Name) -> bool {
+    Constant::named(&name.text).is_some()
 }
 
 /// Returns every word of a text.

@@ -1,7 +1,7 @@
 //! Edits that correct a dimension or a name.
 
 use mechc_syntax::ast::{Expr, Name};
-use mechc_text::diag::{Applicability, Diagnostic, Edit, Fix};
+use mechc_text::diag::{Applicability, Edit, Fix};
 use mechc_text::source::Span;
 
 /// Returns whether a text is only a number.
@@ -30,14 +30,6 @@ pub(in crate::check) fn suggest_rename(name: &Name, uses: &[Span], free: &str, m
     let places = std::iter::once(&name.span).chain(uses);
     let edits = places.map(|&span| Edit { span, text: free.to_owned() }).collect();
     Fix { message, edits, applies: Applicability::Probably }
-}
-
-/// Puts a fix in front of the diagnostic's other help.
-pub(in crate::check) fn with_preferred_fix(diagnostic: Diagnostic, fix: Option<Fix>) -> Diagnostic {
-    match fix {
-        Some(fix) => diagnostic.instead(fix),
-        None => diagnostic,
-    }
 }
 
 /// Suggests the missing angle of `at (0, 0)`.

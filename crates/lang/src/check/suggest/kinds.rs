@@ -1,46 +1,15 @@
 //! Suggestions for arguments of the wrong kind, from the declarations of the mechanism.
 
-use super::edits::with_preferred_fix;
-use crate::check::errors::list;
+use crate::check::errors::{self, list};
 use crate::check::formulas::{Feature, Formulas};
 use crate::check::scope::Entity;
 use crate::model::{Dimension, Frame};
-use mechc_syntax::ast::{Expr, ExprKind, Factor, ItemKind, Name};
+use mechc_syntax::ast::{Expr, ExprKind, Factor, Name};
 use mechc_text::diag::{Applicability, Code, Diagnostic, Edit, Fix};
 use mechc_text::source::Span;
-use mechc_text::vocabulary::{Position, QuantityWord, Synonym, Unit};
+use mechc_text::vocabulary::{FeatureWord, JointSpec, Position, QuantityWord, Synonym, Unit};
 
 impl Formulas<'_> {
-    /// Suggests an axis instead of a point: an axis of the body, or a new one through the point.
-    pub(in crate::check) fn suggest_axis(&self, frame: Frame, point: &Name) -> Option<Fix> {
-        let space = self.common.features.get(&frame)?;
-        let owner = self.frame_name(frame);
-        if let Some(axis) = space.names(|feature| matches!(feature, Feature::Axis(_))).next() {
-            let message = format!("was `{owner}.{axis}` meant?");
-            return Some(Fix::replace(point.span, axis, message, Applicability::Probably));
-        }
-        let name = ["way", "line", "slideway"].into_iter().find(|name| space.get(name).is_none())?;
-        let declared = space.span(&point.text)?;
-        let features = self.scope.items().iter().filter_map(|item| match &item.kind {
-            ItemKind::Ground { features } | ItemKind::Body { features, .. } => Some(features),
-            _ => None,
-        });
-        let feature = features.flatten().find(|feature| feature.name.span == declared)?.span;
-        let axis = format!("axis {name} = {} along (1, 0)", point.text);
-        let source = self.reporter.sources.get(feature.file);
-        let line = source.text[..feature.start as usize].rsplit('\n').next().unwrap_or_default();
-        // On a line of its own, or within the line of the body.
-        let gap = if line.trim().is_empty() { format!("\n{line}") } else { " ".to_owned() };
-        Some(Fix {
-            message: format!("an axis is declared in `{owner}`, `{axis}`, and is `{owner}.{name}` here"),
-            edits: vec![
-                Edit { span: Span { start: feature.end, ..feature }, text: gap + &axis },
-                Edit { span: point.span, text: name.to_owned() },
-            ],
-            applies: Applicability::Probably,
-        })
-    }
-
     /// Adds suggestions to a diagnostic of a body where a joint is expected: the joints of that body, and the body's angle.
     pub(in crate::check) fn suggest_joint(&self, quantity: &str, name: &Name, diagnostic: Diagnostic) -> Diagnostic {
         if let (true, Some(Entity::Equation(_))) = (is_force(quantity), self.scope.entity(name)) {
@@ -67,40 +36,22 @@ impl Formulas<'_> {
         }
     }
 
-    /// Suggests an effort for other words, such as `power(motor)`, `moment(main)` and `force(motor)`.
+    /// Suggests an effort for other words, such as `moment(main)` and `force(motor)`.
     pub(in crate::check) fn suggest_effort(&self, e: &Expr, called: &Name, arguments: &[Expr]) -> Option<Fix> {
         let [argument] = arguments else { return None };
         let ExprKind::Name(name) = &argument.bare().kind else { return None };
-        let means = Synonym::of(Position::Call, &called.text)?.means;
-        let (what, text) = match self.scope.entity(name)? {
-            Entity::Equation(_) if called.text == "power" => {
-                let moved = self.moved_by(&name.text)?;
-                ("the power of a driver is".to_owned(), format!("effort({}) * der({moved})", name.text))
-            }
-            Entity::Equation(_) if means.iter().any(|word| is_force(word)) => {
-                (format!("`{}` supplies", name.text), format!("effort({})", name.text))
-            }
+        let means: Vec<&str> = Synonym::of(Position::Call, &called.text)?.means().collect();
+        let driver = match self.scope.entity(name)? {
+            Entity::Equation(_) if means.iter().any(|word| is_force(word)) => name.text.clone(),
             Entity::Joint(k) if means == ["torque"] || means == ["effort"] => {
                 let joint = self.joints.get(k).copied().flatten()?;
                 let is_driven = means == ["effort"] || !self.model[joint].spec.has_torque();
-                let driver = self.scope.driver_of(&name.text).filter(|_| is_driven)?;
-                (format!("what drives `{}` supplies", name.text), format!("effort({driver})"))
+                self.scope.driver_of(&name.text).filter(|_| is_driven)?
             }
             _ => return None,
         };
-        let message = format!("{what} `{text}`");
-        Some(Fix::replace(e.span, text, message, Applicability::Probably))
-    }
-
-    /// Returns the text of the quantity that a driver moves, if its left side is one.
-    fn moved_by(&self, driver: &str) -> Option<&str> {
-        let left = self.scope.items().iter().find_map(|item| match &item.kind {
-            ItemKind::Equation { driver: true, name, left, .. } if name.text == driver => Some(left),
-            _ => None,
-        })?;
-        let is_quantity =
-            matches!(&left.bare().kind, ExprKind::Call { name, .. } if self.scope.quantity_word(name).is_some());
-        is_quantity.then(|| self.reporter.text(left.span))
+        let text = format!("effort({driver})");
+        Some(Fix::probably(e.span, text.clone(), format!("what `{driver}` supplies is `{text}`")))
     }
 
     /// Suggests a quantity for `crank.phi`, `crank.x` or a point where a number is expected.
@@ -112,24 +63,18 @@ impl Formulas<'_> {
         let space = self.common.features.get(&frame)?;
         let column = |text: String| {
             let message = format!("a column's name is no formula; it is `{text}`");
-            Some(Fix::replace(span, text, message, Applicability::Probably))
+            Some(Fix::probably(span, text, message))
         };
         match (feature.text.as_str(), space.get(&feature.text)) {
             (_, Some(Feature::Point(_))) => {
                 let [x, y] = ["x", "y"].map(|what| format!("{what}({}.{})", owner.text, feature.text));
-                Some(Fix::replace(
-                    span,
-                    x.clone(),
-                    format!("the place of a point is `{x}` and `{y}`"),
-                    Applicability::Probably,
-                ))
+                Some(Fix::probably(span, x.clone(), format!("the place of a point is `{x}` and `{y}`")))
             }
             ("phi", None) => column(format!("angle({})", owner.text)),
             (what @ ("x" | "y"), None) => {
-                let at_origin = self.model.points.iter().find(|point| {
-                    let is_zero = |id| self.model.graph.as_const(id) == Some(0.0);
-                    point.frame == frame && point.name.is_some() && point.at.into_iter().all(is_zero)
-                });
+                let is_zero = |id| self.model.graph.as_const(id) == Some(0.0);
+                let mut points = self.model.points.iter().filter(|point| point.frame == frame);
+                let at_origin = points.find(|point| point.name.is_some() && point.at.into_iter().all(is_zero));
                 column(format!("{what}({}.{})", owner.text, at_origin?.name.as_ref()?))
             }
             _ => None,
@@ -154,6 +99,47 @@ impl Formulas<'_> {
         let number = number.filter(|_| parts.len() == expected + edits.len())?;
         let message = format!("decimals are written with a point: `{number}`");
         Some(Fix { message, edits, applies: Applicability::Probably })
+    }
+
+    /// Reports a joint whose first two arguments are swapped or belong to another kind of joint.
+    pub(in crate::check) fn refuses_arguments(&mut self, kind: &Name, spec: &JointSpec, arguments: &[Expr]) -> bool {
+        let [first, second, ..] = arguments else { return false };
+        let (Some(a), Some(b)) = (self.feature_of(first), self.feature_of(second)) else { return false };
+        let [one, other] = spec.features.map(FeatureWord::word);
+        let fix = if !a.is(one) && a.is(other) && b.is(one) {
+            self.swapped(first, second)
+        } else if spec.features == [FeatureWord::Point, FeatureWord::Curve]
+            && matches!(a, Feature::Circle(_))
+            && b.is("curve")
+        {
+            Fix::probably(kind.span, "cam", "a circle on a curve is a `cam`")
+        } else {
+            return false;
+        };
+        self.reporter.report(errors::wrong_kind(first.span, Feature::with_article(one), a.noun()).fix(fix));
+        true
+    }
+
+    fn swapped(&self, first: &Expr, second: &Expr) -> Fix {
+        let [one, other] = [first, second].map(|e| self.reporter.text(e.span).to_owned());
+        let message = format!("the other way round: `{other}, {one}`");
+        let edits = vec![Edit { span: first.span, text: other }, Edit { span: second.span, text: one }];
+        Fix { message, edits, applies: Applicability::Probably }
+    }
+
+    /// Returns the feature of `owner.feature`, if it is declared.
+    fn feature_of(&self, e: &Expr) -> Option<Feature> {
+        let ExprKind::Member { owner, feature } = &e.kind else { return None };
+        self.common.features.get(&self.frame_of(owner)?)?.get(&feature.text)
+    }
+
+    /// Returns the body of a name, or the ground, without diagnostics.
+    pub(in crate::check) fn frame_of(&self, owner: &Name) -> Option<Frame> {
+        match self.scope.entity(owner) {
+            _ if owner.text == "ground" => Some(self.address.ground),
+            Some(Entity::Body(k)) => Some(*self.bodies.get(k)?),
+            _ => None,
+        }
     }
 
     /// Reports an angle where a length is expected. A plain formula would take it as metres.
@@ -212,10 +198,8 @@ impl Formulas<'_> {
         most: usize,
     ) {
         let is_atan2 = name.text == "atan" && arguments.len() == 2;
-        let message = "the angle of two coordinates is `atan2(y, x)`";
-        let fix = is_atan2.then(|| Fix::replace(name.span, "atan2", message, Applicability::Probably));
-        let fix = fix.or_else(|| self.suggest_decimal_point(arguments, most));
-        self.reporter.report(with_preferred_fix(diagnostic, fix));
+        let fix = is_atan2.then(|| Fix::probably(name.span, "atan2", "the angle of two coordinates is `atan2(y, x)`"));
+        self.reporter.report(diagnostic.instead_if(fix.or_else(|| self.suggest_decimal_point(arguments, most))));
     }
 }
 

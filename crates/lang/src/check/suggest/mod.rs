@@ -2,7 +2,6 @@
 
 mod degrees;
 pub(super) mod edits;
-mod joint_arguments;
 mod kinds;
 pub(super) mod lost_rate;
 pub(super) mod missing_unit;

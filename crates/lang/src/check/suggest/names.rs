@@ -5,11 +5,10 @@ use crate::check::formulas::{Context, Dim, Feature, Formulas};
 use crate::check::scope::Entity;
 use crate::model::Dimension;
 use mechc_syntax::ast::{Expr, ExprKind, ItemKind, Name};
-use mechc_text::diag::{Applicability, Code, Diagnostic, Diagnostics, Edit, Fix};
+use mechc_text::diag::{Code, Diagnostic, Diagnostics, Edit, Fix};
 use mechc_text::source::Span;
 use mechc_text::vocabulary::{Position, Synonym, Unit, is_ground};
 use rustc_hash::FxHashMap;
-use std::collections::hash_map::Entry;
 
 impl Formulas<'_> {
     /// Returns the quantity of a joint that a driver can prescribe.
@@ -39,16 +38,14 @@ impl Formulas<'_> {
         let [argument] = arguments else { return None };
         let ExprKind::Name(joint) = &argument.bare().kind else { return None };
         let synonym = Synonym::of(Position::Call, &name.text);
-        let is_rate = name.text == "speed" || synonym.is_some_and(|synonym| synonym.means.contains(&"der"));
+        let is_rate = name.text == "speed" || synonym.is_some_and(|synonym| synonym.means().any(|word| word == "der"));
         let quantity = self.quantity_of(joint).filter(|_| is_rate)?;
         if !context.rates {
             return Some(self.replace_in_equation(e.span, &quantity));
         }
-        let synonym = synonym?;
-        let example = synonym.message(&[]);
-        let order = (1..=3).rev().find(|&order| example.contains(&"der(".repeat(order))).unwrap_or(1);
+        let order = synonym?.message(&[]).matches("der(").count().clamp(1, 2);
         let written = format!("{}{quantity}{}", "der(".repeat(order), ")".repeat(order));
-        Some(Fix::replace(e.span, &written, format!("of a joint it is `{written}`"), Applicability::Probably))
+        Some(Fix::probably(e.span, written.clone(), format!("of a joint it is `{written}`")))
     }
 
     /// Replaces a formula by a quantity. If the other side of its driver is a rate, that is multiplied with the time.
@@ -58,18 +55,16 @@ impl Formulas<'_> {
             ItemKind::Equation { driver: true, left, right, .. } if right.span == span => Some(left),
             _ => None,
         });
-        let Some(rate) = other.filter(|other| self.is_rate(other)) else {
-            let message = if other.is_some() { "a driver gives the motion over time" } else { "of a joint it is" };
-            let form = if other.is_some() { format!(": `{quantity} = …`") } else { format!(" `{quantity}`") };
-            return Fix::replace(span, quantity, format!("{message}{form}"), Applicability::Probably);
+        let Some(other) = other else {
+            return Fix::probably(span, quantity, format!("of a joint it is `{quantity}`"));
         };
-        let law = format!("{} * t", self.reporter.text(rate.span));
-        let edits = vec![Edit { span, text: quantity.to_owned() }, Edit { span: rate.span, text: law.clone() }];
-        Fix {
-            message: format!("a driver gives the motion over time: `{quantity} = {law}`"),
-            edits,
-            applies: Applicability::Probably,
+        let mut fix = Fix::probably(span, quantity, format!("a driver gives the motion over time: `{quantity} = …`"));
+        if self.is_rate(other) {
+            let law = format!("{} * t", self.reporter.text(other.span));
+            fix.message = format!("a driver gives the motion over time: `{quantity} = {law}`");
+            fix.edits.push(Edit { span: other.span, text: law });
         }
+        fix
     }
 
     /// Returns whether a formula is a number with a unit of rate, or a parameter of this dimension.
@@ -80,7 +75,7 @@ impl Formulas<'_> {
             }
             ExprKind::Name(name) => match self.scope.entity(name) {
                 Some(Entity::Param(k)) => {
-                    matches!(self.params[k].value, Some(value) if matches!(value.dim, Dim::Of(d) if d.is(Dimension::RATE)))
+                    self.params[k].value.is_some_and(|value| matches!(value.dim, Dim::Of(d) if d.is(Dimension::RATE)))
                 }
                 _ => false,
             },
@@ -94,8 +89,7 @@ impl Formulas<'_> {
         candidates.push("ground");
         let diagnostic = errors::unknown("body", name, &candidates);
         let is_ground = diagnostic.help.is_empty() && is_ground(&name.text);
-        let ground = is_ground.then(|| Fix::suggest(name.span, "ground"));
-        self.reporter.report(diagnostic.fix_if(ground));
+        self.reporter.report(diagnostic.fix_if(is_ground.then(|| Fix::suggest(name.span, "ground"))));
     }
 
     /// Returns the features of a body that `expected` accepts, as they are written outside the body.
@@ -106,11 +100,11 @@ impl Formulas<'_> {
         names.take(MOST_PLACES).map(|name| format!("`{}.{name}`", body.text)).collect()
     }
 
-    /// Suggests a circle or curve of the body instead of a feature of another kind.
-    pub(in crate::check) fn suggest_profile(&self, e: &Expr, expected: impl Fn(Feature) -> bool) -> Option<Fix> {
+    /// Suggests a feature that fits instead of the one that `owner.feature` names.
+    pub(in crate::check) fn suggest_feature(&self, e: &Expr, expected: impl Fn(Feature) -> bool) -> Option<Fix> {
         let ExprKind::Member { owner, feature } = &e.kind else { return None };
         let name = self.common.features.get(&self.frame_of(owner)?)?.names(expected).next()?;
-        Some(Fix::replace(feature.span, name, format!("was `{}.{name}` meant?", owner.text), Applicability::Probably))
+        Some(Fix::probably(feature.span, name, format!("was `{}.{name}` meant?", owner.text)))
     }
 
     /// Returns the bodies named in the other arguments of a joint, which cannot own the name.
@@ -132,18 +126,13 @@ const MOST_PLACES: usize = 4;
 
 /// Merges the diagnostics of one undeclared name into one with all locations.
 pub(in crate::check) fn merge_unknown_names(all: Diagnostics) -> Diagnostics {
-    let (mut merged, mut positions) = (Vec::new(), FxHashMap::default());
+    let mut merged: Vec<Diagnostic> = Vec::new();
+    let mut positions = FxHashMap::default();
     for diagnostic in all {
         // Messages that depend on the arguments differ, and stay separate.
         let key = (diagnostic.message.clone(), diagnostic.help.clone());
-        let first: Option<&mut Diagnostic> = match positions.entry(key) {
-            Entry::Occupied(at) => merged.get_mut(*at.get()),
-            Entry::Vacant(place) => {
-                place.insert(merged.len());
-                None
-            }
-        };
-        let Some(first) = first.filter(|_| diagnostic.code == Code::E0201) else {
+        let at = *positions.entry(key).or_insert(merged.len());
+        let Some(first) = merged.get_mut(at).filter(|_| diagnostic.code == Code::E0201) else {
             merged.push(diagnostic);
             continue;
         };

@@ -7,12 +7,13 @@ mod paths;
 use super::instance::{Copies, Instance};
 use crate::check::errors;
 use crate::check::formulas::Formulas;
+use crate::check::scope::is_constant;
 use crate::check::scope::name_of;
 use crate::model::Dimension;
 use mechc_syntax::ast::{self, Expr, ExprKind, Factor, Item, ItemKind, Mechanism, Name, Sign};
 use mechc_text::diag::{Diagnostic, Diagnostics};
 use mechc_text::source::Span;
-use mechc_text::vocabulary::is_taken;
+use mechc_text::vocabulary::{Constant, Unit};
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::rc::Rc;
 
@@ -153,7 +154,7 @@ impl<'t, 'c> Expander<'t, 'c> {
         let mut is_unique_index = |item: &'t Item| {
             let Some(name) = name_of(item) else { return true };
             let is_repeated = !item.ranges.is_empty();
-            if is_repeated && is_taken(&name.text) {
+            if is_repeated && is_constant(name) {
                 self.report_once(errors::reserved(name, None, &[]));
                 return false;
             }
@@ -206,11 +207,13 @@ impl<'t, 'c> Expander<'t, 'c> {
         let name = &range.index;
         let before = all.iter().take_while(|other| other.index.span != name.span);
         let is_duplicate = before.into_iter().any(|other| other.index.text == name.text);
-        let is_unique_index = !is_taken(&name.text) && !self.names.contains(name.text.as_str()) && !is_duplicate;
+        // An index stands for its number before formulas are read: beside a unit of its name it would be silently a divisor.
+        let is_word = |name: &str| Constant::named(name).is_some() || Unit::named(name).is_some();
+        let is_unique_index = !is_word(&name.text) && !self.names.contains(name.text.as_str()) && !is_duplicate;
         if !is_unique_index {
             let is_free = |word: &&&str| {
                 let is_index = all.iter().any(|other| other.index.text == **word);
-                !is_index && !is_taken(word) && !self.names.contains(**word)
+                !is_index && !is_word(word) && !self.names.contains(**word)
             };
             let free: Vec<&str> = ["i", "j", "k", "n", "p", "q"].iter().filter(is_free).take(3).copied().collect();
             self.report_once(errors::index_is_taken(name, &free));

@@ -2,7 +2,7 @@
 
 use super::Fault;
 use crate::keywords::begins_declaration;
-use crate::lexer::{Lexer, Token, tokens};
+use crate::lexer::Lexer;
 use crate::sync_points::is_operator;
 use mechc_text::diag::{Applicability, Edit, Fix};
 
@@ -10,8 +10,7 @@ impl<'a> Fault<'a> {
     /// Returns the brackets that are open before the fault, innermost last.
     pub(super) fn opened(&self) -> Vec<(usize, &'a str)> {
         let mut opened: Vec<(usize, &str)> = Vec::new();
-        let before = &self.text[..self.at];
-        for token in tokens(before) {
+        for token in &self.before {
             match token.text {
                 "(" | "[" | "{" => opened.push((token.start, token.text)),
                 ")" | "]" | "}" => drop(opened.pop()),
@@ -25,9 +24,9 @@ impl<'a> Fault<'a> {
         opened
     }
 
-    /// Returns whether the word at the fault cannot belong to an open bracket.
-    fn ends_what_is_open(&self) -> bool {
-        self.found.is_empty() || self.found == "}" || self.found == "{" || self.begins_declaration()
+    /// Returns whether a bracket may be missing here: the word at the fault cannot belong to an open one, and none is closed further on.
+    fn lacks_a_bracket(&self) -> bool {
+        (["", "{", "}"].contains(&self.found) || self.begins_declaration()) && !self.is_closed_behind()
     }
 
     /// Returns whether more parentheses and square brackets are closed than opened from here to the next declaration or brace.
@@ -50,11 +49,10 @@ impl<'a> Fault<'a> {
 
     /// Returns the earlier position that causes a fault, with its explanation.
     pub fn reason(&self) -> Option<(usize, &'static str)> {
-        let before = self.before();
+        let last = self.before.last().filter(|_| self.lacks_a_bracket())?;
         match self.opened().last() {
-            _ if !self.ends_what_is_open() || self.is_closed_behind() => None,
-            _ if before.ends_with('=') => Some((before.len() - 1, "nothing stands behind this")),
-            None if before.ends_with('}') => Some((before.len() - 1, "this `}` ends the mechanism")),
+            _ if last.text == "=" => Some((last.start, "nothing stands behind this")),
+            None if last.text == "}" => Some((last.start, "this `}` ends the mechanism")),
             Some((start, "(")) => Some((*start, "this `(` is not closed")),
             Some((start, "[")) => Some((*start, "this `[` is not closed")),
             Some((start, "{")) if self.found.is_empty() || self.ends_a_body() => {
@@ -66,41 +64,30 @@ impl<'a> Fault<'a> {
 
     /// Returns the brackets that are missing before the fault.
     pub(super) fn closing(&self) -> Option<Fix> {
-        // a bracket that is closed further on is not missing
-        if !self.ends_what_is_open() || self.before().ends_with('=') || self.is_closed_behind() {
-            return None;
-        }
         let opened = self.opened();
-        match opened.last()? {
-            (_, "{") if self.found.is_empty() => self.braces_at_the_end(&opened),
-            (_, "{") if self.found == "mechanism" => {
+        let (innermost, bracket) = opened.last().filter(|_| self.lacks_a_bracket())?;
+        match *bracket {
+            "{" if self.found.is_empty() => self.braces_at_the_end(&opened),
+            "{" if self.found == "mechanism" => {
                 let edits = vec![self.brace_before()?];
                 // within a line the word may stand in the place of a name
-                let is_first = self.text[self.before().len()..self.at].contains('\n');
-                let applies = if is_first { Applicability::Always } else { Applicability::Probably };
-                Some(Fix { message: "close it with `}`".to_owned(), edits, applies })
+                let is_sure = self.is_on_new_line();
+                Some(Fix { message: "close it with `}`".to_owned(), edits, applies: applies(is_sure) })
             }
-            (_, "{") => None,
-            _ => self.round_and_square(&opened),
+            "{" => None,
+            _ => {
+                // behind an operator something else is missing
+                let last = self.before.last().filter(|token| !is_operator(token.text))?;
+                let open = opened.iter().rev().take_while(|(_, token)| *token != "{");
+                let closers: String = open.map(|(_, token)| if *token == "(" { ')' } else { ']' }).collect();
+                let inside = self.before.iter().filter(|token| token.start > *innermost).map(|token| token.text);
+                let inside: Vec<&str> = inside.collect();
+                let is_plain = if *bracket == "(" { is_plain_list(&inside) } else { inside.ends_with(&[")"]) };
+                let message = format!("close it with `{closers}`");
+                let is_sure = closers.len() == 1 && is_plain;
+                Some(Fix::replace(self.span(last.end()..last.end()), closers, message, applies(is_sure)))
+            }
         }
-    }
-
-    fn round_and_square(&self, opened: &[(usize, &str)]) -> Option<Fix> {
-        let open = opened.iter().rev().take_while(|(_, token)| *token != "{");
-        let closers: String = open.clone().map(|(_, token)| if *token == "(" { ')' } else { ']' }).collect();
-        let before = tokens(&self.text[..self.at]);
-        let end = before.last().map(Token::end)?;
-        // behind an operator something else is missing
-        if before.last().is_some_and(|token| is_operator(token.text)) {
-            return None;
-        }
-        let (innermost, bracket) = opened.last()?;
-        let inside: Vec<&str> =
-            before.iter().filter(|token| token.start > *innermost).map(|token| token.text).collect();
-        let is_sure =
-            open.count() == 1 && if *bracket == "(" { is_plain_list(&inside) } else { inside.ends_with(&[")"]) };
-        let applies = if is_sure { Applicability::Always } else { Applicability::Probably };
-        Some(Fix::replace(self.span(end..end), closers.clone(), format!("close it with `{closers}`"), applies))
     }
 
     /// Returns the braces that are missing at the end of the text.
@@ -114,17 +101,16 @@ impl<'a> Fault<'a> {
             text += &format!("{}}}{line_end}", self.indentation(*start));
         }
         // one brace too many at the head of a block leaves one open at the end as well
-        let tokens: Vec<Token<'_>> = tokens(self.text);
-        let is_doubled = tokens.windows(2).any(|pair| pair[0].text == "{" && pair[1].text == "{");
-        let applies = if opened.len() == 1 && !is_doubled { Applicability::Always } else { Applicability::Probably };
-        let (end, closers) = (self.text.len(), "}".repeat(opened.len()));
-        Some(Fix::replace(self.span(end..end), text, format!("close it with `{closers}`"), applies))
+        let is_doubled = self.before.windows(2).any(|pair| pair[0].text == "{" && pair[1].text == "{");
+        let message = format!("close it with `{}`", "}".repeat(opened.len()));
+        let end = self.text.len();
+        Some(Fix::replace(self.span(end..end), text, message, applies(opened.len() == 1 && !is_doubled)))
     }
 
     /// Returns a brace that closes the innermost block before the declaration here.
     pub(super) fn brace_before(&self) -> Option<Edit> {
         let (open, _) = self.opened().into_iter().rfind(|(_, token)| *token == "{")?;
-        let end = tokens(&self.text[..self.at]).last().map(Token::end)?;
+        let end = self.end_before();
         let Some(line) = self.text[end..self.at].find('\n') else {
             return Some(Edit { span: self.span(self.at..self.at), text: "} ".to_owned() });
         };
@@ -145,6 +131,10 @@ impl<'a> Fault<'a> {
         let line = &self.text[start..];
         &line[..line.len() - line.trim_start().len()]
     }
+}
+
+fn applies(is_sure: bool) -> Applicability {
+    if is_sure { Applicability::Always } else { Applicability::Probably }
 }
 
 /// Returns whether tokens are words and numbers with commas; otherwise a part may belong behind the parenthesis, and a string that is not
