@@ -95,6 +95,46 @@ fn modules_of_a_crate_name_each_other_in_one_direction() {
     assert!(visited > 100, "only {visited} files were looked at");
 }
 
+/// The layers of the check, the lowest first, by the beginnings of their modules; other modules of the check stand above all of them. The
+/// second name is the struct that the layer owns.
+const CHECK: &[(&[&str], &str)] = &[
+    (&["errors", "library", "options", "suggest/edits", "suggest/lost_rate"], "Reporter"),
+    (&["scope"], "Scope"),
+    (&["formulas", "suggest"], "Formulas"),
+    (&["expansion"], "Expander"),
+    (&["build"], "Builder"),
+];
+
+/// A file uses its own layer and those below, and adds methods to its own layer's struct only.
+#[test]
+fn layers_of_the_check_use_those_below() {
+    let (_, lang) = crates().into_iter().find(|(name, _)| name == "lang").expect("the crate");
+    let layer = |module: &Names| {
+        let (root, inner) = module.split_first()?;
+        let inner = (root == "check").then(|| inner.join("/"))?;
+        let is_in =
+            |name: &&&str| inner.strip_prefix(**name).is_some_and(|rest| rest.is_empty() || rest.starts_with('/'));
+        let longest = |names: &[&str]| names.iter().filter(is_in).map(|name| name.len()).max();
+        let found = CHECK.iter().enumerate().filter_map(|(at, (names, _))| Some((longest(names)?, at)));
+        Some(found.max().map_or(CHECK.len(), |(_, at)| at))
+    };
+    let mut visited = 0;
+    for (module, file) in &lang.files {
+        let Some(own) = layer(module) else { continue };
+        visited += 1;
+        // the root of the check is named by visibilities
+        for other in lang.links(module).iter().filter(|other| *other != &["check"]) {
+            let is_below = layer(other).is_none_or(|other| other <= own);
+            assert!(is_below, "{} uses {} of a higher layer", module.join("/"), other.join("/"));
+        }
+        for (at, (_, owner)) in CHECK.iter().enumerate().filter(|(at, _)| *at != own) {
+            let extends = |line: &str| line.starts_with("impl") && line.contains(&format!(" {owner}<"));
+            assert!(!file.code.lines().any(extends), "{} adds to `{owner}` of layer {at}", module.join("/"));
+        }
+    }
+    assert!(visited > 60, "only {visited} files were looked at");
+}
+
 /// Modules that each name the next one, and the last one the first; nothing where there are none.
 fn circle(links: &BTreeMap<Names, Vec<Names>>) -> Vec<Names> {
     let mut done: Vec<&Names> = Vec::new();

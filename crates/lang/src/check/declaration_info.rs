@@ -1,14 +1,10 @@
 //! Information on single declarations for editors: coordinates, equations, and the values of params. It is available in spite of errors
 //! elsewhere, and leaves out what an error makes uncertain.
 
-use super::entity::Entity;
-use super::formula::{Context, Dim};
-use super::formula_scope::InitialPoint;
-use super::free_names::name_of;
-use super::instance::Instance;
-use super::instantiation::{definitions_of, instance_of};
-use super::params::ParamState;
-use super::{CheckOptions, Checker};
+use super::expansion::{Instance, definitions_of, instance_of};
+use super::formulas::{Context, Dim, Formulas, InitialPoint, ParamState};
+use super::options::CheckOptions;
+use super::scope::{Entity, name_of};
 use crate::model::{CompoundUnit, Named};
 use mechc_expr::{ExprId, Printer, Symbol};
 use mechc_syntax::ast::{Expr, ExprKind, IndexRange, Item, ItemKind, Mechanism};
@@ -98,11 +94,11 @@ pub fn known(tree: &Mechanism, options: &CheckOptions, sources: &Sources) -> Dec
     let copies = counter.count_each(&instance);
     let counts = tree.items.iter().filter_map(|item| count(item, copies.get(&item.span)?)).collect();
     let definitions = definitions_of(tree);
-    let mut checker = Checker::new(&definitions, options, sources);
-    checker.collect(&definitions);
-    checker.definitions();
-    let mut values = checker.param_values();
-    values.extend(tree.items.iter().filter_map(|item| checker.angle_of_pose(item)));
+    let mut formulas = Formulas::new(&definitions, options, sources);
+    formulas.scope.collect(&mut formulas.reporter);
+    formulas.definitions();
+    let mut values = param_values(&mut formulas);
+    values.extend(tree.items.iter().filter_map(|item| angle_of_pose(&mut formulas, item)));
     values.sort_by_key(|value| value.formula);
     let indices = tree.items.iter().flat_map(|item| indices(item, &instance)).collect();
     DeclarationInfo { freedom, counts, indices, values }
@@ -202,48 +198,42 @@ fn indices(item: &Item, instance: &Instance<'_>) -> Vec<Index> {
     item.ranges.iter().enumerate().filter_map(of_range).collect()
 }
 
-impl Checker<'_> {
-    fn param_values(&mut self) -> Vec<Value> {
-        let values = (0..self.params.len()).filter_map(|k| {
-            let param = self.params[k];
-            let (name, formula) = param.written?;
-            let amount = self.amount_of_param(&param, formula)?;
-            Some(Value { name: Some(name.span), formula: formula.span, is_number: is_number(formula), amount })
-        });
-        values.collect()
-    }
+fn param_values(formulas: &mut Formulas<'_>) -> Vec<Value> {
+    let values = (0..formulas.params.len()).filter_map(|k| {
+        let param = formulas.params[k];
+        let (name, formula) = param.written?;
+        let amount = amount_of_param(formulas, &param, formula)?;
+        Some(Value { name: Some(name.span), formula: formula.span, is_number: is_number(formula), amount })
+    });
+    values.collect()
+}
 
-    fn amount_of_param(&mut self, param: &ParamState<'_>, formula: &Expr) -> Option<Amount> {
-        if let Some(InitialPoint { at: [x, y], .. }) = param.drawn {
-            return Some(Amount::Point([self.constant_value(x)?, self.constant_value(y)?]));
-        }
-        let value = param.value?;
-        let dimension = value.dim.settled();
-        let si = self.constant_value(value.id)?;
-        let unit = unit_in(formula, dimension, |name| self.entity_named(name).is_some());
-        si.is_finite().then_some(Amount::Number { si, dimension, unit })
+fn amount_of_param(formulas: &mut Formulas<'_>, param: &ParamState<'_>, formula: &Expr) -> Option<Amount> {
+    if let Some(InitialPoint { at: [x, y], .. }) = param.drawn {
+        return Some(Amount::Point([formulas.constant_value(x)?, formulas.constant_value(y)?]));
     }
+    let value = param.value?;
+    let dimension = value.dim.settled();
+    let si = formulas.constant_value(value.id)?;
+    let unit = unit_in(formula, dimension, |name| formulas.scope.get(name).is_some());
+    si.is_finite().then_some(Amount::Number { si, dimension, unit })
+}
 
-    /// Returns the angle of a pose, unless it is given in degrees.
-    fn angle_of_pose(&mut self, item: &Item) -> Option<Value> {
-        let at = match &item.kind {
-            ItemKind::Body { pose, .. } if item.ranges.is_empty() => &pose.as_ref()?.at,
-            ItemKind::Part(part) if item.ranges.is_empty() => part.at.as_ref()?,
-            _ => return None,
-        };
-        let ExprKind::Tuple(parts) = &at.bare().kind else { return None };
-        let phi = parts.last()?;
-        if phi.bare_number() == Some(0.0) || is_degrees(phi) {
-            return None;
-        }
-        let si = self.any_constant(phi).filter(|si| si.is_finite())?;
-        let amount = Amount::Number { si, dimension: Dimension::ANGLE, unit: None };
-        Some(Value { name: None, formula: phi.span, is_number: is_number(phi), amount })
+/// Returns the angle of a pose, unless it is given in degrees.
+fn angle_of_pose(formulas: &mut Formulas<'_>, item: &Item) -> Option<Value> {
+    let at = match &item.kind {
+        ItemKind::Body { pose, .. } if item.ranges.is_empty() => &pose.as_ref()?.at,
+        ItemKind::Part(part) if item.ranges.is_empty() => part.at.as_ref()?,
+        _ => return None,
+    };
+    let ExprKind::Tuple(parts) = &at.bare().kind else { return None };
+    let phi = parts.last()?;
+    if phi.bare_number() == Some(0.0) || is_degrees(phi) {
+        return None;
     }
-
-    fn entity_named(&self, name: &str) -> Option<Entity> {
-        self.space.get(name)
-    }
+    let si = formulas.any_constant(phi).filter(|si| si.is_finite())?;
+    let amount = Amount::Number { si, dimension: Dimension::ANGLE, unit: None };
+    Some(Value { name: None, formula: phi.span, is_number: is_number(phi), amount })
 }
 
 /// Returns whether a formula is a number with or without a unit and sign, or a point of such numbers.
@@ -288,21 +278,21 @@ fn unit_in(formula: &Expr, expected: Dimension, is_declared: impl Fn(&str) -> bo
 #[must_use]
 pub fn slopes(tree: &Mechanism, function: &str, options: &CheckOptions, sources: &Sources) -> Option<[String; 2]> {
     let definitions = definitions_of(tree);
-    let mut checker = Checker::new(&definitions, options, sources);
-    checker.collect(&definitions);
-    checker.definitions();
-    let Some(Entity::Function(k)) = checker.space.get(function) else { return None };
+    let mut formulas = Formulas::new(&definitions, options, sources);
+    formulas.scope.collect(&mut formulas.reporter);
+    formulas.definitions();
+    let Some(Entity::Function(k)) = formulas.scope.get(function) else { return None };
     let (argument, formula, judged) = {
-        let function = &checker.functions[k];
+        let function = &formulas.functions[k];
         (function.argument, function.value, function.dimensional)
     };
-    let symbol = checker.name_symbol(Named::Argument, 0);
-    let argument_value = super::formula::Value { id: symbol, dim: Dim::PURE };
+    let symbol = formulas.name_symbol(Named::Argument, 0);
+    let argument_value = super::formulas::Value { id: symbol, dim: Dim::PURE };
     let argument_named = Some((argument.text.as_str(), argument_value));
     let context =
         Context { judged, time: true, inputs: true, argument: argument_named, ..Context::constant("a function") };
-    let value = checker.formula(formula, &context)?;
-    let Checker { model, .. } = checker;
+    let value = formulas.formula(formula, &context)?;
+    let Formulas { model, .. } = formulas;
     let mut graph = model.graph;
     let is_argument = |symbol: Symbol| matches!(symbol, Symbol::Named(k) if model.named[k as usize] == Named::Argument);
     let mut derivative = |of: ExprId| {

@@ -4,96 +4,35 @@
 //! none. Formulas, including those of functions, are expanded into one graph at each use. Expansions are cached, so that functions with
 //! common subformulas take linear time.
 
-mod bare_names;
-mod bindings;
-mod branches;
-mod builtins;
-mod calls;
-mod cli_formulas;
-mod column_variables;
-mod constants;
+mod build;
 mod declaration_info;
-mod definitions;
-mod dimensions;
-mod display_units;
-mod elements;
-mod entity;
 mod errors;
-mod features;
-mod forces;
-mod formula;
-mod formula_scope;
-mod free_names;
-mod functions;
-mod imports;
-mod input_bindings;
-mod inputs;
-mod instance;
-mod instantiation;
-mod joints;
+mod expansion;
+mod formulas;
 mod library;
-mod names;
 mod options;
-mod overrides;
-mod params;
-mod part_placement;
-mod parts;
-mod point_kinds;
-mod point_names;
-mod points;
-mod poses;
-mod profiles;
-mod quantities;
-mod repetition;
-mod requirements;
-mod results;
-mod samples;
+mod scope;
 mod suggest;
 mod symbols;
-mod table_file;
-mod tables;
-mod variables;
 
-pub use cli_formulas::{FormulaOfTime, amount, constant, formula_of_time};
 pub use declaration_info::{Amount, DeclarationCount, DeclarationInfo, Index, Value as ConstantValue, known, slopes};
 pub(crate) use errors::not_finite;
-pub use free_names::name_of;
-pub use inputs::InputOverrides;
+pub use formulas::{Column, FormulaOfTime, UNTIL, amount, constant, formula_of_time, override_matches, variants};
 pub use library::{Library, LibraryFile, LibraryMechanism, LookupError};
-pub use options::{CheckOptions, ParamOverride};
-pub use overrides::override_matches;
-pub use results::UNTIL;
-pub use samples::{Column, variants};
+pub use options::{CheckOptions, InputOverrides, ParamOverride, TableFiles};
+pub use scope::name_of;
 pub use suggest::missing_unit::usual_unit_of_length;
 pub use symbols::{DeclaredName, Meaning, NameId, NameKind, Symbols, Use};
-pub use tables::TableFiles;
 
-use crate::model::{Declared, EquationId, Frame, JointId, Mechanism};
-use bindings::ExternalBindings;
-use branches::Branch;
-use calls::Calls;
-use elements::MeasureState;
-use entity::Entity;
-use formula_scope::FormulaScope;
-use functions::Function;
-use imports::Import;
-use inputs::InputState;
-use mechc_syntax::ast::{self, Item, ItemKind};
-use mechc_text::diag::{Diagnostic, Diagnostics};
+use crate::model::Mechanism;
+use build::{build, formulas_of_instance, has_broken};
+use errors::Reporter;
+use expansion::instance_of;
+use formulas::{Formulas, Variables};
+use mechc_syntax::ast;
+use mechc_text::diag::Diagnostics;
 use mechc_text::source::Sources;
-use names::Space;
-use params::ParamState;
-use parts::{Address, SharedState};
-use results::ResultState;
-use rustc_hash::{FxHashMap, FxHashSet};
-use samples::Samples;
-use std::rc::Rc;
-use suggest::missing_unit::RecordedLengths;
-use tables::TableState;
-use variables::Variables;
-
-/// Largest number of diagnostics of one mechanism or part with which names are still suggested; beyond it the search takes long.
-const MOST_SUGGESTIONS: usize = 100;
+use scope::Space;
 
 /// Checks that the mechanisms of a file have different names.
 #[must_use]
@@ -112,13 +51,13 @@ pub fn check_file(file: &ast::File) -> Diagnostics {
 /// Checks a mechanism. Returns its model if it has no errors, and all diagnostics.
 #[must_use]
 pub fn check(tree: &ast::Mechanism, options: &CheckOptions, sources: &Sources) -> (Option<Mechanism>, Diagnostics) {
-    let (instance, reported) = instantiation::instance_of(tree, options, sources);
-    let mut checker = Checker::from_instance(&instance, options, sources, "", &[]);
-    checker.bind_numbers(&options.bound);
-    checker.common.variables = Variables::new(&options.by);
-    checker.collect_variables();
-    checker.run();
-    let Checker { mut diagnostics, mut model, .. } = checker;
+    let (instance, reported) = instance_of(tree, options, sources);
+    let mut formulas = formulas_of_instance(&instance, options, sources, "", &[]);
+    formulas.bind_numbers(&options.bound);
+    formulas.common.variables = Variables::new(&options.by);
+    formulas.collect_variables();
+    build(&mut formulas);
+    let Formulas { reporter: Reporter { mut diagnostics, .. }, mut model, .. } = formulas;
     diagnostics.extend(reported);
     model.slopes = options.slopes.map(|is_of_text| {
         let formula = |end: usize| model.analysis.map(|analysis| analysis.formulas[end]).filter(|_| is_of_text[end]);
@@ -131,174 +70,4 @@ pub fn check(tree: &ast::Mechanism, options: &CheckOptions, sources: &Sources) -
     let diagnostics = suggest::names::merge_unknown_names(diagnostics);
     let sound = !diagnostics.has_errors() && !has_broken(instance.tree());
     (sound.then_some(model), diagnostics)
-}
-
-impl Checker<'_> {
-    /// Returns whether the mechanism or one of its parts has a declaration that could not be parsed.
-    fn holds_broken(&self) -> bool {
-        has_broken(self.tree) || self.parts.iter().any(Checker::holds_broken)
-    }
-}
-
-/// Returns whether a declaration or feature of a mechanism does not follow the grammar.
-fn has_broken(tree: &ast::Mechanism) -> bool {
-    tree.items.iter().any(|item| match &item.kind {
-        ItemKind::Broken { .. } => true,
-        ItemKind::Ground { features } | ItemKind::Body { features, .. } => {
-            features.iter().any(|feature| feature.kind == ast::FeatureKind::Broken)
-        }
-        _ => false,
-    })
-}
-
-/// Checks one mechanism, or one part of it.
-struct Checker<'a> {
-    tree: &'a ast::Mechanism,
-    options: &'a CheckOptions,
-    sources: &'a Sources,
-    diagnostics: Diagnostics,
-    model: Mechanism,
-    common: SharedState,
-    space: Space<Entity>,
-    /// The number of named declarations of each kind.
-    count: names::Count,
-    address: Address,
-    bound: ExternalBindings<'a>,
-    /// The checked parts.
-    parts: Vec<Checker<'a>>,
-    /// The declaration of each part.
-    part_declarations: Vec<&'a ast::Part>,
-    /// The entities of each part that are used here.
-    imports: Vec<Vec<Import>>,
-    imported: FxHashMap<Entity, (usize, Entity)>,
-    /// The paths of params of parts that are points.
-    point_paths: FxHashSet<String>,
-    /// The params that determine repetitions.
-    deciding: Rc<FxHashSet<String>>,
-    /// The params that are points.
-    point_params: FxHashSet<&'a str>,
-    /// The functions and tables that hide functions of the language.
-    hidden: FxHashSet<&'a str>,
-    params: Vec<ParamState<'a>>,
-    functions: Vec<Function<'a>>,
-    tables: Vec<TableState<'a>>,
-    inputs: Vec<InputState<'a>>,
-    measures: Vec<MeasureState<'a>>,
-    results: Vec<ResultState<'a>>,
-    /// The orders of dependence of measures and of results.
-    measure_order: Vec<usize>,
-    result_order: Vec<usize>,
-    /// The samples of inputs.
-    samples: Option<Rc<Samples>>,
-    /// The frames of bodies, then those of the grounds of parts that are named.
-    bodies: Vec<Frame>,
-    /// The bodies and the ground of this text.
-    frames: Vec<(Frame, &'a [ast::Feature])>,
-    joints: Vec<Option<JointId>>,
-    /// Constraints and drivers; `None` for broken ones.
-    equations: Vec<Option<EquationId>>,
-    /// The constant lengths met so far.
-    lengths: RecordedLengths<'a>,
-    /// The site, the calls and the branch of the current formula.
-    scope: FormulaScope<'a>,
-    calls: Calls<'a>,
-    branch: Branch,
-}
-
-impl<'a> Checker<'a> {
-    fn new(tree: &'a ast::Mechanism, options: &'a CheckOptions, sources: &'a Sources) -> Checker<'a> {
-        Checker {
-            tree,
-            options,
-            sources,
-            diagnostics: Diagnostics::default(),
-            model: Mechanism::new(Declared { name: tree.name.text.clone(), span: tree.name.span }, tree.docs.clone()),
-            common: SharedState::default(),
-            space: Space::new(),
-            count: names::Count::default(),
-            address: Address::default(),
-            bound: ExternalBindings::default(),
-            parts: Vec::new(),
-            part_declarations: Vec::new(),
-            imports: Vec::new(),
-            imported: FxHashMap::default(),
-            point_paths: FxHashSet::default(),
-            deciding: Rc::default(),
-            point_params: point_kinds::point_params(tree),
-            hidden: point_kinds::hiding_functions(tree),
-            params: Vec::new(),
-            functions: Vec::new(),
-            tables: Vec::new(),
-            inputs: Vec::new(),
-            measures: Vec::new(),
-            results: Vec::new(),
-            measure_order: Vec::new(),
-            result_order: Vec::new(),
-            samples: None,
-            bodies: Vec::new(),
-            frames: Vec::new(),
-            joints: Vec::new(),
-            equations: Vec::new(),
-            lengths: RecordedLengths::default(),
-            scope: FormulaScope::default(),
-            calls: Calls::default(),
-            branch: Branch::default(),
-        }
-    }
-
-    fn run(&mut self) {
-        self.check_param_overrides();
-        self.check_input_overrides();
-        self.samples = self.read_samples().map(Rc::new);
-        self.definitions();
-        self.resolve_column_variables();
-        self.features();
-        self.joints();
-        self.bind_inputs();
-        // Efforts refer to equations, which must then come first. Otherwise measures come first, as the order of symbols affects the last
-        // bits of rows.
-        let uses_efforts = self.uses_efforts();
-        if uses_efforts {
-            self.equations();
-        }
-        self.measure_values();
-        self.list_measures();
-        if !uses_efforts {
-            self.equations();
-        }
-        self.gravity();
-        self.loads();
-        self.analysis();
-        self.results();
-        self.requirements();
-        self.reject_derivatives_of_forces();
-        self.warn_of_plain_lengths();
-        if self.model.bodies.is_empty() && !self.holds_broken() {
-            self.report(errors::empty(&self.tree.name));
-        }
-    }
-
-    /// Adds a diagnostic, with the locations of the call and of the parts through which it arises.
-    fn report(&mut self, diagnostic: Diagnostic) {
-        let diagnostic = match self.calls.caller {
-            // A formula is judged where it is called.
-            Some(caller) => diagnostic.caused_by(caller, "brought in here"),
-            None => diagnostic,
-        };
-        let parts = self.address.used_at.iter();
-        self.diagnostics.push(parts.fold(diagnostic, |diagnostic, (part, span)| diagnostic.in_part(part, *span)));
-    }
-
-    /// Returns the names to suggest from; none after many errors, when the search would take long.
-    fn suggestions(&self, expected: impl Fn(Entity) -> bool) -> Vec<&str> {
-        self.suggestions_in(&self.space, expected)
-    }
-
-    fn suggestions_in<'s, T: Copy>(&self, space: &'s Space<T>, expected: impl Fn(T) -> bool) -> Vec<&'s str> {
-        if self.diagnostics.len() > MOST_SUGGESTIONS { Vec::new() } else { space.names(expected).collect() }
-    }
-
-    fn items(&self) -> &'a [Item] {
-        &self.tree.items
-    }
 }

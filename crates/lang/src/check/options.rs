@@ -1,7 +1,10 @@
 //! The options of a check.
 
-use super::{InputOverrides, Library, TableFiles};
+use super::Library;
 use mechc_syntax::ast::Expr;
+use mechc_text::diag::Diagnostic;
+use mechc_text::source::FileId;
+use rustc_hash::FxHashMap;
 
 /// The options of a check, and the files that the text names.
 #[derive(Clone, Debug, Default)]
@@ -36,3 +39,23 @@ pub struct ParamOverride {
     /// The formula, which names nothing of the file.
     pub value: Expr,
 }
+
+/// The overrides of inputs.
+#[derive(Clone, Debug, Default)]
+pub struct InputOverrides {
+    /// The names of inputs with their formulas, over params, functions, tables and time.
+    pub formulas: Vec<(String, Expr)>,
+    /// A file of samples.
+    pub samples: Option<FileId>,
+}
+
+impl InputOverrides {
+    /// Returns whether there are no overrides.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.formulas.is_empty() && self.samples.is_none()
+    }
+}
+
+/// The texts of the files that tables name, by the naming text and the path as written; or the reason why one cannot be read.
+pub type TableFiles = FxHashMap<(FileId, String), Result<FileId, Box<Diagnostic>>>;

@@ -2,8 +2,7 @@
 //!
 //! It uses the tree alone, so that it is also available for texts with errors.
 
-use super::bare_names::{BareName, resolve_bare_name};
-use super::point_kinds::{self, Expected, coordinate};
+use super::scope::{BareName, Expected, coordinate, point_kinds, resolve_bare_name};
 use mechc_syntax::ast::{
     DrawnPose, Expr, ExprKind, Feature, FeatureKind, Item, ItemKind, Mechanism, Name, PathSegment, TableRows, UsedFile,
     WrittenUnit,

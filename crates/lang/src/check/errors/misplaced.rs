@@ -1,14 +1,13 @@
 //! Diagnostics of words that are not allowed where they stand.
 
 use super::{list, some_of};
-use crate::check::entity::Entity;
 use mechc_syntax::ast::Name;
 use mechc_text::diag::{Applicability, Code, Diagnostic, Fix};
 use mechc_text::source::Span;
 use mechc_text::vocabulary::{JOINTS, JointMotion, JointSpec};
 
-pub fn not_callable(name: &Name, entity: Entity) -> Diagnostic {
-    Diagnostic::new(Code::E0302, format!("`{}` is {}, and cannot be called", name.text, entity.noun()))
+pub fn not_callable(name: &Name, noun: &str) -> Diagnostic {
+    Diagnostic::new(Code::E0302, format!("`{}` is {noun}, and cannot be called", name.text))
         .at(name.span, "called here")
         .fix(Fix::append(name.span, " * ", "a product is written with `*`", Applicability::Probably))
 }

@@ -1,8 +1,8 @@
 //! Warnings of bare numbers that were probably intended in degrees, or in another unit of angle than radians.
 
-use crate::check::entity::Entity;
-use crate::check::formula::{Context, Dim};
-use crate::check::{Checker, errors};
+use crate::check::errors;
+use crate::check::formulas::{Context, Dim, Formulas};
+use crate::check::scope::Entity;
 use mechc_syntax::ast::{Expr, ExprKind, Factor, Name, WrittenUnit};
 use mechc_text::source::Span;
 use mechc_text::vocabulary::Unit;
@@ -11,7 +11,7 @@ use std::f64::consts::TAU;
 /// The depth to which a term is examined: formulas nest deeper than a second recursion has stack for.
 const LEVELS: usize = 8;
 
-impl Checker<'_> {
+impl Formulas<'_> {
     /// Warns of bare numbers beyond one turn among the terms of an angle.
     pub(in crate::check) fn warn_of_degrees_in(&mut self, e: &Expr) {
         match &e.bare().kind {
@@ -28,7 +28,7 @@ impl Checker<'_> {
         if let Some(value) = e.bare_number()
             && value.abs() > TAU
         {
-            self.report(errors::degrees(e.span, value, self.sources.text(e.span)));
+            self.reporter.report(errors::degrees(e.span, value, self.reporter.text(e.span)));
         }
     }
 
@@ -50,7 +50,7 @@ impl Checker<'_> {
         let ExprKind::Sum(first, rest) = &formula.bare().kind else { return };
         let terms = std::iter::once(&**first).chain(rest.iter().map(|(_, term)| term));
         if is_of_degrees(written) && !terms.clone().all(|term| self.is_bare(term, LEVELS)) {
-            let unit = self.sources.text(written.span);
+            let unit = self.reporter.text(written.span);
             self.warn_of_bare_numbers(terms, written.span, unit);
         }
     }
@@ -60,8 +60,8 @@ impl Checker<'_> {
             if self.is_bare(term, LEVELS) && self.common.reported_radians.insert(term.span) {
                 let root = self.plain_root(term).filter(|root| root.is_number);
                 let number = root.map_or(term.span, |root| root.span);
-                let texts = [term.span, number].map(|span| self.sources.text(span));
-                self.report(errors::number_as_radians([term.span, number], texts, printed, unit));
+                let texts = [term.span, number].map(|span| self.reporter.text(span));
+                self.reporter.report(errors::number_as_radians([term.span, number], texts, printed, unit));
             }
         }
     }
@@ -78,7 +78,7 @@ impl Checker<'_> {
             ExprKind::Product(first, rest) => {
                 self.is_bare(first, levels) && rest.iter().all(|(_, term)| self.is_bare(term, levels))
             }
-            ExprKind::Name(name) => match self.entity(name) {
+            ExprKind::Name(name) => match self.scope.entity(name) {
                 Some(Entity::Param(k)) => self.params.get(k).is_some_and(|param| {
                     let is_plain = |dim| matches!(dim, Dim::Plain { read, .. } if read.is_without_angles());
                     param.value.is_some_and(|value| is_plain(value.dim))
@@ -99,10 +99,10 @@ impl Checker<'_> {
                 let unit = match argument {
                     Some(_) => context.printed?,
                     // Formulas that are expanded are examined where they are declared.
-                    None if self.calls.caller.is_none() => self.unit_of(name)?,
+                    None if self.reporter.caller.is_none() => self.unit_of(name)?,
                     None => return None,
                 };
-                Some((name.span, self.sources.text(unit).to_owned()))
+                Some((name.span, self.reporter.text(unit).to_owned()))
             }
             ExprKind::Sum(first, rest) => {
                 let mut terms = std::iter::once(&**first).chain(rest.iter().map(|(_, term)| term));
@@ -136,7 +136,7 @@ impl Checker<'_> {
 
     /// Returns the unit of angle in which a measure or result is printed, unless it is the radian.
     fn unit_of(&self, name: &Name) -> Option<Span> {
-        let written = match self.entity(name)? {
+        let written = match self.scope.entity(name)? {
             Entity::Measure(k) => self.measure_state(k)?.unit,
             Entity::Result(k) => self.result_state(k)?.unit,
             _ => None,

@@ -1,22 +1,21 @@
 //! Suggestions for arguments of the wrong kind, from the declarations of the mechanism.
 
-use crate::check::entity::Entity;
-use crate::check::errors::list;
-use crate::check::features::Feature;
-use crate::check::{Checker, errors};
+use crate::check::errors::{self, list};
+use crate::check::formulas::{Feature, Formulas};
+use crate::check::scope::Entity;
 use crate::model::{Dimension, Frame};
 use mechc_syntax::ast::{Expr, ExprKind, Factor, Name};
 use mechc_text::diag::{Applicability, Code, Diagnostic, Edit, Fix};
 use mechc_text::source::Span;
 use mechc_text::vocabulary::{FeatureWord, JointSpec, Position, QuantityWord, Synonym, Unit};
 
-impl Checker<'_> {
+impl Formulas<'_> {
     /// Adds suggestions to a diagnostic of a body where a joint is expected: the joints of that body, and the body's angle.
     pub(in crate::check) fn suggest_joint(&self, quantity: &str, name: &Name, diagnostic: Diagnostic) -> Diagnostic {
-        if let (true, Some(Entity::Equation(_))) = (is_force(quantity), self.entity(name)) {
+        if let (true, Some(Entity::Equation(_))) = (is_force(quantity), self.scope.entity(name)) {
             return diagnostic.help(format!("what it supplies is `effort({})`", name.text));
         }
-        let body = match self.entity(name) {
+        let body = match self.scope.entity(name) {
             _ if name.text == "ground" => self.address.ground,
             Some(Entity::Body(k)) => self.bodies[k],
             _ => return diagnostic,
@@ -42,12 +41,12 @@ impl Checker<'_> {
         let [argument] = arguments else { return None };
         let ExprKind::Name(name) = &argument.bare().kind else { return None };
         let means: Vec<&str> = Synonym::of(Position::Call, &called.text)?.means().collect();
-        let driver = match self.entity(name)? {
+        let driver = match self.scope.entity(name)? {
             Entity::Equation(_) if means.iter().any(|word| is_force(word)) => name.text.clone(),
             Entity::Joint(k) if means == ["torque"] || means == ["effort"] => {
                 let joint = self.joints.get(k).copied().flatten()?;
                 let is_driven = means == ["effort"] || !self.model[joint].spec.has_torque();
-                self.driver_of(&name.text).filter(|_| is_driven)?
+                self.scope.driver_of(&name.text).filter(|_| is_driven)?
             }
             _ => return None,
         };
@@ -57,7 +56,7 @@ impl Checker<'_> {
 
     /// Suggests a quantity for `crank.phi`, `crank.x` or a point where a number is expected.
     pub(in crate::check) fn suggest_number(&self, span: Span, owner: &Name, feature: &Name) -> Option<Fix> {
-        let frame = match self.entity(owner)? {
+        let frame = match self.scope.entity(owner)? {
             Entity::Body(k) => *self.bodies.get(k)?,
             _ => return None,
         };
@@ -86,11 +85,11 @@ impl Checker<'_> {
     pub(in crate::check) fn suggest_decimal_point(&self, parts: &[Expr], expected: usize) -> Option<Fix> {
         let (mut edits, mut number, mut k) = (Vec::new(), None, 0);
         while k + 1 < parts.len() {
-            let (whole, digits) = (self.sources.text(parts[k].span), self.sources.text(parts[k + 1].span));
+            let (whole, digits) = (self.reporter.text(parts[k].span), self.reporter.text(parts[k + 1].span));
             let gap = Span { start: parts[k].span.end, end: parts[k + 1].span.start, ..parts[k].span };
             let is_number = whole.trim_start_matches('-').chars().all(|c| c.is_ascii_digit());
             let is_split =
-                is_number && digits.starts_with(|c: char| c.is_ascii_digit()) && self.sources.text(gap) == ",";
+                is_number && digits.starts_with(|c: char| c.is_ascii_digit()) && self.reporter.text(gap) == ",";
             if is_split {
                 number.get_or_insert_with(|| format!("{whole}.{digits}"));
                 edits.push(Edit { span: gap, text: ".".to_owned() });
@@ -117,12 +116,12 @@ impl Checker<'_> {
         } else {
             return false;
         };
-        self.report(errors::wrong_kind(first.span, Feature::with_article(one), a.noun()).fix(fix));
+        self.reporter.report(errors::wrong_kind(first.span, Feature::with_article(one), a.noun()).fix(fix));
         true
     }
 
     fn swapped(&self, first: &Expr, second: &Expr) -> Fix {
-        let [one, other] = [first, second].map(|e| self.sources.text(e.span).to_owned());
+        let [one, other] = [first, second].map(|e| self.reporter.text(e.span).to_owned());
         let message = format!("the other way round: `{other}, {one}`");
         let edits = vec![Edit { span: first.span, text: other }, Edit { span: second.span, text: one }];
         Fix { message, edits, applies: Applicability::Probably }
@@ -136,7 +135,7 @@ impl Checker<'_> {
 
     /// Returns the body of a name, or the ground, without diagnostics.
     pub(in crate::check) fn frame_of(&self, owner: &Name) -> Option<Frame> {
-        match self.entity(owner) {
+        match self.scope.entity(owner) {
             _ if owner.text == "ground" => Some(self.address.ground),
             Some(Entity::Body(k)) => Some(*self.bodies.get(k)?),
             _ => None,
@@ -152,7 +151,7 @@ impl Checker<'_> {
             Some(declared) => diagnostic.also(declared, format!("`{name}` is given in a unit of angle")),
             None => diagnostic,
         };
-        self.report(diagnostic.help(match declared {
+        self.reporter.report(diagnostic.help(match declared {
             Some(_) => format!("give `{name}` a unit of length: `mm`, `m`"),
             None => "units of length: `mm`, `m`".to_owned(),
         }));
@@ -165,7 +164,7 @@ impl Checker<'_> {
             ExprKind::Literal { unit: Some((unit, 1)), .. } => is_unit_of_angle(&unit.text).then_some(("", None)),
             ExprKind::Negate(inner) => self.angle_in(inner),
             ExprKind::Name(name) => {
-                let Some(Entity::Param(k)) = self.entity(name) else { return None };
+                let Some(Entity::Param(k)) = self.scope.entity(name) else { return None };
                 let written = self.params.get(k).filter(|param| param.is_in_angles)?.written?;
                 Some((name.text.as_str(), Some(written.0.span)))
             }
@@ -185,7 +184,7 @@ impl Checker<'_> {
 
     /// Records a parameter that is given in a unit of angle.
     pub(in crate::check) fn record_angle(&mut self, name: &Name, value: &Expr) {
-        if let (Some(Entity::Param(k)), Some(_)) = (self.entity(name), self.angle_in(value)) {
+        if let (Some(Entity::Param(k)), Some(_)) = (self.scope.entity(name), self.angle_in(value)) {
             self.params[k].is_in_angles = true;
         }
     }
@@ -200,7 +199,7 @@ impl Checker<'_> {
     ) {
         let is_atan2 = name.text == "atan" && arguments.len() == 2;
         let fix = is_atan2.then(|| Fix::probably(name.span, "atan2", "the angle of two coordinates is `atan2(y, x)`"));
-        self.report(diagnostic.instead_if(fix.or_else(|| self.suggest_decimal_point(arguments, most))));
+        self.reporter.report(diagnostic.instead_if(fix.or_else(|| self.suggest_decimal_point(arguments, most))));
     }
 }
 

@@ -3,10 +3,9 @@
 //! A plain formula is in metres, which is intended if all lengths are plain. Plain lengths that are much larger than those with a unit, and
 //! would have a similar size with that unit, probably lack it.
 
-use crate::check::Checker;
-use crate::check::entity::Entity;
 use crate::check::errors::{self, PlainLength};
-use crate::check::formula::{Context, Value};
+use crate::check::formulas::{Context, Formulas, Value};
+use crate::check::scope::Entity;
 use mechc_expr::ExprId;
 use mechc_expr::math;
 use mechc_syntax::ast::{Expr, ExprKind, Item};
@@ -18,15 +17,7 @@ const DWARFS: f64 = 10.0;
 /// Numbers below this are written in metres, not in millimetres or inches.
 const IN_METRES: f64 = 1.0;
 
-/// The constant lengths of a mechanism, recorded as formulas are read.
-#[derive(Default)]
-pub(in crate::check) struct RecordedLengths<'a> {
-    /// The smallest and the largest length with a unit (m).
-    with_unit: Option<[f64; 2]>,
-    plain: Vec<PlainLength<'a>>,
-}
-
-impl<'a> Checker<'a> {
+impl<'a> Formulas<'a> {
     /// Records a length; `judged` says whether its formula holds a unit.
     pub(in crate::check) fn record_length_term(&mut self, e: &Expr, id: ExprId, judged: bool) {
         if judged {
@@ -82,7 +73,7 @@ impl<'a> Checker<'a> {
                     return Some(PlainLength { value: value.abs(), span: e.span, name, is_number });
                 }
                 ExprKind::Name(name) => {
-                    let Some(Entity::Param(k)) = self.entity(name) else { return found };
+                    let Some(Entity::Param(k)) = self.scope.entity(name) else { return found };
                     let (name, formula, is_in_the_text) = self.effective_formula(k)?;
                     let value = self.params[k].value.and_then(|value| self.number_of(value.id))?.abs();
                     let is_number = is_in_the_text && found.is_none_or(|plain| plain.is_number);
@@ -109,7 +100,7 @@ impl<'a> Checker<'a> {
         if !dwarfs || plain.iter().any(|length| length.value < IN_METRES) {
             return;
         }
-        let unit = usual_unit_of_length(self.items()).unwrap_or(&UNITS[0]);
+        let unit = usual_unit_of_length(self.scope.items()).unwrap_or(&UNITS[0]);
         let is_off = |value: f64| math::ln((value / most).max(least / value).max(1.0));
         let is_off_with = |factor: f64| plain.iter().map(|length| is_off(factor * length.value)).sum::<f64>();
         if is_off_with(unit.to_si(1.0, 1)) >= is_off_with(1.0) {
@@ -118,7 +109,7 @@ impl<'a> Checker<'a> {
         let mut plain = std::mem::take(&mut self.lengths.plain);
         plain.sort_by_key(|length| length.span);
         plain.dedup_by_key(|length| length.span);
-        self.report(errors::no_unit_of_length(&plain, most, unit.word.name));
+        self.reporter.report(errors::no_unit_of_length(&plain, most, unit.word.name));
     }
 }
 

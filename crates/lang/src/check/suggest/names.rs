@@ -1,9 +1,8 @@
 //! Suggestions for names: the declaration or quantity that a wrong name probably stands for.
 
-use crate::check::entity::Entity;
-use crate::check::features::Feature;
-use crate::check::formula::{Context, Dim};
-use crate::check::{Checker, errors};
+use crate::check::errors;
+use crate::check::formulas::{Context, Dim, Feature, Formulas};
+use crate::check::scope::Entity;
 use crate::model::Dimension;
 use mechc_syntax::ast::{Expr, ExprKind, ItemKind, Name};
 use mechc_text::diag::{Code, Diagnostic, Diagnostics, Edit, Fix};
@@ -11,17 +10,17 @@ use mechc_text::source::Span;
 use mechc_text::vocabulary::{Position, Synonym, Unit, is_ground};
 use rustc_hash::FxHashMap;
 
-impl Checker<'_> {
+impl Formulas<'_> {
     /// Returns the quantity of a joint that a driver can prescribe.
     fn quantity_of(&self, name: &Name) -> Option<String> {
-        let Some(Entity::Joint(k)) = self.entity(name) else { return None };
+        let Some(Entity::Joint(k)) = self.scope.entity(name) else { return None };
         let motion = self.model[self.joints.get(k).copied().flatten()?].spec.motion?;
         Some(format!("{}({})", motion.quantity(), name.text))
     }
 
     /// Adds a suggestion to a diagnostic of a joint or body where a number is expected.
     pub(in crate::check) fn suggest_quantity(&self, name: &Name, diagnostic: Diagnostic) -> Diagnostic {
-        if let Some(Entity::Body(_)) = self.entity(name) {
+        if let Some(Entity::Body(_)) = self.scope.entity(name) {
             return diagnostic.help(format!("the angle of a body is `angle({})`", name.text));
         }
         let quantity = self.quantity_of(name);
@@ -51,7 +50,7 @@ impl Checker<'_> {
 
     /// Replaces a formula by a quantity. If the other side of its driver is a rate, that is multiplied with the time.
     fn replace_in_equation(&self, span: Span, quantity: &str) -> Fix {
-        let other = self.items().iter().find_map(|item| match &item.kind {
+        let other = self.scope.items().iter().find_map(|item| match &item.kind {
             ItemKind::Equation { driver: true, left, right, .. } if left.span == span => Some(right),
             ItemKind::Equation { driver: true, left, right, .. } if right.span == span => Some(left),
             _ => None,
@@ -61,7 +60,7 @@ impl Checker<'_> {
         };
         let mut fix = Fix::probably(span, quantity, format!("a driver gives the motion over time: `{quantity} = …`"));
         if self.is_rate(other) {
-            let law = format!("{} * t", self.sources.text(other.span));
+            let law = format!("{} * t", self.reporter.text(other.span));
             fix.message = format!("a driver gives the motion over time: `{quantity} = {law}`");
             fix.edits.push(Edit { span: other.span, text: law });
         }
@@ -74,7 +73,7 @@ impl Checker<'_> {
             ExprKind::Literal { unit: Some((unit, 1)), .. } => {
                 Unit::named(&unit.text).is_some_and(|unit| unit.dimension.is(Dimension::RATE))
             }
-            ExprKind::Name(name) => match self.entity(name) {
+            ExprKind::Name(name) => match self.scope.entity(name) {
                 Some(Entity::Param(k)) => {
                     self.params[k].value.is_some_and(|value| matches!(value.dim, Dim::Of(d) if d.is(Dimension::RATE)))
                 }
@@ -86,18 +85,18 @@ impl Checker<'_> {
 
     /// Reports an unknown body. Other words for the ground are suggestions for it.
     pub(in crate::check) fn unknown_body(&mut self, name: &Name) {
-        let mut candidates = self.suggestions(|entity| matches!(entity, Entity::Body(_)));
+        let mut candidates = self.scope.suggestions(&self.reporter, |entity| matches!(entity, Entity::Body(_)));
         candidates.push("ground");
         let diagnostic = errors::unknown("body", name, &candidates);
         let is_ground = diagnostic.help.is_empty() && is_ground(&name.text);
-        self.report(diagnostic.fix_if(is_ground.then(|| Fix::suggest(name.span, "ground"))));
+        self.reporter.report(diagnostic.fix_if(is_ground.then(|| Fix::suggest(name.span, "ground"))));
     }
 
     /// Returns the features of a body that `expected` accepts, as they are written outside the body.
     pub(in crate::check) fn features_of(&self, body: &Name, expected: impl Fn(Feature) -> bool) -> Vec<String> {
-        let Some(Entity::Body(k)) = self.entity(body) else { return Vec::new() };
+        let Some(Entity::Body(k)) = self.scope.entity(body) else { return Vec::new() };
         let space = self.bodies.get(k).and_then(|id| self.common.features.get(id));
-        let names = space.into_iter().flat_map(|space| self.suggestions_in(space, &expected));
+        let names = space.into_iter().flat_map(|space| space.suggestions(&self.reporter, &expected));
         names.take(MOST_PLACES).map(|name| format!("`{}.{name}`", body.text)).collect()
     }
 
@@ -110,12 +109,12 @@ impl Checker<'_> {
 
     /// Returns the bodies named in the other arguments of a joint, which cannot own the name.
     pub(in crate::check) fn owners_in_arguments(&self, name: Span) -> Vec<&str> {
-        let arguments = self.items().iter().find_map(|item| match &item.kind {
+        let arguments = self.scope.items().iter().find_map(|item| match &item.kind {
             ItemKind::Joint { arguments, .. } if arguments.iter().any(|e| e.span == name) => Some(arguments),
             _ => None,
         });
         let owner = |e: &Expr| match &e.kind {
-            ExprKind::Member { owner, .. } => Some(self.sources.text(owner.span)),
+            ExprKind::Member { owner, .. } => Some(self.reporter.text(owner.span)),
             _ => None,
         };
         arguments.map(|arguments| arguments.iter().filter_map(owner).collect()).unwrap_or_default()

@@ -1,0 +1,10 @@
+//! Mechanisms as they are checked: repetitions written out, and parts with the mechanisms that they are of.
+//!
+//! This layer owns `Instance`. It uses formulas for the bounds of ranges and for indices, and builds no model.
+
+mod instance;
+mod instantiation;
+mod repetition;
+
+pub(in crate::check) use instance::Instance;
+pub(in crate::check) use instantiation::{definitions_of, instance_of};
