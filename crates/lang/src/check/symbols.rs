@@ -557,7 +557,7 @@ impl Walk<'_> {
         let declared = self.names.get(&name.text);
         let is_callable = |id: &NameId| matches!(self.symbols.get(*id).kind, NameKind::Function | NameKind::Table);
         let hides = declared.is_some_and(is_callable);
-        let quantity = QuantityWord::named(&name.text).filter(|quantity| !quantity.gives_way || !hides);
+        let quantity = QuantityWord::named(&name.text).filter(|quantity| !quantity.gives_way() || !hides);
         let function = Function::named(&name.text).map(|function| &function.word);
         // With more arguments `max` and `min` compare.
         let reduces = |_: &&ReductionWord| !hides && (function.is_none() || arguments == 1);

@@ -25,7 +25,7 @@ pub use named::Named;
 pub use params::{ContinuedParam, Input, Param, TimeFormula, Variable};
 pub use parts::{Part, PartDerivative};
 pub use placement::Placement;
-pub use quantities::{Direction, Quantity};
+pub use quantities::{Direction, Measured, MeasuredArgument, Quantity};
 pub use quotients::quotient;
 pub use results::{Bound, Outcome, Reduction, ReductionKind, Requirement, RequirementTimes};
 

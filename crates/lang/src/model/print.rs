@@ -1,8 +1,8 @@
 //! The model as readable text: names are resolved, values are in SI units.
 
 use super::{
-    Argument, AxisId, BodyId, Direction, EquationForm, Frame, Joint, JointFeature, Mechanism, Named, PointId, Profile,
-    Quantity, Reduction,
+    Argument, AxisId, BodyId, Direction, EquationForm, Frame, Joint, JointFeature, MeasuredArgument, Mechanism, Named,
+    PointId, Profile, Quantity, Reduction,
 };
 use mechc_expr::{ExprId, Printer, Symbol, number};
 use mechc_text::vocabulary::ArgumentSpec;

@@ -22,6 +22,8 @@ impl Dimension {
     pub const ANGLE: Dimension = Dimension { angle: 1.0, ..Dimension::PURE };
     /// Length.
     pub const LENGTH: Dimension = Dimension::new(1.0, 0.0, 0.0);
+    /// Curvature.
+    pub const CURVATURE: Dimension = Dimension::new(-1.0, 0.0, 0.0);
     /// Area.
     pub const AREA: Dimension = Dimension::new(2.0, 0.0, 0.0);
     /// Time.

@@ -38,6 +38,15 @@ pub struct MeasuredQuantity {
     pub may_not_exist: bool,
 }
 
+impl MeasuredQuantity {
+    /// Returns whether it takes so many arguments.
+    #[must_use]
+    pub fn takes(&self, count: usize) -> bool {
+        let fewest = self.arguments.iter().filter(|kind| **kind != QuantityArgument::BodyOrGround).count();
+        (fewest..=self.arguments.len()).contains(&count)
+    }
+}
+
 /// Kind of an argument of a measured quantity.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum QuantityArgument {
@@ -225,7 +234,7 @@ driver piston: displacement(guide) = 50 mm + 20 mm/s * t",
         takes: "one point",
         kind: QuantityKind::Measured(MeasuredQuantity {
             arguments: &[QuantityArgument::Point],
-            dimension: Dimension::PURE.over(Dimension::LENGTH),
+            dimension: Dimension::CURVATURE,
             order: 2,
             may_not_exist: true,
         }),

@@ -173,7 +173,7 @@ impl Builder<'_, '_> {
     /// Reports a side of an equation that cannot agree with the other one, as it is a single quantity of another dimension.
     fn unlike_a_quantity(&mut self, side: (Span, Dim), other: &Expr, context: &Context<'_>) {
         if let ExprKind::Call { name, .. } = &other.bare().kind
-            && let Some(quantity) = QuantityWord::named(&name.text).filter(|quantity| !quantity.gives_way)
+            && let Some(quantity) = QuantityWord::named(&name.text).filter(|quantity| !quantity.gives_way())
         {
             let dimension = if is_an_angle(other) { Dimension::PURE } else { Dimension::LENGTH };
             let place = format!("what equals this `{}`", quantity.word.name);

@@ -179,7 +179,7 @@ impl Builder<'_, '_> {
             return None;
         };
         let is_angle_of_points = called.text == "angle" && arguments.len() == 3;
-        if word.gives_way || is_angle_of_points {
+        if word.gives_way() || is_angle_of_points {
             let fault = LoadTargetError::OfMeasures(&called.text);
             self.formulas.reporter.report(errors::load_on_no_quantity(name, on.span, &fault));
             return None;

@@ -115,7 +115,7 @@ impl<'a> Formulas<'a> {
         match &e.kind {
             ExprKind::Paren(inner) | ExprKind::Negate(inner) => self.is_torque(inner),
             ExprKind::Call { name, arguments, .. }
-                if self.scope.quantity_word(name).is_some_and(|word| word.is_force) =>
+                if self.scope.quantity_word(name).is_some_and(|word| word.is_force()) =>
             {
                 name.text == "torque" || name.text == "effort" && arguments.first().is_some_and(|of| self.turns(of))
             }

@@ -4,10 +4,13 @@ use super::Formulas;
 use super::value::{Context, Dim, Value};
 use crate::check::errors;
 use crate::check::scope::Entity;
-use crate::model::{AxisId, Condition, ConditionKind, Direction, Frame, Joint, JointId, Named, PointId, Quantity};
+use crate::model::{
+    AxisId, Condition, ConditionKind, Direction, Frame, Joint, JointId, Measured, MeasuredArgument, Named, PointId,
+    Quantity,
+};
 use mechc_syntax::ast::{Expr, ExprKind, Name};
 use mechc_text::source::Span;
-use mechc_text::vocabulary::QuantityWord;
+use mechc_text::vocabulary::{MeasuredQuantity, QuantityArgument, QuantityWord};
 
 impl Formulas<'_> {
     /// Evaluates `x(P)`, `angle(b, c)`, `rotation(J)` …
@@ -21,7 +24,7 @@ impl Formulas<'_> {
         if !self.quantity_may_stand(e, name, arguments, context) {
             return None;
         }
-        if QuantityWord::named(&name.text).is_some_and(|quantity| quantity.is_force) {
+        if QuantityWord::named(&name.text).is_some_and(|quantity| quantity.is_force()) {
             return self.force(e, name, arguments, context);
         }
         let quantity = self.quantity_called(e, name, arguments)?;
@@ -41,13 +44,13 @@ impl Formulas<'_> {
             return false;
         }
         // Computed forces report themselves where they are not allowed.
-        let word = QuantityWord::named(&name.text).filter(|word| !word.is_force);
+        let word = QuantityWord::named(&name.text).filter(|word| !word.is_force());
         let Some(word) = word else { return true };
         if !context.quantities {
             self.reporter.report(errors::quantity_in(context.place, &name.text, e.span));
             return false;
         }
-        if !context.measures && (word.gives_way || name.text == "angle" && arguments.len() == 3) {
+        if !context.measures && (word.gives_way() || name.text == "angle" && arguments.len() == 3) {
             let diagnostic = errors::quantity_of_measures(context.place, &name.text, e.span);
             let fix = self.suggest_joint_rate(e, name, arguments, context);
             self.reporter.report(diagnostic.instead_if(fix));
@@ -89,25 +92,38 @@ impl Formulas<'_> {
                 let [p, q, r] = [p, q, r].map(|point| self.point(point));
                 Quantity::Corner([p?, q?, r?])
             }
-            ("curvature", [p]) => Quantity::Curvature(self.point(p)?),
-            ("speed", [p]) => Quantity::Speed(self.point(p)?),
-            ("pole_x" | "pole_y", [b]) => Quantity::Pole(self.body_of(b)?, self.address.ground, part_of(name)),
-            ("pole_x" | "pole_y", [b, c]) => {
-                let (b, c) = (self.body_of(b), self.body_of(c));
-                Quantity::Pole(b?, c?, part_of(name))
-            }
-            ("pressure_angle", [joint, b]) => {
-                let (joint, b) = (self.joint_with("pressure_angle", joint), self.body_of(b));
-                Quantity::PressureAngle(joint?, b?)
-            }
-            ("slip", [joint]) => Quantity::Slip(self.joint_with("slip", joint)?),
             (what, _) => {
-                let quantity = QuantityWord::named(what)?;
+                let word = QuantityWord::named(what)?;
+                let measured = word.measured().filter(|spec| spec.takes(arguments.len()));
+                if let Some(spec) = measured {
+                    let arguments = self.measured_arguments(what, spec, arguments)?;
+                    return Some(Quantity::Measured(Measured { word, arguments }));
+                }
                 let found = arguments.len();
-                self.reporter.report(errors::argument_count(what, Some(&quantity.word), e.span, quantity.takes, found));
+                self.reporter.report(errors::argument_count(what, Some(&word.word), e.span, word.takes, found));
                 return None;
             }
         })
+    }
+
+    /// Returns the arguments of a quantity of the motion.
+    fn measured_arguments(
+        &mut self,
+        quantity: &str,
+        spec: MeasuredQuantity,
+        arguments: &[Expr],
+    ) -> Option<[Option<MeasuredArgument>; 3]> {
+        let (mut found, mut is_complete) = ([None; 3], true);
+        for (k, (kind, place)) in spec.arguments.iter().zip(&mut found).enumerate() {
+            *place = match (kind, arguments.get(k)) {
+                (QuantityArgument::Point, Some(e)) => self.point(e).map(MeasuredArgument::Point),
+                (QuantityArgument::Joint, Some(e)) => self.joint_with(quantity, e).map(MeasuredArgument::Joint),
+                (_, Some(e)) => self.body_of(e).map(MeasuredArgument::Frame),
+                (_, None) => Some(MeasuredArgument::Frame(self.address.ground)),
+            };
+            is_complete &= place.is_some();
+        }
+        is_complete.then_some(found)
     }
 
     /// Adds the condition that a quantity exists, in the current branch.
@@ -230,19 +246,15 @@ impl Formulas<'_> {
             Quantity::Distance(p, q) => vec![point(p), point(q)],
             Quantity::Angle(a, b) => a.into_iter().chain([b]).map(direction).collect(),
             Quantity::Corner(points) => points.map(point).to_vec(),
-            Quantity::Curvature(p) | Quantity::Speed(p) => vec![point(p)],
-            Quantity::Pole(b, c, _) => vec![b, c],
-            Quantity::PressureAngle(_, b) => vec![b],
-            Quantity::Rotation(joint, _) | Quantity::Displacement(joint, ..) | Quantity::Slip(joint) => {
+            Quantity::Measured(measured) => {
+                let joined = measured.joints().flat_map(|joint| self.model[joint].frames(&self.model));
+                measured.points().map(point).chain(measured.frames()).chain(joined).collect()
+            }
+            Quantity::Rotation(joint, _) | Quantity::Displacement(joint, ..) => {
                 self.model[joint].frames(&self.model).to_vec()
             }
         }
     }
-}
-
-/// Returns the coordinate that a pole's word selects.
-fn part_of(name: &Name) -> u32 {
-    u32::from(name.text.ends_with('y'))
 }
 
 /// Describes a formula for a message.

@@ -167,7 +167,7 @@ impl<'a> Scope<'a> {
     /// Returns a quantity of the language, unless a function or table of the mechanism hides it.
     pub fn quantity_word(&self, name: &Name) -> Option<&'static QuantityWord> {
         let is_hidden = || matches!(self.entity(name), Some(Entity::Function(_) | Entity::Table(_)));
-        QuantityWord::named(&name.text).filter(|quantity| !quantity.gives_way || !is_hidden())
+        QuantityWord::named(&name.text).filter(|quantity| !quantity.gives_way() || !is_hidden())
     }
 
     /// Returns the reduction of a call. A function or table of the mechanism takes precedence.
