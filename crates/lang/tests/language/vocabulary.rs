@@ -4,7 +4,7 @@
 
 use crate::support::{Span, compile, compiled, run, text_of};
 use mechc_ir::DeclarationKind;
-use mechc_text::vocabulary::{self, Category, KEYWORDS, Keyword, OVERVIEWS, Position, Role, SYNONYMS, Synonym, Unit};
+use mechc_text::vocabulary::{self, Category, KEYWORDS, Keyword, OVERVIEWS, Position, Role, SYNONYMS, Synonym};
 use proptest::prelude::*;
 use std::collections::BTreeSet;
 

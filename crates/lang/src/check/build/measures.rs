@@ -7,7 +7,7 @@ use crate::model::{Declared, Dimension, Measure, Named, Quantity, Trace, Units};
 use mechc_expr::ExprId;
 use mechc_syntax::ast::{Expr, ExprKind, ItemKind, Name, WrittenUnit};
 
-impl<'a> Builder<'_, 'a> {
+impl Builder<'_, '_> {
     /// Lists the measures and traces in the order of the text, those of a part where it is declared.
     pub(super) fn list_measures(&mut self) {
         let mut measures = 0..self.formulas.measures.len();

@@ -2,6 +2,9 @@
 //!
 //! This layer owns the order in which declarations are read. Values of formulas, and names, are asked of the layers below.
 
+// a method of a type with a lifetime is not general enough in the place of a closure
+#![allow(clippy::redundant_closure_for_method_calls)]
+
 mod equations;
 mod features;
 mod joints;

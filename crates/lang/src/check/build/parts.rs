@@ -8,7 +8,7 @@ use crate::model::{Frame, Part};
 use mechc_syntax::ast::{self, ItemKind};
 use mechc_text::source::{Sources, Span};
 
-impl<'a> Builder<'_, 'a> {
+impl Builder<'_, '_> {
     /// Adds a part to the model, with its ground.
     pub(super) fn add_part(&mut self, part: usize, written: &ast::Part) {
         if part >= self.formulas.parts.len() {

@@ -5,7 +5,7 @@ use crate::check::formulas::Value;
 use crate::model::{Outcome, Units};
 use mechc_syntax::ast::ItemKind;
 
-impl<'a> Builder<'_, 'a> {
+impl Builder<'_, '_> {
     /// Evaluates and lists the results. They follow all that rows need.
     pub(in crate::check) fn results(&mut self) {
         self.formulas.model.named_before_results = self.formulas.model.named.len();

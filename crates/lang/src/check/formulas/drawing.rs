@@ -5,7 +5,7 @@ use super::formula_scope::Position;
 use crate::model::{BodyId, Frame, Placement};
 use mechc_expr::Graph;
 
-impl<'a> Formulas<'a> {
+impl Formulas<'_> {
     /// Returns the position of a drawn point of a frame relative to another frame; `None` if a pose is broken.
     pub(super) fn drawn_from(&mut self, seer: Frame, frame: Frame, [x, y]: Position) -> Option<Position> {
         if frame == seer {

@@ -10,7 +10,7 @@ use mechc_expr::{ExprId, Symbol};
 use mechc_syntax::ast::{Expr, ExprKind, Factor, Name};
 use mechc_text::vocabulary::QuantityWord;
 
-impl<'a> Formulas<'a> {
+impl Formulas<'_> {
     /// Evaluates `effort(D)`, `force_x(J)`, `force_y(J)` or `torque(J)`.
     pub(in crate::check) fn force(
         &mut self,
@@ -115,7 +115,7 @@ impl<'a> Formulas<'a> {
         match &e.kind {
             ExprKind::Paren(inner) | ExprKind::Negate(inner) => self.is_torque(inner),
             ExprKind::Call { name, arguments, .. }
-                if self.scope.quantity_word(name).is_some_and(|word| word.is_force()) =>
+                if self.scope.quantity_word(name).is_some_and(QuantityWord::is_force) =>
             {
                 name.text == "torque" || name.text == "effort" && arguments.first().is_some_and(|of| self.turns(of))
             }

@@ -23,7 +23,7 @@ impl<'a> MeasureState<'a> {
     }
 }
 
-impl<'a> Formulas<'a> {
+impl Formulas<'_> {
     /// Evaluates measures: those of parts first, then in order of dependence.
     pub(in crate::check) fn measure_values(&mut self) {
         self.in_parts(Formulas::measure_values);

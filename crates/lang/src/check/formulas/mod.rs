@@ -4,6 +4,9 @@
 //! This layer owns `Formulas`: what a formula is evaluated with, and the model as far as it is built. It declares no body, joint or
 //! equation; the layer above does, and makes them known here.
 
+// a method of a type with a lifetime is not general enough in the place of a closure
+#![allow(clippy::redundant_closure_for_method_calls)]
+
 mod bindings;
 mod branches;
 mod builtins;

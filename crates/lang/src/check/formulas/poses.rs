@@ -12,7 +12,7 @@ use mechc_text::vocabulary::Keyword;
 /// The place in messages.
 const PLACE: &str = "the estimate of a pose";
 
-impl<'a> Formulas<'a> {
+impl Formulas<'_> {
     /// Evaluates the pose of a body.
     pub(in crate::check) fn pose(&mut self, pose: &DrawnPose) -> Option<[ExprId; 3]> {
         let (place, phi) = match &pose.toward {

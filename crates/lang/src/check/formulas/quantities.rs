@@ -24,7 +24,7 @@ impl Formulas<'_> {
         if !self.quantity_may_stand(e, name, arguments, context) {
             return None;
         }
-        if QuantityWord::named(&name.text).is_some_and(|quantity| quantity.is_force()) {
+        if QuantityWord::named(&name.text).is_some_and(QuantityWord::is_force) {
             return self.force(e, name, arguments, context);
         }
         let quantity = self.quantity_called(e, name, arguments)?;

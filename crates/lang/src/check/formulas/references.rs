@@ -51,7 +51,7 @@ impl Feature {
     }
 }
 
-impl<'a> Formulas<'a> {
+impl Formulas<'_> {
     /// Returns a point of a body or of the ground, or one of the ground by a formula of points.
     pub(in crate::check) fn point(&mut self, e: &Expr) -> Option<PointId> {
         match &e.kind {

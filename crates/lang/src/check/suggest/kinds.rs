@@ -205,7 +205,7 @@ impl Formulas<'_> {
 
 /// Returns whether a word is a quantity of forces.
 fn is_force(word: &str) -> bool {
-    QuantityWord::named(word).is_some_and(|quantity| quantity.is_force())
+    QuantityWord::named(word).is_some_and(QuantityWord::is_force)
 }
 
 fn is_unit_of_angle(unit: &str) -> bool {
