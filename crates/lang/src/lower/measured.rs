@@ -156,7 +156,7 @@ fn slip(l: &mut Lowering<'_>, of: &Measured) -> ExprId {
 #[cfg(test)]
 mod tests {
     use super::{FORMULAS, Formula};
-    use mechc_text::vocabulary::{QUANTITIES, QuantityWord};
+    use mechc_text::vocabulary::{MOST_ARGUMENTS, QUANTITIES, QuantityArgument, QuantityWord};
 
     #[test]
     fn every_measured_quantity_has_its_formula() {
@@ -165,6 +165,9 @@ mod tests {
             let formula = FORMULAS.iter().find(|formula| formula.name == quantity.word.name);
             let formula = formula.unwrap_or_else(|| panic!("no formula of `{}`", quantity.word.name));
             assert_eq!(formula.existence.is_some(), spec.may_not_exist, "`{}`", formula.name);
+            assert!(spec.arguments.len() <= MOST_ARGUMENTS, "`{}`", formula.name);
+            let left_out = spec.arguments.iter().position(|kind| *kind == QuantityArgument::BodyOrGround);
+            assert!(left_out.is_none_or(|k| k + 1 == spec.arguments.len()), "`{}`", formula.name);
         }
         for Formula { name, .. } in FORMULAS {
             assert!(QuantityWord::named(name).is_some_and(|word| word.measured().is_some()), "`{name}` is no quantity");

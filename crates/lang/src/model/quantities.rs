@@ -1,7 +1,7 @@
 //! Kinematic quantities: scalar functions of the coordinates and of their rates.
 
 use super::{AxisId, Dimension, Frame, JointId, PointId};
-use mechc_text::vocabulary::{MeasuredQuantity, QuantityWord};
+use mechc_text::vocabulary::{MOST_ARGUMENTS, MeasuredQuantity, QuantityWord};
 
 /// A kinematic quantity (`elements.md`, "Kinematic quantities").
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
@@ -30,7 +30,7 @@ pub struct Measured {
     /// The word.
     pub word: &'static QuantityWord,
     /// The arguments in their order, followed by `None`.
-    pub arguments: [Option<MeasuredArgument>; 3],
+    pub arguments: [Option<MeasuredArgument>; MOST_ARGUMENTS],
 }
 
 /// An argument of a quantity of the motion.

@@ -418,3 +418,21 @@ fn a_certain_fix_never_makes_a_damaged_text_worse() {
     assert!(faults.is_empty(), "{} of {mended}:\n{}", faults.len(), faults[..faults.len().min(5)].join("\n\n"));
     assert!(mended >= DAMAGES[1], "only {mended} texts had a certain fix");
 }
+
+#[test]
+fn certain_fixes_keep_comments() {
+    for declaration in [
+        "param a // the crank\n : 3 mm",
+        "param a = abs(2) // note\n && 3",
+        "measure q // note\n := 3",
+        "constraint q // note\n = angle(b) = 3",
+        "analysis from 0 s, // note\n to 1 s every 0.1 s",
+        "analysis from 0 s to 1 s // note\n , every 0.1 s",
+    ] {
+        let text = format!(
+            "mechanism m {{\n ground {{ point O = (0, 0) }}\n body b {{ point O = (0, 0) }}\n {declaration}\n}}\n"
+        );
+        let comment = declaration.split("//").nth(1).and_then(|text| text.lines().next()).expect("a comment");
+        assert!(mended(&text).contains(&format!("//{comment}")), "{text}\n{}", mended(&text));
+    }
+}

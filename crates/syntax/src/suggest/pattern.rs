@@ -1,6 +1,7 @@
 //! Patterns over the tokens around a fault, and the corrections that fill in what they matched.
 //!
-//! A pattern is a list of items with spaces between them. It begins with the keyword of the declaration, unless its first item is `…`.
+//! A pattern is a list of items with spaces between them. It begins with the keyword of the declaration, unless its first item is `…`; that of
+//! something which begins no declaration begins at the fault.
 //!
 //! | item | matches |
 //! | --- | --- |
@@ -16,10 +17,11 @@
 //! | other text | this token |
 //!
 //! Kinds of tokens, and items with several, are captured. `{1}` stands for the first in a message or a replacement, `{form 1}` for the form
-//! of the word in the language, and `{=}` in a message for the replacement.
+//! of the word in the language, and `{=}` in a message for the replacement. `{free 1}` is the first letter for an index that the text does not
+//! use, `{free 2}` the second.
 
 use super::{Fault, is_name};
-use crate::lexer::{LexemeKind, Token, is_word_char, tokens};
+use crate::lexer::{LexemeKind, Lexer, Token, is_word_char, tokens};
 use mechc_text::diag::{Applicability, Fix};
 use mechc_text::vocabulary::{
     JointSpec, Keyword, Position, QuantityWord, ReductionWord, Synonym, Unit, is_called, is_declaration, is_feature,
@@ -216,18 +218,19 @@ impl Line<'_> {
         let mut text = String::new();
         let mut rest = template;
         while let Some((before, after)) = rest.split_once('{') {
-            let Some((gap, after)) =
-                after.split_once('}').filter(|(gap, _)| gap.trim_start_matches("form ").parse::<usize>().is_ok())
-            else {
+            let Some((gap, after)) = after.split_once('}').filter(|(gap, _)| number_of(gap).is_some()) else {
                 text = text + before + "{";
                 rest = after;
                 continue;
             };
-            let number: Option<usize> = gap.trim_start_matches("form ").parse().ok();
-            let shown = number.and_then(|k| found.captures.get(k.checked_sub(1)?)).map(|capture| self.shown(capture));
+            let number = number_of(gap).and_then(|k| k.checked_sub(1));
+            let shown = number.and_then(|k| found.captures.get(k)).map(|capture| self.shown(capture));
             let shown = shown.unwrap_or_default();
             text += before;
             text += &match JointSpec::named(&shown) {
+                _ if gap.starts_with("free") => {
+                    number.and_then(|k| self.free_indices().nth(k)).unwrap_or("k").to_owned()
+                }
                 Some(joint) if gap.starts_with("form") => joint.word.written(),
                 _ if is_message && shown.chars().count() > LONGEST_SHOWN => "…".to_owned(),
                 _ => shown,
@@ -235,6 +238,12 @@ impl Line<'_> {
             rest = after;
         }
         text + rest
+    }
+
+    /// Returns letters for indices that the text does not use.
+    fn free_indices(&self) -> impl Iterator<Item = &'static str> {
+        let used: Vec<&str> = tokens(self.text).iter().map(|token| token.text).collect();
+        ["k", "i", "j", "n", "p", "q"].into_iter().filter(move |letter| !used.contains(letter))
     }
 
     /// Returns the bytes to replace. White space next to them belongs to them if the replacement brings its own.
@@ -258,7 +267,7 @@ impl Line<'_> {
         from..to
     }
 
-    /// Returns the fix that replaces what a pattern matched.
+    /// Returns the fix that replaces what a pattern matched; `None` if a comment would be lost.
     pub fn fix(
         &self,
         found: &Match<'_>,
@@ -266,11 +275,20 @@ impl Line<'_> {
         message: &str,
         applies: Applicability,
         fault: &Fault<'_>,
-    ) -> Fix {
+    ) -> Option<Fix> {
+        let bytes = self.bytes(found.region, replacement);
+        if Lexer::new(&self.text[..bytes.end], bytes.start).any(|token| token.is_comment()) {
+            return None;
+        }
         let text = self.filled(replacement, found, false);
         let message = self.filled(&message.replace("{=}", replacement.trim()), found, true);
-        Fix::replace(fault.span(self.bytes(found.region, replacement)), text, message, applies)
+        Some(Fix::replace(fault.span(bytes), text, message, applies))
     }
+}
+
+/// Returns the number in a gap of a template.
+fn number_of(gap: &str) -> Option<usize> {
+    gap.trim_start_matches("form ").trim_start_matches("free ").parse().ok()
 }
 
 /// Returns whether an item names a kind of tokens.

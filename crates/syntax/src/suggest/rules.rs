@@ -41,9 +41,12 @@ pub(super) fn first_of(table: &[Correction], line: &Line<'_>, fault: &Fault<'_>)
     table.iter().find_map(|correction| {
         let is_expected = correction.expected.is_empty() || correction.expected.iter().any(|rule| fault.expects(*rule));
         let found = line.matched(correction.pattern).filter(|_| is_expected)?;
-        Some(match correction.replacement {
+        let fix = |text| line.fix(&found, text, correction.message, correction.applies, fault);
+        Some(match correction.replacement.map(fix) {
+            Some(Some(fix)) => Suggestion::Fix(fix),
+            // a comment stands in between
+            Some(None) => return None,
             None => Suggestion::Words(line.filled(correction.message, &found, true)),
-            Some(text) => Suggestion::Fix(line.fix(&found, text, correction.message, correction.applies, fault)),
         })
     })
 }
@@ -91,9 +94,9 @@ pub(super) const DECLARATIONS: &[Correction] = &[
     fix("gravity « ANY @ , ANY » $", "({1}, {2})", "gravity is a pair in parentheses: `gravity {=}`"),
     fix("load NAME : « QUANTITY|x|y ANY @ = ANY » $", "{4} on {2}{3}", "a load says how much, and on what it works: `{=}`"),
     // repetition, types
-    fix("REPEATED NAME [ « NUM|NAME » ]", "k in 0..{3}", "what is repeated has an index with its range, from 0 on: `{1} {2}[{=}]`"),
-    fix("REPEATED NAME [ « NUM|NAME , NUM|NAME » ]", "k in 0..{3}, i in 0..{4}", "what is repeated has an index with its range, from 0 on: `{1} {2}[{=}]`"),
-    fix("REPEATED NAME [ « NUM ..|..= NUM|NAME » ]", "k in {3}{4}{5}", "what is repeated has an index with its range: `{1} {2}[{=}]`"),
+    fix("REPEATED NAME [ « NUM|NAME » ]", "{free 1} in 0..{3}", "what is repeated has an index with its range, from 0 on: `{1} {2}[{=}]`"),
+    fix("REPEATED NAME [ « NUM|NAME , NUM|NAME » ]", "{free 1} in 0..{3}, {free 2} in 0..{4}", "what is repeated has an index with its range, from 0 on: `{1} {2}[{=}]`"),
+    fix("REPEATED NAME [ « NUM ..|..= NUM|NAME » ]", "{free 1} in {3}{4}{5}", "what is repeated has an index with its range: `{1} {2}[{=}]`"),
     fix("EQUALS NAME « : UNIT = NUM » $", " = {4} {3}", "a unit stands behind its number: `{1} {2} {=}`"),
     words("EQUALS NAME : UNIT =", "a unit stands behind each number, and not behind the name"),
     fix("EQUALS NAME « : NAME = »", " = ", "a type is not written, its value has one: `{1} {2} = …`"),

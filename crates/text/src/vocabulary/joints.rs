@@ -1,6 +1,6 @@
 //! Joints as data: what the language, explanations and pictures need to know of each kind. Its equations are in `mechc-lang`.
 
-use super::{Category, Dimension, Example, Word};
+use super::{Category, Dimension, Example, MeasuredQuantity, QuantityArgument, QuantityWord, Word};
 
 const LENGTH: Dimension = Dimension::LENGTH;
 
@@ -158,10 +158,13 @@ impl JointSpec {
     pub fn has_quantity(&self, quantity: &str) -> bool {
         match quantity {
             "rotation" | "displacement" => self.motion.is_some_and(|motion| motion.quantity() == quantity),
-            "slip" | "pressure_angle" => self.has_contact(),
             "torque" => self.has_torque(),
             "force_x" | "force_y" => self.has_force(),
-            _ => true,
+            _ => {
+                let measured = QuantityWord::named(quantity).and_then(QuantityWord::measured);
+                let is_of_contact = |spec: MeasuredQuantity| spec.arguments.contains(&QuantityArgument::Contact);
+                !measured.is_some_and(is_of_contact) || self.has_contact()
+            }
         }
     }
 

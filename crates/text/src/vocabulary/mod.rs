@@ -23,7 +23,7 @@ pub use functions::{FUNCTIONS, Function, Group};
 pub use joints::{ArgumentSpec, FeatureWord, JOINTS, JointMotion, JointSpec, JointSymbol, ReactionKind, Spacing};
 pub use keywords::{KEYWORDS, Keyword, Role, continues_declaration, declares_name, is_declaration, is_feature};
 pub use page::{OVERVIEWS, page};
-pub use quantities::{MeasuredQuantity, QUANTITIES, QuantityArgument, QuantityKind, QuantityWord};
+pub use quantities::{MOST_ARGUMENTS, MeasuredQuantity, QUANTITIES, QuantityArgument, QuantityKind, QuantityWord};
 pub use reductions::{REDUCTIONS, ReductionWord};
 pub use synonyms::{Position, SYNONYMS, Synonym, is_ground};
 pub use topics::{topic, topics};

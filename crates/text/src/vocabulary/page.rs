@@ -104,7 +104,7 @@ fn details(word: &Word) -> Vec<String> {
     if let Some(unit) = Unit::named(word.name).filter(|_| word.category == Category::Unit) {
         details.push(format!("`1 {}` is `{}` in SI.", word.name, in_si(unit)));
         details.push(
-            "A name of the mechanism that is called so wins over it, except behind a number and in lists of units. Where both could be \
+            "A name of the mechanism that is called so wins over it, except behind a number, behind `in` and in the units of a table's columns. Where both could be \
              meant, as in `2 rad/s` beside `param s`, `check` asks which."
                 .to_owned(),
         );

@@ -14,6 +14,9 @@ pub struct QuantityWord {
     pub kind: QuantityKind,
 }
 
+/// Largest number of arguments of a measured quantity.
+pub const MOST_ARGUMENTS: usize = 3;
+
 /// What a quantity depends on.
 #[derive(Clone, Copy, Debug)]
 pub enum QuantityKind {
@@ -28,7 +31,7 @@ pub enum QuantityKind {
 /// A quantity of the motion. Its formula is in the lowering, by its name.
 #[derive(Clone, Copy, Debug)]
 pub struct MeasuredQuantity {
-    /// Kinds of its arguments.
+    /// Kinds of its arguments, [`MOST_ARGUMENTS`] at the most.
     pub arguments: &'static [QuantityArgument],
     /// Dimension.
     pub dimension: Dimension,
@@ -41,7 +44,7 @@ pub struct MeasuredQuantity {
 impl MeasuredQuantity {
     /// Returns whether it takes so many arguments.
     #[must_use]
-    pub fn takes(&self, count: usize) -> bool {
+    pub fn accepts(&self, count: usize) -> bool {
         let fewest = self.arguments.iter().filter(|kind| **kind != QuantityArgument::BodyOrGround).count();
         (fewest..=self.arguments.len()).contains(&count)
     }
@@ -52,12 +55,12 @@ impl MeasuredQuantity {
 pub enum QuantityArgument {
     /// A point.
     Point,
-    /// A body or the ground.
+    /// A body.
     Body,
-    /// A body, or the ground if it is left out; the last argument.
+    /// A body; the ground if the argument, which is the last, is left out.
     BodyOrGround,
-    /// A joint that has the quantity.
-    Joint,
+    /// A joint that is a contact.
+    Contact,
 }
 
 impl PartialEq for QuantityWord {
@@ -308,7 +311,7 @@ driver piston: displacement(guide) = 50 mm + 20 mm/s * t",
         },
         takes: "a joint and a body",
         kind: QuantityKind::Measured(MeasuredQuantity {
-            arguments: &[QuantityArgument::Joint, QuantityArgument::Body],
+            arguments: &[QuantityArgument::Contact, QuantityArgument::Body],
             dimension: Dimension::ANGLE,
             order: 1,
             may_not_exist: true,
@@ -326,7 +329,7 @@ driver piston: displacement(guide) = 50 mm + 20 mm/s * t",
         },
         takes: "one argument, a joint",
         kind: QuantityKind::Measured(MeasuredQuantity {
-            arguments: &[QuantityArgument::Joint],
+            arguments: &[QuantityArgument::Contact],
             dimension: Dimension::SPEED,
             order: 1,
             may_not_exist: false,

@@ -4,6 +4,7 @@ use mechc_syntax::ast::{Name, PathSegment};
 use mechc_syntax::format::expression;
 use mechc_text::diag::{Applicability, Code, Diagnostic, Fix, readable};
 use mechc_text::source::Span;
+use mechc_text::vocabulary::Unit;
 
 /// Adds `for k = 2`, the copy in which the error is.
 fn of_copy(diagnostic: Diagnostic, numbers: &[(&str, i64)]) -> Diagnostic {
@@ -71,7 +72,11 @@ pub fn invalid_path(span: Span, segments: &[PathSegment], is_declared: bool) -> 
 pub fn index_is_taken(name: &Name, free: &[&str]) -> Diagnostic {
     let examples: Vec<String> = free.iter().map(|word| format!("`{word}`")).collect();
     let examples = if examples.is_empty() { String::new() } else { format!(": {}", examples.join(", ")) };
-    Diagnostic::new(Code::E0207, format!("the index `{}` hides what has that name already", name.text))
+    let message = match Unit::named(&name.text) {
+        Some(_) => format!("the index `{}` has the name of a unit", name.text),
+        None => format!("the index `{}` hides what has that name already", name.text),
+    };
+    Diagnostic::new(Code::E0207, message)
         .at(name.span, "not free")
         .help(format!("choose a name that nothing else has{examples}"))
 }

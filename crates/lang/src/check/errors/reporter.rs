@@ -3,7 +3,7 @@
 use mechc_text::diag::{Diagnostic, Diagnostics};
 use mechc_text::source::{Sources, Span};
 
-/// Largest number of diagnostics of one mechanism or part with which names are still suggested; beyond it the search takes long.
+/// Largest number of diagnostics of a mechanism and its parts with which names are still suggested; beyond it the search takes long.
 const MOST_SUGGESTIONS: usize = 100;
 
 /// The diagnostics of a mechanism or part, and what each of them says of the way to its location.

@@ -355,7 +355,7 @@ impl Formulas<'_> {
             }
             let (declared, is_number) = match self.scope.get(&name.text) {
                 _ if context.argument.is_some_and(|(argument, _)| argument == name.text) => ("an argument", true),
-                Some(entity) => (entity.noun(), entity.is_number()),
+                Some(entity) => (entity.noun(), entity.is_number() && !self.scope.is_point_name(&name.text)),
                 None => continue,
             };
             let product = self.reporter.text(first.span.to(factor.span));

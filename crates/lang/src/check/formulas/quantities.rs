@@ -10,7 +10,7 @@ use crate::model::{
 };
 use mechc_syntax::ast::{Expr, ExprKind, Name};
 use mechc_text::source::Span;
-use mechc_text::vocabulary::{MeasuredQuantity, QuantityArgument, QuantityWord};
+use mechc_text::vocabulary::{MOST_ARGUMENTS, MeasuredQuantity, QuantityArgument, QuantityWord};
 
 impl Formulas<'_> {
     /// Evaluates `x(P)`, `angle(b, c)`, `rotation(J)` …
@@ -94,7 +94,7 @@ impl Formulas<'_> {
             }
             (what, _) => {
                 let word = QuantityWord::named(what)?;
-                let measured = word.measured().filter(|spec| spec.takes(arguments.len()));
+                let measured = word.measured().filter(|spec| spec.accepts(arguments.len()));
                 if let Some(spec) = measured {
                     let arguments = self.measured_arguments(what, spec, arguments)?;
                     return Some(Quantity::Measured(Measured { word, arguments }));
@@ -112,12 +112,12 @@ impl Formulas<'_> {
         quantity: &str,
         spec: MeasuredQuantity,
         arguments: &[Expr],
-    ) -> Option<[Option<MeasuredArgument>; 3]> {
-        let (mut found, mut is_complete) = ([None; 3], true);
+    ) -> Option<[Option<MeasuredArgument>; MOST_ARGUMENTS]> {
+        let (mut found, mut is_complete) = ([None; MOST_ARGUMENTS], true);
         for (k, (kind, place)) in spec.arguments.iter().zip(&mut found).enumerate() {
             *place = match (kind, arguments.get(k)) {
                 (QuantityArgument::Point, Some(e)) => self.point(e).map(MeasuredArgument::Point),
-                (QuantityArgument::Joint, Some(e)) => self.joint_with(quantity, e).map(MeasuredArgument::Joint),
+                (QuantityArgument::Contact, Some(e)) => self.joint_with(quantity, e).map(MeasuredArgument::Joint),
                 (_, Some(e)) => self.body_of(e).map(MeasuredArgument::Frame),
                 (_, None) => Some(MeasuredArgument::Frame(self.address.ground)),
             };

@@ -26,7 +26,7 @@ pub(in crate::check) fn resolve_bare_name<T>(name: &str, argument: Option<&str>,
         return BareName::Constant(constant);
     }
     match (declared, Unit::named(name)) {
-        // A declaration with the name of a unit is either an error or shadows that unit.
+        // A declaration with the name of a unit shadows that unit.
         (Some(declared), _) => BareName::Declared(declared),
         (None, Some(unit)) => BareName::Unit(unit),
         (None, None) => BareName::Unknown,

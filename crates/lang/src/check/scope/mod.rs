@@ -191,7 +191,7 @@ impl<'a> Scope<'a> {
         }
     }
 
-    /// Returns whether a name of the mechanism is a number in every formula.
+    /// Returns whether a name, of the mechanism or of the language, is a number in every formula.
     pub fn is_number_name(&self, name: &Name) -> bool {
         let declared = self.get(&name.text);
         match declared {
