@@ -136,7 +136,25 @@ impl Fault<'_> {
             span: self.span(token.range()),
             text: if token.text == "," { "." } else { "," }.to_owned(),
         };
-        let edits = list.iter().map(edit).collect();
+        // the other rows of a table are written alike
+        let first = opened.iter().find(|(_, token)| *token != "{").map_or(*start, |(start, _)| *start);
+        let (mut open, mut alike) = (Vec::new(), Vec::new());
+        for token in self.rest_of_line(first) {
+            match token.text {
+                "(" | "[" => open.push(Vec::new()),
+                ")" | "]" => alike.extend(open.pop().filter(|list: &Vec<Token<'_>>| {
+                    list.iter().any(|token| token.text == ";")
+                        && list.iter().all(|token| token.text == ";" || is_decimal(&token))
+                })),
+                "," | ";" => open.iter_mut().last().into_iter().for_each(|list| list.push(token)),
+                _ => {}
+            }
+        }
+        let mut edits: Vec<Edit> = alike.iter().flatten().map(edit).collect();
+        if edits.is_empty() {
+            return Suggestion::words(message);
+        }
+        edits.sort_by_key(|edit| edit.span.start);
         Suggestion::Fix(Fix { message: message.to_owned(), edits, applies: Applicability::Probably })
     }
 
